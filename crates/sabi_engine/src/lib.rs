@@ -1,0 +1,1 @@
+//! A session: open, edit, evaluate, preview, bake.

@@ -1,0 +1,1 @@
+//! Texture sets and the files beside them.

@@ -1,0 +1,1 @@
+//! The device: textures, pipelines, running a plan, readback.

@@ -1,0 +1,1 @@
+//! Pictures in and out: PNG, EXR, HDR, color spaces, dithering.

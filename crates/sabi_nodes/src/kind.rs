@@ -1,0 +1,294 @@
+//! What a node is, as read from its one WGSL file. Plain data: the planner, the editor and the reference all read it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use sabi_graph::PortType;
+
+/// A node kind: everything its file says, reflected and checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kind {
+    /// Identifier as written in graph files, `category/name`.
+    pub id: String,
+    /// Version of the algorithm, 1 unless the header says `@version N`.
+    pub version: u32,
+    /// Name shown to artists: the first header line.
+    pub label: String,
+    /// One sentence: the second header line.
+    pub summary: String,
+    /// The remaining header text, Markdown; may be empty.
+    pub description: String,
+    /// Other words an artist may search for (`@alias clouds perlin`).
+    pub aliases: Vec<String>,
+    /// Earlier ids of this kind (`@was`), so that old files find it.
+    pub formerly: Vec<String>,
+    /// Where the text came from; for messages only.
+    pub path: PathBuf,
+    /// The file's own text, unchanged.
+    pub source: Arc<str>,
+    /// Libraries to append, in the order of first use and without repeats, their own uses included.
+    pub libraries: Vec<String>,
+    /// How the node reads its inputs.
+    pub shape: Shape,
+    /// Members of `struct Params` in order; empty when there is none.
+    pub params: Vec<Param>,
+    /// Size of `struct Params` in bytes, 0 when there is none.
+    pub params_size: u32,
+    /// Inputs over all functions, in order of first appearance, each name once.
+    pub inputs: Vec<Input>,
+    /// Documented functions that are results.
+    pub outputs: Vec<Output>,
+    /// Functions marked `@pass`, by pass number; their results are read by later functions under the pass's name.
+    pub passes: Vec<Pass>,
+    /// naga expressions of one evaluation of all outputs, calls expanded: a measure of compile time.
+    pub cost: u32,
+}
+
+/// How a node reads its inputs (DESIGN §4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Inputs are values at the same place; fused with its neighbors.
+    Point,
+    /// At least one input is a stored texture.
+    Field,
+}
+
+/// One member of `struct Params`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Param {
+    /// Name in WGSL and in graph files.
+    pub name: String,
+    /// Name shown to artists: `@label`, or the name with spaces and a capital.
+    pub label: String,
+    /// The doc comment without its annotations.
+    pub doc: String,
+    /// Shape in memory.
+    pub ty: ParamType,
+    /// Byte offset in `struct Params`, from naga.
+    pub offset: u32,
+    /// What an artist sees and writes.
+    pub role: Role,
+    /// Value in artist's units (degrees, sRGB for colors is already linear here).
+    pub default: ParamValue,
+    /// Values outside are refused in files and on the command line; artist's units.
+    pub range: Option<[f32; 2]>,
+    /// Ends of the slider; artist's units.
+    pub soft: Option<[f32; 2]>,
+    /// Whether a loop's bound depends on it, so that the linked kernel clamps it to `range`.
+    pub bounds_a_loop: bool,
+    /// Earlier names (`@was`).
+    pub formerly: Vec<String>,
+}
+
+/// Memory shape of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParamType {
+    /// `f32`
+    F32,
+    /// `u32`
+    U32,
+    /// `i32`
+    I32,
+    /// `vec2f`
+    Vec2,
+    /// `vec3f`
+    Vec3,
+    /// `vec4f`
+    Vec4,
+    /// `array<vec4f, N>`: gradient stops, linear RGB with the position in `w`; unused stops have position 2.
+    Stops(u32),
+}
+
+impl ParamType {
+    /// Number of 32-bit components.
+    pub fn components(self) -> usize {
+        match self {
+            ParamType::F32 | ParamType::U32 | ParamType::I32 => 1,
+            ParamType::Vec2 => 2,
+            ParamType::Vec3 => 3,
+            ParamType::Vec4 => 4,
+            ParamType::Stops(count) => 4 * count as usize,
+        }
+    }
+}
+
+/// What an artist sees and writes for a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Role {
+    /// A number or a vector of numbers.
+    Plain,
+    /// `@toggle`: on or off; `u32` 1 or 0, `true` or `false` in files.
+    Toggle,
+    /// `@choice a b c`: the index of the word; the word in files.
+    Choice(Vec<String>),
+    /// `@color`: `vec3f` linear; `"#rrggbb"` (sRGB) in files.
+    Color,
+    /// `@length`: model units after fitting.
+    Length,
+    /// `@angle`: degrees in files, radians in WGSL.
+    Angle,
+    /// `@seed`: a whole number; WGSL receives it hashed with the seeds of the document and the groups around.
+    Seed,
+    /// Gradient stops: `[[position, "#rrggbb"], …]` in files.
+    Stops,
+}
+
+/// A default, as 32-bit components in artist's units (colors linear).
+#[derive(Clone, Debug, PartialEq)]
+pub enum ParamValue {
+    /// One to four floats, or `4 × N` for stops (`r g b position`, unused positions 2).
+    Floats(Vec<f32>),
+    /// A whole number: `u32`, toggle or choice index.
+    Unsigned(u32),
+    /// A signed whole number.
+    Signed(i32),
+}
+
+/// One input port.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// Name of the argument in WGSL, and of the port.
+    pub name: String,
+    /// Name shown to artists.
+    pub label: String,
+    /// What it does: the text after `@input NAME`.
+    pub doc: String,
+    /// What may be connected.
+    pub ty: PortType,
+    /// Whether the function receives the value at this place or the stored texture.
+    pub reads: Reads,
+    /// What stands in when nothing is connected.
+    pub default: InputDefault,
+}
+
+/// What a function receives for an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reads {
+    /// The value at this place.
+    Value,
+    /// The whole stored result, as `texture_2d_array<f32>`.
+    Field,
+}
+
+/// What stands in for an unconnected input.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InputDefault {
+    /// It must be connected (a field's source).
+    Required,
+    /// A knob on the node with this start value: 1 component for a mask, 3 for a color or vector (color linear).
+    Knob(Vec<f32>),
+    /// A WGSL expression over `at`, such as `at.position`.
+    Expression(String),
+    /// A material input: the plain gray material.
+    PlainMaterial,
+}
+
+/// One result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Name of the function and of the port.
+    pub name: String,
+    /// What the port carries.
+    pub ty: PortType,
+    /// The doc comment without its annotations.
+    pub doc: String,
+    /// Arguments of the function in order.
+    pub arguments: Vec<Argument>,
+    /// Repetitions (`@repeat`): the function's first field argument is its own last result.
+    pub repeat: Repeat,
+    /// For a material result: how its channels come about.
+    pub channels: Vec<ChannelWrite>,
+}
+
+/// One function marked `@pass N`, stored before later functions read it under its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// The number after `@pass`; passes run in ascending order.
+    pub number: u32,
+    /// The function: its arguments and the type it stores.
+    pub function: Output,
+}
+
+/// What a function's argument is bound to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// `at: Surface`
+    At,
+    /// `params: Params`
+    Params,
+    /// An input port, by index in [`Kind::inputs`].
+    Input(usize),
+    /// The stored result of a pass, by index in [`Kind::passes`].
+    Pass(usize),
+}
+
+/// How often a function runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Repeat {
+    /// Once.
+    Once,
+    /// A fixed number of times.
+    Times(u32),
+    /// As often as this `u32` parameter says, by index in [`Kind::params`].
+    Param(usize),
+}
+
+/// Channels of a material that take storage of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Channel {
+    /// Base color and alpha.
+    Color,
+    /// Roughness, metallic and occlusion.
+    Surface,
+    /// Height.
+    Height,
+    /// Slope.
+    Slope,
+    /// Emission.
+    Emission,
+}
+
+impl Channel {
+    /// All, in storage order.
+    pub const ALL: [Channel; 5] = [
+        Channel::Color,
+        Channel::Surface,
+        Channel::Height,
+        Channel::Slope,
+        Channel::Emission,
+    ];
+}
+
+/// A channel that a material function may set, and the toggles without which it does not.
+///
+/// Read from the code: a store to a member of the returned material, under `if params.x != 0u`.
+/// A result starts from the material inputs it copies; those pass their channels on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ChannelWrite {
+    /// The channel that may be set.
+    pub channel: Channel,
+    /// Toggle parameters (indices in [`Kind::params`]) that must all be on for it to be set; empty: always set.
+    pub unless_off: Vec<usize>,
+}
+
+impl Kind {
+    /// The parameter of that name, today's or an earlier one.
+    pub fn param(&self, name: &str) -> Option<&Param> {
+        self.params
+            .iter()
+            .find(|param| param.name == name || param.formerly.iter().any(|old| old == name))
+    }
+
+    /// The input of that name.
+    pub fn input(&self, name: &str) -> Option<&Input> {
+        self.inputs.iter().find(|input| input.name == name)
+    }
+
+    /// The result of that name, or the first one.
+    pub fn output(&self, name: Option<&str>) -> Option<&Output> {
+        match name {
+            Some(name) => self.outputs.iter().find(|output| output.name == name),
+            None => self.outputs.first(),
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! WGSL text becomes node kinds: header, reflection, rules, linking.
+
+pub mod kind;

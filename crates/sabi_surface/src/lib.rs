@@ -1,0 +1,4 @@
+//! A model file becomes a surface: loading, charts, the linked atlas, ray casting.
+
+pub mod atlas;
+pub mod model;

@@ -1,0 +1,52 @@
+//! What every node may name: the place it is evaluated at, and the material.
+
+/// A place on the surface. Lengths are model units after fitting.
+struct Surface {
+    /// Where it is, in model space.
+    position: vec3f,
+    /// Width of a texel here.
+    texel_size: f32,
+    /// Shading normal, unit length.
+    normal: vec3f,
+    /// Number of the UV chart.
+    chart: u32,
+    /// Normal of the triangle, unit length.
+    face_normal: vec3f,
+    /// Number of the part of the model.
+    part: u32,
+    /// Direction of growing u along the surface, unit length; `w` of MikkTSpace in `tangent.w`.
+    tangent: vec4f,
+    /// The model's own texture coordinates.
+    uv: vec2f,
+    /// A random value for each part.
+    seed: u32,
+    /// Number of the model's material.
+    material: u32,
+    /// Texel of the atlas: x, y, page. Only `lib/surface` reads it.
+    texel: vec3i,
+}
+
+/// A physically based material at one place, in linear light.
+struct Material {
+    base_color: vec3f,
+    alpha: f32,
+    roughness: f32,
+    metallic: f32,
+    /// 1 is open, 0 is fully occluded.
+    occlusion: f32,
+    /// Relief above the model, model units.
+    height: f32,
+    /// Gradient of the relief that the model's normal map describes, a tangent vector in model space.
+    slope: vec3f,
+    emission: vec3f,
+}
+
+/// The material of an unconnected input: plain gray.
+fn plain_material() -> Material {
+    return Material(vec3f(0.214), 1.0, 0.7, 0.0, 1.0, 0.0, vec3f(0.0), vec3f(0.0));
+}
+
+/// Luminance of a linear color (Rec. 709 primaries).
+fn luminance(color: vec3f) -> f32 {
+    return dot(color, vec3f(0.2126, 0.7152, 0.0722));
+}
