@@ -1,0 +1,157 @@
+//! The sRGB curve of IEC 61966-2-1, exact and piecewise.
+
+use std::sync::OnceLock;
+
+/// Encoded value of a linear one: 12.92 × v up to 0.0031308, then 1.055 × v^(1/2.4) − 0.055. Negative values stay on the
+/// straight part, values above 1 go on along the curve.
+pub fn srgb_from_linear(linear: f32) -> f32 {
+    srgb_from_linear_f64(f64::from(linear)) as f32
+}
+
+/// Linear value of an encoded one, the inverse of [`srgb_from_linear`].
+pub fn linear_from_srgb(encoded: f32) -> f32 {
+    linear_from_srgb_f64(f64::from(encoded)) as f32
+}
+
+pub(crate) fn srgb_from_linear_f64(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+pub(crate) fn linear_from_srgb_f64(encoded: f64) -> f64 {
+    if encoded <= 0.040_45 {
+        encoded / 12.92
+    } else {
+        ((encoded + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// Bits of a float below the leading ones that pick a slot of the table.
+const SLOT_SHIFT: u32 = 16;
+
+/// For 8-bit encoding without a power for each sample: `thresholds[k]` is the smallest float whose code is above `k`, and
+/// `first` holds a code to start from for each value of a float's upper 16 bits.
+struct Encoder8 {
+    thresholds: [f32; 256],
+    first: Vec<u8>,
+}
+
+fn encoder8() -> &'static Encoder8 {
+    static ENCODER: OnceLock<Encoder8> = OnceLock::new();
+    ENCODER.get_or_init(|| {
+        let mut thresholds = [f32::INFINITY; 256];
+        for (code, threshold) in thresholds.iter_mut().enumerate().take(255) {
+            *threshold = smallest_above(code as u8);
+        }
+        let slots = (1.0f32.to_bits() >> SLOT_SHIFT) as usize + 1;
+        let mut first = vec![0u8; slots];
+        let mut code = 0usize;
+        for (slot, start) in first.iter_mut().enumerate() {
+            let lowest = f32::from_bits((slot as u32) << SLOT_SHIFT);
+            while lowest >= thresholds[code] {
+                code += 1;
+            }
+            *start = code as u8;
+        }
+        Encoder8 { thresholds, first }
+    })
+}
+
+/// The smallest float whose encoded value, times 255, rounds to more than `code`.
+fn smallest_above(code: u8) -> f32 {
+    let is_above = |value: f32| srgb_from_linear_f64(f64::from(value)) * 255.0 >= f64::from(code) + 0.5;
+    let (mut below, mut above) = (0u32, 1.0f32.to_bits());
+    while above - below > 1 {
+        let middle = below + (above - below) / 2;
+        if is_above(f32::from_bits(middle)) {
+            above = middle
+        } else {
+            below = middle
+        }
+    }
+    f32::from_bits(above)
+}
+
+/// 8-bit sRGB code of a linear value: clamped to 0..1, encoded, times 255, rounded half up; not-a-number gives 0. Exactly
+/// what the formula gives, by comparing with the values at which the code changes.
+pub fn srgb8_from_linear(linear: f32) -> u8 {
+    // Also catches not-a-number.
+    if !(linear > 0.0) {
+        return 0;
+    }
+    if linear >= 1.0 {
+        return 255;
+    }
+    let encoder = encoder8();
+    let mut code = encoder.first[(linear.to_bits() >> SLOT_SHIFT) as usize];
+    while linear >= encoder.thresholds[usize::from(code)] {
+        code += 1;
+    }
+    code
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_curve_has_its_known_points() {
+        assert_eq!(srgb_from_linear(0.0), 0.0);
+        assert_eq!(srgb_from_linear(1.0), 1.0);
+        assert_eq!(linear_from_srgb(1.0), 1.0);
+        assert!((srgb_from_linear(0.5) - 0.735_357).abs() < 1e-6);
+        assert!((linear_from_srgb(0.5) - 0.214_041).abs() < 1e-6);
+        assert!((srgb_from_linear(0.003_130_8) - 0.040_449_94).abs() < 1e-7);
+        assert!((srgb_from_linear(0.18) - 0.461_356).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_curve_and_its_inverse_undo_each_other() {
+        for step in 0..=1000 {
+            let value = step as f32 / 1000.0;
+            assert!(
+                (linear_from_srgb(srgb_from_linear(value)) - value).abs() < 2e-7,
+                "{value}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_8_bit_table_agrees_with_the_formula_everywhere() {
+        let formula = |value: f32| {
+            let scaled = srgb_from_linear_f64(f64::from(value.clamp(0.0, 1.0))) * 255.0 + 0.5;
+            scaled.floor() as u8
+        };
+        let mut bits = 0u32;
+        while bits <= 1.0f32.to_bits() {
+            let value = f32::from_bits(bits);
+            assert_eq!(srgb8_from_linear(value), formula(value), "{value}");
+            bits += 9973;
+        }
+        for code in 0..255u8 {
+            let edge = smallest_above(code);
+            assert_eq!(srgb8_from_linear(edge), code + 1);
+            assert_eq!(srgb8_from_linear(f32::from_bits(edge.to_bits() - 1)), code);
+        }
+    }
+
+    #[test]
+    fn every_8_bit_code_survives_decoding_and_encoding() {
+        for code in 0..=255u8 {
+            let linear = linear_from_srgb_f64(f64::from(code) / 255.0) as f32;
+            assert_eq!(srgb8_from_linear(linear), code);
+        }
+    }
+
+    #[test]
+    fn values_out_of_range_are_clamped_and_not_a_number_is_0() {
+        assert_eq!(srgb8_from_linear(-1.0), 0);
+        assert_eq!(srgb8_from_linear(7.0), 255);
+        assert_eq!(srgb8_from_linear(f32::INFINITY), 255);
+        assert_eq!(srgb8_from_linear(f32::NEG_INFINITY), 0);
+        assert_eq!(srgb8_from_linear(f32::NAN), 0);
+    }
+}

@@ -1,0 +1,267 @@
+//! Bytes of a picture file to a [`Picture`].
+
+use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+
+use crate::decode_exr::decode_exr;
+use crate::{Declared, ImageError, Picture, Pixels};
+
+/// Longest side that is read, pixels.
+pub const MAX_SIDE: u32 = 16384;
+/// Most bytes that a picture may take once decoded.
+pub const MAX_DECODED_BYTES: u64 = 1 << 30;
+/// Deflate makes no file smaller than this fraction (RFC 1951: 258 bytes from 2 bits).
+const DEFLATE_BEST_RATIO: u64 = 1032;
+
+/// The picture in the bytes of a PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR file, recognized by its content (TGA,
+/// which has no mark, by the name's ending). `name` stands in messages. Sizes are checked before memory is taken.
+pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+    let format = recognize(name, bytes)?;
+    // The decoders are careful but not ours: a slip in one of them must not take the program along.
+    catch_unwind(AssertUnwindSafe(|| match format {
+        Format::Png => decode_png(name, bytes),
+        Format::Exr => decode_exr(name, bytes),
+        Format::Other(format) => decode_other(name, bytes, format),
+    }))
+    .unwrap_or_else(|_| Err(damaged(name, format.name(), "its contents contradict each other")))
+}
+
+#[derive(Clone, Copy)]
+enum Format {
+    Png,
+    Exr,
+    Other(ImageFormat),
+}
+
+impl Format {
+    fn name(self) -> &'static str {
+        match self {
+            Format::Png => "PNG",
+            Format::Exr => "OpenEXR",
+            Format::Other(ImageFormat::Jpeg) => "JPEG",
+            Format::Other(ImageFormat::WebP) => "WebP",
+            Format::Other(ImageFormat::Tga) => "TGA",
+            Format::Other(ImageFormat::Bmp) => "BMP",
+            Format::Other(ImageFormat::Hdr) => "HDR",
+            Format::Other(_) => "picture",
+        }
+    }
+}
+
+pub(crate) fn damaged(name: &str, format: &'static str, detail: impl ToString) -> ImageError {
+    ImageError::Damaged {
+        name: name.into(),
+        format,
+        detail: detail.to_string().trim_end_matches('.').to_owned(),
+    }
+}
+
+/// Marks of common files that are not read, so that the message can name them.
+const FOREIGN: [(&[u8], &str); 10] = [
+    (b"GIF8", "a GIF picture"),
+    (b"II*\0", "a TIFF picture"),
+    (b"MM\0*", "a TIFF picture"),
+    (b"8BPS", "a Photoshop document"),
+    (b"DDS ", "a DDS texture"),
+    (b"\xabKTX", "a KTX texture"),
+    (b"\0\0\x01\0", "an icon"),
+    (b"%PDF", "a PDF document"),
+    (b"<svg", "an SVG drawing"),
+    (
+        b"version https://git-lfs",
+        "a Git LFS pointer instead of the file itself",
+    ),
+];
+
+fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
+    if bytes.is_empty() {
+        return Err(ImageError::Empty { name: name.into() });
+    }
+    let is_webp = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP");
+    let format = match bytes {
+        [0x89, b'P', b'N', b'G', ..] => Format::Png,
+        [0x76, 0x2f, 0x31, 0x01, ..] => Format::Exr,
+        [0xff, 0xd8, 0xff, ..] => Format::Other(ImageFormat::Jpeg),
+        [b'#', b'?', ..] => Format::Other(ImageFormat::Hdr),
+        _ if is_webp => Format::Other(ImageFormat::WebP),
+        [b'B', b'M', ..] if bytes.len() >= 26 => Format::Other(ImageFormat::Bmp),
+        _ => {
+            let foreign = FOREIGN.iter().find(|(mark, _)| bytes.starts_with(mark));
+            if foreign.is_none() && name.to_ascii_lowercase().ends_with(".tga") {
+                return Ok(Format::Other(ImageFormat::Tga));
+            }
+            let kind = foreign.map_or("no picture of a known kind", |(_, kind)| kind);
+            return Err(ImageError::Unsupported {
+                name: name.into(),
+                kind: kind.into(),
+            });
+        }
+    };
+    Ok(format)
+}
+
+/// Refuses sizes that are not read, before anything is allocated for them.
+pub(crate) fn check_size(name: &str, width: u64, height: u64, pixel_bytes: u64) -> Result<(), ImageError> {
+    let bytes = width
+        .checked_mul(height)
+        .and_then(|pixels| pixels.checked_mul(pixel_bytes));
+    let fits = width <= u64::from(MAX_SIDE)
+        && height <= u64::from(MAX_SIDE)
+        && bytes.is_some_and(|bytes| bytes <= MAX_DECODED_BYTES);
+    if fits {
+        Ok(())
+    } else {
+        Err(ImageError::TooLarge {
+            name: name.into(),
+            width,
+            height,
+        })
+    }
+}
+
+fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+    let damaged = |error: png::DecodingError| damaged(name, "PNG", error);
+    let limits = png::Limits {
+        bytes: MAX_DECODED_BYTES as usize,
+    };
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
+    decoder.set_transformations(png::Transformations::EXPAND);
+    decoder.set_ignore_text_chunk(true);
+    let header = decoder.read_header_info().map_err(damaged)?;
+    let (width, height) = (header.width, header.height);
+    let raw_bits = u64::from(header.bytes_per_pixel() as u32) * 8;
+    check_size(name, width.into(), height.into(), 8)
+        .or_else(|_| check_size(name, width.into(), height.into(), raw_bits / 8))?;
+    let mut reader = decoder.read_info().map_err(damaged)?;
+    let color_space = declared_by_png(reader.info());
+    let (color, depth) = reader.output_color_type();
+    let channels = color.samples() as u8;
+    let sample_bytes = if depth == png::BitDepth::Sixteen { 2 } else { 1 };
+    check_size(name, width.into(), height.into(), u64::from(channels) * sample_bytes)?;
+    // A pixel of the file may be a single bit.
+    let least_bytes = u64::from(width) * u64::from(height) / 8 / DEFLATE_BEST_RATIO;
+    if (bytes.len() as u64) < least_bytes {
+        return Err(self::damaged(name, "PNG", "the file ends too early"));
+    }
+    let size = reader
+        .output_buffer_size()
+        .ok_or_else(|| self::damaged(name, "PNG", "its size makes no sense"))?;
+    let mut samples = vec![0u8; size];
+    reader.next_frame(&mut samples).map_err(damaged)?;
+    let pixels = if sample_bytes == 2 {
+        Pixels::U16(
+            samples
+                .chunks_exact(2)
+                .map(|pair| u16::from_be_bytes([pair[0], pair[1]]))
+                .collect(),
+        )
+    } else {
+        Pixels::U8(samples)
+    };
+    Ok(Picture {
+        width,
+        height,
+        channels,
+        pixels,
+        color_space,
+    })
+}
+
+/// What the chunks say, the newest kind of chunk first (PNG specification, third edition, 4.3).
+fn declared_by_png(info: &png::Info<'_>) -> Declared {
+    if let Some(cicp) = &info.coding_independent_code_points {
+        // ITU-T H.273: 8 is linear, 13 is the sRGB curve.
+        return match cicp.transfer_function {
+            8 => Declared::Linear,
+            13 => Declared::Srgb,
+            _ => Declared::Unknown,
+        };
+    }
+    if info.icc_profile.is_some() {
+        return Declared::Unknown;
+    }
+    if info.srgb.is_some() {
+        return Declared::Srgb;
+    }
+    match info.gama_chunk.map(png::ScaledFloat::into_value) {
+        Some(gamma) if (gamma - 1.0).abs() < 0.005 => Declared::Linear,
+        Some(gamma) if (gamma - 1.0 / 2.2).abs() < 0.005 => Declared::Srgb,
+        _ => Declared::Unknown,
+    }
+}
+
+fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture, ImageError> {
+    let format_name = Format::Other(format).name();
+    let explain = |error: image::ImageError| match error {
+        image::ImageError::Unsupported(what) => ImageError::Feature {
+            name: name.into(),
+            format: format_name,
+            feature: what.to_string(),
+        },
+        error => damaged(name, format_name, error),
+    };
+    if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
+        return Err(damaged(name, format_name, "the file ends too early"));
+    }
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    // Sizes are judged below, with a better sentence; this bounds what the decoder itself takes.
+    let mut limits = image::Limits::no_limits();
+    limits.max_alloc = Some(2 * MAX_DECODED_BYTES);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(explain)?;
+    let (width, height) = decoder.dimensions();
+    check_size(
+        name,
+        width.into(),
+        height.into(),
+        u64::from(decoder.color_type().bytes_per_pixel()),
+    )?;
+    if width == 0 || height == 0 {
+        return Err(damaged(name, format_name, "it has no pixels"));
+    }
+    let picture = DynamicImage::from_decoder(decoder).map_err(explain)?;
+    let channels = picture.color().channel_count();
+    let pixels = match picture {
+        DynamicImage::ImageLuma8(samples) => Pixels::U8(samples.into_raw()),
+        DynamicImage::ImageLumaA8(samples) => Pixels::U8(samples.into_raw()),
+        DynamicImage::ImageRgb8(samples) => Pixels::U8(samples.into_raw()),
+        DynamicImage::ImageRgba8(samples) => Pixels::U8(samples.into_raw()),
+        DynamicImage::ImageLuma16(samples) => Pixels::U16(samples.into_raw()),
+        DynamicImage::ImageLumaA16(samples) => Pixels::U16(samples.into_raw()),
+        DynamicImage::ImageRgb16(samples) => Pixels::U16(samples.into_raw()),
+        DynamicImage::ImageRgba16(samples) => Pixels::U16(samples.into_raw()),
+        DynamicImage::ImageRgb32F(samples) => Pixels::F32(samples.into_raw()),
+        DynamicImage::ImageRgba32F(samples) => Pixels::F32(samples.into_raw()),
+        other => {
+            let feature = format!("its pixels are of the kind {:?}", other.color());
+            return Err(ImageError::Feature {
+                name: name.into(),
+                format: format_name,
+                feature,
+            });
+        }
+    };
+    let color_space = if format == ImageFormat::Hdr {
+        Declared::Linear
+    } else {
+        Declared::Unknown
+    };
+    Ok(Picture {
+        width,
+        height,
+        channels,
+        pixels,
+        color_space,
+    })
+}
+
+/// Whether the end-of-image mark follows the last scan. Decoders fill what is missing with gray and say nothing.
+fn jpeg_is_complete(bytes: &[u8]) -> bool {
+    let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
+    last([0xff, 0xd9]).is_some_and(|end| last([0xff, 0xda]).is_none_or(|scan| scan < end))
+}
+
+#[cfg(test)]
+mod tests;

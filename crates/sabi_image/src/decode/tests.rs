@@ -1,0 +1,238 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::*;
+
+fn png_bytes(
+    color: png::ColorType,
+    depth: png::BitDepth,
+    data: &[u8],
+    more: impl Fn(&mut png::Encoder<'_, &mut Vec<u8>>),
+) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, 2, 2);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    more(&mut encoder);
+    encoder.write_header().unwrap().write_image_data(data).unwrap();
+    file
+}
+
+#[test]
+fn palettes_bits_and_transparent_colors_are_spread_out() {
+    let palette = png_bytes(
+        png::ColorType::Indexed,
+        png::BitDepth::Two,
+        &[0b0001_0000, 0b1000_0000],
+        |encoder| {
+            encoder.set_palette(vec![10, 20, 30, 40, 50, 60, 70, 80, 90]);
+            encoder.set_trns(vec![0]);
+        },
+    );
+    let picture = decode("p.png", &palette).unwrap();
+    assert_eq!(picture.channels, 4);
+    let expected = vec![10, 20, 30, 0, 40, 50, 60, 255, 70, 80, 90, 255, 10, 20, 30, 0];
+    assert_eq!(picture.pixels, Pixels::U8(expected));
+    let bits = png_bytes(
+        png::ColorType::Grayscale,
+        png::BitDepth::One,
+        &[0b0100_0000, 0b1000_0000],
+        |_| (),
+    );
+    assert_eq!(decode("b.png", &bits).unwrap().pixels, Pixels::U8(vec![0, 255, 255, 0]));
+}
+
+#[test]
+fn chunks_say_which_curve_a_png_uses() {
+    let with = |more: fn(&mut png::Encoder<'_, &mut Vec<u8>>)| {
+        let file = png_bytes(png::ColorType::Grayscale, png::BitDepth::Eight, &[0; 4], more);
+        decode("g.png", &file).unwrap().color_space
+    };
+    assert_eq!(with(|_| ()), Declared::Unknown);
+    assert_eq!(
+        with(|e| e.set_source_srgb(png::SrgbRenderingIntent::Perceptual)),
+        Declared::Srgb
+    );
+    assert_eq!(
+        with(|e| e.set_source_gamma(png::ScaledFloat::new(1.0))),
+        Declared::Linear
+    );
+    assert_eq!(
+        with(|e| e.set_source_gamma(png::ScaledFloat::new(0.45455))),
+        Declared::Srgb
+    );
+    assert_eq!(
+        with(|e| e.set_source_gamma(png::ScaledFloat::new(0.7))),
+        Declared::Unknown
+    );
+}
+
+fn encoded(format: ImageFormat) -> Vec<u8> {
+    let picture = image::RgbImage::from_fn(40, 30, |x, y| image::Rgb([(x * 6) as u8, (y * 8) as u8, 99]));
+    let mut bytes = Cursor::new(Vec::new());
+    let picture = DynamicImage::ImageRgb8(picture);
+    if format == ImageFormat::Hdr {
+        DynamicImage::ImageRgb32F(picture.to_rgb32f())
+            .write_to(&mut bytes, format)
+            .unwrap();
+    } else {
+        picture.write_to(&mut bytes, format).unwrap();
+    }
+    bytes.into_inner()
+}
+
+const FORMATS: [(&str, ImageFormat); 5] = [
+    ("a.jpg", ImageFormat::Jpeg),
+    ("a.webp", ImageFormat::WebP),
+    ("a.tga", ImageFormat::Tga),
+    ("a.bmp", ImageFormat::Bmp),
+    ("a.hdr", ImageFormat::Hdr),
+];
+
+#[test]
+fn the_other_formats_are_read_by_content() {
+    for (name, format) in FORMATS {
+        let picture = decode(name, &encoded(format)).unwrap();
+        assert_eq!((picture.width, picture.height, picture.channels), (40, 30, 3), "{name}");
+        let first = picture.linear_rgba(false).rgba[20];
+        assert!(
+            (first[0] - 120.0 / 255.0).abs() < 0.03 && (first[2] - 99.0 / 255.0).abs() < 0.03,
+            "{name}: {first:?}"
+        );
+        let declared = if format == ImageFormat::Hdr {
+            Declared::Linear
+        } else {
+            Declared::Unknown
+        };
+        assert_eq!(picture.color_space, declared, "{name}");
+    }
+}
+
+#[test]
+fn a_file_cut_short_anywhere_is_a_sentence_that_names_it() {
+    let mut files: Vec<(&str, Vec<u8>)> = FORMATS.iter().map(|&(name, format)| (name, encoded(format))).collect();
+    let options = crate::PngOptions {
+        channels: 1,
+        bits: 8,
+        srgb_chunk: true,
+    };
+    files.push((
+        "a.png",
+        crate::encode_png(64, 2, crate::PngData::U8(&[5; 128]), options).unwrap(),
+    ));
+    let values: Vec<f32> = (0..900).map(|i| i as f32).collect();
+    files.push(("a.exr", crate::encode_exr(30, 30, &[("Y", &values)]).unwrap()));
+    for (name, bytes) in files {
+        for length in 0..bytes.len() * 9 / 10 {
+            let error = decode(name, &bytes[..length]).expect_err(&format!("{name} at {length}"));
+            assert!(error.to_string().starts_with(&format!("{name} ")), "{error}");
+        }
+    }
+}
+
+#[test]
+fn any_flipped_byte_is_a_picture_or_a_sentence() {
+    for (name, format) in FORMATS {
+        let bytes = encoded(format);
+        for place in (0..bytes.len()).step_by(bytes.len() / 150 + 1) {
+            let mut broken = bytes.clone();
+            broken[place] ^= 0xff;
+            let _ = decode(name, &broken);
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said_in_a_sentence() {
+    let says = |name, bytes: &[u8]| decode(name, bytes).unwrap_err().to_string();
+    assert_eq!(
+        says("a.png", b""),
+        "a.png is empty; check that it was saved or copied completely"
+    );
+    assert_eq!(
+        says("a.tif", b"II*\0rest"),
+        "a.tif is a TIFF picture, which Sabi does not read; save it as PNG, JPEG, WebP, TGA, BMP, HDR or OpenEXR and use \
+         that file"
+    );
+    assert!(says("a.png", b"hello").starts_with("a.png is no picture of a known kind"));
+    assert!(says("a.png", b"\x89PNG\r\n\x1a\n").starts_with("a.png is a damaged PNG file ("));
+}
+
+#[test]
+fn a_huge_claim_is_refused_before_memory_is_taken() {
+    let options = crate::PngOptions {
+        channels: 1,
+        bits: 8,
+        srgb_chunk: false,
+    };
+    let mut file = crate::encode_png(1, 1, crate::PngData::U8(&[0]), options).unwrap();
+    file[16..20].copy_from_slice(&70_000u32.to_be_bytes());
+    // The checksum of the header must fit, or that is what is reported.
+    let mut crc = flate2::Crc::new();
+    crc.update(&file[12..29]);
+    let sum = crc.sum();
+    file[29..33].copy_from_slice(&sum.to_be_bytes());
+    assert_eq!(
+        decode("big.png", &file).unwrap_err().to_string(),
+        "big.png claims 70000 × 1 pixels; pictures of up to 16384 × 16384 and 1 GiB decoded are read, so make it smaller"
+    );
+    assert!(check_size("a", 16384, 16384, 4).is_ok());
+    assert!(check_size("a", 16384, 16384, 8).is_err());
+    assert!(check_size("a", u64::MAX, u64::MAX, 8).is_err());
+}
+
+fn files_below(folder: &Path, files: &mut Vec<PathBuf>) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files_below(&path, files)
+        } else {
+            files.push(path)
+        }
+    }
+}
+
+#[test]
+fn hostile_files_of_the_wild_never_get_through_as_a_panic() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    if !data.is_dir() {
+        println!("left out: there is no ../shared/data beside the project");
+        return;
+    }
+    let mut files = Vec::new();
+    for folder in [
+        "hostile/png-tests",
+        "hostile/png-fuzz-corpus",
+        "hostile/openexr-damaged",
+        "hostile/imagers",
+        "images",
+        "env",
+    ] {
+        files_below(&data.join(folder), &mut files);
+    }
+    files.sort();
+    let (mut pictures, mut sentences) = (0, 0);
+    for path in &files {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let bytes = fs::read(path).unwrap();
+        match decode(&name, &bytes) {
+            Ok(picture) => {
+                let samples = match &picture.pixels {
+                    Pixels::U8(list) => list.len(),
+                    Pixels::U16(list) => list.len(),
+                    Pixels::F32(list) => list.len(),
+                };
+                let expected = picture.width as usize * picture.height as usize * usize::from(picture.channels);
+                assert_eq!(samples, expected, "{name}");
+                pictures += 1;
+            }
+            Err(error) => {
+                println!("{error}");
+                sentences += 1;
+            }
+        }
+    }
+    println!("{pictures} pictures, {sentences} sentences");
+    assert!(pictures > 100 && sentences > 100);
+}

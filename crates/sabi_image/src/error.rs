@@ -1,0 +1,66 @@
+//! What can be wrong with a picture, as sentences.
+
+use thiserror::Error;
+
+/// Why a picture could not be read or written.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum ImageError {
+    /// The file holds nothing at all.
+    #[error("{name} is empty; check that it was saved or copied completely")]
+    Empty {
+        /// Name as given by the caller.
+        name: String,
+    },
+    /// A kind of picture that is not read.
+    #[error(
+        "{name} is {kind}, which Sabi does not read; save it as PNG, JPEG, WebP, TGA, BMP, HDR or OpenEXR and use that file"
+    )]
+    Unsupported {
+        /// Name as given by the caller.
+        name: String,
+        /// With its article: `a TIFF picture`.
+        kind: String,
+    },
+    /// The right kind of file with something in it that is not read.
+    #[error("{name} cannot be used: {feature}; save it again as a plain {format} file")]
+    Feature {
+        /// Name as given by the caller.
+        name: String,
+        /// `PNG`, `OpenEXR`…
+        format: &'static str,
+        /// What it holds.
+        feature: String,
+    },
+    /// The file contradicts itself or ends early.
+    #[error("{name} is a damaged {format} file ({detail}); open and save it again in a paint program, or copy it anew")]
+    Damaged {
+        /// Name as given by the caller.
+        name: String,
+        /// `PNG`, `OpenEXR`…
+        format: &'static str,
+        /// What the decoder said.
+        detail: String,
+    },
+    /// More pixels than are read.
+    #[error(
+        "{name} claims {width} × {height} pixels; pictures of up to 16384 × 16384 and 1 GiB decoded are read, so make it smaller"
+    )]
+    TooLarge {
+        /// Name as given by the caller.
+        name: String,
+        /// Claimed width, pixels.
+        width: u64,
+        /// Claimed height, pixels.
+        height: u64,
+    },
+    /// The numbers given to an encoder do not make the picture that was asked for.
+    #[error("cannot encode a {width} × {height} picture: {reason}")]
+    Encode {
+        /// Width asked for, pixels.
+        width: u32,
+        /// Height asked for, pixels.
+        height: u32,
+        /// What does not fit.
+        reason: String,
+    },
+}

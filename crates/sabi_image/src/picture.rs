@@ -1,0 +1,190 @@
+//! A decoded picture, as its file has it, and the linear numbers in it.
+
+use std::sync::OnceLock;
+
+use rayon::prelude::*;
+
+use crate::color::{linear_from_srgb, linear_from_srgb_f64};
+
+/// What a file says about the meaning of its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Declared {
+    /// Encoded with the sRGB curve.
+    Srgb,
+    /// Proportional to light.
+    Linear,
+    /// It says nothing, as most files do.
+    Unknown,
+}
+
+/// Samples of a picture, row by row from the top, channels interleaved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// 255 counts as 1.
+    U8(Vec<u8>),
+    /// 65535 counts as 1, native byte order.
+    U16(Vec<u16>),
+    /// The numbers themselves.
+    F32(Vec<f32>),
+}
+
+/// A decoded picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// 1 gray, 2 gray and alpha, 3 RGB, 4 RGB and alpha (never premultiplied, except as an OpenEXR file has it).
+    pub channels: u8,
+    /// `width × height × channels` samples.
+    pub pixels: Pixels,
+    /// What the file says of its colors.
+    pub color_space: Declared,
+}
+
+/// A picture as linear RGBA.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearPicture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Row by row from the top; gray is repeated, a missing alpha is 1.
+    pub rgba: Vec<[f32; 4]>,
+}
+
+/// Values of all 8-bit codes: as they are, and through the sRGB curve.
+struct Table8 {
+    plain: [f32; 256],
+    srgb: [f32; 256],
+}
+
+fn table8() -> &'static Table8 {
+    static TABLE: OnceLock<Table8> = OnceLock::new();
+    TABLE.get_or_init(|| Table8 {
+        plain: std::array::from_fn(|code| (code as f64 / 255.0) as f32),
+        srgb: std::array::from_fn(|code| linear_from_srgb_f64(code as f64 / 255.0) as f32),
+    })
+}
+
+fn table16(as_srgb: bool) -> &'static [f32] {
+    static PLAIN: OnceLock<Vec<f32>> = OnceLock::new();
+    static SRGB: OnceLock<Vec<f32>> = OnceLock::new();
+    if as_srgb {
+        SRGB.get_or_init(|| {
+            (0..=65535u32)
+                .map(|code| linear_from_srgb_f64(f64::from(code) / 65535.0) as f32)
+                .collect()
+        })
+    } else {
+        PLAIN.get_or_init(|| (0..=65535u32).map(|code| (f64::from(code) / 65535.0) as f32).collect())
+    }
+}
+
+impl Picture {
+    /// The picture as linear RGBA; `as_srgb` undoes the sRGB curve on everything but alpha. Codes go through tables whose
+    /// entries are the correctly rounded values, so 255 and 65535 are exactly 1.
+    pub fn linear_rgba(&self, as_srgb: bool) -> LinearPicture {
+        let channels = usize::from(self.channels);
+        let rgba = match &self.pixels {
+            Pixels::U8(samples) => {
+                let table = table8();
+                let color = if as_srgb { &table.srgb } else { &table.plain };
+                spread(
+                    samples,
+                    channels,
+                    |code| color[usize::from(code)],
+                    |code| table.plain[usize::from(code)],
+                )
+            }
+            Pixels::U16(samples) => {
+                let (color, plain) = (table16(as_srgb), table16(false));
+                spread(
+                    samples,
+                    channels,
+                    |code| color[usize::from(code)],
+                    |code| plain[usize::from(code)],
+                )
+            }
+            Pixels::F32(samples) if as_srgb => spread(samples, channels, linear_from_srgb, |value| value),
+            Pixels::F32(samples) => spread(samples, channels, |value| value, |value| value),
+        };
+        LinearPicture {
+            width: self.width,
+            height: self.height,
+            rgba,
+        }
+    }
+}
+
+fn spread<T: Copy + Sync>(
+    samples: &[T],
+    channels: usize,
+    color: impl Fn(T) -> f32 + Sync,
+    alpha: impl Fn(T) -> f32 + Sync,
+) -> Vec<[f32; 4]> {
+    samples
+        .par_chunks_exact(channels.max(1))
+        .with_min_len(4096)
+        .map(|pixel| match *pixel {
+            [gray] => [color(gray), color(gray), color(gray), 1.0],
+            [gray, a] => [color(gray), color(gray), color(gray), alpha(a)],
+            [r, g, b] => [color(r), color(g), color(b), 1.0],
+            [r, g, b, a, ..] => [color(r), color(g), color(b), alpha(a)],
+            [] => [0.0, 0.0, 0.0, 1.0],
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(channels: u8, pixels: Pixels) -> Picture {
+        Picture {
+            width: 1,
+            height: 1,
+            channels,
+            pixels,
+            color_space: Declared::Unknown,
+        }
+    }
+
+    #[test]
+    fn every_code_gives_the_correctly_rounded_value_of_the_formula() {
+        for code in 0..=255u8 {
+            let linear = picture(1, Pixels::U8(vec![code])).linear_rgba(true).rgba[0][0];
+            assert_eq!(linear, linear_from_srgb_f64(f64::from(code) / 255.0) as f32);
+            let plain = picture(1, Pixels::U8(vec![code])).linear_rgba(false).rgba[0][0];
+            assert_eq!(plain, (f64::from(code) / 255.0) as f32);
+        }
+        for code in (0..=65535u16).step_by(7) {
+            let plain = picture(1, Pixels::U16(vec![code])).linear_rgba(false).rgba[0][0];
+            assert_eq!(plain, (f64::from(code) / 65535.0) as f32);
+        }
+        assert_eq!(picture(1, Pixels::U16(vec![65535])).linear_rgba(true).rgba[0], [1.0; 4]);
+    }
+
+    #[test]
+    fn gray_is_repeated_and_alpha_never_goes_through_the_curve() {
+        let half = linear_from_srgb_f64(128.0 / 255.0) as f32;
+        assert_eq!(
+            picture(1, Pixels::U8(vec![128])).linear_rgba(true).rgba[0],
+            [half, half, half, 1.0]
+        );
+        let alpha = (64.0f64 / 255.0) as f32;
+        assert_eq!(
+            picture(2, Pixels::U8(vec![128, 64])).linear_rgba(true).rgba[0],
+            [half, half, half, alpha]
+        );
+        assert_eq!(
+            picture(4, Pixels::U8(vec![255, 128, 0, 64])).linear_rgba(true).rgba[0],
+            [1.0, half, 0.0, alpha]
+        );
+        assert_eq!(
+            picture(3, Pixels::F32(vec![2.0, -1.0, 0.5])).linear_rgba(false).rgba[0],
+            [2.0, -1.0, 0.5, 1.0]
+        );
+    }
+}

@@ -1,0 +1,102 @@
+//! Floats to whole codes: rounding half up, and dithering from the pixel's place alone.
+
+/// Whether and how rounding is varied from pixel to pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Dither {
+    /// Every pixel rounds half up.
+    #[default]
+    Off,
+    /// Pixels round at thresholds spread evenly over the picture, so that gradients show no steps. A value that is a code
+    /// stays that code.
+    Ordered,
+}
+
+/// Code of a value: clamped to 0..1, times 255, rounded half up; not-a-number gives 0.
+pub fn quantize_u8(value: f32) -> u8 {
+    quantize(value, 255.0, 0.5) as u8
+}
+
+/// Code of a value: clamped to 0..1, times 65535, rounded half up; not-a-number gives 0.
+pub fn quantize_u16(value: f32) -> u16 {
+    quantize(value, 65535.0, 0.5) as u16
+}
+
+/// Threshold in 0..1 for the pixel: the lattice of the plastic number (Roberts 2018), whose neighbors are far apart as in
+/// blue noise, in whole numbers so that every machine gives the same one. Never nearer to 0 or 1 than 1/8192, which is
+/// more than the error of a float that stands for a code: those do not change.
+pub fn dither_threshold(x: u32, y: u32) -> f32 {
+    let place = x
+        .wrapping_mul(3_242_174_889)
+        .wrapping_add(y.wrapping_mul(2_447_445_414));
+    ((place >> 20) as f32 + 0.5) / 4096.0
+}
+
+impl Dither {
+    /// 8-bit code of a value at a pixel, as [`quantize_u8`] where this is [`Dither::Off`].
+    pub fn quantize_u8(self, value: f32, x: u32, y: u32) -> u8 {
+        match self {
+            Dither::Off => quantize_u8(value),
+            Dither::Ordered => quantize(value, 255.0, f64::from(dither_threshold(x, y))) as u8,
+        }
+    }
+}
+
+fn quantize(value: f32, highest: f64, threshold: f64) -> f64 {
+    // `clamp` keeps not-a-number.
+    let unit = if value.is_nan() {
+        0.0
+    } else {
+        f64::from(value.clamp(0.0, 1.0))
+    };
+    (unit * highest + threshold).floor().min(highest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves_round_up_and_ends_are_clamped() {
+        let cases = [
+            (0.0, 0),
+            (1.0, 255),
+            (0.5, 128),
+            (-3.0, 0),
+            (9.0, 255),
+            (f32::NAN, 0),
+            (f32::INFINITY, 255),
+        ];
+        for (value, code) in cases {
+            assert_eq!(quantize_u8(value), code, "{value}");
+        }
+        assert_eq!(quantize_u16(0.5), 32768);
+        assert_eq!(quantize_u16(1.0), 65535);
+        assert_eq!(quantize_u16(f32::NAN), 0);
+    }
+
+    #[test]
+    fn dithering_leaves_every_exact_code_alone() {
+        for code in 0..=255u8 {
+            let value = f32::from(code) / 255.0;
+            for place in 0..4096 {
+                assert_eq!(Dither::Ordered.quantize_u8(value, place % 64, place / 64), code);
+            }
+        }
+    }
+
+    #[test]
+    fn dithering_keeps_the_mean_and_moves_no_pixel_by_more_than_one_code() {
+        for value in [0.1, 0.3333, 0.5, 0.7001953, 0.9] {
+            let mut sum = 0.0;
+            for y in 0..128 {
+                for x in 0..128 {
+                    let code = f64::from(Dither::Ordered.quantize_u8(value, x, y));
+                    assert!((code - f64::from(value) * 255.0).abs() < 1.0);
+                    sum += code;
+                }
+            }
+            let mean = sum / (128.0 * 128.0);
+            assert!((mean - f64::from(value) * 255.0).abs() < 0.01, "{value}: {mean}");
+        }
+    }
+}
