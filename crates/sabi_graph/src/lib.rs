@@ -1,5 +1,51 @@
 //! The document: nodes, links, edits with inverses, groups and the file format.
+//!
+//! ```
+//! use sabi_graph::{Body, Document, Edit, Node, Overrides, flatten};
+//!
+//! let mut document = Document::new("Dust");
+//! let add = Edit::AddNode { body: Body::Main, id: "grain".parse()?, node: Node::new("noise/simplex") };
+//! let undo = document.apply(add)?;
+//! let flat = flatten(&document, &Overrides::default(), &mut |_| Err("no files here".to_owned()))?;
+//! assert_eq!(flat.nodes[0].kind, "noise/simplex");
+//! document.apply(undo)?;
+//! assert_eq!(document, Document::new("Dust"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+mod apply;
+mod document;
+mod edit;
+mod file_error;
+mod flatten;
+mod graph;
+mod history;
+mod id;
+mod json;
+mod layout;
+mod migrate;
+mod nearest;
+mod order;
 mod port;
+mod problem;
+mod read;
+mod save;
+mod value;
 
+pub use document::{Document, Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
+pub use edit::{Body, Edit, EditError};
+pub use file_error::{FileError, FileProblem};
+pub use flatten::{FlatGraph, FlatNode, FlatRef, FlattenError, Overrides, flatten};
+pub use graph::{Graph, Node};
+pub use history::History;
+pub use id::{NodeId, OutputRef, SlotRef};
+pub use nearest::nearest;
 pub use port::PortType;
+pub use problem::Problem;
+pub use value::{Value, canonical_number};
+
+/// Kind of the node that stands for a whole group.
+pub const GROUP_KIND: &str = "graph/group";
+
+/// Kind of the node that only bends a wire; its one input is `source`.
+pub const REROUTE_KIND: &str = "graph/reroute";

@@ -1,0 +1,132 @@
+//! A graph file as data: the main graph, its groups, and what is published of them.
+
+use std::collections::BTreeMap;
+
+use crate::{FileError, Graph, NodeId, OutputRef, PortType, SlotRef, Value};
+
+/// A graph file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Document {
+    /// The name people see; empty when the file has none.
+    pub name: String,
+    /// What to look at while editing.
+    pub preview: Option<Preview>,
+    /// How the model is scaled for this graph.
+    pub fit: Fit,
+    /// Seed of the whole document; 0 unless the file says otherwise.
+    pub seed: u32,
+    /// The main graph.
+    pub graph: Graph,
+    /// Groups defined in this file, by name.
+    pub groups: BTreeMap<String, GroupDef>,
+    /// Inputs of the main graph when another file uses this one as a group.
+    pub inputs: BTreeMap<String, GroupInput>,
+    /// Outputs of the main graph when another file uses this one as a group.
+    pub outputs: BTreeMap<String, OutputRef>,
+    /// Top-level keys that this version does not know, kept as they are.
+    pub extra: BTreeMap<String, Value>,
+}
+
+impl Document {
+    /// An empty document of that name.
+    pub fn new(name: impl Into<String>) -> Self {
+        Document {
+            name: name.into(),
+            ..Document::default()
+        }
+    }
+
+    /// Reads a graph file of this or an earlier version.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with it, with its line and column.
+    pub fn from_json(text: &str) -> Result<Document, FileError> {
+        crate::read::document(text)
+    }
+
+    /// The canonical text: the same document gives the same bytes, and reading them gives this document.
+    pub fn to_json(&self) -> String {
+        crate::save::document(self)
+    }
+}
+
+/// What the editor shows the graph on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preview {
+    /// The model, as a path relative to the graph file.
+    pub mesh: Option<String>,
+    /// Side of the preview's textures in texels.
+    pub size: Option<u32>,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
+}
+
+/// What counts as length 1 on the model.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Fit {
+    /// The model's largest side.
+    #[default]
+    Unit,
+    /// One metre.
+    Metres,
+    /// This many metres; above zero.
+    Length(f64),
+}
+
+/// A group: a graph that other graphs use as one node.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GroupDef {
+    /// The name people see, when it differs from the one it is filed under.
+    pub name: Option<String>,
+    /// The fit its lengths were made for; `None` means that of the document.
+    pub fit: Option<Fit>,
+    /// Its nodes, knobs, variants and frames.
+    pub graph: Graph,
+    /// Its inputs, by name.
+    pub inputs: BTreeMap<String, GroupInput>,
+    /// Its outputs, by name.
+    pub outputs: BTreeMap<String, OutputRef>,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
+}
+
+/// An input of a group.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GroupInput {
+    /// The inputs of nodes inside that it feeds, written `node.input`.
+    pub to: Vec<SlotRef>,
+    /// What it carries, when the file says so.
+    pub ty: Option<PortType>,
+    /// Name shown to artists.
+    pub label: Option<String>,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
+}
+
+/// A knob on a graph's control panel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Exposed {
+    /// The parameters it sets, written `node.param`.
+    pub to: Vec<SlotRef>,
+    /// Name shown to artists.
+    pub label: Option<String>,
+    /// Numbers outside are refused.
+    pub range: Option<[f64; 2]>,
+    /// Its value while neither a variant nor the user sets it; without it the nodes keep their own.
+    pub default: Option<Value>,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
+}
+
+/// A titled box around nodes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// The title.
+    pub title: Option<String>,
+    /// Its color, `#rrggbb`.
+    pub color: Option<String>,
+    /// The nodes in it; ids of nodes that are gone do no harm.
+    pub nodes: Vec<NodeId>,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
+}

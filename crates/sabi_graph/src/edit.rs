@@ -1,0 +1,130 @@
+//! Changes to a document, as values.
+
+use std::collections::BTreeMap;
+
+use crate::document::{Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
+use crate::problem::Problem;
+use crate::{Node, NodeId, OutputRef, Value};
+
+/// Which graph of a document is meant.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Body {
+    /// The main graph.
+    #[default]
+    Main,
+    /// The graph of the group of that name.
+    Group(String),
+}
+
+/// A change; [`Document::apply`](crate::Document::apply) makes it and gives its exact inverse.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// Adds a node with its parameters and links.
+    AddNode { body: Body, id: NodeId, node: Node },
+    /// Removes a node, and with it all links from it and all that is published of it.
+    RemoveNode { body: Body, id: NodeId },
+    /// Sets a parameter, or resets it (`None`).
+    SetParam {
+        body: Body,
+        node: NodeId,
+        param: String,
+        value: Option<Value>,
+    },
+    /// Links an input, in place of the link it has.
+    Connect {
+        body: Body,
+        node: NodeId,
+        input: String,
+        from: OutputRef,
+    },
+    /// Unlinks an input; nothing happens when it is not linked.
+    Disconnect { body: Body, node: NodeId, input: String },
+    /// Moves a node to a place on the canvas, in canvas points.
+    Move { body: Body, node: NodeId, pos: [f32; 2] },
+    /// Mutes a node or lets it speak.
+    SetMuted { body: Body, node: NodeId, muted: bool },
+    /// Names a node for people, or takes the name away.
+    SetLabel {
+        body: Body,
+        node: NodeId,
+        label: Option<String>,
+    },
+    /// Names the document.
+    RenameDocument { name: String },
+    /// Adds a frame, or replaces the one of that id.
+    AddFrame { body: Body, id: String, frame: Frame },
+    /// Removes a frame; its nodes stay.
+    RemoveFrame { body: Body, id: String },
+    /// Publishes a knob, or replaces the one of that name.
+    Expose { body: Body, name: String, knob: Exposed },
+    /// Takes a knob off the panel and out of all variants.
+    Unexpose { body: Body, name: String },
+    /// Sets the knob values of a variant, or removes the variant (`None`).
+    SetVariant {
+        body: Body,
+        name: String,
+        values: Option<BTreeMap<String, Value>>,
+    },
+    /// Sets an input of a group (of a file that is used as one, for the main graph), or removes it (`None`).
+    SetInput {
+        body: Body,
+        name: String,
+        input: Option<GroupInput>,
+    },
+    /// Sets an output of a group (of a file that is used as one, for the main graph), or removes it (`None`).
+    SetOutput {
+        body: Body,
+        name: String,
+        output: Option<OutputRef>,
+    },
+    /// Defines a group.
+    AddGroup { name: String, group: Box<GroupDef> },
+    /// Removes a group that has no instances.
+    RemoveGroup { name: String },
+    /// Sets what to look at while editing.
+    SetPreview { preview: Option<Preview> },
+    /// Sets what counts as length 1.
+    SetFit { fit: Fit },
+    /// Sets the document's seed.
+    SetSeed { seed: u32 },
+    /// Several edits as one: when one fails, none was made.
+    Batch(Vec<Edit>),
+}
+
+/// Why an edit was refused; the document is as it was.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EditError {
+    /// The graph cannot be like that.
+    #[error(transparent)]
+    Problem(#[from] Problem),
+    /// It names a frame, knob, variant, input, output or group that is not there.
+    #[error("there is no {what} {name}{hint}")]
+    Missing {
+        /// `frame`, `knob` and so on.
+        what: &'static str,
+        /// The name, quoted.
+        name: String,
+        /// The nearest one, as a question.
+        hint: String,
+    },
+    /// A group of that name is there already.
+    #[error("there is a group {name} already; choose another name")]
+    GroupExists {
+        /// The name, quoted.
+        name: String,
+    },
+    /// A group that is still in use cannot go.
+    #[error("group {name} is in use by {users}; remove these instances first")]
+    GroupInUse {
+        /// The name, quoted.
+        name: String,
+        /// Instances, quoted.
+        users: String,
+    },
+    /// A fit of zero, less, or no number.
+    #[error("a fit must be a length above zero, or \"unit\" or \"metres\"")]
+    BadFit,
+    /// A place on the canvas that is not a number.
+    #[error("a node can only stand at a finite place on the canvas")]
+    BadPlace,
+}

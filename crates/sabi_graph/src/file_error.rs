@@ -1,0 +1,103 @@
+//! Why a graph file cannot be read, and where.
+
+use std::fmt;
+
+use crate::problem::Problem;
+
+/// Why a graph file cannot be read. Prints as `graph.sabi:12:7: node "edges", input "mask": …`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileError {
+    /// The file's name for messages (see [`FileError::with_name`]).
+    pub name: Option<String>,
+    /// Line in the text, from 1.
+    pub line: usize,
+    /// Column in the line, in characters from 1.
+    pub column: usize,
+    /// The group it is in; `None` for the main graph.
+    pub group: Option<String>,
+    /// The node it is about.
+    pub node: Option<String>,
+    /// The input of that node it is about.
+    pub port: Option<String>,
+    /// What is wrong.
+    pub problem: FileProblem,
+}
+
+/// What is wrong with a graph file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FileProblem {
+    /// The text is not JSON.
+    #[error("{0}")]
+    Syntax(String),
+    /// Larger than any graph.
+    #[error("the file is larger than 64 MiB or has more than 4 million values; this is no graph that anybody made")]
+    TooLarge,
+    /// Not a graph file at all.
+    #[error("this is not a Sabi graph: it must be an object that begins with \"format\": \"sabi\"")]
+    NotSabi,
+    /// Made by a program that knows more.
+    #[error(
+        "written by a newer Sabi (version {version}; this one reads up to {newest}); open it with that one, \
+         or install it here"
+    )]
+    Newer {
+        /// The version in the file.
+        version: String,
+        /// The newest version that is read.
+        newest: u32,
+    },
+    /// A key of another sort than the format has it.
+    #[error("{key} must be {expected}, not {found}")]
+    Expected {
+        /// The key, quoted.
+        key: String,
+        /// What belongs there, with an example where it helps.
+        expected: String,
+        /// What is there.
+        found: String,
+    },
+    /// A key that must be there is missing.
+    #[error("{key} is missing; {advice}")]
+    Missing {
+        /// The key, quoted.
+        key: String,
+        /// What to write.
+        advice: &'static str,
+    },
+    /// The graph cannot be like that.
+    #[error(transparent)]
+    Graph(#[from] Problem),
+}
+
+impl FileError {
+    /// The same error with the name that the file has for people.
+    pub fn with_name(mut self, name: impl Into<String>) -> Self {
+        self.name = Some(name.into());
+        self
+    }
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.name {
+            Some(name) => write!(f, "{name}:{}:{}: ", self.line, self.column)?,
+            None => write!(f, "line {}, column {}: ", self.line, self.column)?,
+        }
+        let parts = [("group", &self.group), ("node", &self.node), ("input", &self.port)];
+        let mut named = parts
+            .iter()
+            .filter_map(|(what, name)| Some((what, name.as_ref()?)))
+            .peekable();
+        while let Some((what, name)) = named.next() {
+            let end = if named.peek().is_some() { ", " } else { ": " };
+            write!(f, "{what} {}{end}", crate::problem::shown(name))?;
+        }
+        write!(f, "{}", self.problem)
+    }
+}
+
+impl std::error::Error for FileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.problem)
+    }
+}

@@ -1,0 +1,101 @@
+//! The document without its structure: groups inlined, reroutes gone, knobs applied.
+
+mod error;
+
+use std::collections::BTreeMap;
+
+pub use error::FlattenError;
+
+use crate::{Document, Fit, Value};
+
+/// A graph as the planner takes it: every node real, every link direct.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlatGraph {
+    /// All nodes, each after those it reads; where several may come next, the smallest id does.
+    pub nodes: Vec<FlatNode>,
+}
+
+/// One real node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlatNode {
+    /// Unique id; inside groups `instance/inner`.
+    pub id: String,
+    /// Kind without its version.
+    pub kind: String,
+    /// Version of the kind, 1 when the file does not say.
+    pub version: u32,
+    /// Parameters that were set, with knobs, variant and overrides applied.
+    pub params: BTreeMap<String, Value>,
+    /// Links by input port; an input that is not here is not connected.
+    pub inputs: BTreeMap<String, FlatRef>,
+    /// Whether it, or an instance it is in, is muted.
+    pub muted: bool,
+    /// The document's seed, then those of the instances around it that have one other than 0, outermost first.
+    pub seeds: Vec<u32>,
+    /// Product of the Scale knobs of the instances around it; its lengths are multiplied by this.
+    pub length_scale: f64,
+    /// The fit of the document, group or group file that it was written in.
+    pub fit: Fit,
+    /// The group file it was written in, relative to the document, or `None` for the document itself; paths in its
+    /// parameters are relative to that file.
+    pub file: Option<String>,
+}
+
+/// Where a link of a [`FlatNode`] comes from.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FlatRef {
+    /// Index in [`FlatGraph::nodes`], always before the reader.
+    pub node: usize,
+    /// The output port; `None` means the node's first.
+    pub port: Option<String>,
+}
+
+/// What a command line sets on top of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// Variant to start from.
+    pub variant: Option<String>,
+    /// Values by exposed knob or `node.param`; later ones win.
+    pub set: Vec<(String, Value)>,
+    /// Seed in place of the document's.
+    pub seed: Option<u32>,
+}
+
+impl FlatGraph {
+    /// Index of the node of that id.
+    pub fn find(&self, id: &str) -> Option<usize> {
+        self.nodes.iter().position(|node| node.id == id)
+    }
+
+    /// The given nodes and everything they are made from, as ascending indices.
+    pub fn upstream(&self, of: &[usize]) -> Vec<usize> {
+        let mut wanted = vec![false; self.nodes.len()];
+        for &index in of {
+            if let Some(slot) = wanted.get_mut(index) {
+                *slot = true;
+            }
+        }
+        // Sources stand before their readers.
+        for index in (0..self.nodes.len()).rev() {
+            if wanted[index] {
+                for source in self.nodes[index].inputs.values() {
+                    wanted[source.node] = true;
+                }
+            }
+        }
+        (0..self.nodes.len()).filter(|&index| wanted[index]).collect()
+    }
+}
+
+/// Inlines groups, removes reroutes, and applies knobs, the variant and the overrides. `group_file` reads a group file
+/// by its path relative to the document's own file; its error is a sentence.
+///
+/// # Errors
+/// Names that are not there (with the nearest), values out of range, groups inside themselves.
+pub fn flatten(
+    document: &Document,
+    overrides: &Overrides,
+    group_file: &mut dyn FnMut(&str) -> Result<Document, String>,
+) -> Result<FlatGraph, FlattenError> {
+    todo!()
+}

@@ -1,0 +1,248 @@
+//! One body of nodes and links, on petgraph's stable graph.
+
+use std::collections::BTreeMap;
+use std::collections::VecDeque;
+
+use petgraph::Direction;
+use petgraph::stable_graph::{NodeIndex, StableDiGraph};
+use petgraph::visit::EdgeRef;
+
+use crate::document::{Exposed, Frame};
+use crate::problem::{Problem, hint, shown};
+use crate::{NodeId, OutputRef, SlotRef, Value};
+
+/// One node as the file has it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Node {
+    /// Its kind, such as `noise/simplex` or `noise/simplex@2`.
+    pub kind: String,
+    /// Parameters that were set.
+    pub params: BTreeMap<String, Value>,
+    /// Links, by input port.
+    pub inputs: BTreeMap<String, OutputRef>,
+    /// Its place on the canvas, in canvas points.
+    pub pos: [f32; 2],
+    /// Whether it passes its main input through.
+    pub muted: bool,
+    /// The artist's name for it.
+    pub label: Option<String>,
+    /// The group this is an instance of, by name or file; for kind `graph/group`.
+    pub group: Option<String>,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
+}
+
+impl Node {
+    /// A node of that kind with nothing set.
+    pub fn new(kind: impl Into<String>) -> Self {
+        Node {
+            kind: kind.into(),
+            ..Node::default()
+        }
+    }
+}
+
+/// Nodes and links of a document or a group, with its frames, knobs and variants. Links always lead from a node that
+/// is there, and never in a circle; it changes through [`Document::apply`](crate::Document::apply) only.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    /// The nodes; an edge from A to B carries the input of B that reads A.
+    pub(crate) net: StableDiGraph<(NodeId, Node), String>,
+    index: BTreeMap<NodeId, NodeIndex>,
+    pub(crate) frames: BTreeMap<String, Frame>,
+    pub(crate) exposed: BTreeMap<String, Exposed>,
+    pub(crate) variants: BTreeMap<String, BTreeMap<String, Value>>,
+}
+
+impl PartialEq for Graph {
+    fn eq(&self, other: &Self) -> bool {
+        self.nodes().eq(other.nodes())
+            && self.frames == other.frames
+            && self.exposed == other.exposed
+            && self.variants == other.variants
+    }
+}
+
+impl Graph {
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.index.len()
+    }
+
+    /// Whether there are no nodes.
+    pub fn is_empty(&self) -> bool {
+        self.index.is_empty()
+    }
+
+    /// All nodes, sorted by id.
+    pub fn nodes(&self) -> impl Iterator<Item = (&NodeId, &Node)> {
+        self.index.iter().map(|(id, &index)| (id, &self.net[index].1))
+    }
+
+    /// All ids, sorted.
+    pub fn ids(&self) -> impl Iterator<Item = &NodeId> {
+        self.index.keys()
+    }
+
+    /// The node of that id.
+    pub fn node(&self, id: &str) -> Option<&Node> {
+        self.index.get(id).map(|&index| &self.net[index].1)
+    }
+
+    /// Who reads a node: each reading node with its input, sorted.
+    pub fn readers(&self, id: &str) -> Vec<SlotRef> {
+        let Some(&index) = self.index.get(id) else {
+            return Vec::new();
+        };
+        let mut readers: Vec<SlotRef> = self
+            .net
+            .edges_directed(index, Direction::Outgoing)
+            .map(|edge| SlotRef {
+                node: self.net[edge.target()].0.clone(),
+                name: edge.weight().clone(),
+            })
+            .collect();
+        readers.sort();
+        readers
+    }
+
+    /// All ids, each after those it reads; where several may come next, the smallest id does.
+    pub fn topological_order(&self) -> Vec<NodeId> {
+        // There are no circles: every link was checked.
+        self.ordered().unwrap_or_default()
+    }
+
+    /// Titled boxes, by id.
+    pub fn frames(&self) -> &BTreeMap<String, Frame> {
+        &self.frames
+    }
+
+    /// Published knobs, by name.
+    pub fn exposed(&self) -> &BTreeMap<String, Exposed> {
+        &self.exposed
+    }
+
+    /// Named settings of the knobs: for each variant, values by knob.
+    pub fn variants(&self) -> &BTreeMap<String, BTreeMap<String, Value>> {
+        &self.variants
+    }
+
+    /// The order, or the circle that keeps it from being.
+    fn ordered(&self) -> Result<Vec<NodeId>, Problem> {
+        let ids: Vec<&NodeId> = self.index.keys().collect();
+        let place: BTreeMap<NodeIndex, usize> = self.index.values().copied().zip(0..).collect();
+        let reads: Vec<Vec<usize>> = self
+            .index
+            .values()
+            .map(|&index| {
+                self.net
+                    .neighbors_directed(index, Direction::Incoming)
+                    .map(|source| place[&source])
+                    .collect()
+            })
+            .collect();
+        let named = |indices: Vec<usize>| indices.into_iter().map(|i| ids[i].clone()).collect();
+        match crate::order::topological(&ids, &reads) {
+            Ok(order) => Ok(named(order)),
+            Err(circle) => Err(Problem::Cycle { nodes: named(circle) }),
+        }
+    }
+
+    /// The petgraph index of a node, or the sentence that there is none.
+    pub(crate) fn find(&self, id: &str) -> Result<NodeIndex, Problem> {
+        self.index.get(id).copied().ok_or_else(|| self.no_such_node(id))
+    }
+
+    /// The sentence that there is no such node, with the nearest one.
+    pub(crate) fn no_such_node(&self, id: &str) -> Problem {
+        Problem::NoSuchNode {
+            name: shown(id),
+            hint: hint(id, self.index.keys().map(NodeId::as_str)),
+        }
+    }
+
+    /// The node of that id, to change anything but its links.
+    pub(crate) fn node_mut(&mut self, id: &NodeId) -> Result<&mut Node, Problem> {
+        let index = self.find(id.as_str())?;
+        Ok(&mut self.net[index].1)
+    }
+
+    /// Adds a node without its links; they are expected to be connected next.
+    pub(crate) fn insert(&mut self, id: NodeId, mut node: Node) -> Result<(), Problem> {
+        if self.index.contains_key(&id) {
+            return Err(Problem::NodeExists { id });
+        }
+        node.inputs.clear();
+        let index = self.net.add_node((id.clone(), node));
+        self.index.insert(id, index);
+        Ok(())
+    }
+
+    /// Takes out a node that nothing reads, links included.
+    pub(crate) fn take(&mut self, id: &NodeId) -> Result<Node, Problem> {
+        let index = self.find(id.as_str())?;
+        self.index.remove(id);
+        // The node was found just now.
+        Ok(self.net.remove_node(index).map(|(_, node)| node).unwrap_or_default())
+    }
+
+    /// Links an input without looking for circles; gives back the link that it replaces.
+    pub(crate) fn link(&mut self, reader: &NodeId, input: &str, from: OutputRef) -> Result<Option<OutputRef>, Problem> {
+        let target = self.find(reader.as_str())?;
+        let source = self.find(from.node.as_str())?;
+        if source == target {
+            return Err(Problem::SelfLink { id: reader.clone() });
+        }
+        let replaced = self.unlink(reader, input)?;
+        self.net.add_edge(source, target, input.to_owned());
+        self.net[target].1.inputs.insert(input.to_owned(), from);
+        Ok(replaced)
+    }
+
+    /// Unlinks an input; gives back the link that was there.
+    pub(crate) fn unlink(&mut self, reader: &NodeId, input: &str) -> Result<Option<OutputRef>, Problem> {
+        let target = self.find(reader.as_str())?;
+        let edge = self
+            .net
+            .edges_directed(target, Direction::Incoming)
+            .find(|edge| edge.weight() == input)
+            .map(|edge| edge.id());
+        if let Some(edge) = edge {
+            self.net.remove_edge(edge);
+        }
+        Ok(self.net[target].1.inputs.remove(input))
+    }
+
+    /// The circle that a link from `from` into `reader` would close, if it would.
+    pub(crate) fn circle_closed_by(&self, from: &NodeId, reader: &NodeId) -> Result<(), Problem> {
+        let (source, target) = (self.find(from.as_str())?, self.find(reader.as_str())?);
+        let mut came_from: BTreeMap<NodeIndex, NodeIndex> = BTreeMap::new();
+        let mut queue = VecDeque::from([target]);
+        while let Some(at) = queue.pop_front() {
+            if at == source {
+                let mut nodes = vec![self.net[at].0.clone()];
+                let mut step = at;
+                while let Some(&before) = came_from.get(&step) {
+                    step = before;
+                    nodes.push(self.net[step].0.clone());
+                }
+                nodes.reverse();
+                return Err(Problem::Cycle { nodes });
+            }
+            let mut next: Vec<NodeIndex> = self.net.neighbors_directed(at, Direction::Outgoing).collect();
+            next.sort_by_key(|&index| &self.net[index].0);
+            for reader in next {
+                if reader != target && !came_from.contains_key(&reader) {
+                    came_from.insert(reader, at);
+                    queue.push_back(reader);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses links that lead in a circle.
+    pub(crate) fn check_order(&self) -> Result<(), Problem> {
+        self.ordered().map(|_| ())
+    }
+}

@@ -1,0 +1,110 @@
+//! Undo and redo.
+
+use crate::{Document, Edit, EditError};
+
+/// What was done and can be undone, and what was undone and can be done again. Undo is a stack of inverse edits.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    undo: Vec<Step>,
+    redo: Vec<Step>,
+    /// A group of edits in the making.
+    open: Option<Step>,
+}
+
+/// One entry of a menu: its name, and the edits that take it back (or do it again), in the order to apply them.
+#[derive(Clone, Debug)]
+struct Step {
+    name: String,
+    edits: Vec<Edit>,
+}
+
+impl History {
+    /// An empty history.
+    pub fn new() -> Self {
+        History::default()
+    }
+
+    /// Makes an edit and remembers it under that name, or as part of the open group. What was undone is forgotten.
+    ///
+    /// # Errors
+    /// The edit was refused; nothing changed.
+    pub fn apply(&mut self, document: &mut Document, name: &str, edit: Edit) -> Result<(), EditError> {
+        let inverse = document.apply(edit)?;
+        self.redo.clear();
+        match &mut self.open {
+            Some(step) => step.edits.insert(0, inverse),
+            None => self.undo.push(Step {
+                name: name.to_owned(),
+                edits: vec![inverse],
+            }),
+        }
+        Ok(())
+    }
+
+    /// Opens a group: all edits until [`History::end`] are one step of that name. A group that is open is ended.
+    pub fn begin(&mut self, name: &str) {
+        self.end();
+        self.open = Some(Step {
+            name: name.to_owned(),
+            edits: Vec::new(),
+        });
+    }
+
+    /// Ends the open group, if there is one; a group without edits leaves no step.
+    pub fn end(&mut self) {
+        if let Some(step) = self.open.take()
+            && !step.edits.is_empty()
+        {
+            self.undo.push(step);
+        }
+    }
+
+    /// Takes the last step back; gives its name, or `None` when there is nothing to undo.
+    ///
+    /// # Errors
+    /// The document was changed past this history; it stays as it is.
+    pub fn undo(&mut self, document: &mut Document) -> Result<Option<String>, EditError> {
+        self.end();
+        replay(document, &mut self.undo, &mut self.redo)
+    }
+
+    /// Does the last undone step again; gives its name, or `None` when there is nothing to redo.
+    ///
+    /// # Errors
+    /// The document was changed past this history; it stays as it is.
+    pub fn redo(&mut self, document: &mut Document) -> Result<Option<String>, EditError> {
+        self.end();
+        replay(document, &mut self.redo, &mut self.undo)
+    }
+
+    /// Names of the steps that can be undone, the next one last.
+    pub fn undo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
+        self.undo.iter().chain(&self.open).map(|step| step.name.as_str())
+    }
+
+    /// Names of the steps that can be done again, the next one last.
+    pub fn redo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
+        self.redo.iter().map(|step| step.name.as_str())
+    }
+}
+
+/// Applies the top step of one stack and puts its inverse on the other.
+fn replay(document: &mut Document, from: &mut Vec<Step>, to: &mut Vec<Step>) -> Result<Option<String>, EditError> {
+    let Some(step) = from.pop() else {
+        return Ok(None);
+    };
+    match document.apply(Edit::Batch(step.edits.clone())) {
+        Ok(inverse) => {
+            let name = step.name;
+            to.push(Step {
+                name: name.clone(),
+                edits: vec![inverse],
+            });
+            Ok(Some(name))
+        }
+        Err(error) => {
+            from.push(step);
+            Err(error)
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! "Did you mean": the candidate that a mistyped word most likely stands for.
+
+/// Words longer than this, in characters, are not compared.
+const LENGTH_LIMIT: usize = 64;
+
+/// The candidate nearest to `word` by typing slips (a letter more, less, other, or two swapped; case counts for
+/// nothing), or that `word` is the beginning of; `None` when none is near. The first of equals wins.
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word = letters(word)?;
+    // One slip in three letters still reads as the same word; short words may have one.
+    let most = (word.len() / 3).max(1);
+    candidates
+        .into_iter()
+        .filter_map(|candidate| {
+            let letters = letters(candidate)?;
+            let slips = distance(&word, &letters);
+            // Ids end in a random tail that people leave out.
+            let begins = word.len() >= 3 && letters.starts_with(&word);
+            // A word of which every letter changed is another word.
+            let related = slips <= most && slips < word.len().max(letters.len());
+            match (begins, related) {
+                (true, _) => Some((slips.min(most), candidate)),
+                (false, true) => Some((slips, candidate)),
+                (false, false) => None,
+            }
+        })
+        .min_by_key(|(slips, _)| *slips)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Lower-case letters of a word; `None` when it is empty or longer than any name.
+fn letters(word: &str) -> Option<Vec<char>> {
+    let letters: Vec<char> = word
+        .chars()
+        .take(LENGTH_LIMIT + 1)
+        .flat_map(char::to_lowercase)
+        .collect();
+    (!letters.is_empty() && letters.len() <= LENGTH_LIMIT).then_some(letters)
+}
+
+/// Optimal string alignment distance: insertions, deletions, changes, and swaps of neighbors, each costing 1.
+fn distance(a: &[char], b: &[char]) -> usize {
+    let mut before_last: Vec<usize> = Vec::new();
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = vec![i + 1];
+        for j in 0..b.len() {
+            let change = last[j] + usize::from(a[i] != b[j]);
+            let mut best = change.min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                best = best.min(before_last[j - 1] + 1);
+            }
+            row.push(best);
+        }
+        before_last = std::mem::replace(&mut last, row);
+    }
+    last[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_of_the_fingers_finds_its_word() {
+        let known = ["amount", "roughness", "mask", "worn_p2dd", "color"];
+        for (word, found) in [
+            ("amont", Some("amount")),
+            ("Amount", Some("amount")),
+            ("ruoghness", Some("roughness")),
+            ("colour", Some("color")),
+            ("worn", Some("worn_p2dd")),
+            ("msk", Some("mask")),
+            ("xy", None),
+            ("", None),
+            ("height", None),
+        ] {
+            assert_eq!(nearest(word, known), found, "{word}");
+        }
+        assert_eq!(nearest("a", ["b"]), None);
+    }
+
+    #[test]
+    fn an_endless_word_costs_nothing() {
+        assert_eq!(nearest(&"a".repeat(50_000_000), ["aaaa"]), None);
+    }
+}

@@ -1,0 +1,161 @@
+//! What can be wrong with a graph, in files and in edits alike.
+
+use crate::id::NodeId;
+
+/// Why a node, link, knob or port cannot be.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Problem {
+    /// A node id with other characters, or of another length.
+    #[error("{id} cannot be a node's id; use 1 to 64 of the characters a-z, 0-9 and _")]
+    BadId {
+        /// The id, quoted.
+        id: String,
+    },
+    /// A port name that no link could name.
+    #[error("{name} cannot be the name of a port; use 1 to 64 characters without dots and slashes")]
+    BadPortName {
+        /// The name, quoted.
+        name: String,
+    },
+    /// Not `node.name`.
+    #[error("{text} names no parameter or input; write the node's id, a dot and the name, as in \"edges.width\"")]
+    BadSlot {
+        /// The text, quoted.
+        text: String,
+    },
+    /// A name of a knob, variant, frame or group that could not be written elsewhere.
+    #[error("{name} cannot be the name of a {what}; use 1 to 200 characters, {without}")]
+    BadName {
+        /// What was to be named.
+        what: &'static str,
+        /// The name, quoted.
+        name: String,
+        /// The characters that are not allowed.
+        without: &'static str,
+    },
+    /// A node without a kind.
+    #[error("the node has no kind; give it one, as in \"kind\": \"noise/simplex\"")]
+    NoKind,
+    /// Two nodes with one id.
+    #[error("there is a node \"{id}\" already; choose another id")]
+    NodeExists {
+        /// The id.
+        id: NodeId,
+    },
+    /// Something names a node that is not there.
+    #[error("there is no node {name}{hint}")]
+    NoSuchNode {
+        /// The name, quoted.
+        name: String,
+        /// The nearest id, as a question.
+        hint: String,
+    },
+    /// A node that reads itself.
+    #[error("node \"{id}\" cannot read its own result; connect another node")]
+    SelfLink {
+        /// The node.
+        id: NodeId,
+    },
+    /// Links that lead in a circle.
+    #[error("the nodes feed each other in a circle: {}; remove one of these links", arrows(.nodes))]
+    Cycle {
+        /// The nodes of the circle in the order of the flow, each once.
+        nodes: Vec<NodeId>,
+    },
+    /// An instance of a group that is not there.
+    #[error("there is no group {name}{hint}; define it under \"groups\", or name a .sabi file")]
+    NoSuchGroup {
+        /// The name, quoted.
+        name: String,
+        /// The nearest group, as a question.
+        hint: String,
+    },
+    /// A node of kind `graph/group` that does not say which.
+    #[error("the node is a group instance but names no group; add \"group\": \"name or file.sabi\"")]
+    GroupNotNamed,
+    /// A variant that sets a knob that is not exposed.
+    #[error("variant {variant} sets {knob}, which is not exposed{hint}")]
+    NotExposed {
+        /// The variant, quoted.
+        variant: String,
+        /// The name it sets, quoted.
+        knob: String,
+        /// The nearest knob, as a question.
+        hint: String,
+    },
+    /// A range whose ends are the wrong way round.
+    #[error("the range of knob {knob} is empty; write the lower end first")]
+    EmptyRange {
+        /// The knob, quoted.
+        knob: String,
+    },
+    /// Two inputs of a group that feed one place.
+    #[error("group inputs \"{first}\" and \"{second}\" both feed {slot}; let only one of them do so")]
+    FedTwice {
+        /// One group input.
+        first: String,
+        /// The other.
+        second: String,
+        /// `node.input`.
+        slot: String,
+    },
+    /// A number that no file can hold, or a value nested too deep.
+    #[error(
+        "the value of {name} cannot be kept: numbers must be finite and below 3.4e38, lists nested at most 64 levels"
+    )]
+    BadValue {
+        /// What it was for, quoted.
+        name: String,
+    },
+}
+
+/// `a → b → a`, at most sixteen nodes long.
+fn arrows(nodes: &[NodeId]) -> String {
+    let mut text = String::new();
+    for id in nodes.iter().take(16) {
+        text.push_str(id.as_str());
+        text.push_str(" → ");
+    }
+    if nodes.len() > 16 {
+        text.push_str("… → ");
+    }
+    text.push_str(nodes.first().map_or("", NodeId::as_str));
+    text
+}
+
+/// A text in quotes for a message, with control characters escaped and cut to a length people read.
+pub(crate) fn shown(text: &str) -> String {
+    const LONGEST: usize = 80;
+    let mut cut: String = text.chars().take(LONGEST).collect();
+    if cut.len() < text.len() {
+        cut.push('…');
+    }
+    format!("{cut:?}")
+}
+
+/// `; did you mean "x"?`, or nothing.
+pub(crate) fn hint<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    match crate::nearest(word, candidates) {
+        Some(near) => format!("; did you mean {}?", shown(near)),
+        None => String::new(),
+    }
+}
+
+/// Names in quotes with commas, at most twelve.
+pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    const MOST: usize = 12;
+    let mut shown_names: Vec<String> = Vec::new();
+    let mut more = 0_usize;
+    for name in names {
+        if shown_names.len() < MOST {
+            shown_names.push(shown(name));
+        } else {
+            more += 1;
+        }
+    }
+    match (shown_names.is_empty(), more) {
+        (true, _) => "none".to_owned(),
+        (false, 0) => shown_names.join(", "),
+        (false, _) => format!("{} and {more} more", shown_names.join(", ")),
+    }
+}

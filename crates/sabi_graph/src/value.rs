@@ -1,0 +1,227 @@
+//! What a parameter holds: JSON's values, with numbers in one canonical form.
+
+use std::collections::BTreeMap;
+
+/// A JSON-like value, as parameters and unknown keys hold it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// `null`
+    Null,
+    /// `true` or `false`
+    Bool(bool),
+    /// A finite number; files keep whole numbers below 2⁵³ exactly and all others at `f32` precision.
+    Number(f64),
+    /// A string.
+    Text(String),
+    /// A list.
+    List(Vec<Value>),
+    /// An object; keys are sorted.
+    Object(BTreeMap<String, Value>),
+}
+
+/// Whole numbers up to here are exact in a file.
+const WHOLE_LIMIT: f64 = 9_007_199_254_740_992.0;
+
+/// Values nested deeper than this are refused, so that every document that can be made can be read back.
+pub(crate) const DEPTH_LIMIT: usize = 64;
+
+/// The number that a file keeps for `x`: whole numbers below 2⁵³ as they are, others as their shortest `f32` text
+/// read back; no negative zero. `None` when `x` is not finite or too large for an `f32`.
+pub fn canonical_number(x: f64) -> Option<f64> {
+    if x.fract() == 0.0 && x.abs() < WHOLE_LIMIT {
+        return Some(x + 0.0);
+    }
+    // A float's shortest text is always read back as a float; infinite and undefined ones stop here.
+    let single = x as f32;
+    if !single.is_finite() {
+        return None;
+    }
+    let read_back: f64 = single.to_string().parse().ok()?;
+    Some(read_back + 0.0)
+}
+
+/// The canonical text of a number; `null` for what no file can hold.
+pub(crate) fn number_text(x: f64) -> String {
+    match canonical_number(x) {
+        // `Display` writes no exponents and the shortest digits that give the same number back.
+        Some(x) => x.to_string(),
+        None => "null".to_owned(),
+    }
+}
+
+impl Value {
+    /// This value as a file keeps it (see [`canonical_number`]), or `None` when a number in it is not finite or beyond
+    /// `f32`, or when it is nested deeper than 64 levels.
+    pub fn canonical(self) -> Option<Value> {
+        self.canonical_within(DEPTH_LIMIT)
+    }
+
+    fn canonical_within(self, depth: usize) -> Option<Value> {
+        let inner = depth.checked_sub(1)?;
+        Some(match self {
+            Value::Number(x) => Value::Number(canonical_number(x)?),
+            Value::List(items) => Value::List(
+                items
+                    .into_iter()
+                    .map(|item| item.canonical_within(inner))
+                    .collect::<Option<_>>()?,
+            ),
+            Value::Object(members) => Value::Object(
+                members
+                    .into_iter()
+                    .map(|(key, item)| Some((key, item.canonical_within(inner)?)))
+                    .collect::<Option<_>>()?,
+            ),
+            other => other,
+        })
+    }
+
+    /// The number, if this is one.
+    pub fn as_number(&self) -> Option<f64> {
+        match self {
+            Value::Number(x) => Some(*x),
+            _ => None,
+        }
+    }
+
+    /// The number as a `u32`, if this is a whole one in range.
+    pub fn as_u32(&self) -> Option<u32> {
+        match self {
+            Value::Number(x) if x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(x) => Some(*x as u32),
+            _ => None,
+        }
+    }
+
+    /// The text, if this is one.
+    pub fn as_text(&self) -> Option<&str> {
+        match self {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The truth value, if this is one.
+    pub fn as_bool(&self) -> Option<bool> {
+        match self {
+            Value::Bool(yes) => Some(*yes),
+            _ => None,
+        }
+    }
+
+    /// The items, if this is a list.
+    pub fn as_list(&self) -> Option<&[Value]> {
+        match self {
+            Value::List(items) => Some(items),
+            _ => None,
+        }
+    }
+
+    /// What this is, with its article, for messages: `a number`, `a list`.
+    pub fn sort(&self) -> &'static str {
+        match self {
+            Value::Null => "null",
+            Value::Bool(_) => "true or false",
+            Value::Number(_) => "a number",
+            Value::Text(_) => "a text",
+            Value::List(_) => "a list",
+            Value::Object(_) => "an object",
+        }
+    }
+
+    /// Reads one JSON value, as on a command line; `None` when the text is not JSON or cannot be kept (see
+    /// [`Value::canonical`]).
+    pub fn from_json(text: &str) -> Option<Value> {
+        crate::json::parse(text).ok()?.into_value().canonical()
+    }
+
+    /// Canonical text on one line: `[0.5, "#804020"]`.
+    pub fn to_json(&self) -> String {
+        crate::layout::one_line(self)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(yes: bool) -> Self {
+        Value::Bool(yes)
+    }
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Value::Number(x)
+    }
+}
+
+impl From<u32> for Value {
+    fn from(x: u32) -> Self {
+        Value::Number(f64::from(x))
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Value::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Value::Text(text)
+    }
+}
+
+impl<T: Into<Value>> From<Vec<T>> for Value {
+    fn from(items: Vec<T>) -> Self {
+        Value::List(items.into_iter().map(Into::into).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_print_in_their_one_canonical_form() {
+        for (x, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1"),
+            (-3.0, "-3"),
+            (0.1, "0.1"),
+            (f64::from(0.1f32), "0.1"),
+            (1.0 / 3.0, "0.33333334"),
+            (4_294_967_295.0, "4294967295"),
+            (9_007_199_254_740_991.0, "9007199254740991"),
+            (1e20, "100000000000000000000"),
+            (1e-60, "0"),
+            (-1e-60, "0"),
+            (f64::NAN, "null"),
+            (1e300, "null"),
+        ] {
+            assert_eq!(number_text(x), text, "{x:e}");
+        }
+    }
+
+    #[test]
+    fn every_float_reads_back_as_itself() {
+        for bits in (0..=u32::MAX).step_by(1_000_003) {
+            let x = f32::from_bits(bits);
+            if x.is_finite() {
+                let text = number_text(f64::from(x));
+                assert_eq!(text.parse::<f32>().unwrap(), x, "{text}");
+                assert_eq!(number_text(text.parse().unwrap()), text);
+            }
+        }
+    }
+
+    #[test]
+    fn what_a_file_cannot_hold_is_not_canonical() {
+        assert_eq!(Value::Number(f64::INFINITY).canonical(), None);
+        let deep = (0..100).fold(Value::Null, |inner, _| Value::List(vec![inner]));
+        assert_eq!(deep.canonical(), None);
+        assert_eq!(
+            Value::from(vec![1.0 / 3.0]).canonical(),
+            Some(Value::from(vec![0.33333334]))
+        );
+    }
+}
