@@ -1,8 +1,9 @@
 //! Solid noise: where it is read, how fine it may be, simplex noise, and masks that mean coverage.
 //! @use hash
 
-/// Sines and cosines of three angles, radians. Polynomials after reduction to an eighth of a turn (error below 1e-6), since the
-/// built-in functions may differ by 2⁻¹¹ from adapter to adapter, which fine noise turns into another picture.
+/// Sines and cosines of three angles, radians. Polynomials after reduction to an eighth of a turn (error below 1e-6),
+/// since the built-in functions may differ by 2⁻¹¹ from adapter to adapter, which fine noise turns into another
+/// picture.
 struct Turn {
     sine: vec3f,
     cosine: vec3f,
@@ -26,8 +27,8 @@ fn turn_of(angle: vec3f) -> Turn {
     );
 }
 
-/// The place in the noise's own space: turns the pattern by `rotate` (radians; about x, then y, then z) and draws it out by
-/// `stretch` along its own axes.
+/// The place in the noise's own space: turns the pattern by `rotate` (radians; about x, then y, then z) and draws it
+/// out by `stretch` along its own axes.
 fn noise_place(position: vec3f, stretch: vec3f, rotate: vec3f) -> vec3f {
     let turn = turn_of(rotate);
     // The pattern is turned forward by looking it up backward: z first, then y, then x.
@@ -55,7 +56,8 @@ fn wrapped(place: vec3f) -> vec3f {
     return place - 65536.0 * round(place * 1.52587890625e-5);
 }
 
-/// The cell a place lies in, decided in 1/65536 of a cell, so that adapters that round the place alike agree on the cell.
+/// The cell a place lies in, decided in 1/65536 of a cell, so that adapters that round the place alike agree on the
+/// cell.
 fn cell_of(place: vec3f) -> vec3i {
     return vec3i(round(place * 65536.0)) >> vec3u(16u);
 }
@@ -85,16 +87,18 @@ fn simplex_corner(base: vec3u, offset: vec3f) -> f32 {
     return near_square * near_square * slope;
 }
 
-/// Simplex noise in three dimensions, one feature a unit: mean 0, standard deviation 1, continuous with its first derivatives.
+/// Simplex noise in three dimensions, one feature a unit: mean 0, standard deviation 1, continuous with its first
+/// derivatives.
 ///
-/// The cell is chosen in floats: a place on a border gives the same value from both sides, so nothing hangs on the choice.
+/// The cell is chosen in floats: a place on a border gives the same value from both sides, so nothing hangs on the
+/// choice.
 fn simplex_noise(place: vec3f, key: vec3u) -> f32 {
     let skewed = place + (place.x + place.y + place.z) * 0.33333333;
     let cell = floor(skewed);
     let inside = skewed - cell;
     let offset = inside - (inside.x + inside.y + inside.z) * 0.16666667;
-    // The order of the coordinates says which two of the cube's other corners the simplex has. The last comparison is strict,
-    // so that equal coordinates still make an order.
+    // The order of the coordinates says which two of the cube's other corners the simplex has. The last comparison is
+    // strict, so that equal coordinates still make an order.
     let greater = vec3u(
         select(0u, 1u, inside.x >= inside.y),
         select(0u, 1u, inside.y >= inside.z),

@@ -1,8 +1,8 @@
 //! Cells
 //! Distance to the nearest of many points scattered through space: pits, pebbles, scales.
 //!
-//! Each cube of space holds one point; the mask is 0 at a point and grows to about 1 where cells meet. Cells that the texels cannot
-//! carry fade to their mean.
+//! Each cube of space holds one point; the mask is 0 at a point and grows to about 1 where cells meet. Cells that the
+//! texels cannot carry fade to their mean.
 //! @alias worley voronoi cellular pebbles pits scales spots
 //! @use noise
 
@@ -10,7 +10,8 @@ struct Params {
     /// Mean distance of neighboring points.
     /// @length @range 0.0001 100 @soft 0.01 0.5 @default 0.1
     size: f32,
-    /// Above 1 only the borders between cells stay bright, as narrow ridges; below 1 only the points stay dark, as pits.
+    /// Above 1 only the borders between cells stay bright, as narrow ridges; below 1 only the points stay dark, as
+    /// pits.
     /// @range 0.05 20 @soft 0.2 5 @default 1
     sharpness: f32,
     /// How far the points stray from a regular grid.
@@ -49,8 +50,8 @@ fn sharpened(x: f32, sharpness: f32) -> f32 {
     return x / (x + sharpness * (1.0 - x));
 }
 
-// The mean of the mask over space, to second order in the spread of the distance. Mean and variance (0.028) of the distance were
-// measured over a million places for each of five jitters.
+// The mean of the mask over space, to second order in the spread of the distance. Mean and variance (0.028) of the
+// distance were measured over a million places for each of five jitters.
 fn mean_sharpened(jitter: f32, sharpness: f32) -> f32 {
     let mean = 0.520 + 0.0346 * (1.0 - jitter) * (1.0 - jitter);
     let rest = sharpness + (1.0 - sharpness) * mean;
@@ -63,11 +64,13 @@ struct Nearest {
     id: u32,
 }
 
-// The nearest point, in cells. Exact: along each axis the cells are taken in the order of their distance, own cell first, and an
-// axis is left as soon as its cells are further away than the nearest point so far. The own cell's point is less than two cells
-// away, so two cells to each side are enough; about a dozen of the 125 are looked at.
+// The nearest point, in cells. Exact: along each axis the cells are taken in the order of their distance, own cell
+// first, and an axis is left as soon as its cells are further away than the nearest point so far. The own cell's point
+// is less than two cells away, so two cells to each side are enough; about a dozen of the 125 are looked at.
 fn nearest_point(position: vec3f, params: Params) -> Nearest {
-    let place = wrapped(noise_place(position, params.stretch, params.rotate) / params.size + vec3f(0.2713, 0.3137, 0.2299));
+    // Part of a cell away from the origin, where flat sides of models like to lie.
+    let offset = vec3f(0.2713, 0.3137, 0.2299);
+    let place = wrapped(noise_place(position, params.stretch, params.rotate) / params.size + offset);
     let key = seed_key(params.seed);
     let cell = cell_of(place);
     let inside = place - vec3f(cell);
@@ -109,8 +112,8 @@ fn axis_step(index: i32, side: i32) -> i32 {
     return ((index + 1) >> 1u) * select(-side, side, (index & 1) == 1);
 }
 
-// Distance to the cell at that offset, when the nearer border is `border` away. A hair less than the truth: rounding must not
-// leave out a cell.
+// Distance to the cell at that offset, when the nearer border is `border` away. A hair less than the truth: rounding
+// must not leave out a cell.
 fn axis_distance(index: i32, border: f32) -> f32 {
     let cells = f32((index + 1) >> 1u);
     let away = select(cells - border, cells - 1.0 + border, (index & 1) == 1);

@@ -1,9 +1,9 @@
 //! Clouds
 //! Cloudy noise with detail of many sizes, the base of most natural wear.
 //!
-//! Fractal simplex noise: octaves of ever finer noise on top of each other. The result is a mask whose threshold is the covered
-//! share: a threshold at 0.3 leaves about 30 % of the surface below it. Detail finer than the texels fades out evenly, so a small
-//! map is what a large one looks like from afar.
+//! Fractal simplex noise: octaves of ever finer noise on top of each other. The result is a mask whose threshold is the
+//! covered share: a threshold at 0.3 leaves about 30 % of the surface below it. Detail finer than the texels fades out
+//! evenly, so a small map is what a large one looks like from afar.
 //! @alias clouds perlin fbm fractal billow ridged turbulence simplex
 //! @use noise
 
@@ -38,9 +38,10 @@ struct Params {
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
 fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
     var key = seed_key(params.seed);
-    // Turned off the model's axes, along which the lattice would show on flat sides, and moved by an offset of its own for each
-    // seed, since all simplex noises are zero at the origin.
-    var place = finer(noise_place(position, params.stretch, params.rotate) / params.size, 1.0) + unit_random3(pcg3d(key));
+    // Turned off the model's axes, along which the lattice would show on flat sides, and moved by an offset of its own
+    // for each seed, since all simplex noises are zero at the origin.
+    var place = finer(noise_place(position, params.stretch, params.rotate) / params.size, 1.0);
+    place += unit_random3(pcg3d(key));
     var wavelength = params.size * finest_stretch(params.stretch);
     var weight = 1.0;
     var sum = 0.0;
@@ -81,8 +82,8 @@ fn finer(place: vec3f, step: f32) -> vec3f {
     return turned * step + vec3f(0.37, 0.61, 0.83);
 }
 
-// 1.732 where the noise is zero, falling to -1.732 at its extremes, evenly spread: mean 0, standard deviation 1. The polynomial is
-// the share of places with a smaller |noise|, fitted to 4 million of them (error 0.005).
+// 1.732 where the noise is zero, falling to -1.732 at its extremes, evenly spread: mean 0, standard deviation 1. The
+// polynomial is the share of places with a smaller |noise|, fitted to 4 million of them (error 0.005).
 fn crease_of(noise: f32) -> f32 {
     let x = min(abs(noise), 2.5);
     let rank = x * (0.838763 + x * (-0.010578 + x * (-0.259687 + x * (0.126188 - x * 0.0195282))));
@@ -94,13 +95,14 @@ fn ridge_detail(crease: f32) -> f32 {
     return 0.8660254 + 0.5 * crease;
 }
 
-// The share of the noise that lies below `deviation`; `peaked` is the sum of the fourth powers of the weights over the squared sum
-// of their squares: 1 for a single octave, 0.6 by default. The corrections were fitted to half a million random places for gains
-// of 0.3 to 1 and 1 to 8 octaves. The share is then wrong by at most (single octave; by default): fbm 0.010 and 0.004, billow
-// 0.029 and 0.004, ridged 0.052 (two octaves) and 0.027.
+// The share of the noise that lies below `deviation`; `peaked` is the sum of the fourth powers of the weights over the
+// squared sum of their squares: 1 for a single octave, 0.6 by default. The corrections were fitted to half a million
+// random places for gains of 0.3 to 1 and 1 to 8 octaves. The share is then wrong by at most (single octave; by
+// default): fbm 0.010 and 0.004, billow 0.029 and 0.004, ridged 0.052 (two octaves) and 0.027.
 fn evened(deviation: f32, peaked: f32, mode: u32) -> f32 {
     let x = clamp(deviation, -3.5, 3.5);
-    // Sums of few evenly spread octaves have short tails (excess kurtosis -1.2 × peaked), ridges a long one above (skew 0.47).
+    // Sums of few evenly spread octaves have short tails (excess kurtosis -1.2 × peaked), ridges a long one above (skew
+    // 0.47).
     let short_tails = peaked * x * (0.1212 * x * x - 0.2916);
     let long_tail = (1.0 - peaked) * 0.2 * (1.0 - x * x);
     return normal_share(x + select(0.0, short_tails, mode != 0u) + select(0.0, long_tail, mode == 2u));

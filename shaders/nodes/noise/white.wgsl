@@ -1,8 +1,8 @@
 //! Grains
 //! A random value for each small cube of space.
 //!
-//! The cubes stand in the model's space, so the pattern is the same at every resolution. Where they are smaller than the texels,
-//! the mask fades to its mean, as the eye would average it.
+//! The cubes stand in the model's space, so the pattern is the same at every resolution. Where they are smaller than
+//! the texels, the mask fades to its mean, as the eye would average it.
 //! @alias white random static speckle sand value
 //! @use noise
 
@@ -36,7 +36,8 @@ fn id(position: vec3f, params: Params) -> f32 {
 }
 
 fn grain(position: vec3f, params: Params) -> vec3u {
-    // A quarter of a cube away from the origin, where flat sides of models like to lie: on a border, rounding would decide.
+    // A quarter of a cube away from the origin, where flat sides of models like to lie: on a border, rounding would
+    // decide.
     let place = noise_place(position, params.stretch, params.rotate) / params.size + vec3f(0.2713, 0.3137, 0.2299);
     return cell_random(cell_of(wrapped(place)), seed_key(params.seed));
 }

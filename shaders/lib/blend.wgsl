@@ -1,0 +1,64 @@
+//! Blending: true interpolation, in linear light, between what is below and what a mode makes of it.
+//!
+//! The modes, in the order in which every node offers them: normal, add, subtract, multiply, screen, overlay,
+//! soft_light, hard_light, min, max, difference, divide.
+
+/// What a mode makes of the value below and the value above, before any mask weighs it.
+fn blend_mode(below: f32, above: f32, mode: u32) -> f32 {
+    switch mode {
+        case 1u: { return below + above; }
+        case 2u: { return below - above; }
+        case 3u: { return below * above; }
+        case 4u: { return below + above - below * above; }
+        case 5u: { return hard_light(above, below); }
+        // Without the root of the usual formula, which has a kink: multiply and screen, mixed by what is below.
+        case 6u: { return below * (below + 2.0 * above * (1.0 - below)); }
+        case 7u: { return hard_light(below, above); }
+        case 8u: { return min(below, above); }
+        case 9u: { return max(below, above); }
+        case 10u: { return abs(below - above); }
+        // Nothing divides by less than a thousandth, so the result stays finite.
+        case 11u: { return below / max(above, 1e-3); }
+        default: { return above; }
+    }
+}
+
+/// Multiply below the middle of what is above, screen above it.
+fn hard_light(below: f32, above: f32) -> f32 {
+    let doubled = 2.0 * above;
+    return select(below * doubled, below + (doubled - 1.0) * (1.0 - below), above > 0.5);
+}
+
+/// How much a mask lets through: clamped to 0..1 here, and only here.
+fn blend_weight(mask: f32, opacity: f32) -> f32 {
+    return clamp(mask, 0.0, 1.0) * opacity;
+}
+
+/// A value blended over another: exactly `below` at weight 0, exactly the mode's result at weight 1.
+fn blend_value(below: f32, above: f32, mode: u32, weight: f32) -> f32 {
+    return mix(below, blend_mode(below, above, mode), weight);
+}
+
+/// A linear color blended over another, each component for itself.
+fn blend_color(below: vec3f, above: vec3f, mode: u32, weight: f32) -> vec3f {
+    let blended = vec3f(
+        blend_mode(below.x, above.x, mode),
+        blend_mode(below.y, above.y, mode),
+        blend_mode(below.z, above.z, mode),
+    );
+    return mix(below, blended, weight);
+}
+
+/// `above` over `below`, every channel, the slope and the height included.
+fn blend_material(below: Material, above: Material, weight: f32) -> Material {
+    return Material(
+        mix(below.base_color, above.base_color, weight),
+        mix(below.alpha, above.alpha, weight),
+        mix(below.roughness, above.roughness, weight),
+        mix(below.metallic, above.metallic, weight),
+        mix(below.occlusion, above.occlusion, weight),
+        mix(below.height, above.height, weight),
+        mix(below.slope, above.slope, weight),
+        mix(below.emission, above.emission, weight),
+    );
+}

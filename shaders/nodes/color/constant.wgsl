@@ -1,0 +1,15 @@
+//! Color
+//! One color everywhere.
+//!
+//! @alias color constant solid fill
+
+struct Params {
+    /// The color.
+    /// @color @default #808080
+    color: vec3f,
+}
+
+/// The color.
+fn color(params: Params) -> vec3f {
+    return params.color;
+}

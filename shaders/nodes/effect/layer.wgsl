@@ -1,0 +1,126 @@
+//! Layer
+//! Puts an effect such as rust, dust or paint over a material, where a mask says so.
+//!
+//! Each channel has its own value, mode and switch. A channel's result lies between what is below and what the mode
+//! makes of both, in linear light, as far as the mask and Opacity let it: where the mask is 0 nothing changes, and a
+//! soft mask has no fringe.
+//! @alias layer effect rust dirt dust paint coat fill
+//! @use blend
+
+struct Params {
+    /// Color of the layer; Color map is multiplied by it.
+    /// @color @default #808080
+    color: vec3f,
+    /// How the color goes over what is below.
+    /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
+    /// @default normal
+    color_mode: u32,
+    /// Whether the layer changes the color.
+    /// @toggle @default on
+    color_on: u32,
+    /// Roughness of the layer: 0 is a mirror, 1 is chalk; Roughness map is multiplied by it.
+    /// @range 0 1 @default 0.7
+    roughness: f32,
+    /// How the roughness goes over what is below.
+    /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
+    /// @default normal
+    roughness_mode: u32,
+    /// Whether the layer changes the roughness.
+    /// @toggle @default on
+    roughness_on: u32,
+    /// How metallic the layer is: 0 is everything but metal, 1 is bare metal; Metallic map is multiplied by it.
+    /// @range 0 1 @default 0
+    metallic: f32,
+    /// How the metallic goes over what is below.
+    /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
+    /// @default normal
+    metallic_mode: u32,
+    /// Whether the layer changes the metallic.
+    /// @toggle @default on
+    metallic_on: u32,
+    /// Height of the layer; Height map is multiplied by it. Below 0 it is sunk in.
+    /// @length @range -100 100 @soft -0.05 0.05 @default 0
+    height: f32,
+    /// How the height goes over what is below.
+    /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
+    /// @default add
+    height_mode: u32,
+    /// Whether the layer changes the height.
+    /// @toggle @default on
+    height_on: u32,
+    /// How opaque the layer is: 0 makes holes.
+    /// @range 0 1 @default 1
+    alpha: f32,
+    /// How the opacity of the material goes over what is below.
+    /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
+    /// @default normal
+    alpha_mode: u32,
+    /// Whether the layer changes the opacity of the material.
+    /// @toggle @default off
+    alpha_on: u32,
+    /// Color of the light that the layer gives off.
+    /// @color @default #ffffff
+    emission: vec3f,
+    /// How the emitted light goes over what is below.
+    /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
+    /// @default normal
+    emission_mode: u32,
+    /// Whether the layer changes the emitted light.
+    /// @toggle @default off
+    emission_on: u32,
+    /// Multiplies the emitted light.
+    /// @range 0 1000 @soft 0 10 @default 1
+    emission_strength: f32,
+    /// What becomes of the relief in the model's own normal map: kept, or flattened as by a thick coat.
+    /// @label Normal map @choice keep flatten @default keep
+    slope_mode: u32,
+    /// How much of the layer is used.
+    /// @range 0 1 @default 1
+    opacity: f32,
+}
+
+/// The material with the layer on it.
+/// @input base The material underneath. @optional
+/// @input mask Where the layer lies. @optional @default 1
+/// @input color_map Colors of the layer. @optional @default #ffffff
+/// @input roughness_map Multiplies the roughness of the layer. @optional @default 1
+/// @input metallic_map Multiplies how metallic the layer is. @optional @default 1
+/// @input height_map Multiplies the height of the layer. @optional @default 1
+fn material(
+    base: Material,
+    mask: f32,
+    color_map: vec3f,
+    roughness_map: f32,
+    metallic_map: f32,
+    height_map: f32,
+    params: Params,
+) -> Material {
+    let weight = blend_weight(mask, params.opacity);
+    var result = base;
+    if params.color_on != 0u {
+        let blended = blend_color(base.base_color, params.color * color_map, params.color_mode, weight);
+        result.base_color = max(blended, vec3f(0.0));
+    }
+    if params.roughness_on != 0u {
+        let blended = blend_value(base.roughness, params.roughness * roughness_map, params.roughness_mode, weight);
+        result.roughness = clamp(blended, 0.0, 1.0);
+    }
+    if params.metallic_on != 0u {
+        let blended = blend_value(base.metallic, params.metallic * metallic_map, params.metallic_mode, weight);
+        result.metallic = clamp(blended, 0.0, 1.0);
+    }
+    if params.height_on != 0u {
+        result.height = blend_value(base.height, params.height * height_map, params.height_mode, weight);
+    }
+    if params.alpha_on != 0u {
+        result.alpha = clamp(blend_value(base.alpha, params.alpha, params.alpha_mode, weight), 0.0, 1.0);
+    }
+    if params.emission_on != 0u {
+        let light = params.emission * params.emission_strength;
+        result.emission = max(blend_color(base.emission, light, params.emission_mode, weight), vec3f(0.0));
+    }
+    if params.slope_mode != 0u {
+        result.slope = base.slope * (1.0 - weight);
+    }
+    return result;
+}

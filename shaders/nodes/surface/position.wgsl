@@ -1,0 +1,39 @@
+//! Height ramp
+//! A ramp over the model along one direction, such as from the ground to the top.
+//!
+//! 0 and 1 of Low and High are the ends of the model, whatever its size, so the ramp fits any model.
+//! @alias position height ramp gradient ground bottom top altitude
+
+struct Params {
+    /// The way the ramp runs, in model space.
+    /// @range -1 1 @default 0 1 0
+    along: vec3f,
+    /// Where the ramp is 0, as a share of the model's extent.
+    /// @range -10 10 @soft 0 1 @default 0
+    low: f32,
+    /// Where the ramp is 1, as a share of the model's extent; below Low, the ramp runs the other way.
+    /// @range -10 10 @soft 0 1 @default 1
+    high: f32,
+    /// Where the model begins along the direction.
+    /// @extent along
+    extent_low: f32,
+    /// Where the model ends along the direction.
+    /// @extent along
+    extent_high: f32,
+}
+
+/// The ramp, 0 to 1.
+fn mask(at: Surface, params: Params) -> f32 {
+    let along = params.along * inverseSqrt(max(dot(params.along, params.along), 1e-20));
+    let extent = max(params.extent_high - params.extent_low, 1e-9);
+    let share = (dot(at.position, along) - params.extent_low) / extent;
+    let length = params.high - params.low;
+    // A ramp without length is a step, not a division by zero.
+    return clamp((share - params.low) / select(length, 1e-6, abs(length) < 1e-6), 0.0, 1.0);
+}
+
+/// The place itself, to move it or to read noises somewhere else.
+/// @vector
+fn position(at: Surface) -> vec3f {
+    return at.position;
+}
