@@ -1,3 +1,41 @@
-//! Set-up, tests, demo and assets.
+//! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`.
 
-fn main() {}
+mod assets;
+mod checks;
+mod demo;
+mod place;
+mod vulkan;
+
+use std::process::ExitCode;
+
+use place::{Place, Stop};
+
+const HELP: &str = "\
+cargo xtask demo      set up, build in release and bake the example bench into out/weathered-bench
+cargo xtask test      set up, then format check, clippy, tests, doc tests and documentation
+cargo xtask assets    write the project's own models into assets/meshes again
+";
+
+fn main() -> ExitCode {
+    let task = std::env::args().nth(1);
+    let result = match task.as_deref() {
+        Some("demo") => Place::find().and_then(|place| demo::run(&place)),
+        Some("test") => Place::find().and_then(|place| checks::run(&place)),
+        Some("assets") => Place::find().and_then(|place| assets::write(&place.root)),
+        None | Some("help" | "-h" | "--help") => {
+            eprint!("{HELP}");
+            Ok(())
+        }
+        Some(other) => Err(Stop::new(
+            2,
+            format!("There is no task named `{other}`. These exist:\n{HELP}"),
+        )),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(stop) => {
+            eprintln!("\n{}", stop.sentence);
+            ExitCode::from(stop.code)
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! The two plain test bodies: a ball, and a cube whose charts are as awkward as charts get.
+
+use glam::{DQuat, DVec2, DVec3, dvec2};
+
+use super::ball::{FACES, ball};
+use super::glb::Model;
+use super::shape::{Corner, Part, Shape};
+
+/// A ball of one meter across, in six charts.
+pub(crate) fn sphere() -> Model {
+    Model {
+        name: "sphere",
+        base_color_linear: [0.6, 0.6, 0.6],
+        parts: vec![part("sphere", ball(0.5, 24))],
+    }
+}
+
+/// Degrees, share of the common density, and whether mirrored: every seam of the cube joins two charts that disagree.
+const AWKWARD: [(f64, f64, bool); 6] = [
+    (17.0, 1.0, false),
+    (-31.0, 0.8, true),
+    (63.0, 1.25, false),
+    (90.0, 0.9, true),
+    (-8.5, 1.1, false),
+    (45.0, 0.7, false),
+];
+
+/// A cube of one meter: the seam torture test. Each face is a chart of its own turn, density and handedness.
+pub(crate) fn cube() -> Model {
+    let mut shape = Shape::default();
+    for ([right, up, out], (degrees, density, mirrored)) in FACES.into_iter().zip(AWKWARD) {
+        let turn = DVec2::from_angle(f64::to_radians(degrees));
+        let corner = |x: f64, y: f64| {
+            let own = dvec2(if mirrored { -x } else { x }, y) * density;
+            Corner {
+                position: (out + right * x + up * y) * 0.5,
+                sheet: turn.rotate(own) * 0.5,
+                normal: Some(out),
+            }
+        };
+        let chart = shape.begin_chart();
+        shape.quad(
+            chart,
+            [
+                corner(-1.0, -1.0),
+                corner(1.0, -1.0),
+                corner(1.0, 1.0),
+                corner(-1.0, 1.0),
+            ],
+        );
+    }
+    Model {
+        name: "cube",
+        base_color_linear: [0.6, 0.6, 0.6],
+        parts: vec![part("cube", shape)],
+    }
+}
+
+fn part(name: &str, shape: Shape) -> Part {
+    Part {
+        name: name.into(),
+        translation: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+        shape,
+        smooth_below: 30.0,
+    }
+}

@@ -1,0 +1,242 @@
+//! The models are what an artist would call clean, and the committed files are these models.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::LazyLock;
+
+use glam::{DVec2, dvec2};
+
+use super::glb::{Model, encode, index};
+use super::pack::{GAP_PX, SHEET_PX, pack};
+use super::shape::{Triangle, place_key};
+use super::{fs, models};
+
+/// Made once: the figure takes a while.
+static MODELS: LazyLock<[Model; 4]> = LazyLock::new(models);
+
+fn triangles(model: &Model) -> impl Iterator<Item = &Triangle> {
+    model.parts.iter().flat_map(|part| &part.shape.triangles)
+}
+
+/// Twice the signed area on the sheet, in square meters.
+fn sheet_cross(triangle: &Triangle) -> f64 {
+    let [a, b, c] = triangle.corners.map(|corner| corner.sheet);
+    (b - a).perp_dot(c - a)
+}
+
+/// Texels a meter of every triangle with its area, on the sheet's own scale, ascending.
+fn densities(model: &Model) -> Vec<(f64, f64)> {
+    let mut all: Vec<(f64, f64)> = triangles(model)
+        .map(|triangle| (triangle.cross().length(), sheet_cross(triangle).abs()))
+        .map(|(area, sheet)| ((sheet / area).sqrt(), area))
+        .collect();
+    all.sort_by(|one, other| one.0.total_cmp(&other.0));
+    all
+}
+
+/// The density below which a share of the area lies.
+fn density_at(densities: &[(f64, f64)], share: f64) -> f64 {
+    let total: f64 = densities.iter().map(|(_, area)| area).sum();
+    let mut sum = 0.0;
+    for (density, area) in densities {
+        sum += area;
+        if sum >= total * share {
+            return *density;
+        }
+    }
+    f64::INFINITY
+}
+
+#[test]
+fn the_committed_models_are_what_the_code_writes() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes");
+    let mut total = 0;
+    for model in &*MODELS {
+        let file = folder.join(format!("{}.glb", model.name));
+        let committed = fs::read(&file).unwrap_or_default();
+        let written = encode(model);
+        total += written.len();
+        assert!(
+            committed == written,
+            "{}.glb differs from what the code writes: run `cargo xtask assets`.",
+            model.name
+        );
+    }
+    assert!(
+        total < 1_500_000,
+        "The models take {total} bytes; keep them below 1.5 MB."
+    );
+}
+
+#[test]
+fn a_file_is_one_document_and_one_buffer_of_the_sizes_it_says() {
+    for model in &*MODELS {
+        let file = encode(model);
+        let number = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+        assert_eq!((&file[..4], number(4), number(8)), (&b"glTF"[..], 2, file.len()));
+        let document: serde_json::Value = serde_json::from_slice(&file[20..20 + number(12)]).unwrap();
+        let buffer = 20 + number(12);
+        assert_eq!(&file[buffer + 4..buffer + 8], b"BIN\0");
+        assert_eq!(document["buffers"][0]["byteLength"], number(buffer));
+        assert_eq!(buffer + 8 + number(buffer), file.len());
+        assert_eq!(document["meshes"].as_array().unwrap().len(), model.parts.len());
+    }
+}
+
+#[test]
+fn every_part_is_closed_and_faces_outward() {
+    for model in &*MODELS {
+        for part in &model.parts {
+            let mut edges: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
+            let mut volume = 0.0;
+            for triangle in &part.shape.triangles {
+                let places = triangle.corners.map(|corner| corner.position);
+                volume += places[0].dot(places[1].cross(places[2]));
+                let keys = places.map(place_key);
+                for i in 0..3 {
+                    *edges.entry([keys[i], keys[(i + 1) % 3]]).or_default() += 1;
+                }
+            }
+            assert!(volume > 0.0, "{} is turned inside out", part.name);
+            for ([one, other], count) in &edges {
+                assert_eq!(
+                    (*count, edges.get(&[*other, *one])),
+                    (1, Some(&1)),
+                    "{} is open at {one:?}",
+                    part.name
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn normals_have_unit_length_and_face_with_their_triangles() {
+    for model in &*MODELS {
+        for (part, indexed) in model.parts.iter().zip(index(model)) {
+            for triangle in indexed.indices.as_chunks::<3>().0 {
+                let [a, b, c] = triangle.map(|i| glam::Vec3::from(indexed.positions[i as usize]));
+                let face = (b - a).cross(c - a).normalize_or_zero();
+                for i in triangle {
+                    let normal = glam::Vec3::from(indexed.normals[*i as usize]);
+                    assert!((normal.length() - 1.0).abs() < 1e-5, "{}: normal {normal}", part.name);
+                    assert!(
+                        normal.dot(face) > 0.2,
+                        "{}: normal {normal} on a face toward {face}",
+                        part.name
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn charts_keep_their_gap_from_each_other_and_from_the_border() {
+    for model in &*MODELS {
+        let places = pack(&model.parts);
+        let mut boxes: Vec<(DVec2, DVec2)> = Vec::new();
+        for (part, places) in model.parts.iter().zip(&places) {
+            let first = boxes.len();
+            boxes.resize(first + places.len(), (DVec2::INFINITY, DVec2::NEG_INFINITY));
+            for triangle in &part.shape.triangles {
+                for corner in triangle.corners {
+                    let [u, v] = places[triangle.chart].uv_from_sheet(corner.sheet);
+                    let px = dvec2(f64::from(u), f64::from(v)) * f64::from(SHEET_PX);
+                    let (low, high) = &mut boxes[first + triangle.chart];
+                    (*low, *high) = (low.min(px), high.max(px));
+                }
+            }
+        }
+        let gap = f64::from(GAP_PX) - 0.01;
+        for (i, (low, high)) in boxes.iter().enumerate() {
+            assert!(
+                low.min_element() >= gap && high.max_element() <= f64::from(SHEET_PX) - gap,
+                "{}",
+                model.name
+            );
+            for (other_low, other_high) in &boxes[..i] {
+                let apart = (*low - *other_high).max(*other_low - *high).max_element();
+                assert!(apart >= gap, "{}: two charts are {apart} texels apart", model.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn no_texel_belongs_to_two_triangles() {
+    for model in &*MODELS {
+        let size = SHEET_PX as usize;
+        let mut taken = vec![false; size * size];
+        for indexed in index(model) {
+            for triangle in indexed.indices.as_chunks::<3>().0 {
+                let corners = triangle.map(|i| DVec2::from(indexed.uvs[i as usize].map(f64::from)) * size as f64);
+                for texel in texels_inside(corners, size) {
+                    assert!(!taken[texel], "{}: charts overlap at texel {texel}", model.name);
+                    taken[texel] = true;
+                }
+            }
+        }
+    }
+}
+
+/// Texels whose center lies well inside a triangle.
+fn texels_inside(corners: [DVec2; 3], size: usize) -> Vec<usize> {
+    let [a, b, c] = corners;
+    let area = (b - a).perp_dot(c - a);
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+    let mut texels = Vec::new();
+    for y in low.y as usize..=high.y as usize {
+        for x in low.x as usize..=high.x as usize {
+            let p = dvec2(x as f64 + 0.5, y as f64 + 0.5);
+            let sides = [
+                (b - a).perp_dot(p - a),
+                (c - b).perp_dot(p - b),
+                (a - c).perp_dot(p - c),
+            ];
+            if sides.iter().all(|side| side * area.signum() > 1e-3) {
+                texels.push(y * size + x);
+            }
+        }
+    }
+    texels
+}
+
+#[test]
+fn texels_are_spread_evenly() {
+    for (model, tolerance) in MODELS.iter().zip([1.05, 1.35, 1.1, 1.8]) {
+        let densities = densities(model);
+        let middle = density_at(&densities, 0.5);
+        let (low, high) = (density_at(&densities, 0.02), density_at(&densities, 0.98));
+        assert!(
+            middle / low <= tolerance && high / middle <= tolerance,
+            "{}: 96 % of the area has {low} to {high} around {middle}",
+            model.name
+        );
+    }
+}
+
+#[test]
+fn only_the_cube_has_mirrored_charts() {
+    for model in &*MODELS {
+        let mirrored = triangles(model).filter(|triangle| sheet_cross(triangle) <= 0.0).count();
+        assert_eq!(mirrored, if model.name == "cube" { 4 } else { 0 }, "{}", model.name);
+    }
+}
+
+#[test]
+fn the_bench_stands_on_the_ground_and_is_as_wide_as_a_bench() {
+    let [bench, ..] = &*MODELS;
+    let places = bench.parts.iter().flat_map(|part| {
+        let corners = part.shape.triangles.iter().flat_map(|triangle| triangle.corners);
+        corners.map(|corner| part.translation + part.rotation * corner.position)
+    });
+    let (low, high) = places.fold(
+        (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY),
+        |(low, high), place| (low.min(place), high.max(place)),
+    );
+    assert!(
+        low.y.abs() < 1e-9 && (high.x - low.x - 1.6).abs() < 0.01,
+        "{low} to {high}"
+    );
+}
