@@ -31,11 +31,11 @@ struct Params {
     /// How metallic the layer is: 0 is everything but metal, 1 is bare metal; Metallic map is multiplied by it.
     /// @range 0 1 @default 0
     metallic: f32,
-    /// How the metallic goes over what is below.
+    /// How the metallic value goes over what is below.
     /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
     /// @default normal
     metallic_mode: u32,
-    /// Whether the layer changes the metallic.
+    /// Whether the layer changes the metallic value.
     /// @toggle @default on
     metallic_on: u32,
     /// Height of the layer; Height map is multiplied by it. Below 0 it is sunk in.

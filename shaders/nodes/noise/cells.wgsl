@@ -40,7 +40,6 @@ fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
 }
 
 /// A random value for each cell.
-/// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
 fn id(position: vec3f, params: Params) -> f32 {
     return unit_random(nearest_point(position, params).id);
 }

@@ -30,7 +30,6 @@ fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
 }
 
 /// A second random value for each cube, independent of the mask and never faded.
-/// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
 fn id(position: vec3f, params: Params) -> f32 {
     return unit_random(grain(position, params).y);
 }

@@ -15,10 +15,10 @@ struct Params {
     /// @range -10 10 @soft 0 1 @default 1
     high: f32,
     /// Where the model begins along the direction.
-    /// @extent along
+    /// @extent low along
     extent_low: f32,
     /// Where the model ends along the direction.
-    /// @extent along
+    /// @extent high along
     extent_high: f32,
 }
 
