@@ -1,1 +1,27 @@
 //! Texture sets and the files beside them.
+//!
+//! The way of a bake's numbers: [`set_keys`] says which texture sets a model has, [`SetLayout`] which texel feeds which
+//! pixel of one, [`PaddingMap`] what stands outside the charts, [`BakeWriter`] takes one channel after the other and
+//! puts complete files in place at the end. What was written comes back as records for the report.
+
+mod channel;
+mod constant;
+mod encode;
+mod error;
+mod layout;
+mod names;
+mod padding;
+pub mod preset;
+mod record;
+mod staging;
+mod write;
+
+pub use channel::{Channel, ChannelPixels};
+pub use constant::{Value, constant_value};
+pub use error::ExportError;
+pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
+pub use names::{file_stem, set_names};
+pub use padding::{AtlasTexels, Padding, PaddingMap};
+pub use record::{ConstantRecord, OutputRecord};
+pub use staging::Staging;
+pub use write::{BakeWriter, Committed, SetOptions, SetWriter, Written};

@@ -78,8 +78,7 @@ fn smallest_above(code: u8) -> f32 {
 /// 8-bit sRGB code of a linear value: clamped to 0..1, encoded, times 255, rounded half up; not-a-number gives 0. Exactly
 /// what the formula gives, by comparing with the values at which the code changes.
 pub fn srgb8_from_linear(linear: f32) -> u8 {
-    // Also catches not-a-number.
-    if !(linear > 0.0) {
+    if linear.is_nan() || linear <= 0.0 {
         return 0;
     }
     if linear >= 1.0 {

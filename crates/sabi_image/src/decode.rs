@@ -51,10 +51,22 @@ impl Format {
 }
 
 pub(crate) fn damaged(name: &str, format: &'static str, detail: impl ToString) -> ImageError {
+    let mut detail = detail.to_string().trim_end_matches('.').to_owned();
+    // The PNG decoder prints a chunk as a Rust value; its name is enough.
+    const BEFORE_NAME: &str = "ChunkType { type: ";
+    while let Some(start) = detail.find(BEFORE_NAME) {
+        let Some(length) = detail[start..].find('}') else { break };
+        let chunk = detail[start + BEFORE_NAME.len()..]
+            .split(',')
+            .next()
+            .unwrap_or_default()
+            .to_owned();
+        detail.replace_range(start..=start + length, &chunk);
+    }
     ImageError::Damaged {
         name: name.into(),
         format,
-        detail: detail.to_string().trim_end_matches('.').to_owned(),
+        detail,
     }
 }
 
@@ -131,9 +143,7 @@ fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     decoder.set_ignore_text_chunk(true);
     let header = decoder.read_header_info().map_err(damaged)?;
     let (width, height) = (header.width, header.height);
-    let raw_bits = u64::from(header.bytes_per_pixel() as u32) * 8;
-    check_size(name, width.into(), height.into(), 8)
-        .or_else(|_| check_size(name, width.into(), height.into(), raw_bits / 8))?;
+    check_size(name, width.into(), height.into(), header.bytes_per_pixel() as u64)?;
     let mut reader = decoder.read_info().map_err(damaged)?;
     let color_space = declared_by_png(reader.info());
     let (color, depth) = reader.output_color_type();

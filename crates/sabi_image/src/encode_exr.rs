@@ -56,9 +56,7 @@ mod tests {
 
     #[test]
     fn floats_come_back_bit_for_bit() {
-        let values: Vec<f32> = (0..37 * 21)
-            .map(|i| f32::from_bits(0x3a00_0000 + i * 61_681))
-            .collect();
+        let values: Vec<f32> = (0..37 * 21).map(|i| f32::from_bits(0x3a00_0000 + i * 61_681)).collect();
         let negative: Vec<f32> = values.iter().map(|value| -value).collect();
         let gray = decode("h.exr", &encode_exr(37, 21, &[("Y", &values)]).unwrap()).unwrap();
         assert_eq!((gray.width, gray.height, gray.channels), (37, 21, 1));

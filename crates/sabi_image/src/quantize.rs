@@ -41,14 +41,12 @@ impl Dither {
     }
 }
 
-fn quantize(value: f32, highest: f64, threshold: f64) -> f64 {
+/// The product is rounded to a float as everywhere in graphics, so that 0.7, which no float is exactly, gives 178.5 and
+/// rounds up as on paper.
+fn quantize(value: f32, highest: f32, threshold: f64) -> f64 {
     // `clamp` keeps not-a-number.
-    let unit = if value.is_nan() {
-        0.0
-    } else {
-        f64::from(value.clamp(0.0, 1.0))
-    };
-    (unit * highest + threshold).floor().min(highest)
+    let unit = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
+    (f64::from(unit * highest) + threshold).floor().min(f64::from(highest))
 }
 
 #[cfg(test)]

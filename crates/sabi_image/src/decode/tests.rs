@@ -155,6 +155,18 @@ fn what_is_wrong_is_said_in_a_sentence() {
          that file"
     );
     assert!(says("a.png", b"hello").starts_with("a.png is no picture of a known kind"));
+    let options = crate::PngOptions {
+        channels: 1,
+        bits: 8,
+        srgb_chunk: false,
+    };
+    let mut file = crate::encode_png(1, 1, crate::PngData::U8(&[0]), options).unwrap();
+    file[32] ^= 0xff;
+    let checksum = says("a.png", &file);
+    assert!(
+        checksum.contains("while decoding IHDR chunk); open and save it again"),
+        "{checksum}"
+    );
     assert!(says("a.png", b"\x89PNG\r\n\x1a\n").starts_with("a.png is a damaged PNG file ("));
 }
 

@@ -1,0 +1,125 @@
+//! The channels of a texture set.
+
+use std::borrow::Cow;
+
+/// A channel of a texture set.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Channel {
+    /// Linear RGB.
+    BaseColor,
+    /// 0 clear, 1 opaque.
+    Opacity,
+    /// 0 mirror, 1 chalk.
+    Roughness,
+    /// 0 or 1.
+    Metallic,
+    /// 1 open, 0 buried.
+    Occlusion,
+    /// Height in the model's own units.
+    Height,
+    /// Tangent-space unit vector, Y+, components in −1..1.
+    Normal,
+    /// Linear RGB, may exceed 1.
+    Emission,
+    /// A mask of the graph's own, by its name.
+    Mask(String),
+}
+
+/// Names that a mask cannot take, because a channel's file has them.
+const TAKEN: [&str; 8] = [
+    "base_color",
+    "opacity",
+    "roughness",
+    "metallic",
+    "occlusion",
+    "height",
+    "normal",
+    "emission",
+];
+
+impl Channel {
+    /// All channels but masks, in the order in which they are written.
+    pub const ALL: [Channel; 8] = [
+        Channel::BaseColor,
+        Channel::Opacity,
+        Channel::Roughness,
+        Channel::Metallic,
+        Channel::Occlusion,
+        Channel::Height,
+        Channel::Normal,
+        Channel::Emission,
+    ];
+
+    /// Name in reports and in file names: `base_color`; a mask's is its own, made fit for a file name and set apart from
+    /// the channels'.
+    pub fn name(&self) -> Cow<'_, str> {
+        match self {
+            Channel::BaseColor => "base_color".into(),
+            Channel::Opacity => "opacity".into(),
+            Channel::Roughness => "roughness".into(),
+            Channel::Metallic => "metallic".into(),
+            Channel::Occlusion => "occlusion".into(),
+            Channel::Height => "height".into(),
+            Channel::Normal => "normal".into(),
+            Channel::Emission => "emission".into(),
+            Channel::Mask(name) => {
+                let stem = crate::names::file_stem(name);
+                let taken = TAKEN.contains(&stem.to_lowercase().as_str());
+                if stem.is_empty() {
+                    "mask".into()
+                } else if taken {
+                    format!("mask_{stem}").into()
+                } else {
+                    stem.into()
+                }
+            }
+        }
+    }
+
+    /// Values of a pixel: 3 for colors and normals, else 1.
+    pub fn components(&self) -> usize {
+        match self {
+            Channel::BaseColor | Channel::Normal | Channel::Emission => 3,
+            _ => 1,
+        }
+    }
+
+    /// What stands where nothing is known: no metal, no relief, nothing buried, opaque, half rough, middle gray.
+    pub fn neutral(&self) -> &'static [f32] {
+        match self {
+            // sRGB 128.
+            Channel::BaseColor => &[0.215_860_5; 3],
+            Channel::Opacity | Channel::Occlusion => &[1.0],
+            Channel::Roughness => &[0.5],
+            Channel::Metallic | Channel::Height | Channel::Mask(_) => &[0.0],
+            Channel::Normal => &[0.0, 0.0, 1.0],
+            Channel::Emission => &[0.0; 3],
+        }
+    }
+}
+
+/// One channel of one texture set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelPixels {
+    /// Values of a pixel, as [`Channel::components`].
+    pub components: usize,
+    /// Linear values, row by row from the top, components interleaved.
+    pub data: Vec<f32>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mask_never_takes_the_name_of_a_channel() {
+        assert_eq!(Channel::Mask("wear".into()).name(), "wear");
+        assert_eq!(Channel::Mask("Roughness".into()).name(), "mask_Roughness");
+        assert_eq!(Channel::Mask("../up".into()).name(), "__up");
+        assert_eq!(Channel::Mask(String::new()).name(), "mask");
+        for channel in Channel::ALL {
+            assert_eq!(channel.neutral().len(), channel.components());
+            assert!(TAKEN.contains(&&*channel.name()));
+        }
+    }
+}

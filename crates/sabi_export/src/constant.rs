@@ -1,0 +1,179 @@
+//! Channels that are the same all over: a number in the report instead of a map.
+
+use rayon::prelude::*;
+use sabi_image::srgb_from_linear;
+
+use crate::layout::{Cover, SetLayout};
+use crate::{Channel, ChannelPixels};
+
+/// The value of a constant channel, linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// Of a channel with one component.
+    Number(f32),
+    /// Of a color or a normal.
+    Triple([f32; 3]),
+}
+
+/// Lowest and highest of each component over the owned pixels, and whether there were any.
+pub(crate) fn bounds(layout: &SetLayout, pixels: &ChannelPixels) -> Option<([f32; 3], [f32; 3])> {
+    let start = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    let (low, high) = pixels
+        .data
+        .par_chunks_exact(pixels.components.max(1))
+        .zip(&layout.cover)
+        .with_min_len(4096)
+        .filter(|&(_, &cover)| cover == Cover::Owned)
+        .fold(
+            || start,
+            |(mut low, mut high), (values, _)| {
+                for (index, &value) in values.iter().take(3).enumerate() {
+                    low[index] = low[index].min(value);
+                    high[index] = high[index].max(value);
+                }
+                (low, high)
+            },
+        )
+        .reduce(
+            || start,
+            |a, b| {
+                let each = |pick: fn(f32, f32) -> f32, a: [f32; 3], b: [f32; 3]| {
+                    std::array::from_fn(|index| pick(a[index], b[index]))
+                };
+                (each(f32::min, a.0, b.0), each(f32::max, a.1, b.1))
+            },
+        );
+    (low[0] <= high[0]).then_some((low, high))
+}
+
+/// The value of a channel whose owned pixels are all within half a step of what its file could tell apart; of normals
+/// only the flat one counts. A set without owned pixels has the neutral value. Values are taken as finite.
+pub fn constant_value(channel: &Channel, layout: &SetLayout, pixels: &ChannelPixels) -> Option<Value> {
+    let Some((low, high)) = bounds(layout, pixels) else {
+        return Some(match *channel.neutral() {
+            [x, y, z] => Value::Triple([x, y, z]),
+            _ => Value::Number(channel.neutral()[0]),
+        });
+    };
+    let components = channel.components();
+    let same = (0..components).all(|index| is_same(channel, index, low[index], high[index], high));
+    let middle = |index: usize| {
+        if low[index] == high[index] {
+            low[index]
+        } else {
+            low[index] + (high[index] - low[index]) / 2.0
+        }
+    };
+    match (same, channel, components) {
+        (false, ..) => None,
+        (true, Channel::Normal, _) => Some(Value::Triple([0.0, 0.0, 1.0])),
+        (true, _, 3) => Some(Value::Triple(std::array::from_fn(middle))),
+        _ => Some(Value::Number(middle(0))),
+    }
+}
+
+fn is_same(channel: &Channel, component: usize, low: f32, high: f32, all_high: [f32; 3]) -> bool {
+    let in_unit = |value: f32| value.clamp(0.0, 1.0);
+    let spread = match channel {
+        Channel::Normal => {
+            let flat = channel.neutral()[component];
+            let step = 2.0 / 65535.0;
+            return (low - flat).abs() <= step / 2.0 && (high - flat).abs() <= step / 2.0;
+        }
+        // The file holds floats: only rounding is forgiven.
+        Channel::Height => return high - low <= 1e-6 * low.abs().max(high.abs()),
+        Channel::Emission if all_high.iter().any(|&value| value > 1.0) => {
+            return high - low <= high.abs().max(low.abs()) / 2048.0;
+        }
+        Channel::BaseColor | Channel::Emission => srgb_from_linear(in_unit(high)) - srgb_from_linear(in_unit(low)),
+        Channel::Mask(_) => return in_unit(high) - in_unit(low) <= 0.5 / 65535.0,
+        _ => in_unit(high) - in_unit(low),
+    };
+    spread <= 0.5 / 255.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::{NONE, SetKey};
+
+    /// Two owned pixels, a ghost and an empty one.
+    fn layout() -> SetLayout {
+        SetLayout {
+            key: SetKey {
+                material: 0,
+                uv_tile: [0, 0],
+                udim: None,
+            },
+            size: 2,
+            source: vec![0, 1, 2, NONE],
+            cover: vec![Cover::Owned, Cover::Owned, Cover::Ghost, Cover::Empty],
+            collisions: 0,
+        }
+    }
+
+    fn of(channel: Channel, a: &[f32], b: &[f32]) -> Option<Value> {
+        let other = vec![9.0; a.len()];
+        let data = [a, b, &other, &other].concat();
+        constant_value(
+            &channel,
+            &layout(),
+            &ChannelPixels {
+                components: a.len(),
+                data,
+            },
+        )
+    }
+
+    #[test]
+    fn a_channel_is_constant_within_half_a_step_of_its_file() {
+        assert_eq!(of(Channel::Roughness, &[0.7], &[0.7]), Some(Value::Number(0.7)));
+        assert!(of(Channel::Roughness, &[0.7], &[0.7 + 0.4 / 255.0]).is_some());
+        assert_eq!(of(Channel::Roughness, &[0.7], &[0.7 + 0.6 / 255.0]), None);
+        assert!(
+            of(Channel::Roughness, &[1.0], &[3.0]).is_some(),
+            "both are 1 in the file"
+        );
+        assert_eq!(of(Channel::Mask("m".into()), &[0.7], &[0.7001]), None, "16 bits");
+        assert_eq!(of(Channel::Height, &[0.0], &[1e-7]), None, "floats");
+        assert_eq!(of(Channel::Height, &[-2.5], &[-2.5]), Some(Value::Number(-2.5)));
+    }
+
+    #[test]
+    fn colors_are_compared_as_they_are_encoded() {
+        let gray = Value::Triple([0.5; 3]);
+        assert_eq!(of(Channel::BaseColor, &[0.5; 3], &[0.5; 3]), Some(gray));
+        assert_eq!(
+            of(Channel::BaseColor, &[0.0; 3], &[0.0003; 3]),
+            None,
+            "dark steps are small in light"
+        );
+        assert!(of(Channel::BaseColor, &[0.9; 3], &[0.901; 3]).is_some());
+        assert_eq!(
+            of(Channel::Emission, &[4.0, 0.0, 0.0], &[5.0, 0.0, 0.0]),
+            None,
+            "beyond 1 it is a float map"
+        );
+    }
+
+    #[test]
+    fn only_the_flat_normal_is_constant() {
+        let flat = Some(Value::Triple([0.0, 0.0, 1.0]));
+        assert_eq!(of(Channel::Normal, &[0.0, 0.0, 1.0], &[1e-6, 0.0, 1.0]), flat);
+        assert_eq!(of(Channel::Normal, &[0.6, 0.0, 0.8], &[0.6, 0.0, 0.8]), None);
+    }
+
+    #[test]
+    fn a_set_without_pixels_has_the_neutral_value() {
+        let mut empty = layout();
+        empty.cover.fill(Cover::Empty);
+        let pixels = ChannelPixels {
+            components: 1,
+            data: vec![3.0; 4],
+        };
+        assert_eq!(
+            constant_value(&Channel::Occlusion, &empty, &pixels),
+            Some(Value::Number(1.0))
+        );
+    }
+}

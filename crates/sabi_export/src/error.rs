@@ -1,0 +1,132 @@
+//! Why a texture set could not be written, as sentences.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use sabi_image::ImageError;
+use thiserror::Error;
+
+/// Why a texture set could not be written. Whatever it is, files from before are as they were, except those that
+/// [`ExportError::Replace`] says.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// The output folder is not there and cannot be made.
+    #[error("cannot create the folder {}: {}; choose another with -o", path.display(), reason(source))]
+    CreateFolder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A file could not be written to its end.
+    #[error("cannot write {}: {}; nothing was changed, so free some space or choose another folder with -o", path.display(), reason(source))]
+    Write {
+        /// The file that was to be.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A complete file could not be put in its place.
+    #[error("cannot replace {}: {}; {replaced} of {total} files of this bake were put in place before it", path.display(), reason(source))]
+    Replace {
+        /// The file that was to be.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+        /// Files already in place.
+        replaced: usize,
+        /// Files of the bake.
+        total: usize,
+    },
+    /// Two maps of a bake would have the same file.
+    #[error(
+        "two maps would be written to {file_name}; rename the material or the mask output that one of them belongs to"
+    )]
+    SameName {
+        /// The file, without its folder.
+        file_name: String,
+    },
+    /// The number of values does not fit the texture set.
+    #[error("channel {channel} has {given} values for a texture set of {expected}; this is a defect of Sabi")]
+    WrongSize {
+        /// Name of the channel.
+        channel: String,
+        /// Values given.
+        given: usize,
+        /// Values that were expected.
+        expected: usize,
+    },
+    /// The encoder refused.
+    #[error("{file_name}: {source}")]
+    Encode {
+        /// The file, without its folder.
+        file_name: String,
+        /// Why.
+        source: ImageError,
+    },
+}
+
+impl ExportError {
+    /// Whether the disk or folder is what stands in the way (exit code 73 of the command line).
+    pub fn is_cannot_write(&self) -> bool {
+        matches!(
+            self,
+            ExportError::CreateFolder { .. } | ExportError::Write { .. } | ExportError::Replace { .. }
+        )
+    }
+
+    pub(crate) fn write(path: &Path, source: io::Error) -> ExportError {
+        ExportError::Write {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+/// The usual cases in plain words, without the system's error numbers.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::PermissionDenied => "you have no permission".into(),
+        io::ErrorKind::StorageFull => "the disk is full".into(),
+        io::ErrorKind::QuotaExceeded => "your disk quota is used up".into(),
+        io::ErrorKind::ReadOnlyFilesystem => "the disk is read-only".into(),
+        io::ErrorKind::NotADirectory => "a part of its path is a file, not a folder".into(),
+        io::ErrorKind::AlreadyExists => "a file of that name is in the way".into(),
+        io::ErrorKind::IsADirectory => "a folder of that name is in the way".into(),
+        io::ErrorKind::NotFound => "the folder is gone".into(),
+        io::ErrorKind::InvalidFilename => "its name is not allowed there".into(),
+        _ => error.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_error_says_what_why_and_what_to_do() {
+        let full = ExportError::write(Path::new("out/a.png"), io::ErrorKind::StorageFull.into());
+        assert_eq!(
+            full.to_string(),
+            "cannot write out/a.png: the disk is full; nothing was changed, so free some space or choose another folder \
+             with -o"
+        );
+        assert!(full.is_cannot_write());
+        let folder = ExportError::CreateFolder {
+            path: "a/b".into(),
+            source: io::ErrorKind::ReadOnlyFilesystem.into(),
+        };
+        assert_eq!(
+            folder.to_string(),
+            "cannot create the folder a/b: the disk is read-only; choose another with -o"
+        );
+        let same = ExportError::SameName {
+            file_name: "a.png".into(),
+        };
+        assert_eq!(
+            same.to_string(),
+            "two maps would be written to a.png; rename the material or the mask output that one of them belongs to"
+        );
+        assert!(!same.is_cannot_write());
+    }
+}

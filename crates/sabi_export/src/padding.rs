@@ -1,0 +1,277 @@
+//! What stands outside the charts: the nearest covered pixel, found once for a texture set and used for every channel.
+
+use rayon::prelude::*;
+
+use crate::layout::{Cover, NONE, SetLayout};
+use crate::{Channel, ChannelPixels};
+
+/// How far values reach out of the charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Padding {
+    /// So many texels, measured straight; what is further has the channel's neutral value.
+    Texels(u32),
+    /// Over the whole picture, so that no mip level ever meets an empty texel.
+    #[default]
+    Infinite,
+}
+
+/// For each pixel of a texture set the pixel that gives its value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PaddingMap {
+    /// Row by row from the top: the pixel itself where a chart or a ring covers it, else the nearest covered one, or
+    /// [`NONE`].
+    pub source: Vec<u32>,
+}
+
+/// A channel as it lies on the atlas: some of the values of each texel.
+#[derive(Clone, Copy, Debug)]
+pub struct AtlasTexels<'a> {
+    /// Values of all texels, page by page and row by row.
+    pub data: &'a [f32],
+    /// Values from one texel to the next.
+    pub stride: usize,
+    /// Which of a texel's values is the first of the channel.
+    pub first: usize,
+}
+
+impl PaddingMap {
+    /// The exact nearest covered pixel by Euclidean distance, in two passes of whole numbers (Meijster 2000). Of pixels
+    /// equally near, the left column is taken, and in a column the upper one, whatever the number of threads.
+    pub fn new(layout: &SetLayout, padding: Padding) -> PaddingMap {
+        let size = layout.size as usize;
+        let nearest_row = nearest_in_column(size, &layout.cover);
+        let reach_squared = match padding {
+            Padding::Infinite => i64::MAX,
+            Padding::Texels(texels) => i64::from(texels) * i64::from(texels),
+        };
+        let mut source = vec![NONE; size * size];
+        source
+            .par_chunks_mut(size.max(1))
+            .enumerate()
+            .for_each_init(Vec::new, |envelope, (y, row)| {
+                let rows = &nearest_row[y * size..(y + 1) * size];
+                // Rows all covered, and they are many, need no search.
+                if layout.cover[y * size..(y + 1) * size]
+                    .iter()
+                    .all(|&cover| cover != Cover::Empty)
+                {
+                    for (x, pixel) in row.iter_mut().enumerate() {
+                        *pixel = (y * size + x) as u32;
+                    }
+                } else {
+                    nearest_in_row(y, rows, reach_squared, envelope, row);
+                }
+            });
+        PaddingMap { source }
+    }
+
+    /// A channel of the set, taken from the atlas: covered pixels are exact copies of their texels, padding repeats them.
+    pub fn gather(&self, layout: &SetLayout, channel: &Channel, texels: AtlasTexels<'_>) -> ChannelPixels {
+        let components = channel.components();
+        let neutral = channel.neutral();
+        let mut data = vec![0.0; self.source.len() * components];
+        data.par_chunks_mut(components)
+            .zip(&self.source)
+            .with_min_len(4096)
+            .for_each(|(values, &pixel)| {
+                let texel = layout
+                    .source
+                    .get(pixel as usize)
+                    .map_or(usize::MAX, |&texel| texel as usize);
+                let start = texel
+                    .checked_mul(texels.stride)
+                    .and_then(|start| start.checked_add(texels.first));
+                let found = start.and_then(|start| texels.data.get(start..start.checked_add(components)?));
+                values.copy_from_slice(found.unwrap_or(neutral));
+            });
+        ChannelPixels { components, data }
+    }
+
+    /// Fills what no chart covers of a channel that is already laid out as the set is.
+    pub fn pad(&self, channel: &Channel, pixels: &mut ChannelPixels) {
+        let components = pixels.components;
+        let neutral = channel.neutral();
+        for pixel in 0..self.source.len().min(pixels.data.len() / components.max(1)) {
+            let from = self.source[pixel] as usize;
+            let to = pixel * components;
+            if self.source[pixel] == NONE {
+                for (value, &neutral) in pixels.data[to..to + components].iter_mut().zip(neutral) {
+                    *value = neutral;
+                }
+            } else if from != pixel {
+                // Sources are covered pixels, which are never written.
+                pixels.data.copy_within(from * components..(from + 1) * components, to);
+            }
+        }
+    }
+}
+
+/// For each pixel the row of the nearest covered one in its column, the upper of two.
+fn nearest_in_column(size: usize, cover: &[Cover]) -> Vec<u32> {
+    let mut nearest = vec![NONE; size * size];
+    let mut last = vec![NONE; size];
+    for y in 0..size {
+        for (x, last) in last.iter_mut().enumerate() {
+            if cover[y * size + x] != Cover::Empty {
+                *last = y as u32;
+            }
+            nearest[y * size + x] = *last;
+        }
+    }
+    last.fill(NONE);
+    for y in (0..size).rev() {
+        for (x, last) in last.iter_mut().enumerate() {
+            let at = y * size + x;
+            if nearest[at] == y as u32 {
+                *last = y as u32;
+            } else if *last != NONE && (nearest[at] == NONE || *last - (y as u32) < y as u32 - nearest[at]) {
+                nearest[at] = *last;
+            }
+        }
+    }
+    nearest
+}
+
+/// A column of the lower envelope of parabolas, and the first pixel of the row where it is the lowest.
+#[derive(Clone, Copy)]
+struct Piece {
+    column: usize,
+    height_squared: i64,
+    from: i64,
+}
+
+fn nearest_in_row(y: usize, nearest_row: &[u32], reach_squared: i64, envelope: &mut Vec<Piece>, row: &mut [u32]) {
+    let size = row.len();
+    envelope.clear();
+    for (column, &nearest) in nearest_row.iter().enumerate() {
+        if nearest == NONE {
+            continue;
+        }
+        let height = i64::from(nearest) - y as i64;
+        let height_squared = height * height;
+        let mut from = 0;
+        while let Some(&top) = envelope.last() {
+            // First pixel at which the new column is strictly nearer than the one before it.
+            let (i, u) = (top.column as i64, column as i64);
+            from = (u * u - i * i + height_squared - top.height_squared).div_euclid(2 * (u - i)) + 1;
+            if from > top.from {
+                break;
+            }
+            envelope.pop();
+            from = 0;
+        }
+        if from < size as i64 {
+            envelope.push(Piece {
+                column,
+                height_squared,
+                from,
+            });
+        }
+    }
+    let mut pieces = envelope.iter().peekable();
+    let mut current = None;
+    for (x, pixel) in row.iter_mut().enumerate() {
+        while let Some(piece) = pieces.next_if(|piece| piece.from <= x as i64) {
+            current = Some(piece);
+        }
+        let Some(piece) = current else { break };
+        let across = x as i64 - piece.column as i64;
+        if across * across + piece.height_squared <= reach_squared {
+            *pixel = (nearest_row[piece.column] as usize * size + piece.column) as u32;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::SetKey;
+
+    fn layout(size: u32, covered: &[bool]) -> SetLayout {
+        let cover = |&owned: &bool| if owned { Cover::Owned } else { Cover::Empty };
+        let source = |(index, &owned): (usize, &bool)| if owned { index as u32 } else { NONE };
+        SetLayout {
+            key: SetKey {
+                material: 0,
+                uv_tile: [0, 0],
+                udim: None,
+            },
+            size,
+            source: covered.iter().enumerate().map(source).collect(),
+            cover: covered.iter().map(cover).collect(),
+            collisions: 0,
+        }
+    }
+
+    fn distance_squared(size: u32, a: u32, b: u32) -> i64 {
+        let (ax, ay, bx, by) = (a % size, a / size, b % size, b / size);
+        (i64::from(ax) - i64::from(bx)).pow(2) + (i64::from(ay) - i64::from(by)).pow(2)
+    }
+
+    proptest! {
+        #[test]
+        fn padding_is_the_nearest_covered_pixel(
+            size in 1u32..24, seeds in proptest::collection::vec(0u32..576, 0..12), dense: bool, reach in 0u32..10
+        ) {
+            let mut covered = vec![false; (size * size) as usize];
+            for seed in &seeds {
+                covered[(seed % (size * size)) as usize] = true;
+            }
+            if dense {
+                covered.iter_mut().enumerate().for_each(|(i, c)| *c |= i % 3 == 1);
+            }
+            let layout = layout(size, &covered);
+            for padding in [Padding::Infinite, Padding::Texels(reach)] {
+                let map = PaddingMap::new(&layout, padding);
+                for pixel in 0..size * size {
+                    let nearest = (0..size * size)
+                        .filter(|&other| covered[other as usize])
+                        .map(|other| distance_squared(size, pixel, other))
+                        .min();
+                    let limit = if padding == Padding::Infinite { i64::MAX } else { i64::from(reach * reach) };
+                    match nearest {
+                        Some(nearest) if nearest <= limit => {
+                            let source = map.source[pixel as usize];
+                            prop_assert!(source != NONE && covered[source as usize]);
+                            prop_assert_eq!(distance_squared(size, pixel, source), nearest);
+                        }
+                        _ => prop_assert_eq!(map.source[pixel as usize], NONE),
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn of_two_equally_near_pixels_the_left_and_the_upper_one_is_taken() {
+        let covered: Vec<bool> = (0..25).map(|i| [2, 10, 14, 22].contains(&i)).collect();
+        let map = PaddingMap::new(&layout(5, &covered), Padding::Infinite);
+        assert_eq!(map.source[12], 10);
+        let column: Vec<bool> = (0..25).map(|i| [2, 22].contains(&i)).collect();
+        assert_eq!(PaddingMap::new(&layout(5, &column), Padding::Infinite).source[12], 2);
+    }
+
+    #[test]
+    fn covered_pixels_are_copies_and_the_rest_is_neutral_beyond_the_reach() {
+        let covered: Vec<bool> = (0..64).map(|i| i == 9).collect();
+        let layout = layout(8, &covered);
+        let map = PaddingMap::new(&layout, Padding::Texels(1));
+        let texels: Vec<f32> = (0..64 * 4).map(|i| i as f32).collect();
+        let texels = AtlasTexels {
+            data: &texels,
+            stride: 4,
+            first: 1,
+        };
+        let normal = map.gather(&layout, &Channel::Normal, texels);
+        assert_eq!(normal.data[27..30], [37.0, 38.0, 39.0]);
+        assert_eq!(normal.data[30..33], [37.0, 38.0, 39.0]);
+        assert_eq!(normal.data[33..36], [0.0, 0.0, 1.0]);
+        let mut padded = normal.clone();
+        padded.data[30] = f32::NAN;
+        padded.data[33] = 7.0;
+        map.pad(&Channel::Normal, &mut padded);
+        assert_eq!(padded, normal);
+    }
+}

@@ -1,0 +1,188 @@
+//! A bake's files, one channel at a time.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use crate::constant::{bounds, constant_value};
+use crate::encode::encode;
+use crate::layout::SetLayout;
+use crate::preset::{Codes, Format, Preset, When, raw};
+use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord, Staging};
+
+/// How a texture set is written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SetOptions {
+    /// Which files.
+    pub preset: Preset,
+    /// Whether channels that are the same all over get a map all the same.
+    pub all_maps: bool,
+}
+
+impl Default for SetOptions {
+    fn default() -> Self {
+        SetOptions {
+            preset: raw(),
+            all_maps: false,
+        }
+    }
+}
+
+/// Writes the texture sets of one bake into a folder; they take their places together, in [`BakeWriter::commit`].
+#[derive(Debug)]
+pub struct BakeWriter {
+    staging: Staging,
+    /// Files that this bake could have written but did not need to.
+    spared: BTreeSet<String>,
+}
+
+/// What a channel became.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// Its files; none when it is constant and maps of constants were not asked for.
+    pub outputs: Vec<OutputRecord>,
+    /// Its value where it is the same all over.
+    pub constant: Option<ConstantRecord>,
+    /// Values that were no numbers or infinite, and were replaced by the channel's neutral value.
+    pub not_finite: u64,
+}
+
+/// The end of a bake.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Committed {
+    /// All files now in place.
+    pub files: Vec<PathBuf>,
+    /// Files in the folder that an earlier bake of these sets may have left and that this one has no map for: the channel
+    /// is constant now. They are not touched.
+    pub left_over: Vec<PathBuf>,
+}
+
+impl BakeWriter {
+    /// Makes the folder if need be, and finds out early when it cannot be written to.
+    pub fn create(folder: &Path) -> Result<BakeWriter, ExportError> {
+        Ok(BakeWriter {
+            staging: Staging::create(folder)?,
+            spared: BTreeSet::new(),
+        })
+    }
+
+    /// Begins a texture set. `name` is the stem of its files, from [`crate::set_names`].
+    pub fn set<'a>(&'a mut self, layout: &'a SetLayout, name: &str, options: &SetOptions) -> SetWriter<'a> {
+        SetWriter {
+            bake: self,
+            layout,
+            name: name.to_owned(),
+            options: options.clone(),
+        }
+    }
+
+    /// Adds a file of the caller's own, such as the report, that takes its place with the maps.
+    pub fn extra_file(&mut self, file_name: &str, bytes: &[u8]) -> Result<(), ExportError> {
+        self.staging.stage(file_name, bytes)
+    }
+
+    /// Puts all files in place.
+    pub fn commit(self) -> Result<Committed, ExportError> {
+        let folder = self.staging.folder().to_owned();
+        let files = self.staging.commit()?;
+        let left_over = self
+            .spared
+            .iter()
+            .map(|name| folder.join(name))
+            .filter(|path| path.is_file())
+            .collect();
+        Ok(Committed { files, left_over })
+    }
+}
+
+/// Writes one texture set of a bake.
+#[derive(Debug)]
+pub struct SetWriter<'a> {
+    bake: &'a mut BakeWriter,
+    layout: &'a SetLayout,
+    name: String,
+    options: SetOptions,
+}
+
+impl SetWriter<'_> {
+    /// Writes a channel under its temporary names, on all cores, or finds that it is a constant. Padded pixels are expected
+    /// (see [`crate::PaddingMap::gather`]); only owned ones decide.
+    pub fn channel(&mut self, channel: &Channel, mut pixels: ChannelPixels) -> Result<Written, ExportError> {
+        let components = channel.components();
+        let expected = self.layout.cover.len() * components;
+        if pixels.components != components || pixels.data.len() != expected {
+            let channel = channel.name().into_owned();
+            return Err(ExportError::WrongSize {
+                channel,
+                given: pixels.data.len(),
+                expected,
+            });
+        }
+        let not_finite = make_finite(channel, &mut pixels);
+        let udim = self.layout.key.udim;
+        let constant = constant_value(channel, self.layout, &pixels).map(|value| ConstantRecord {
+            channel: channel.clone(),
+            material: self.name.clone(),
+            udim,
+            value,
+        });
+        let (low, high) = bounds(self.layout, &pixels).unwrap_or(([0.0; 3], [0.0; 3]));
+        let above_one = high[..components].iter().any(|&value| value > 1.0);
+        let mut outputs = Vec::new();
+        for map in self.options.preset.maps_of(channel) {
+            let file_name = map.file_name(&self.name, channel, udim);
+            if (constant.is_some() && !self.options.all_maps) || (map.when == When::AboveOne && !above_one) {
+                self.bake.spared.insert(file_name);
+                continue;
+            }
+            let range = [low[0], high[0]];
+            let encoded =
+                encode(&pixels, self.layout.size, map.format, range).map_err(|source| ExportError::Encode {
+                    file_name: file_name.clone(),
+                    source,
+                })?;
+            self.bake.staging.stage(&file_name, &encoded.bytes)?;
+            let spans_range = matches!(
+                map.format,
+                Format::Png {
+                    codes: Codes::Range,
+                    ..
+                }
+            );
+            outputs.push(OutputRecord {
+                path: file_name,
+                channel: channel.clone(),
+                material: self.name.clone(),
+                udim,
+                width: self.layout.size,
+                height: self.layout.size,
+                bits: encoded.bits,
+                color_space: encoded.color_space,
+                range: spans_range.then_some(range),
+                blake3: blake3::hash(&encoded.bytes).to_hex().to_string(),
+            });
+        }
+        Ok(Written {
+            outputs,
+            constant,
+            not_finite,
+        })
+    }
+}
+
+/// Replaces what is no number, and says how often.
+fn make_finite(channel: &Channel, pixels: &mut ChannelPixels) -> u64 {
+    let neutral = channel.neutral();
+    let mut replaced = 0;
+    for values in pixels.data.chunks_exact_mut(neutral.len()) {
+        for (value, &neutral) in values.iter_mut().zip(neutral) {
+            if !value.is_finite() {
+                *value = neutral;
+                replaced += 1;
+            }
+        }
+    }
+    replaced
+}
+
+#[cfg(test)]
+mod tests;

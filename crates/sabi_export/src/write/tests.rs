@@ -1,0 +1,218 @@
+use std::fs;
+
+use sabi_image::{Declared, Pixels, decode};
+
+use super::*;
+use crate::layout::{layouts, tests::atlas};
+use crate::{AtlasTexels, Padding, PaddingMap, Value};
+
+const SIZE: u32 = 32;
+
+fn layout() -> SetLayout {
+    layouts(&atlas(
+        SIZE,
+        SIZE,
+        &[(0, [0, 0], [0, 0], 2..20, 3..30), (0, [0, 0], [0, 0], 24..30, 3..30)],
+    ))
+    .remove(0)
+}
+
+fn pixels(channel: &Channel, value: impl Fn(usize) -> f32) -> ChannelPixels {
+    let components = channel.components();
+    let texels: Vec<f32> = (0..(SIZE * SIZE) as usize * components).map(value).collect();
+    let layout = layout();
+    let texels = AtlasTexels {
+        data: &texels,
+        stride: components,
+        first: 0,
+    };
+    PaddingMap::new(&layout, Padding::Infinite).gather(&layout, channel, texels)
+}
+
+fn wavy(index: usize) -> f32 {
+    (index as f32 * 0.37).sin() * 0.4 + 0.5
+}
+
+fn bake(folder: &Path, options: &SetOptions, channels: &[(Channel, ChannelPixels)]) -> (Vec<Written>, Committed) {
+    let layout = layout();
+    let mut writer = BakeWriter::create(folder).unwrap();
+    let mut set = writer.set(&layout, "wood", options);
+    let written = channels
+        .iter()
+        .map(|(channel, pixels)| set.channel(channel, pixels.clone()).unwrap())
+        .collect();
+    (written, writer.commit().unwrap())
+}
+
+fn everything() -> Vec<(Channel, ChannelPixels)> {
+    let mut channels: Vec<Channel> = Channel::ALL.to_vec();
+    channels.push(Channel::Mask("wear".into()));
+    channels
+        .into_iter()
+        .map(|channel| (channel.clone(), pixels(&channel, wavy)))
+        .collect()
+}
+
+#[test]
+fn a_whole_set_is_written_as_raw_promises_and_twice_the_same() {
+    let (a, b) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let (written, committed) = bake(a.path(), &SetOptions::default(), &everything());
+    bake(b.path(), &SetOptions::default(), &everything());
+    let outputs: Vec<&OutputRecord> = written.iter().flat_map(|written| &written.outputs).collect();
+    let facts: Vec<(&str, u8, &str)> = outputs
+        .iter()
+        .map(|output| (output.path.as_str(), output.bits, output.color_space))
+        .collect();
+    assert_eq!(
+        facts,
+        [
+            ("wood_base_color.png", 8, "srgb"),
+            ("wood_opacity.png", 8, "linear"),
+            ("wood_roughness.png", 8, "linear"),
+            ("wood_metallic.png", 8, "linear"),
+            ("wood_occlusion.png", 8, "linear"),
+            ("wood_height.exr", 32, "linear"),
+            ("wood_height.png", 16, "linear"),
+            ("wood_normal.png", 16, "linear"),
+            ("wood_emission.png", 8, "srgb"),
+            ("wood_wear.png", 16, "linear"),
+        ]
+    );
+    assert_eq!(committed.files.len(), facts.len());
+    for output in outputs {
+        let bytes = fs::read(a.path().join(&output.path)).unwrap();
+        assert_eq!(bytes, fs::read(b.path().join(&output.path)).unwrap(), "{}", output.path);
+        assert_eq!(output.blake3, blake3::hash(&bytes).to_hex().to_string());
+        let picture = decode(&output.path, &bytes).unwrap();
+        assert_eq!((picture.width, picture.height), (SIZE, SIZE));
+        assert_eq!(usize::from(picture.channels), output.channel.components());
+        let declared = match (output.color_space, output.bits) {
+            ("srgb", _) => Declared::Srgb,
+            (_, 32) => Declared::Linear,
+            _ => Declared::Unknown,
+        };
+        assert_eq!(picture.color_space, declared, "{}", output.path);
+    }
+}
+
+#[test]
+fn heights_are_exact_and_their_range_spans_the_charts() {
+    let folder = tempfile::tempdir().unwrap();
+    let height = pixels(&Channel::Height, |index| index as f32 * 0.001 - 0.2);
+    let (written, _) = bake(
+        folder.path(),
+        &SetOptions::default(),
+        &[(Channel::Height, height.clone())],
+    );
+    let exact = decode("h.exr", &fs::read(folder.path().join("wood_height.exr")).unwrap()).unwrap();
+    assert_eq!(exact.pixels, Pixels::F32(height.data.clone()));
+    let [low, high] = written[0].outputs[1].range.unwrap();
+    // First and last owned texels.
+    assert_eq!(
+        (low, high),
+        ((3 * 32 + 2) as f32 * 0.001 - 0.2, (29 * 32 + 29) as f32 * 0.001 - 0.2)
+    );
+    assert_eq!(written[0].outputs[0].range, None);
+    let coded = decode("h.png", &fs::read(folder.path().join("wood_height.png")).unwrap()).unwrap();
+    for (value, texel) in coded.linear_rgba(false).rgba.iter().zip(&height.data) {
+        let expected = texel.clamp(low, high);
+        assert!((low + value[0] * (high - low) - expected).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn a_constant_channel_is_a_number_unless_all_maps_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let flat = [(Channel::Roughness, pixels(&Channel::Roughness, |_| 0.7))];
+    let (written, committed) = bake(folder.path(), &SetOptions::default(), &flat);
+    assert!(written[0].outputs.is_empty() && committed.files.is_empty());
+    assert_eq!(written[0].constant.as_ref().unwrap().value, Value::Number(0.7));
+    let all = SetOptions {
+        all_maps: true,
+        ..SetOptions::default()
+    };
+    let (written, committed) = bake(folder.path(), &all, &flat);
+    assert_eq!((written[0].outputs.len(), committed.files.len()), (1, 1));
+    let picture = decode("r.png", &fs::read(folder.path().join("wood_roughness.png")).unwrap()).unwrap();
+    assert_eq!(picture.pixels, Pixels::U8(vec![179; (SIZE * SIZE) as usize]));
+    let (_, committed) = bake(folder.path(), &SetOptions::default(), &flat);
+    assert_eq!(
+        committed.left_over,
+        [folder.path().join("wood_roughness.png")],
+        "the older map is mentioned"
+    );
+}
+
+#[test]
+fn emission_above_one_keeps_its_floats_beside_the_clamped_map() {
+    let folder = tempfile::tempdir().unwrap();
+    let emission = pixels(&Channel::Emission, |index| (index % 50) as f32 * 0.1);
+    bake(
+        folder.path(),
+        &SetOptions::default(),
+        &[(Channel::Emission, emission.clone())],
+    );
+    let exact = decode("e.exr", &fs::read(folder.path().join("wood_emission.exr")).unwrap()).unwrap();
+    assert_eq!((exact.channels, exact.pixels), (3, Pixels::F32(emission.data)));
+    assert!(folder.path().join("wood_emission.png").is_file());
+}
+
+#[test]
+fn what_is_no_number_is_counted_and_made_neutral() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut height = pixels(&Channel::Height, |index| index as f32);
+    height.data[0] = f32::NAN;
+    height.data[1] = f32::NEG_INFINITY;
+    let (written, _) = bake(folder.path(), &SetOptions::default(), &[(Channel::Height, height)]);
+    assert_eq!(written[0].not_finite, 2);
+    let exact = decode("h.exr", &fs::read(folder.path().join("wood_height.exr")).unwrap()).unwrap();
+    assert_eq!(exact.linear_rgba(false).rgba[1], [0.0, 0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_bake_that_fails_leaves_the_old_outputs_as_they_were() {
+    let folder = tempfile::tempdir().unwrap();
+    bake(folder.path(), &SetOptions::default(), &everything());
+    let before = fs::read(folder.path().join("wood_roughness.png")).unwrap();
+    let layout = layout();
+    let mut writer = BakeWriter::create(folder.path()).unwrap();
+    let mut set = writer.set(&layout, "wood", &SetOptions::default());
+    let other = pixels(&Channel::Roughness, |index| (index % 3) as f32 * 0.3);
+    set.channel(&Channel::Roughness, other).unwrap();
+    let short = ChannelPixels {
+        components: 1,
+        data: vec![0.0; 3],
+    };
+    let error = set.channel(&Channel::Opacity, short).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "channel opacity has 3 values for a texture set of 1024; this is a defect of Sabi"
+    );
+    drop(writer);
+    assert_eq!(fs::read(folder.path().join("wood_roughness.png")).unwrap(), before);
+    let names: Vec<_> = fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
+    assert!(
+        names.iter().all(|name| !name.to_string_lossy().ends_with(".tmp")),
+        "{names:?}"
+    );
+}
+
+#[test]
+fn two_masks_of_one_name_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let layout = layout();
+    let mut writer = BakeWriter::create(folder.path()).unwrap();
+    let mut set = writer.set(&layout, "wood", &SetOptions::default());
+    let (first, second) = (Channel::Mask("wear".into()), Channel::Mask("Wear".into()));
+    set.channel(&first, pixels(&first, wavy)).unwrap();
+    let error = set.channel(&second, pixels(&second, wavy)).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("two maps would be written to wood_Wear.png"),
+        "{error}"
+    );
+}
