@@ -1,0 +1,376 @@
+//! Every loop has a bound that can be seen, and all bounds together stay small enough for one texel.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use naga::{BinaryOperator, Block, Expression, Function, Handle, LocalVariable, Module, ScalarKind, Span, Statement};
+
+use super::interval::{Frame, Interval, Reader};
+use super::walk::{conjuncts, stores};
+use crate::compile::Linked;
+use crate::fault::Fault;
+use crate::kind::Param;
+use crate::params::params_type;
+use crate::scan::Scan;
+
+/// Most rounds and calls of one function for one texel.
+const ROUNDS_LIMIT: u64 = 1 << 16;
+
+const FORM: &str = "Write `for (var i = 0u; i < N; i++)`, where N is a constant, a `u32` or `i32` parameter with `@range`, \
+                    or min() or clamp() with a constant; leave early with `break`.";
+
+/// Checks all loops that `roots` reach; gives the parameters that bound one.
+pub(super) fn check(
+    linked: &Linked<'_>,
+    scan: &Scan,
+    module: &Module,
+    params: &[Param],
+    roots: &[Handle<Function>],
+    faults: &mut Vec<Fault>,
+) -> BTreeSet<usize> {
+    let mut counter = Counter {
+        linked,
+        reader: Reader {
+            module,
+            params_type: params_type(module).map(|(handle, _)| handle),
+            params,
+        },
+        known: BTreeMap::new(),
+        bounding: BTreeSet::new(),
+        site: None,
+        faults: Vec::new(),
+    };
+    for root in roots {
+        let function = &module.functions[*root];
+        let rounds = counter.function(*root, vec![None; function.arguments.len()]);
+        if rounds > ROUNDS_LIMIT && counter.faults.is_empty() {
+            let item = scan.functions().find(|item| Some(&item.name) == function.name.as_ref());
+            let span = item.map_or(Span::UNDEFINED, |item| Span::from(item.name_range.clone()));
+            counter.faults.push(linked.fault(
+                span,
+                format!(
+                    "This function takes up to {rounds} rounds and calls for each texel; {ROUNDS_LIMIT} are allowed."
+                ),
+                "Make loops shorter, or call less.",
+            ));
+        }
+    }
+    for fault in counter.faults {
+        if !faults.contains(&fault) {
+            faults.push(fault);
+        }
+    }
+    counter.bounding
+}
+
+struct Counter<'a, 'm> {
+    linked: &'a Linked<'a>,
+    reader: Reader<'m>,
+    /// Rounds of a function by what its arguments can be.
+    known: BTreeMap<(usize, Vec<Option<Interval>>), u64>,
+    bounding: BTreeSet<usize>,
+    /// The call in the node's text that led into a library.
+    site: Option<Span>,
+    faults: Vec<Fault>,
+}
+
+/// A loop that was understood.
+struct Bounded {
+    counter: Handle<LocalVariable>,
+    values: Interval,
+    rounds: u64,
+}
+
+impl<'m> Counter<'_, 'm> {
+    /// Rounds and calls of a function, at least 1.
+    fn function(&mut self, handle: Handle<Function>, arguments: Vec<Option<Interval>>) -> u64 {
+        let key = (handle.index(), arguments);
+        if let Some(known) = self.known.get(&key) {
+            return *known;
+        }
+        let function = &self.reader.module.functions[handle];
+        let mut frame = Frame {
+            function,
+            arguments: key.1.clone(),
+            stores: stores(function, &function.body),
+            counters: BTreeMap::new(),
+        };
+        let rounds = self.block(&mut frame, &function.body).max(1);
+        self.known.insert(key, rounds);
+        rounds
+    }
+
+    fn block(&mut self, frame: &mut Frame<'m>, block: &'m Block) -> u64 {
+        let mut rounds: u64 = 0;
+        for (statement, span) in block.span_iter() {
+            let more = match statement {
+                Statement::Block(block) => self.block(frame, block),
+                Statement::If { accept, reject, .. } => {
+                    let accept = self.block(frame, accept);
+                    accept.max(self.block(frame, reject))
+                }
+                Statement::Switch { cases, .. } => {
+                    let cases = cases.iter().map(|case| self.block(frame, &case.body));
+                    cases.fold(0, u64::saturating_add)
+                }
+                Statement::Loop {
+                    body,
+                    continuing,
+                    break_if,
+                } => self.repeated(frame, *span, body, continuing, break_if.is_some()),
+                Statement::Call {
+                    function, arguments, ..
+                } => {
+                    let arguments = arguments
+                        .iter()
+                        .map(|argument| self.reader.interval(frame, *argument))
+                        .collect();
+                    let outer = self.site;
+                    if self.linked.is_in_node(*span) {
+                        self.site = Some(*span);
+                    }
+                    let rounds = self.function(*function, arguments);
+                    self.site = outer;
+                    rounds
+                }
+                _ => 0,
+            };
+            rounds = rounds.saturating_add(more);
+        }
+        rounds
+    }
+
+    fn repeated(
+        &mut self,
+        frame: &mut Frame<'m>,
+        span: Span,
+        body: &'m Block,
+        continuing: &'m Block,
+        breaks_if: bool,
+    ) -> u64 {
+        let bounded = if breaks_if {
+            Err("This loop has no bound that can be seen.".to_owned())
+        } else {
+            self.bound(frame, body, continuing)
+        };
+        let bounded = match bounded {
+            Ok(bounded) => bounded,
+            Err(message) => {
+                self.refuse(frame, span, message, FORM);
+                return 1;
+            }
+        };
+        self.bounding.extend(&bounded.values.params);
+        let index = bounded.counter.index();
+        frame.counters.insert(index, bounded.values);
+        let inner = self.block(frame, body).max(1);
+        frame.counters.remove(&index);
+        let rounds = bounded.rounds.saturating_mul(inner);
+        if rounds > ROUNDS_LIMIT && inner <= ROUNDS_LIMIT {
+            let message = if inner > 1 {
+                format!(
+                    "This loop takes up to {} × {inner} = {rounds} rounds for each texel; {ROUNDS_LIMIT} are allowed.",
+                    bounded.rounds
+                )
+            } else {
+                format!("This loop takes up to {rounds} rounds for each texel; {ROUNDS_LIMIT} are allowed.")
+            };
+            self.refuse(frame, span, message, "Make it, or what it does each round, shorter.");
+        }
+        rounds
+    }
+
+    /// A fault at the loop, or at the call that led to it when it is in a library.
+    fn refuse(&mut self, frame: &Frame<'_>, span: Span, message: String, advice: &str) {
+        let fault = match (self.site, self.linked.library_at(span)) {
+            (Some(site), Some(library)) => {
+                let name = frame.function.name.as_deref().unwrap_or_default();
+                let message = format!("In `{name}` of lib/{library}.wgsl, which this calls: {message}");
+                self.linked.fault(
+                    site,
+                    message,
+                    "Hand over arguments whose range can be seen, such as a parameter with `@range`.",
+                )
+            }
+            _ => self.linked.fault(span, message, advice),
+        };
+        self.faults.push(fault);
+    }
+
+    /// How often a loop of the form of `for` runs, or why that cannot be seen.
+    fn bound(&self, frame: &Frame<'m>, body: &'m Block, continuing: &'m Block) -> Result<Bounded, String> {
+        let not_seen = "This loop has no bound that can be seen.";
+        let condition = loop_condition(body).ok_or(not_seen)?;
+        let mut reason = not_seen.to_owned();
+        for condition in conjuncts(frame.function, &frame.stores, condition) {
+            let Some((counter, bound, strict)) = comparison(frame.function, condition) else {
+                continue;
+            };
+            match self.counted(frame, body, continuing, counter, bound, strict) {
+                Ok(bounded) => return Ok(bounded),
+                Err(why) => reason = why,
+            }
+        }
+        Err(reason)
+    }
+
+    fn counted(
+        &self,
+        frame: &Frame<'m>,
+        body: &'m Block,
+        continuing: &'m Block,
+        counter: Handle<LocalVariable>,
+        bound: Handle<Expression>,
+        strict: bool,
+    ) -> Result<Bounded, String> {
+        let name = frame.function.local_variables[counter]
+            .name
+            .as_deref()
+            .unwrap_or("counter");
+        let step = self.step(frame, continuing, counter).ok_or_else(|| {
+            format!("The bound of this loop cannot be seen, because nothing adds to `{name}` after each round.")
+        })?;
+        if stores(frame.function, body).iter().any(|store| store.local == counter) {
+            return Err(format!(
+                "The bound of this loop cannot be seen, because the loop itself changes `{name}`."
+            ));
+        }
+        let bound = self
+            .reader
+            .interval(frame, bound)
+            .ok_or_else(|| "The bound of this loop cannot be seen; count with `u32` or `i32`.".to_owned())?;
+        let start = self.start(frame, continuing, counter);
+        let last = if strict { bound.high - 1 } else { bound.high };
+        let kind_high = if bound.high > i64::from(i32::MAX) {
+            u32::MAX.into()
+        } else {
+            i64::from(i32::MAX)
+        };
+        let is_unknown = [ScalarKind::Uint, ScalarKind::Sint]
+            .iter()
+            .any(|kind| bound.high == Interval::unknown(*kind).high || start.low == i64::from(i32::MIN));
+        if is_unknown || last + step > kind_high {
+            return Err(format!(
+                "How often this loop runs cannot be seen: nothing limits what `{name}` is compared with."
+            ));
+        }
+        let rounds = if last < start.low {
+            0
+        } else {
+            (last - start.low) / step + 1
+        };
+        let mut values = Interval::exactly(start.low.min(last)).or(Interval::exactly(last.max(start.low)));
+        values.params.extend(bound.params.iter().chain(&start.params));
+        Ok(Bounded {
+            counter,
+            values,
+            rounds: rounds.unsigned_abs(),
+        })
+    }
+
+    /// What the counter can be before the first round.
+    fn start(&self, frame: &Frame<'m>, continuing: &'m Block, counter: Handle<LocalVariable>) -> Interval {
+        let own: Vec<_> = stores(frame.function, continuing)
+            .iter()
+            .map(|store| (store.pointer, store.value))
+            .collect();
+        let init = frame.function.local_variables[counter].init;
+        let mut values = init.and_then(|init| self.reader.interval(frame, init));
+        for store in frame.stores.iter().filter(|store| store.local == counter) {
+            if own.contains(&(store.pointer, store.value)) {
+                continue;
+            }
+            let value = store.value.and_then(|value| self.reader.interval(frame, value));
+            let value = value.unwrap_or(Interval::unknown(ScalarKind::Sint));
+            values = Some(match values {
+                Some(known) => known.or(value),
+                None => value,
+            });
+        }
+        values.unwrap_or(Interval::exactly(0))
+    }
+
+    /// What is added to the counter after each round: at least 1, by one statement.
+    fn step(&self, frame: &Frame<'m>, continuing: &'m Block, counter: Handle<LocalVariable>) -> Option<i64> {
+        let all = stores(frame.function, continuing);
+        let mut own = all.iter().filter(|store| store.local == counter);
+        let (store, None) = (own.next()?, own.next()) else {
+            return None;
+        };
+        let Expression::Binary {
+            op: BinaryOperator::Add,
+            left,
+            right,
+        } = frame.function.expressions[store.value?]
+        else {
+            return None;
+        };
+        let is_straight = store.path.is_empty() && store.conditions.is_empty();
+        if !is_straight || loaded(frame.function, left) != Some(counter) {
+            return None;
+        }
+        let step = self.reader.interval(frame, right)?;
+        (step.low >= 1).then_some(step.low)
+    }
+}
+
+/// The condition under which the loop goes on: the body starts with `if condition {} else { break; }`.
+fn loop_condition(body: &Block) -> Option<Handle<Expression>> {
+    for statement in body {
+        match statement {
+            Statement::If {
+                condition,
+                accept,
+                reject,
+            } => {
+                let leaves = matches!(reject.iter().collect::<Vec<_>>()[..], [Statement::Break]);
+                if leaves && accept.is_empty() {
+                    return Some(*condition);
+                }
+                // What `&&` becomes.
+                let only_stores = |block: &Block| {
+                    block.iter().all(|statement| {
+                        matches!(
+                            statement,
+                            Statement::Emit(_) | Statement::Store { .. } | Statement::Call { .. }
+                        )
+                    })
+                };
+                if !only_stores(accept) || !only_stores(reject) {
+                    return None;
+                }
+            }
+            Statement::Emit(_) | Statement::Call { .. } => {}
+            _ => return None,
+        }
+    }
+    None
+}
+
+/// `counter < bound` (strict), `counter <= bound`, and the same the other way around.
+fn comparison(
+    function: &Function,
+    condition: Handle<Expression>,
+) -> Option<(Handle<LocalVariable>, Handle<Expression>, bool)> {
+    let Expression::Binary { op, left, right } = function.expressions[condition] else {
+        return None;
+    };
+    let (counter, bound, strict) = match op {
+        BinaryOperator::Less => (left, right, true),
+        BinaryOperator::LessEqual => (left, right, false),
+        BinaryOperator::Greater => (right, left, true),
+        BinaryOperator::GreaterEqual => (right, left, false),
+        _ => return None,
+    };
+    Some((loaded(function, counter)?, bound, strict))
+}
+
+/// The variable that an expression reads.
+fn loaded(function: &Function, expression: Handle<Expression>) -> Option<Handle<LocalVariable>> {
+    let Expression::Load { pointer } = function.expressions[expression] else {
+        return None;
+    };
+    match function.expressions[pointer] {
+        Expression::LocalVariable(local) => Some(local),
+        _ => None,
+    }
+}

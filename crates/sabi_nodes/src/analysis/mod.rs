@@ -1,0 +1,71 @@
+//! What the code of a node does, read from naga's module.
+
+mod channels;
+mod cost;
+mod interval;
+mod loops;
+#[cfg(test)]
+mod tests;
+mod usage;
+pub(crate) mod walk;
+
+use std::collections::BTreeSet;
+
+use naga::{Function, Handle, Module};
+
+use crate::compile::Linked;
+use crate::fault::Fault;
+use crate::kind::{ChannelWrite, Output, Param, Repeat};
+use crate::ports::{Ports, function};
+use crate::scan::Scan;
+
+/// What was found.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Findings {
+    /// Indices of the parameters that bound a loop.
+    pub(crate) params_that_bound_loops: BTreeSet<usize>,
+    /// Expressions of one evaluation of all outputs, calls expanded.
+    pub(crate) cost: u32,
+    /// For each output, in order.
+    pub(crate) output_channels: Vec<Vec<ChannelWrite>>,
+    /// For each pass, in order.
+    pub(crate) pass_channels: Vec<Vec<ChannelWrite>>,
+}
+
+/// Checks use of parameters and inputs, and loops; measures cost and channels.
+pub(crate) fn analyze(
+    linked: &Linked<'_>,
+    scan: &Scan,
+    module: &Module,
+    params: &[Param],
+    ports: &Ports,
+) -> Result<Findings, Vec<Fault>> {
+    let handle = |output: &Output| function(module, &output.name).map(|(handle, _)| handle);
+    let outputs: Vec<Handle<Function>> = ports.outputs.iter().filter_map(handle).collect();
+    let passes: Vec<Handle<Function>> = ports.passes.iter().filter_map(|pass| handle(&pass.function)).collect();
+    let roots: Vec<Handle<Function>> = outputs.iter().chain(&passes).copied().collect();
+    let functions = ports
+        .outputs
+        .iter()
+        .chain(ports.passes.iter().map(|pass| &pass.function));
+    let repeats = functions.filter_map(|function| match function.repeat {
+        Repeat::Param(index) => Some(index as u32),
+        Repeat::Once | Repeat::Times(_) => None,
+    });
+    let mut faults = usage::check(linked, scan, module, &roots, &repeats.collect());
+    let params_that_bound_loops = loops::check(linked, scan, module, params, &roots, &mut faults);
+    if !faults.is_empty() {
+        faults.sort_by_key(|fault| (fault.line, fault.column));
+        return Err(faults);
+    }
+    let channels = |roots: &[Handle<Function>]| {
+        let of = |root: &Handle<Function>| channels::channels(module, params, *root);
+        roots.iter().map(of).collect()
+    };
+    Ok(Findings {
+        params_that_bound_loops,
+        cost: cost::cost(module, &outputs),
+        output_channels: channels(&outputs),
+        pass_channels: channels(&passes),
+    })
+}

@@ -1,0 +1,231 @@
+//! Which parameters and inputs a node really reads.
+
+use std::collections::BTreeSet;
+
+use naga::{Expression, Function, Handle, Module, Span, Statement, TypeInner};
+
+use super::walk::{calls, children, stores, visit};
+use crate::compile::Linked;
+use crate::fault::Fault;
+use crate::params::params_type;
+use crate::scan::Scan;
+
+/// How a function uses an argument.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Use {
+    /// Only these members of it, perhaps none.
+    Members(BTreeSet<u32>),
+    /// All of it, as far as one can see.
+    Whole,
+}
+
+impl Use {
+    fn is_none(&self) -> bool {
+        matches!(self, Use::Members(members) if members.is_empty())
+    }
+
+    fn merge(&mut self, other: &Use) {
+        match (&mut *self, other) {
+            (Use::Members(own), Use::Members(others)) => own.extend(others),
+            _ => *self = Use::Whole,
+        }
+    }
+}
+
+/// Every member of `Params` is read by a root, and every input by each function that takes it.
+///
+/// `repeats`: parameters that say how often a function runs.
+pub(super) fn check(
+    linked: &Linked<'_>,
+    scan: &Scan,
+    module: &Module,
+    roots: &[Handle<Function>],
+    repeats: &BTreeSet<u32>,
+) -> Vec<Fault> {
+    // Callees stand before their callers.
+    let mut uses: Vec<Vec<Use>> = Vec::with_capacity(module.functions.len());
+    for (_, function) in module.functions.iter() {
+        let of = argument_uses(module, function, &uses);
+        uses.push(of);
+    }
+    let mut faults = Vec::new();
+    let params = params_type(module).map(|(handle, _)| handle);
+    let mut of_params = Use::Members(repeats.clone());
+    for root in roots {
+        let function = &module.functions[*root];
+        let item = scan.functions().find(|item| Some(&item.name) == function.name.as_ref());
+        for (index, argument) in function.arguments.iter().enumerate() {
+            let Some(used) = uses.get(root.index()).and_then(|uses| uses.get(index)) else {
+                continue;
+            };
+            if Some(argument.ty) == params {
+                of_params.merge(used);
+            } else if used.is_none() && argument.name.as_deref() != Some("at") {
+                let name = argument.name.as_deref().unwrap_or_default();
+                let member = item.and_then(|item| item.members.get(index));
+                let span = member.map_or(Span::UNDEFINED, |member| Span::from(member.name_range.clone()));
+                let function = function.name.as_deref().unwrap_or_default();
+                faults.push(linked.fault(
+                    span,
+                    format!("The input `{name}` has no effect on `{function}`."),
+                    "Use it, or remove the argument.",
+                ));
+            }
+        }
+    }
+    if let (Use::Members(read), Some(item)) = (of_params, scan.params()) {
+        for (index, member) in item.members.iter().enumerate() {
+            if !read.contains(&(index as u32)) {
+                faults.push(linked.fault(
+                    Span::from(member.name_range.clone()),
+                    format!("The parameter `{}` has no effect on any output.", member.name),
+                    "Use it, or remove it.",
+                ));
+            }
+        }
+    }
+    faults
+}
+
+/// How a function uses each of its arguments, given its callees.
+fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> Vec<Use> {
+    let mut reader = Reader {
+        function,
+        live: vec![false; function.expressions.len()],
+        uses: vec![Use::Members(BTreeSet::new()); function.arguments.len()],
+        open: Vec::new(),
+    };
+    let calls = calls(&function.body);
+    let stores = stores(function, &function.body);
+    visit(&function.body, &mut |statement, _| match statement {
+        Statement::Return { value: Some(value) } => reader.mark(*value),
+        Statement::If { condition, .. } => reader.mark(*condition),
+        Statement::Switch { selector, .. } => reader.mark(*selector),
+        Statement::Loop {
+            break_if: Some(condition),
+            ..
+        } => reader.mark(*condition),
+        Statement::Store { pointer, value } if super::walk::target(function, *pointer).is_none() => {
+            reader.mark(*pointer);
+            reader.mark(*value);
+        }
+        // What a function does through a pointer is not followed.
+        Statement::Call { arguments, .. } => {
+            let is_pointer = |argument: &Handle<Expression>| is_pointer(module, function, *argument);
+            if arguments.iter().any(is_pointer) {
+                arguments.iter().for_each(|argument| reader.mark(*argument));
+            }
+        }
+        _ => {}
+    });
+    loop {
+        reader.spread();
+        let before = reader.live.iter().filter(|live| **live).count();
+        reader.live_stores(&stores);
+        reader.live_calls(&calls, callees);
+        reader.spread();
+        if reader.live.iter().filter(|live| **live).count() == before {
+            return reader.uses;
+        }
+    }
+}
+
+fn is_pointer(module: &Module, function: &Function, expression: Handle<Expression>) -> bool {
+    match function.expressions[expression] {
+        Expression::LocalVariable(_) => true,
+        Expression::FunctionArgument(index) => function.arguments.get(index as usize).is_some_and(|argument| {
+            matches!(
+                module.types[argument.ty].inner,
+                TypeInner::Pointer { .. } | TypeInner::ValuePointer { .. }
+            )
+        }),
+        Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => is_pointer(module, function, base),
+        _ => false,
+    }
+}
+
+/// Marks the expressions that a result depends on.
+struct Reader<'m> {
+    function: &'m Function,
+    live: Vec<bool>,
+    uses: Vec<Use>,
+    open: Vec<Handle<Expression>>,
+}
+
+impl Reader<'_> {
+    fn mark(&mut self, expression: Handle<Expression>) {
+        if !std::mem::replace(&mut self.live[expression.index()], true) {
+            self.open.push(expression);
+        }
+    }
+
+    /// Marks everything that marked expressions are made of.
+    fn spread(&mut self) {
+        while let Some(handle) = self.open.pop() {
+            let expression = &self.function.expressions[handle];
+            match expression {
+                Expression::FunctionArgument(index) => self.use_argument(*index, &Use::Whole),
+                Expression::AccessIndex { base, index } => match self.function.expressions[*base] {
+                    Expression::FunctionArgument(argument) => {
+                        self.use_argument(argument, &Use::Members(BTreeSet::from([*index])));
+                    }
+                    _ => self.mark(*base),
+                },
+                _ => {
+                    let mut parts = Vec::new();
+                    children(expression, &mut |part| parts.push(part));
+                    parts.into_iter().for_each(|part| self.mark(part));
+                }
+            }
+        }
+    }
+
+    fn use_argument(&mut self, index: u32, used: &Use) {
+        if let Some(known) = self.uses.get_mut(index as usize) {
+            known.merge(used);
+        }
+    }
+
+    /// What is stored in a variable counts when the variable is read.
+    fn live_stores(&mut self, stores: &[super::walk::Store]) {
+        let mut read = BTreeSet::new();
+        for (handle, expression) in self.function.expressions.iter() {
+            if let (true, Expression::LocalVariable(local)) = (self.live[handle.index()], expression) {
+                read.insert(local.index());
+            }
+        }
+        for store in stores.iter().filter(|store| read.contains(&store.local.index())) {
+            self.mark(store.pointer);
+            if let Some(value) = store.value {
+                self.mark(value);
+            }
+        }
+        for (handle, local) in self.function.local_variables.iter() {
+            if let (true, Some(init)) = (read.contains(&handle.index()), local.init) {
+                self.mark(init);
+            }
+        }
+    }
+
+    /// Arguments of a call count as far as the callee uses them, when its result is read.
+    fn live_calls(
+        &mut self,
+        calls: &std::collections::BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)>,
+        callees: &[Vec<Use>],
+    ) {
+        for (result, (callee, arguments)) in calls {
+            if !self.live[*result] {
+                continue;
+            }
+            let Some(uses) = callees.get(callee.index()) else {
+                continue;
+            };
+            for (argument, used) in arguments.iter().zip(uses).filter(|(_, used)| !used.is_none()) {
+                match (&self.function.expressions[*argument], used) {
+                    (Expression::FunctionArgument(index), Use::Members(_)) => self.use_argument(*index, used),
+                    _ => self.mark(*argument),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! Walking naga's statements and expressions.
+
+use std::collections::BTreeMap;
+
+use naga::{Block, Expression, Function, Handle, ImageQuery, Literal, LocalVariable, SampleLevel, Span, Statement};
+
+/// All expressions of a function with their places.
+pub(crate) fn expressions_with_spans(function: &Function) -> impl Iterator<Item = (&Expression, Span)> {
+    function
+        .expressions
+        .iter()
+        .map(|(handle, expression)| (expression, function.expressions.get_span(handle)))
+}
+
+/// Calls `see` for every statement, nested ones too.
+pub(crate) fn visit<'m>(block: &'m Block, see: &mut impl FnMut(&'m Statement, Span)) {
+    for (statement, span) in block.span_iter() {
+        see(statement, *span);
+        for nested in nested_blocks(statement) {
+            visit(nested, see);
+        }
+    }
+}
+
+/// Blocks inside a statement.
+pub(crate) fn nested_blocks(statement: &Statement) -> Vec<&Block> {
+    match statement {
+        Statement::Block(block) => vec![block],
+        Statement::If { accept, reject, .. } => vec![accept, reject],
+        Statement::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
+        Statement::Loop { body, continuing, .. } => vec![body, continuing],
+        _ => Vec::new(),
+    }
+}
+
+/// Calls `see` for every expression that `expression` is made of directly.
+pub(crate) fn children(expression: &Expression, see: &mut impl FnMut(Handle<Expression>)) {
+    let mut all = |handles: &[Option<Handle<Expression>>]| handles.iter().flatten().for_each(|handle| see(*handle));
+    match expression {
+        Expression::Compose { components, .. } => components.iter().for_each(|component| all(&[Some(*component)])),
+        Expression::Access { base, index } => all(&[Some(*base), Some(*index)]),
+        Expression::AccessIndex { base, .. } => all(&[Some(*base)]),
+        Expression::Splat { value, .. } => all(&[Some(*value)]),
+        Expression::Swizzle { vector, .. } => all(&[Some(*vector)]),
+        Expression::Load { pointer } => all(&[Some(*pointer)]),
+        Expression::ImageSample {
+            image,
+            sampler,
+            coordinate,
+            array_index,
+            offset,
+            level,
+            depth_ref,
+            ..
+        } => {
+            all(&[
+                Some(*image),
+                Some(*sampler),
+                Some(*coordinate),
+                *array_index,
+                *offset,
+                *depth_ref,
+            ]);
+            match level {
+                SampleLevel::Exact(level) | SampleLevel::Bias(level) => all(&[Some(*level)]),
+                SampleLevel::Gradient { x, y } => all(&[Some(*x), Some(*y)]),
+                SampleLevel::Auto | SampleLevel::Zero => {}
+            }
+        }
+        Expression::ImageLoad {
+            image,
+            coordinate,
+            array_index,
+            sample,
+            level,
+        } => all(&[Some(*image), Some(*coordinate), *array_index, *sample, *level]),
+        Expression::ImageQuery { image, query } => {
+            let level = match query {
+                ImageQuery::Size { level } => *level,
+                _ => None,
+            };
+            all(&[Some(*image), level]);
+        }
+        Expression::Unary { expr, .. }
+        | Expression::Derivative { expr, .. }
+        | Expression::As { expr, .. }
+        | Expression::ArrayLength(expr) => all(&[Some(*expr)]),
+        Expression::Relational { argument, .. } => all(&[Some(*argument)]),
+        Expression::Binary { left, right, .. } => all(&[Some(*left), Some(*right)]),
+        Expression::Select {
+            condition,
+            accept,
+            reject,
+        } => all(&[Some(*condition), Some(*accept), Some(*reject)]),
+        Expression::Math {
+            arg, arg1, arg2, arg3, ..
+        } => all(&[Some(*arg), *arg1, *arg2, *arg3]),
+        // Leaves, and what the rules refuse.
+        _ => {}
+    }
+}
+
+/// An assignment to a local variable or a part of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Store {
+    pub(crate) local: Handle<LocalVariable>,
+    /// Indices from the variable to the part; `None` where an index is computed.
+    pub(crate) path: Vec<Option<u32>>,
+    /// The pointer to that part.
+    pub(crate) pointer: Handle<Expression>,
+    /// What is stored; `None` where a called function writes through a pointer.
+    pub(crate) value: Option<Handle<Expression>>,
+    /// Conditions around it, the outermost first, with the side taken.
+    pub(crate) conditions: Vec<(Handle<Expression>, bool)>,
+}
+
+/// The variable that a pointer leads into, and the way to the part.
+pub(crate) fn target(
+    function: &Function,
+    mut pointer: Handle<Expression>,
+) -> Option<(Handle<LocalVariable>, Vec<Option<u32>>)> {
+    let mut path = Vec::new();
+    loop {
+        match function.expressions[pointer] {
+            Expression::LocalVariable(local) => {
+                path.reverse();
+                return Some((local, path));
+            }
+            Expression::AccessIndex { base, index } => {
+                path.push(Some(index));
+                pointer = base;
+            }
+            Expression::Access { base, .. } => {
+                path.push(None);
+                pointer = base;
+            }
+            _ => return None,
+        }
+    }
+}
+
+/// All assignments to local variables in a block.
+pub(crate) fn stores(function: &Function, block: &Block) -> Vec<Store> {
+    let mut found = Vec::new();
+    gather_stores(function, block, &mut Vec::new(), &mut found);
+    found
+}
+
+fn gather_stores(
+    function: &Function,
+    block: &Block,
+    conditions: &mut Vec<(Handle<Expression>, bool)>,
+    found: &mut Vec<Store>,
+) {
+    for statement in block {
+        let written: Vec<(Handle<Expression>, Option<Handle<Expression>>)> = match statement {
+            Statement::Store { pointer, value } => vec![(*pointer, Some(*value))],
+            Statement::Call { arguments, .. } => arguments.iter().map(|argument| (*argument, None)).collect(),
+            _ => Vec::new(),
+        };
+        for (pointer, value) in written {
+            if let Some((local, path)) = target(function, pointer) {
+                found.push(Store {
+                    local,
+                    path,
+                    pointer,
+                    value,
+                    conditions: conditions.clone(),
+                });
+            }
+        }
+        if let Statement::If {
+            condition,
+            accept,
+            reject,
+        } = statement
+        {
+            for (side, taken) in [(accept, true), (reject, false)] {
+                conditions.push((*condition, taken));
+                gather_stores(function, side, conditions, found);
+                conditions.pop();
+            }
+        } else {
+            for nested in nested_blocks(statement) {
+                gather_stores(function, nested, conditions, found);
+            }
+        }
+    }
+}
+
+/// Conditions that all hold when `condition` does. naga turns `a && b` into a nameless variable that is `b` under
+/// `if a` and false otherwise.
+pub(crate) fn conjuncts(
+    function: &Function,
+    stores: &[Store],
+    condition: Handle<Expression>,
+) -> Vec<Handle<Expression>> {
+    let mut found = Vec::new();
+    let mut open = vec![condition];
+    while let Some(condition) = open.pop() {
+        match and_parts(function, stores, condition) {
+            // A chain of `&&` is as long as the text at most; the limit is for what naga may become.
+            Some(parts) if found.len() + open.len() < 256 => open.extend(parts),
+            _ => found.push(condition),
+        }
+    }
+    found
+}
+
+fn and_parts(function: &Function, stores: &[Store], condition: Handle<Expression>) -> Option<[Handle<Expression>; 2]> {
+    let Expression::Load { pointer } = function.expressions[condition] else {
+        return None;
+    };
+    let Expression::LocalVariable(local) = function.expressions[pointer] else {
+        return None;
+    };
+    if function.local_variables[local].name.is_some() {
+        return None;
+    }
+    let mut parts = None;
+    for store in stores.iter().filter(|store| store.local == local) {
+        let value = store.value?;
+        if matches!(function.expressions[value], Expression::Literal(Literal::Bool(false))) {
+            continue;
+        }
+        match (store.conditions.last(), parts) {
+            (Some(&(first, true)), None) => parts = Some([first, value]),
+            _ => return None,
+        }
+    }
+    parts
+}
+
+/// The call that gives each `CallResult`.
+pub(crate) fn calls(block: &Block) -> BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)> {
+    let mut calls = BTreeMap::new();
+    visit(block, &mut |statement, _| {
+        if let Statement::Call {
+            function,
+            arguments,
+            result: Some(result),
+        } = statement
+        {
+            calls.insert(result.index(), (*function, arguments.clone()));
+        }
+    });
+    calls
+}

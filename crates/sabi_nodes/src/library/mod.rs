@@ -1,0 +1,175 @@
+//! All kinds together: built in, from a user's folder, reloaded while they are edited.
+
+mod folder;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use crate::compile::check_library;
+use crate::fault::Fault;
+use crate::kind::Kind;
+use crate::reader::read_kind;
+use crate::words::nearest;
+
+mod built_in {
+    include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+}
+
+/// One node file before it is read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceFile {
+    /// Where it is; for messages, and to tell two files apart.
+    pub path: PathBuf,
+    /// Identifier in graph files, `category/name`.
+    pub id: String,
+    /// The WGSL text.
+    pub text: String,
+}
+
+/// Texts that nodes may use, by name (`noise` is `lib/noise.wgsl`). `core` is linked to every node without being asked.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Libraries(pub BTreeMap<String, String>);
+
+impl Libraries {
+    /// The text of a library.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        self.0.get(name).map(String::as_str)
+    }
+
+    /// Names of all libraries, sorted.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+}
+
+/// Node kinds by id, and the libraries they use.
+#[derive(Clone, Debug, Default)]
+pub struct Library {
+    kinds: BTreeMap<String, Kind>,
+    libraries: Libraries,
+}
+
+impl Library {
+    /// Reads files. What is faulty is left out and told; the rest works.
+    pub fn load(files: Vec<SourceFile>, libraries: Libraries) -> (Library, Vec<Fault>) {
+        let mut faults = Vec::new();
+        let mut library = Library {
+            kinds: BTreeMap::new(),
+            libraries,
+        };
+        library.drop_faulty_libraries(&mut faults);
+        for file in files {
+            if let Err(mut found) = library.replace(file) {
+                faults.append(&mut found);
+            }
+        }
+        (library, faults)
+    }
+
+    /// The kinds that come with the program.
+    pub fn builtin() -> Library {
+        let (files, libraries) = Library::builtin_files();
+        // A test holds that none of them is faulty.
+        Library::load(files, libraries).0
+    }
+
+    /// The texts of the kinds that come with the program, and of their libraries.
+    pub fn builtin_files() -> (Vec<SourceFile>, Libraries) {
+        let files = built_in::NODES.iter().map(|&(path, id, text)| SourceFile {
+            path: PathBuf::from(path),
+            id: id.to_owned(),
+            text: text.to_owned(),
+        });
+        let libraries = built_in::LIBRARIES
+            .iter()
+            .map(|&(name, text)| (name.to_owned(), text.to_owned()));
+        (files.collect(), Libraries(libraries.collect()))
+    }
+
+    /// The kind of that id, today's or an earlier one (`@was`).
+    pub fn kind(&self, id: &str) -> Option<&Kind> {
+        self.kinds
+            .get(id)
+            .or_else(|| self.kinds().find(|kind| kind.formerly.iter().any(|old| old == id)))
+    }
+
+    /// All kinds, sorted by id.
+    pub fn kinds(&self) -> impl Iterator<Item = &Kind> {
+        self.kinds.values()
+    }
+
+    /// The libraries that kinds use.
+    pub fn libraries(&self) -> &Libraries {
+        &self.libraries
+    }
+
+    /// The id nearest to one that does not exist, for "did you mean".
+    pub fn nearest(&self, id: &str) -> Option<&str> {
+        let known = || self.kinds.keys().map(String::as_str);
+        nearest(id, known()).or_else(|| {
+            // Someone who writes `simplex` or `noises/simplex` means the kind of that name.
+            let name = id.rsplit('/').next()?;
+            known().find(|known| known.rsplit('/').next() == Some(name))
+        })
+    }
+
+    /// Reads a new or changed file. A faulty one changes nothing: the last good version stays.
+    pub fn replace(&mut self, file: SourceFile) -> Result<(), Vec<Fault>> {
+        let kind = read_kind(&file, &self.libraries)?;
+        self.kinds.insert(kind.id.clone(), kind);
+        Ok(())
+    }
+
+    /// Takes a new or changed library text and reads the kinds that use it again. When one of them becomes faulty,
+    /// everything stays as it was.
+    pub fn replace_library(&mut self, name: &str, text: String) -> Result<(), Vec<Fault>> {
+        let mut libraries = self.libraries.clone();
+        libraries.0.insert(name.to_owned(), text);
+        check_library(name, &libraries).map_err(|fault| vec![fault])?;
+        let users = self
+            .kinds()
+            .filter(|kind| name == "core" || kind.libraries.iter().any(|used| used == name));
+        let mut changed = Vec::new();
+        let mut faults = Vec::new();
+        for kind in users {
+            let file = SourceFile {
+                path: kind.path.clone(),
+                id: kind.id.clone(),
+                text: kind.source.to_string(),
+            };
+            match read_kind(&file, &libraries) {
+                Ok(kind) => changed.push(kind),
+                Err(mut found) => faults.append(&mut found),
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        self.libraries = libraries;
+        self.kinds
+            .extend(changed.into_iter().map(|kind| (kind.id.clone(), kind)));
+        Ok(())
+    }
+
+    /// Removes a kind whose file is gone; `false` when there was none.
+    pub fn remove(&mut self, id: &str) -> bool {
+        self.kinds.remove(id).is_some()
+    }
+
+    /// Takes out the libraries that do not compile, so that each is told once and not by every node that uses it.
+    fn drop_faulty_libraries(&mut self, faults: &mut Vec<Fault>) {
+        let checked: Vec<(String, Fault)> = self
+            .libraries
+            .names()
+            .filter_map(|name| Some((name.to_owned(), check_library(name, &self.libraries).err()?)))
+            .collect();
+        for (name, fault) in checked {
+            self.libraries.0.remove(&name);
+            if !faults.contains(&fault) {
+                faults.push(fault);
+            }
+        }
+    }
+}

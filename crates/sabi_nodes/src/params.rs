@@ -1,0 +1,377 @@
+//! Reflects `struct Params`: shape from naga, everything else from the annotations.
+
+#[cfg(test)]
+mod tests;
+mod values;
+
+use std::ops::Range;
+
+use naga::{ArraySize, Module, Scalar, ScalarKind, Type, TypeInner, VectorSize};
+
+use crate::fault::{Fault, Text};
+use crate::kind::{Param, ParamType, ParamValue, Role};
+use crate::notes::{Note, Notes, is_plain_name, label_of, number};
+use crate::scan::{Member, Scan};
+
+/// Annotations of a parameter.
+pub(crate) const ANNOTATIONS: &[&str] = &[
+    "range", "soft", "default", "choice", "toggle", "color", "length", "angle", "seed", "extent", "label", "was",
+];
+
+/// Annotations that say what an artist sees; one parameter has at most one.
+const ROLES: [&str; 7] = ["toggle", "choice", "color", "length", "angle", "seed", "extent"];
+
+/// Most gradient stops.
+const STOPS_LIMIT: u32 = 16;
+
+/// The type `Params` of a module.
+pub(crate) fn params_type(module: &Module) -> Option<(naga::Handle<Type>, &Type)> {
+    module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Params"))
+}
+
+/// Size of `struct Params` in bytes.
+pub(crate) fn params_size(module: &Module) -> u32 {
+    match params_type(module) {
+        Some((
+            _,
+            Type {
+                inner: TypeInner::Struct { span, .. },
+                ..
+            },
+        )) => *span,
+        _ => 0,
+    }
+}
+
+/// Reads all parameters. Faulty ones are told and left out.
+pub(crate) fn read_params(text: Text<'_>, scan: &Scan, module: &Module, faults: &mut Vec<Fault>) -> Vec<Param> {
+    let Some(item) = scan.params() else {
+        return Vec::new();
+    };
+    let Some((
+        _,
+        Type {
+            inner: TypeInner::Struct { members, .. },
+            ..
+        },
+    )) = params_type(module)
+    else {
+        return Vec::new();
+    };
+    let mut params = Vec::new();
+    for (member, reflected) in item.members.iter().zip(members) {
+        let mut reader = ParamReader {
+            text,
+            member,
+            members: &item.members,
+            notes: Notes::read(&member.docs),
+            faults: Vec::new(),
+        };
+        let param = reader.param(module, reflected.ty, reflected.offset);
+        if reader.faults.is_empty() {
+            params.extend(param);
+        }
+        faults.append(&mut reader.faults);
+    }
+    params
+}
+
+/// Reads one parameter.
+struct ParamReader<'a> {
+    text: Text<'a>,
+    member: &'a Member,
+    members: &'a [Member],
+    notes: Notes,
+    faults: Vec<Fault>,
+}
+
+impl ParamReader<'_> {
+    fn param(&mut self, module: &Module, ty: naga::Handle<Type>, offset: u32) -> Option<Param> {
+        let name = self.member.name.clone();
+        let notes = self.notes.clone();
+        notes.check(
+            self.text,
+            ANNOTATIONS,
+            &[&ROLES[..], &["range", "soft", "default", "label"]].concat(),
+            &mut self.faults,
+        );
+        if !is_plain_name(&name) {
+            self.at_name(
+                format!("`{name}` cannot be the name of a parameter."),
+                "Use lower-case letters, digits and `_`, and start with a letter.",
+            );
+        }
+        let doc = notes.prose();
+        if doc.is_empty() {
+            self.at_name(
+                format!("The parameter `{name}` is not described."),
+                "Say in a `///` line above it what it changes to the eye.",
+            );
+        }
+        let ty = self.param_type(module, ty)?;
+        let role = self.role(ty)?;
+        let range = self.ends("range", ty, &role);
+        let soft = self.ends("soft", ty, &role);
+        if let (Some(range), Some(soft), Some(note)) = (range, soft, notes.get("soft"))
+            && (soft[0] < range[0] || soft[1] > range[1])
+        {
+            self.at_note(
+                note,
+                format!("The slider goes outside of `@range {} {}`.", range[0], range[1]),
+                "Make `@soft` a part of `@range`.",
+            );
+        }
+        let default = self.default(ty, &role)?;
+        self.check_in_range(&default, range);
+        let label = match notes.get("label") {
+            Some(note) if note.words.is_empty() => {
+                self.at_note(
+                    note,
+                    "`@label` gives no name.",
+                    "Write the name behind it: `@label Tile size`.",
+                );
+                return None;
+            }
+            Some(note) => note.joined(),
+            None => label_of(&name),
+        };
+        let formerly = notes.all("was").flat_map(|note| note.words.iter());
+        Some(Param {
+            label,
+            doc,
+            ty,
+            offset,
+            role,
+            default,
+            range,
+            soft,
+            bounds_a_loop: false,
+            formerly: formerly.map(|word| word.text.clone()).collect(),
+            name,
+        })
+    }
+
+    fn param_type(&mut self, module: &Module, ty: naga::Handle<Type>) -> Option<ParamType> {
+        let found = match module.types.get_handle(ty).map(|ty| &ty.inner) {
+            Ok(TypeInner::Scalar(scalar)) => scalar_type(*scalar),
+            Ok(TypeInner::Vector {
+                size,
+                scalar: Scalar::F32,
+            }) => Some(match size {
+                VectorSize::Bi => ParamType::Vec2,
+                VectorSize::Tri => ParamType::Vec3,
+                VectorSize::Quad => ParamType::Vec4,
+            }),
+            Ok(TypeInner::Array {
+                base,
+                size: ArraySize::Constant(count),
+                ..
+            }) => {
+                let is_vec4 = matches!(
+                    module.types.get_handle(*base).map(|ty| &ty.inner),
+                    Ok(TypeInner::Vector {
+                        size: VectorSize::Quad,
+                        scalar: Scalar::F32
+                    })
+                );
+                (is_vec4 && count.get() <= STOPS_LIMIT).then_some(ParamType::Stops(count.get()))
+            }
+            _ => None,
+        };
+        if found.is_none() {
+            let written = &self.text.text[self.member.type_range.clone()];
+            let advice = if written == "bool" {
+                "Make a switch a `u32` with `@toggle`, and compare it with `!= 0u`.".to_owned()
+            } else {
+                format!(
+                    "Use f32, u32, i32, vec2f, vec3f, vec4f, or `array<vec4f, N>` with N up to {STOPS_LIMIT} for gradient stops."
+                )
+            };
+            let message = format!("`{written}` cannot be the type of a parameter.");
+            self.at(self.member.type_range.clone(), message, advice);
+        }
+        found
+    }
+
+    /// What the parameter is to an artist, checked against its type.
+    fn role(&mut self, ty: ParamType) -> Option<Role> {
+        let notes = self.notes.clone();
+        let mut roles = notes.notes.iter().filter(|note| ROLES.contains(&note.name.as_str()));
+        let Some(note) = roles.next() else {
+            return Some(if matches!(ty, ParamType::Stops(_)) {
+                Role::Stops
+            } else {
+                Role::Plain
+            });
+        };
+        if let Some(other) = roles.find(|other| other.name != note.name) {
+            let message = format!("`@{}` and `@{}` exclude each other.", note.name, other.name);
+            self.at_note(other, message, "Keep the one that says what an artist sees.");
+            return None;
+        }
+        let is_float = matches!(ty, ParamType::F32 | ParamType::Vec2 | ParamType::Vec3 | ParamType::Vec4);
+        let (role, fits, needed) = match note.name.as_str() {
+            "toggle" => (Role::Toggle, ty == ParamType::U32, "u32"),
+            "choice" => (Role::Choice(self.choices(note)?), ty == ParamType::U32, "u32"),
+            "color" => (Role::Color, ty == ParamType::Vec3, "vec3f"),
+            "length" => (Role::Length, is_float, "f32"),
+            "angle" => (Role::Angle, is_float, "f32"),
+            "extent" => (self.extent(note)?, ty == ParamType::F32, "f32"),
+            _ => (Role::Seed, ty == ParamType::U32, "u32"),
+        };
+        if !fits {
+            let message = format!("A parameter with `@{}` must be of type `{needed}`.", note.name);
+            let advice = format!("Write `{}: {needed},`.", self.member.name);
+            self.at(self.member.type_range.clone(), message, advice);
+            return None;
+        }
+        if !matches!(note.name.as_str(), "choice" | "extent") && !note.words.is_empty() {
+            let message = format!("`@{}` takes nothing behind it.", note.name);
+            self.at(
+                words_range(note),
+                message,
+                "Put the description in front of the annotations.",
+            );
+            return None;
+        }
+        Some(role)
+    }
+
+    /// `@extent low along`: the ends of the model along the direction in another parameter.
+    fn extent(&mut self, note: &Note) -> Option<Role> {
+        let words: Vec<&str> = note.words.iter().map(|word| word.text.as_str()).collect();
+        if let ([end @ ("low" | "high"), along], false) = (words.as_slice(), self.notes.get("default").is_some()) {
+            let is_direction = |member: &&Member| {
+                let ty = self.text.text.get(member.type_range.clone());
+                member.name == *along && matches!(ty, Some("vec3f" | "vec3<f32>"))
+            };
+            if self.members.iter().any(|member| is_direction(&member)) {
+                return Some(Role::Extent {
+                    along: (*along).to_owned(),
+                    high: *end == "high",
+                });
+            }
+            let message = format!("`@extent` names `{along}`, which is not a parameter of type `vec3f`.");
+            self.at_note(note, message, "Name the parameter that holds the direction.");
+            return None;
+        }
+        let message = "`@extent` takes `low` or `high` and the name of a parameter, and has no default.";
+        let advice = "Write `@extent low along`: the program fills it with the end of the model along that direction.";
+        self.at_note(note, message, advice);
+        None
+    }
+
+    fn choices(&mut self, note: &Note) -> Option<Vec<String>> {
+        let mut words: Vec<String> = Vec::new();
+        for word in &note.words {
+            let text = word.text.trim_end_matches(',');
+            if !is_plain_name(text) {
+                let message = format!("`{text}` cannot be a choice.");
+                let advice = "Choices are words of lower-case letters, digits and `_`; describe them above `@choice`.";
+                self.at(word.range.clone(), message, advice);
+                return None;
+            }
+            if words.iter().any(|known| known == text) {
+                self.at(
+                    word.range.clone(),
+                    format!("The choice `{text}` stands here twice."),
+                    "Remove one.",
+                );
+                return None;
+            }
+            words.push(text.to_owned());
+        }
+        if words.len() < 2 {
+            self.at_note(
+                note,
+                "`@choice` needs at least two words.",
+                "Write `@choice soft hard`.",
+            );
+            return None;
+        }
+        Some(words)
+    }
+
+    /// `@range a b` or `@soft a b`.
+    fn ends(&mut self, name: &str, ty: ParamType, role: &Role) -> Option<[f32; 2]> {
+        let notes = self.notes.clone();
+        let note = notes.get(name)?;
+        if !matches!(role, Role::Plain | Role::Length | Role::Angle) {
+            let advice = "Only numbers have a range.";
+            self.at_note(note, format!("`@{name}` does not belong here."), advice);
+            return None;
+        }
+        let ends = match note.words.as_slice() {
+            [low, high] => number(low).zip(number(high)),
+            _ => None,
+        };
+        let Some((low, high)) = ends.filter(|(low, high)| low < high) else {
+            let advice = format!("Write `@{name} 0 1`.");
+            self.at_note(
+                note,
+                format!("`@{name}` takes two numbers, the smaller one first."),
+                advice,
+            );
+            return None;
+        };
+        let whole = low.fract() == 0.0 && high.fract() == 0.0 && high.abs().max(low.abs()) <= 16_777_216.0;
+        let fits = match ty {
+            ParamType::U32 => whole && low >= 0.0,
+            ParamType::I32 => whole,
+            _ => true,
+        };
+        if !fits {
+            let message = format!(
+                "`@{name}` of a whole number takes whole numbers{}.",
+                if ty == ParamType::U32 { " from 0 on" } else { "" }
+            );
+            self.at_note(note, message, "Write whole numbers, at most 16777216.");
+            return None;
+        }
+        Some([low, high])
+    }
+
+    fn check_in_range(&mut self, default: &ParamValue, range: Option<[f32; 2]>) {
+        let Some([low, high]) = range else { return };
+        let outside = match default {
+            ParamValue::Floats(values) => values.iter().any(|value| !(low..=high).contains(value)),
+            ParamValue::Unsigned(value) => !(f64::from(low)..=f64::from(high)).contains(&f64::from(*value)),
+            ParamValue::Signed(value) => !(f64::from(low)..=f64::from(high)).contains(&f64::from(*value)),
+        };
+        if outside && let Some(note) = self.notes.get("default").cloned() {
+            self.at_note(
+                &note,
+                format!("The default lies outside of `@range {low} {high}`."),
+                "Change one of the two.",
+            );
+        }
+    }
+
+    fn at(&mut self, range: Range<usize>, message: impl Into<String>, advice: impl Into<String>) {
+        self.faults.push(self.text.fault(range, message, advice));
+    }
+
+    fn at_name(&mut self, message: String, advice: &str) {
+        self.at(self.member.name_range.clone(), message, advice);
+    }
+
+    fn at_note(&mut self, note: &Note, message: impl Into<String>, advice: impl Into<String>) {
+        self.at(note.whole(), message, advice);
+    }
+}
+
+fn words_range(note: &Note) -> Range<usize> {
+    match (note.words.first(), note.words.last()) {
+        (Some(first), Some(last)) => first.range.start..last.range.end,
+        _ => note.range.clone(),
+    }
+}
+
+fn scalar_type(scalar: Scalar) -> Option<ParamType> {
+    match (scalar.kind, scalar.width) {
+        (ScalarKind::Float, 4) => Some(ParamType::F32),
+        (ScalarKind::Uint, 4) => Some(ParamType::U32),
+        (ScalarKind::Sint, 4) => Some(ParamType::I32),
+        _ => None,
+    }
+}

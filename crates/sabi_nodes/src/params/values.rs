@@ -1,0 +1,142 @@
+//! `@default` of a parameter.
+
+use super::ParamReader;
+use crate::kind::{ParamType, ParamValue, Role};
+use crate::notes::{Note, color_linear, number};
+use crate::words::{list, nearest};
+
+/// Position of a gradient stop that is not used.
+const UNUSED_STOP: f32 = 2.0;
+
+impl ParamReader<'_> {
+    /// The start value. Only a seed, and what the program fills in, may do without.
+    pub(super) fn default(&mut self, ty: ParamType, role: &Role) -> Option<ParamValue> {
+        let Some(note) = self.notes.get("default").cloned() else {
+            match role {
+                Role::Seed => return Some(ParamValue::Unsigned(0)),
+                Role::Extent { high, .. } => return Some(ParamValue::Floats(vec![f32::from(*high)])),
+                _ => {}
+            }
+            let message = format!("The parameter `{}` has no default.", self.member.name);
+            self.at_name(message, "Write `@default` with the value it starts with.");
+            return None;
+        };
+        match (role, ty) {
+            (Role::Toggle, _) => self.toggle(&note),
+            (Role::Choice(words), _) => self.choice(&note, words),
+            (Role::Color, _) => self.color(&note),
+            (Role::Stops, ParamType::Stops(count)) => self.stops(&note, count as usize),
+            (_, ParamType::U32) => self.whole(&note, "0", ParamValue::Unsigned),
+            (_, ParamType::I32) => self.whole(&note, "0", ParamValue::Signed),
+            _ => self.floats(&note, ty.components()),
+        }
+    }
+
+    fn toggle(&mut self, note: &Note) -> Option<ParamValue> {
+        match note.joined().as_str() {
+            "on" | "true" | "1" => Some(ParamValue::Unsigned(1)),
+            "off" | "false" | "0" => Some(ParamValue::Unsigned(0)),
+            _ => {
+                self.at_note(
+                    note,
+                    "The default of a toggle is `on` or `off`.",
+                    "Write `@default on`.",
+                );
+                None
+            }
+        }
+    }
+
+    fn choice(&mut self, note: &Note, words: &[String]) -> Option<ParamValue> {
+        let written = note.joined();
+        if let Some(index) = words.iter().position(|word| *word == written) {
+            return Some(ParamValue::Unsigned(index as u32));
+        }
+        let all = words.iter().map(String::as_str);
+        let advice = match nearest(&written, all.clone()) {
+            Some(meant) => format!("Did you mean `{meant}`? The choices are {}.", list(all)),
+            None => format!("The choices are {}.", list(all)),
+        };
+        self.at_note(
+            note,
+            format!("The default `{written}` is not one of the choices."),
+            advice,
+        );
+        None
+    }
+
+    fn color(&mut self, note: &Note) -> Option<ParamValue> {
+        let color = color_linear(&note.joined());
+        if color.is_none() {
+            self.at_note(
+                note,
+                "The default of a color is `#rrggbb`.",
+                "Write `@default #808080`.",
+            );
+        }
+        color.map(|color| ParamValue::Floats(color.to_vec()))
+    }
+
+    /// `position #rrggbb` pairs, positions ascending in 0..1.
+    fn stops(&mut self, note: &Note, count: usize) -> Option<ParamValue> {
+        let mut values = Vec::with_capacity(4 * count);
+        let mut last = 0.0;
+        let pairs = note.words.chunks(2);
+        let mut good = pairs.len() >= 1 && pairs.len() <= count;
+        for pair in pairs {
+            let stop = match pair {
+                [position, color] => number(position).zip(color_linear(&color.text)),
+                _ => None,
+            };
+            match stop.filter(|(position, _)| (last..=1.0).contains(position)) {
+                Some((position, color)) => {
+                    last = position;
+                    values.extend(color);
+                    values.push(position);
+                }
+                None => good = false,
+            }
+        }
+        if !good {
+            self.at_note(
+                note,
+                format!("The default of a gradient is 1 to {count} stops: positions from 0 to 1, each with a color."),
+                "Write `@default 0 #000000 1 #ffffff`.",
+            );
+            return None;
+        }
+        while values.len() < 4 * count {
+            values.extend([0.0, 0.0, 0.0, UNUSED_STOP]);
+        }
+        Some(ParamValue::Floats(values))
+    }
+
+    fn whole<T: std::str::FromStr>(
+        &mut self,
+        note: &Note,
+        example: &str,
+        value: fn(T) -> ParamValue,
+    ) -> Option<ParamValue> {
+        let parsed = note.joined().parse::<T>().ok();
+        if parsed.is_none() {
+            let message = "The default of this type is a whole number.";
+            self.at_note(note, message, format!("Write `@default {example}`."));
+        }
+        parsed.map(value)
+    }
+
+    fn floats(&mut self, note: &Note, count: usize) -> Option<ParamValue> {
+        let values: Option<Vec<f32>> = note.words.iter().map(number).collect();
+        let values = values.filter(|values| values.len() == count);
+        if values.is_none() {
+            let zeros = vec!["0"; count].join(" ");
+            let numbers = match count {
+                1 => "one number".to_owned(),
+                _ => format!("{count} numbers"),
+            };
+            let message = format!("The default of this type is {numbers}.");
+            self.at_note(note, message, format!("Write `@default {zeros}`."));
+        }
+        values.map(ParamValue::Floats)
+    }
+}

@@ -1,0 +1,356 @@
+//! Reflects functions: outputs, passes and inputs.
+
+mod functions;
+mod inputs;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use naga::{Function, ImageClass, ImageDimension, Module, ScalarKind, Type, TypeInner};
+use sabi_graph::PortType;
+
+use crate::fault::{Fault, Text};
+use crate::kind::{Argument, Input, Output, Param, Pass, Reads, Repeat};
+use crate::scan::{Item, Member, Scan};
+use functions::FunctionNotes;
+use inputs::InputNotes;
+
+/// Annotations of a function and of the inputs described in its comment.
+pub(crate) const ANNOTATIONS: &[&str] = &[
+    "input", "pass", "repeat", "vector", "optional", "default", "type", "label",
+];
+
+/// What the functions of a file say.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ports {
+    pub(crate) inputs: Vec<Input>,
+    pub(crate) outputs: Vec<Output>,
+    /// In ascending order of their numbers.
+    pub(crate) passes: Vec<Pass>,
+}
+
+/// The function of that name that the file itself declares.
+pub(crate) fn function<'m>(module: &'m Module, name: &str) -> Option<(naga::Handle<Function>, &'m Function)> {
+    module
+        .functions
+        .iter()
+        .find(|(_, function)| function.name.as_deref() == Some(name))
+}
+
+/// The port type of a WGSL type; `vector` decides what `vec3f` is.
+fn port_type(ty: &Type, vector: bool) -> Option<PortType> {
+    match &ty.inner {
+        TypeInner::Scalar(naga::Scalar::F32) => Some(PortType::Mask),
+        TypeInner::Vector {
+            size: naga::VectorSize::Tri,
+            scalar: naga::Scalar::F32,
+        } => Some(if vector { PortType::Vector } else { PortType::Color }),
+        TypeInner::Struct { .. } if ty.name.as_deref() == Some("Material") => Some(PortType::Material),
+        _ => None,
+    }
+}
+
+/// Whether a type is `texture_2d_array<f32>`.
+fn is_field(ty: &Type) -> bool {
+    matches!(
+        ty.inner,
+        TypeInner::Image {
+            dim: ImageDimension::D2,
+            arrayed: true,
+            class: ImageClass::Sampled {
+                kind: ScalarKind::Float,
+                multi: false
+            },
+        }
+    )
+}
+
+/// A documented function before its arguments are read.
+struct Draft<'a> {
+    item: &'a Item,
+    function: &'a Function,
+    notes: FunctionNotes,
+    ty: PortType,
+}
+
+/// Reads all documented functions. Faulty ones are told and left out.
+pub(crate) fn read_ports(
+    text: Text<'_>,
+    scan: &Scan,
+    module: &Module,
+    params: &[Param],
+    faults: &mut Vec<Fault>,
+) -> Ports {
+    let mut reader = PortReader {
+        text,
+        scan,
+        module,
+        params,
+        faults,
+        described: BTreeMap::new(),
+        inputs: Vec::new(),
+        pass_numbers: Vec::new(),
+    };
+    let drafts = reader.drafts();
+    reader.check_passes(&drafts);
+    let mut ports = Ports::default();
+    for draft in &drafts {
+        let output = reader.output(draft);
+        match draft.notes.pass {
+            Some((number, _)) => ports.passes.push(Pass {
+                number,
+                function: output,
+            }),
+            None => ports.outputs.push(output),
+        }
+    }
+    ports.passes.sort_by_key(|pass| pass.number);
+    reader.check_described();
+    if ports.outputs.is_empty() && reader.faults.is_empty() {
+        let range = scan.functions().last().map_or(0..0, |item| item.name_range.clone());
+        reader.faults.push(text.fault(
+            range,
+            "The node has no output.",
+            "A function with a `///` comment above it is an output, and its name is the name of the port.",
+        ));
+    }
+    ports.inputs = reader.inputs;
+    ports
+}
+
+struct PortReader<'a> {
+    text: Text<'a>,
+    scan: &'a Scan,
+    module: &'a Module,
+    params: &'a [Param],
+    faults: &'a mut Vec<Fault>,
+    /// What `@input` says, by name.
+    described: BTreeMap<String, InputNotes>,
+    inputs: Vec<Input>,
+    /// Names of passes in ascending order of their numbers, with their number and type.
+    pass_numbers: Vec<(u32, String, PortType)>,
+}
+
+impl<'a> PortReader<'a> {
+    fn at(&mut self, range: Range<usize>, message: impl Into<String>, advice: impl Into<String>) {
+        self.faults.push(self.text.fault(range, message, advice));
+    }
+
+    /// Documented functions with their comments read.
+    fn drafts(&mut self) -> Vec<Draft<'a>> {
+        let mut drafts = Vec::new();
+        for item in self.scan.functions().filter(|item| !item.docs.is_empty()) {
+            let Some((_, function)) = function(self.module, &item.name) else {
+                continue;
+            };
+            let (notes, inputs) = functions::read_notes(self.text, item, self.params, self.faults);
+            for input in inputs {
+                if self.described.contains_key(&input.name) {
+                    let message = format!("The input `{}` is described twice.", input.name);
+                    self.at(input.range, message, "Describe an input once, where it appears first.");
+                } else {
+                    self.described.insert(input.name.clone(), input);
+                }
+            }
+            drafts.extend(self.draft(item, function, notes));
+        }
+        drafts
+    }
+
+    fn draft(&mut self, item: &'a Item, function: &'a Function, notes: FunctionNotes) -> Option<Draft<'a>> {
+        let returned = function
+            .result
+            .as_ref()
+            .and_then(|result| self.module.types.get_handle(result.ty).ok());
+        if !crate::notes::is_plain_name(&item.name) {
+            self.at(
+                item.name_range.clone(),
+                format!("`{}` cannot be the name of an output.", item.name),
+                "Use lower-case letters, digits and `_`, and start with a letter.",
+            );
+        }
+        let Some(ty) = returned.and_then(|ty| port_type(ty, notes.vector.is_some())) else {
+            self.at(
+                item.name_range.clone(),
+                format!("The output `{}` does not return what a port can carry.", item.name),
+                "Return f32 (a mask), vec3f (a color, or a vector with `@vector`) or Material. A helper has no `///` comment.",
+            );
+            return None;
+        };
+        if let Some(range) = notes.vector.clone()
+            && ty != PortType::Vector
+        {
+            self.at(
+                range,
+                "`@vector` needs a function that returns `vec3f`.",
+                "Return `vec3f`, or remove it.",
+            );
+        }
+        Some(Draft {
+            item,
+            function,
+            notes,
+            ty,
+        })
+    }
+
+    /// Numbers are unique; fills the list that arguments are looked up in.
+    fn check_passes(&mut self, drafts: &[Draft<'a>]) {
+        for draft in drafts {
+            let Some((number, range)) = draft.notes.pass.clone() else {
+                continue;
+            };
+            if let Some((_, other, _)) = self.pass_numbers.iter().find(|(known, ..)| *known == number) {
+                let message = format!("`{}` and `{other}` are both pass {number}.", draft.item.name);
+                self.at(range, message, "Number the passes in the order in which they run.");
+            }
+            self.pass_numbers.push((number, draft.item.name.clone(), draft.ty));
+        }
+        self.pass_numbers.sort_by_key(|(number, ..)| *number);
+    }
+
+    fn output(&mut self, draft: &Draft<'a>) -> Output {
+        let mut arguments = Vec::new();
+        for (member, argument) in draft.item.members.iter().zip(&draft.function.arguments) {
+            if let Ok(ty) = self.module.types.get_handle(argument.ty) {
+                arguments.extend(self.argument(draft, member, ty));
+            }
+        }
+        self.check_repeat(draft, &arguments);
+        Output {
+            name: draft.item.name.clone(),
+            ty: draft.ty,
+            doc: draft.notes.doc.clone(),
+            arguments,
+            repeat: draft
+                .notes
+                .repeat
+                .as_ref()
+                .map_or(Repeat::Once, |(repeat, _)| repeat.clone()),
+            channels: Vec::new(),
+        }
+    }
+
+    fn argument(&mut self, draft: &Draft<'a>, member: &Member, ty: &Type) -> Option<Argument> {
+        let name = member.name.as_str();
+        let type_name = ty.name.as_deref().unwrap_or_default();
+        match (name, type_name) {
+            ("at", "Surface") => return Some(Argument::At),
+            ("params", "Params") => return Some(Argument::Params),
+            ("at" | "params", _) | (_, "Surface" | "Params") => {
+                self.at(
+                    member.name_range.start..member.type_range.end,
+                    "The place is always called `at: Surface`, and the parameters `params: Params`.",
+                    "Give the argument this name and type, or another of both.",
+                );
+                return None;
+            }
+            _ => {}
+        }
+        if let Some(index) = self.pass_numbers.iter().position(|(_, pass, _)| pass == name) {
+            return self.pass_argument(draft, member, ty, index);
+        }
+        let known = self.inputs.iter().position(|input| input.name == name);
+        let input = inputs::read_input(self, draft, member, ty)?;
+        match known {
+            Some(index) if self.inputs[index].ty == input.ty && self.inputs[index].reads == input.reads => {
+                Some(Argument::Input(index))
+            }
+            Some(_) => {
+                let message = format!("The input `{name}` has another type in an earlier function.");
+                self.at(
+                    member.type_range.clone(),
+                    message,
+                    "Give it the same type everywhere, or another name.",
+                );
+                None
+            }
+            None => {
+                self.inputs.push(input);
+                Some(Argument::Input(self.inputs.len() - 1))
+            }
+        }
+    }
+
+    /// An argument named like a pass reads its stored result.
+    fn pass_argument(&mut self, draft: &Draft<'a>, member: &Member, ty: &Type, index: usize) -> Option<Argument> {
+        let number = self.pass_numbers[index].0;
+        if !is_field(ty) {
+            let message = format!("`{}` is a pass, so its result is a stored texture.", member.name);
+            self.at(
+                member.type_range.clone(),
+                message,
+                "Make the argument a `texture_2d_array<f32>`, and read it through lib/surface.",
+            );
+            return None;
+        }
+        if draft.notes.pass.as_ref().is_some_and(|(own, _)| *own <= number) {
+            let message = format!("`{}` reads pass {number}, which has not run yet.", draft.item.name);
+            self.at(
+                member.name_range.clone(),
+                message,
+                "Give the pass that is read the lower number.",
+            );
+            return None;
+        }
+        Some(Argument::Pass(index))
+    }
+
+    /// A repeated function reads its own last result through its first field argument, which has the same type.
+    fn check_repeat(&mut self, draft: &Draft<'a>, arguments: &[Argument]) {
+        let Some((_, range)) = draft.notes.repeat.clone() else {
+            return;
+        };
+        let first = arguments.iter().find_map(|argument| match argument {
+            Argument::Input(index) => {
+                let input = self.inputs.get(*index)?;
+                (input.reads == Reads::Field).then_some(input.ty)
+            }
+            Argument::Pass(index) => self.pass_numbers.get(*index).map(|(_, _, ty)| *ty),
+            Argument::At | Argument::Params => None,
+        });
+        match first {
+            Some(ty) if ty == draft.ty => {}
+            Some(ty) => {
+                let message = format!(
+                    "`{}` is repeated and returns a {}, but its first texture holds a {ty}.",
+                    draft.item.name, draft.ty
+                );
+                self.at(
+                    range,
+                    message,
+                    "Each repetition reads the last one's result through the first texture.",
+                );
+            }
+            None => {
+                let message = format!("`{}` is repeated but reads no texture.", draft.item.name);
+                self.at(
+                    range,
+                    message,
+                    "Each repetition reads the last one's result through the first `texture_2d_array<f32>` argument.",
+                );
+            }
+        }
+    }
+
+    /// Every `@input` names an argument.
+    fn check_described(&mut self) {
+        if !self.faults.is_empty() {
+            return;
+        }
+        let described = std::mem::take(&mut self.described);
+        for (name, notes) in described {
+            if self.inputs.iter().any(|input| input.name == name) {
+                continue;
+            }
+            let names = self.inputs.iter().map(|input| input.name.as_str());
+            let advice = match crate::words::nearest(&name, names) {
+                Some(meant) => format!("Did you mean `{meant}`?"),
+                None => "An input is an argument of a documented function.".to_owned(),
+            };
+            self.at(notes.range, format!("`@input {name}` describes no input."), advice);
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The doc comment of a function: what it gives, and its inputs.
+
+use std::ops::Range;
+
+use super::ANNOTATIONS;
+use super::inputs::InputNotes;
+use crate::fault::{Fault, Text};
+use crate::kind::{Param, ParamType, Repeat, Role};
+use crate::notes::{Note, Notes, unknown};
+use crate::scan::Item;
+use crate::words::nearest;
+
+/// Most repetitions of a function.
+const REPEAT_LIMIT: u32 = 4096;
+
+/// What the comment says of the function itself.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FunctionNotes {
+    pub(super) doc: String,
+    /// Place of `@vector` when the result is one.
+    pub(super) vector: Option<Range<usize>>,
+    pub(super) pass: Option<(u32, Range<usize>)>,
+    pub(super) repeat: Option<(Repeat, Range<usize>)>,
+}
+
+/// Reads the comment above a function.
+pub(super) fn read_notes(
+    text: Text<'_>,
+    item: &Item,
+    params: &[Param],
+    faults: &mut Vec<Fault>,
+) -> (FunctionNotes, Vec<InputNotes>) {
+    let notes = Notes::read(&item.docs);
+    let mut read = FunctionNotes {
+        doc: notes.prose(),
+        ..FunctionNotes::default()
+    };
+    let mut inputs: Vec<InputNotes> = Vec::new();
+    notes.check(text, ANNOTATIONS, &["pass", "repeat"], faults);
+    for note in notes
+        .notes
+        .iter()
+        .filter(|note| ANNOTATIONS.contains(&note.name.as_str()))
+    {
+        match (note.name.as_str(), inputs.last_mut()) {
+            ("input", _) => inputs.extend(InputNotes::begin(text, note, faults)),
+            ("pass", _) => read.pass = pass_number(text, note, faults),
+            ("repeat", _) => read.repeat = repeat(text, note, params, faults),
+            (_, Some(input)) => input.add(text, note, faults),
+            ("vector", None) => read.vector = Some(note.range.clone()),
+            _ => {
+                let mut fault = unknown(text, note, &["input", "pass", "repeat", "vector"]);
+                fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", note.name);
+                faults.push(fault);
+            }
+        }
+    }
+    if read.doc.is_empty() {
+        faults.push(text.fault(
+            item.name_range.clone(),
+            format!("The output `{}` is not described.", item.name),
+            "Say in the first `///` line above it what it gives.",
+        ));
+    }
+    (read, inputs)
+}
+
+fn pass_number(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Option<(u32, Range<usize>)> {
+    match note.joined().parse::<u32>() {
+        Ok(number) if number > 0 => Some((number, note.whole())),
+        _ => {
+            faults.push(text.fault(
+                note.whole(),
+                "`@pass` takes one whole number from 1 on.",
+                "Write `@pass 1` for the function that runs first.",
+            ));
+            None
+        }
+    }
+}
+
+/// `@repeat N` or `@repeat params.steps`.
+fn repeat(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(Repeat, Range<usize>)> {
+    let written = note.joined();
+    let mut refuse = |message: String, advice: String| {
+        faults.push(text.fault(note.whole(), message, advice));
+        None
+    };
+    let Some(name) = written.strip_prefix("params.") else {
+        return match written.parse::<u32>() {
+            Ok(times) if (1..=REPEAT_LIMIT).contains(&times) => Some((Repeat::Times(times), note.whole())),
+            _ => refuse(
+                format!("`@repeat` takes a whole number from 1 to {REPEAT_LIMIT}, or a parameter."),
+                "Write `@repeat 8` or `@repeat params.steps`.".to_owned(),
+            ),
+        };
+    };
+    let Some(index) = params.iter().position(|param| param.name == name) else {
+        let advice = match nearest(name, params.iter().map(|param| param.name.as_str())) {
+            Some(meant) => format!("Did you mean `params.{meant}`?"),
+            None => "Name a member of `struct Params`.".to_owned(),
+        };
+        return refuse(
+            format!("`@repeat` names a parameter `{name}`, which does not exist."),
+            advice,
+        );
+    };
+    let param = &params[index];
+    let bounded = param
+        .range
+        .is_some_and(|[low, high]| low >= 1.0 && high <= REPEAT_LIMIT as f32);
+    if param.ty != ParamType::U32 || param.role != Role::Plain || !bounded {
+        return refuse(
+            format!("`params.{name}` cannot say how often the function runs."),
+            format!("Make it a `u32` with a `@range` from 1 to at most {REPEAT_LIMIT}."),
+        );
+    }
+    Some((Repeat::Param(index), note.whole()))
+}

@@ -1,0 +1,140 @@
+//! One WGSL file becomes one [`Kind`].
+
+use std::sync::Arc;
+
+use crate::analysis::{self, Findings};
+use crate::compile::{Linked, compile, used_libraries};
+use crate::explain;
+use crate::fault::{Fault, Text};
+use crate::kind::{Argument, Kind, Output, Param, Shape};
+use crate::library::{Libraries, SourceFile};
+use crate::notes::{Header, read_header};
+use crate::params::read_params;
+use crate::ports::{Ports, read_ports};
+use crate::rules;
+use crate::scan::scan;
+
+/// Largest node or library file.
+pub(crate) const FILE_LIMIT_BYTES: usize = 256 * 1024;
+
+/// Reads one node file with the libraries it uses, and checks all rules. Gives every fault that can be told apart.
+pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<Fault>> {
+    check_file(file).map_err(|fault| vec![fault])?;
+    let text = Text {
+        path: &file.path,
+        text: &file.text,
+    };
+    let scan = scan(text)?;
+    let mut faults = Vec::new();
+    let header = read_header(text, &scan, &mut faults);
+    let used = used_libraries(text, &header.uses, libraries, &mut faults);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let linked = Linked::new(text, &used, libraries);
+    let module = compile(&linked).map_err(|fault| vec![explain::explained(fault, &scan, text, libraries, &used)])?;
+    if !scan.is_complete {
+        let message = "The declarations of this file cannot be told apart.";
+        return Err(vec![Fault::of_file(
+            &file.path,
+            message,
+            "Write each of them on lines of its own.",
+        )]);
+    }
+    rules::check_docs(text, &scan, &module, &mut faults);
+    let params = read_params(text, &scan, &module, &mut faults);
+    let ports = read_ports(text, &scan, &module, &params, &mut faults);
+    rules::check_module(&linked, &scan, &module, &mut faults);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let findings = analysis::analyze(&linked, &scan, &module, &params, &ports)?;
+    let params_size = crate::params::params_size(&module);
+    Ok(assemble(file, header, used, params, params_size, ports, findings))
+}
+
+/// The id is a name that graph files can hold, and the text is of a sane size.
+fn check_file(file: &SourceFile) -> Result<(), Fault> {
+    let is_name = |name: &str| {
+        name.starts_with(|c: char| c.is_ascii_lowercase())
+            && name
+                .chars()
+                .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+    };
+    let named = file
+        .id
+        .split_once('/')
+        .is_some_and(|(category, name)| is_name(category) && is_name(name));
+    if !named {
+        return Err(Fault::of_file(
+            &file.path,
+            format!("`{}` is not a name for a node.", file.id),
+            "Folder and file names are lower-case letters, digits and `_`, and start with a letter: `noise/simplex`.",
+        ));
+    }
+    if file.text.len() > FILE_LIMIT_BYTES {
+        return Err(Fault::of_file(
+            &file.path,
+            format!("The file is larger than {} KiB.", FILE_LIMIT_BYTES / 1024),
+            "Move tables into an image, and shared functions into a library.",
+        ));
+    }
+    Ok(())
+}
+
+fn assemble(
+    file: &SourceFile,
+    header: Header,
+    libraries: Vec<String>,
+    mut params: Vec<Param>,
+    params_size: u32,
+    ports: Ports,
+    findings: Findings,
+) -> Kind {
+    for &index in &findings.params_that_bound_loops {
+        if let Some(param) = params.get_mut(index) {
+            param.bounds_a_loop = true;
+        }
+    }
+    let Ports {
+        inputs,
+        mut outputs,
+        mut passes,
+    } = ports;
+    for (output, channels) in outputs.iter_mut().zip(findings.output_channels) {
+        output.channels = channels;
+    }
+    for (pass, channels) in passes.iter_mut().zip(findings.pass_channels) {
+        pass.function.channels = channels;
+    }
+    let reads_texture = |function: &Output| {
+        function.arguments.iter().any(|argument| match argument {
+            Argument::Input(index) => inputs[*index].reads == crate::kind::Reads::Field,
+            Argument::Pass(_) => true,
+            Argument::At | Argument::Params => false,
+        })
+    };
+    let is_field = outputs
+        .iter()
+        .chain(passes.iter().map(|pass| &pass.function))
+        .any(reads_texture);
+    Kind {
+        id: file.id.clone(),
+        version: header.version,
+        label: header.label,
+        summary: header.summary,
+        description: header.description,
+        aliases: header.aliases,
+        formerly: header.formerly,
+        path: file.path.clone(),
+        source: Arc::from(file.text.as_str()),
+        libraries,
+        shape: if is_field { Shape::Field } else { Shape::Point },
+        params,
+        params_size,
+        inputs,
+        outputs,
+        passes,
+        cost: findings.cost,
+    }
+}

@@ -1,0 +1,175 @@
+//! Reads header, doc comments and names from the text itself, with their places, and refuses doc comments that naga
+//! would not attach to what they stand above.
+
+mod depth;
+mod items;
+#[cfg(test)]
+mod tests;
+mod tokens;
+
+use std::ops::Range;
+
+use crate::fault::{Fault, Text};
+use tokens::{Token, TokenKind};
+
+/// One line of a doc comment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct DocLine {
+    /// Byte offset of the comment's first character after `///` or `//!`.
+    pub(crate) start: usize,
+    /// The text after `///` or `//!`, with one leading space removed.
+    pub(crate) text: String,
+}
+
+/// A struct member or a function argument.
+#[derive(Clone, Debug)]
+pub(crate) struct Member {
+    pub(crate) name: String,
+    pub(crate) name_range: Range<usize>,
+    pub(crate) type_range: Range<usize>,
+    pub(crate) docs: Vec<DocLine>,
+}
+
+/// What a declaration declares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ItemKind {
+    Struct,
+    Function,
+    Other,
+}
+
+/// A declaration at the top level of the file.
+#[derive(Clone, Debug)]
+pub(crate) struct Item {
+    pub(crate) kind: ItemKind,
+    /// `fn`, `struct`, `const`, …
+    pub(crate) keyword: Range<usize>,
+    pub(crate) name: String,
+    pub(crate) name_range: Range<usize>,
+    pub(crate) docs: Vec<DocLine>,
+    /// Members of a struct, arguments of a function.
+    pub(crate) members: Vec<Member>,
+}
+
+/// What the scanner read.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scan {
+    /// The `//!` lines.
+    pub(crate) header: Vec<DocLine>,
+    /// Declarations in order, as far as the text could be followed.
+    pub(crate) items: Vec<Item>,
+    /// Whether the text could be followed to its end.
+    pub(crate) is_complete: bool,
+}
+
+impl Scan {
+    /// `struct Params`, when there is one.
+    pub(crate) fn params(&self) -> Option<&Item> {
+        self.items
+            .iter()
+            .find(|item| item.kind == ItemKind::Struct && item.name == "Params")
+    }
+
+    /// All functions.
+    pub(crate) fn functions(&self) -> impl Iterator<Item = &Item> {
+        self.items.iter().filter(|item| item.kind == ItemKind::Function)
+    }
+}
+
+/// Scans a file.
+pub(crate) fn scan(text: Text<'_>) -> Result<Scan, Vec<Fault>> {
+    let tokens = tokens::tokens(text.text);
+    let mut faults = comment_traps(text, &tokens);
+    faults.extend(depth::check_depth(text, &tokens));
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let header_end = tokens
+        .iter()
+        .position(|token| token.kind != TokenKind::ModuleDoc)
+        .unwrap_or(tokens.len());
+    let header = tokens[..header_end].iter().map(|token| doc_line(text, token)).collect();
+    let (items, is_complete) = items::read_items(text, &tokens[header_end..], &mut faults);
+    if faults.is_empty() {
+        Ok(Scan {
+            header,
+            items,
+            is_complete,
+        })
+    } else {
+        Err(faults)
+    }
+}
+
+/// The header lines of a text that is not otherwise scanned (a library).
+pub(crate) fn header_lines(text: Text<'_>) -> Vec<DocLine> {
+    tokens::tokens(text.text)
+        .iter()
+        .take_while(|token| token.kind == TokenKind::ModuleDoc)
+        .map(|token| doc_line(text, token))
+        .collect()
+}
+
+/// The fault of a text that nests too deep for the compiler.
+pub(crate) fn scan_depth(text: Text<'_>) -> Option<Fault> {
+    depth::check_depth(text, &tokens::tokens(text.text))
+}
+
+fn doc_line(text: Text<'_>, token: &Token) -> DocLine {
+    let start = token.range.start + 3;
+    let content = &text.text[start..token.range.end];
+    let (start, content) = match content.strip_prefix(' ') {
+        Some(content) => (start + 1, content),
+        None => (start, content),
+    };
+    DocLine {
+        start,
+        text: content.trim_end().to_owned(),
+    }
+}
+
+/// Comments in places or forms where naga drops them or gives them to the wrong thing.
+fn comment_traps(text: Text<'_>, tokens: &[Token]) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let mut in_header = true;
+    for (index, token) in tokens.iter().enumerate() {
+        let previous = index.checked_sub(1).map(|previous| &tokens[previous]);
+        let after_plain = previous.is_some_and(|previous| previous.kind == TokenKind::Plain);
+        let fault = match token.kind {
+            TokenKind::BlockDoc => Some((
+                "A block comment documents nothing here.",
+                "Write `//!` or `///` at the start of each line.",
+            )),
+            TokenKind::ModuleDoc
+                if !in_header && previous.is_some_and(|previous| previous.kind == TokenKind::Plain) =>
+            {
+                Some((
+                    "The header is lost, because a plain comment stands above it.",
+                    "Start the file with the `//!` lines, and move the plain comment below them.",
+                ))
+            }
+            TokenKind::ModuleDoc if !in_header => Some((
+                "This `//!` line is not part of the header.",
+                "`//!` lines stand together at the start of the file; above a declaration write `///`.",
+            )),
+            TokenKind::Doc if token.after_code => Some((
+                "A doc comment behind code describes what follows, not what it stands behind.",
+                "Write it on a line of its own above what it describes, or make it a plain `//` comment.",
+            )),
+            TokenKind::Doc if after_plain => Some((
+                "This doc comment is lost, because a plain comment stands directly before it.",
+                "Move the plain comment away, below the `///` lines for instance, or make it a `///` line too.",
+            )),
+            _ => None,
+        };
+        in_header &= token.kind == TokenKind::ModuleDoc;
+        if let Some((message, advice)) = fault {
+            // A block of lost lines is one fault, at its first line.
+            let continues = previous.is_some_and(|previous| previous.kind == token.kind) && !token.after_code;
+            if !continues {
+                faults.push(text.fault(token.range.clone(), message, advice));
+            }
+        }
+    }
+    faults
+}

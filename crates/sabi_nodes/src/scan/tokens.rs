@@ -1,0 +1,104 @@
+//! Cuts WGSL text into the tokens that the scanner needs: naga keeps neither the place of a doc comment nor plain ones.
+
+use std::ops::Range;
+
+/// What a piece of the text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TokenKind {
+    /// An identifier, a keyword or a number.
+    Word,
+    /// Any other single character.
+    Sign(char),
+    /// `/// …`
+    Doc,
+    /// `//! …`
+    ModuleDoc,
+    /// `// …` or `/* … */`
+    Plain,
+    /// `/** … */` or `/*! … */`
+    BlockDoc,
+}
+
+/// A piece of the text.
+#[derive(Clone, Debug)]
+pub(crate) struct Token {
+    pub(crate) kind: TokenKind,
+    pub(crate) range: Range<usize>,
+    /// Whether code stands before it on the same line.
+    pub(crate) after_code: bool,
+}
+
+/// WGSL's line breaks: what ends a `//` comment.
+fn is_line_break(c: char) -> bool {
+    matches!(c, '\u{000a}'..='\u{000d}' | '\u{0085}' | '\u{2028}' | '\u{2029}')
+}
+
+/// All tokens in order. Never fails: what is no WGSL becomes signs, for naga to refuse.
+pub(crate) fn tokens(text: &str) -> Vec<Token> {
+    let mut tokens: Vec<Token> = Vec::new();
+    let mut at = 0;
+    let mut line_has_code = false;
+    while let Some(c) = text[at..].chars().next() {
+        let rest = &text[at..];
+        if is_line_break(c) || c.is_whitespace() || matches!(c, '\u{200e}' | '\u{200f}') {
+            line_has_code &= !is_line_break(c);
+            at += c.len_utf8();
+            continue;
+        }
+        let (kind, length) = if rest.starts_with("//") {
+            let kind = match rest.as_bytes().get(2) {
+                Some(b'/') => TokenKind::Doc,
+                Some(b'!') => TokenKind::ModuleDoc,
+                _ => TokenKind::Plain,
+            };
+            (kind, rest.find(is_line_break).unwrap_or(rest.len()))
+        } else if rest.starts_with("/*") {
+            let kind = match rest.as_bytes().get(2) {
+                Some(b'*') if rest.as_bytes().get(3) != Some(&b'/') => TokenKind::BlockDoc,
+                Some(b'!') => TokenKind::BlockDoc,
+                _ => TokenKind::Plain,
+            };
+            (kind, block_comment_length(rest))
+        } else if c == '_' || c.is_alphanumeric() {
+            let end = rest.find(|c: char| c != '_' && !c.is_alphanumeric());
+            (TokenKind::Word, end.unwrap_or(rest.len()))
+        } else {
+            (TokenKind::Sign(c), c.len_utf8())
+        };
+        tokens.push(Token {
+            kind,
+            range: at..at + length,
+            after_code: line_has_code,
+        });
+        line_has_code |= matches!(kind, TokenKind::Word | TokenKind::Sign(_));
+        if rest[..length].contains(is_line_break) {
+            line_has_code = false;
+        }
+        at += length;
+    }
+    tokens
+}
+
+/// Length in bytes of the (nested) block comment that `text` starts with.
+fn block_comment_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let mut depth = 0;
+    let mut at = 0;
+    while at + 1 < bytes.len() {
+        match &bytes[at..at + 2] {
+            b"/*" => {
+                depth += 1;
+                at += 2;
+            }
+            b"*/" => {
+                depth -= 1;
+                at += 2;
+                if depth == 0 {
+                    return at;
+                }
+            }
+            _ => at += 1,
+        }
+    }
+    text.len()
+}

@@ -1,0 +1,7 @@
+//! Test
+//! A node with a fault.
+
+/** The mask. */
+fn mask(at: Surface) -> f32 {
+    return at.position.y;
+}

@@ -1,0 +1,4 @@
+/// The mask.
+fn mask(at: Surface) -> f32 {
+    return at.position.y;
+}

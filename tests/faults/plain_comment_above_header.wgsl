@@ -1,0 +1,8 @@
+// Written by hand.
+//! Test
+//! A node with a fault.
+
+/// The mask.
+fn mask(at: Surface) -> f32 {
+    return at.position.x;
+}

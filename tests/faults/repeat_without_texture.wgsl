@@ -1,0 +1,8 @@
+//! Test
+//! A node with a fault.
+
+/// The mask.
+/// @repeat 4
+fn mask(at: Surface) -> f32 {
+    return at.position.x;
+}

@@ -1,0 +1,6 @@
+//! Test
+
+/// The mask.
+fn mask(at: Surface) -> f32 {
+    return at.position.y;
+}

@@ -1,0 +1,15 @@
+//! Test
+//! A node with a fault.
+
+struct Params {
+    /// @default 0.5
+    amount: f32, /// How much of it.
+    /// How much more.
+    /// @default 0.5
+    more: f32,
+}
+
+/// The mask.
+fn mask(params: Params) -> f32 {
+    return params.amount + params.more;
+}

@@ -1,0 +1,13 @@
+//! Test
+//! A node with a fault.
+
+struct Params {
+    /// How far.
+    /// @length @angle @default 0.5
+    amount: f32,
+}
+
+/// The mask.
+fn mask(params: Params) -> f32 {
+    return params.amount;
+}
