@@ -29,9 +29,9 @@ pub(crate) fn ensure(place: &Place, driver: Driver) -> Result<(), Stop> {
         return Ok(());
     }
     let Some(missing) = missing(driver) else { return Ok(()) };
-    eprintln!("{missing}. Installing Mesa's.");
     let commands = install_commands(is_root(), program("sudo").is_some(), program("apt-get").is_some())
         .map_err(|advice| Stop::new(1, format!("{missing}. {advice}")))?;
+    eprintln!("{missing}. Installing Mesa's.");
     for words in commands {
         eprintln!("$ {}", words.join(" "));
         let mut command = place.command(Path::new(&words[0]))?;
