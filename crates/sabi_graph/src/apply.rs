@@ -1,11 +1,205 @@
-//! Making edits.
-use crate::{Document, Edit, EditError};
+//! Making edits, each with its exact inverse.
+
+mod nodes;
+mod panel;
+
+use std::collections::BTreeMap;
+
+use crate::document::{GroupDef, GroupInput};
+use crate::name::check_name;
+use crate::problem::{Problem, hint, listed, shown};
+use crate::validate;
+use crate::{Body, Document, Edit, EditError, GROUP_KIND, Graph, OutputRef, Value};
+
+/// Graph, inputs and outputs of a body.
+type PartsMut<'a> = (
+    &'a mut Graph,
+    &'a mut BTreeMap<String, GroupInput>,
+    &'a mut BTreeMap<String, OutputRef>,
+);
+
 impl Document {
-    /// Makes a change and gives its exact inverse.
+    /// Makes a change and gives its exact inverse: applied next, it leads back to the same bytes.
     ///
     /// # Errors
     /// The change was refused; the document is as it was.
     pub fn apply(&mut self, edit: Edit) -> Result<Edit, EditError> {
-        todo!()
+        match edit {
+            Edit::AddNode { body, id, node } => self.add_node(body, id, node),
+            Edit::RemoveNode { body, id } => self.remove_node(body, id),
+            Edit::SetParam {
+                body,
+                node,
+                param,
+                value,
+            } => self.set_param(body, node, param, value),
+            Edit::Connect {
+                body,
+                node,
+                input,
+                from,
+            } => self.connect(body, node, input, from),
+            Edit::Disconnect { body, node, input } => self.disconnect(body, node, input),
+            Edit::Move { body, node, pos } => self.move_node(body, node, pos),
+            Edit::SetMuted { body, node, muted } => self.set_muted(body, node, muted),
+            Edit::SetLabel { body, node, label } => self.set_label(body, node, label),
+            Edit::AddFrame { body, id, frame } => self.add_frame(body, id, frame),
+            Edit::RemoveFrame { body, id } => self.remove_frame(body, id),
+            Edit::Expose { body, name, knob } => self.expose(body, name, knob),
+            Edit::Unexpose { body, name } => self.unexpose(body, name),
+            Edit::SetVariant { body, name, values } => self.set_variant(body, name, values),
+            Edit::SetInput { body, name, input } => self.set_input(body, name, input),
+            Edit::SetOutput { body, name, output } => self.set_output(body, name, output),
+            Edit::AddGroup { name, group } => self.add_group(name, *group),
+            Edit::RemoveGroup { name } => self.remove_group(name),
+            Edit::RenameDocument { name } => {
+                let name = std::mem::replace(&mut self.name, name);
+                Ok(Edit::RenameDocument { name })
+            }
+            Edit::SetPreview { mut preview } => {
+                if let Some(preview) = &mut preview {
+                    keep_all(&mut preview.extra)?;
+                }
+                let preview = std::mem::replace(&mut self.preview, preview);
+                Ok(Edit::SetPreview { preview })
+            }
+            Edit::SetFit { fit } => {
+                let fit = validate::fit(fit).ok_or(EditError::BadFit)?;
+                let fit = std::mem::replace(&mut self.fit, fit);
+                Ok(Edit::SetFit { fit })
+            }
+            Edit::SetSeed { seed } => {
+                let seed = std::mem::replace(&mut self.seed, seed);
+                Ok(Edit::SetSeed { seed })
+            }
+            Edit::Batch(edits) => self.apply_all(edits),
+        }
     }
+
+    /// All or none.
+    fn apply_all(&mut self, edits: Vec<Edit>) -> Result<Edit, EditError> {
+        let mut inverses = Vec::with_capacity(edits.len());
+        for edit in edits {
+            match self.apply(edit) {
+                Ok(inverse) => inverses.push(inverse),
+                Err(error) => {
+                    for inverse in inverses.into_iter().rev() {
+                        // An inverse fits the state that its edit left.
+                        let undone = self.apply(inverse);
+                        debug_assert!(undone.is_ok(), "an inverse was refused: {undone:?}");
+                    }
+                    return Err(error);
+                }
+            }
+        }
+        inverses.reverse();
+        Ok(Edit::Batch(inverses))
+    }
+
+    /// The graph of a body.
+    ///
+    /// # Errors
+    /// There is no group of that name.
+    pub fn body(&self, body: &Body) -> Result<&Graph, EditError> {
+        match body {
+            Body::Main => Ok(&self.graph),
+            Body::Group(name) => match self.groups.get(name) {
+                Some(group) => Ok(&group.graph),
+                None => Err(missing("group", name, self.groups.keys())),
+            },
+        }
+    }
+
+    fn body_mut(&mut self, body: &Body) -> Result<&mut Graph, EditError> {
+        // Asked first, since the borrow that is handed out would forbid listing the names.
+        self.body(body)?;
+        Ok(self.parts_mut(body)?.0)
+    }
+
+    /// Graph, inputs and outputs of a body.
+    fn parts_mut(&mut self, body: &Body) -> Result<PartsMut<'_>, EditError> {
+        self.body(body)?;
+        match body {
+            Body::Main => Ok((&mut self.graph, &mut self.inputs, &mut self.outputs)),
+            Body::Group(name) => match self.groups.get_mut(name) {
+                Some(group) => Ok((&mut group.graph, &mut group.inputs, &mut group.outputs)),
+                None => Err(missing("group", name, std::iter::empty::<&String>())),
+            },
+        }
+    }
+
+    fn add_group(&mut self, name: String, mut group: GroupDef) -> Result<Edit, EditError> {
+        check_name("group", &name, "")?;
+        if self.groups.contains_key(&name) {
+            return Err(EditError::GroupExists { name: shown(&name) });
+        }
+        validate::group_ports(&group)?;
+        for (_, node) in group.graph.nodes() {
+            let is_group = |used: &str| used == name || self.groups.contains_key(used);
+            validate::kind_and_group(node, is_group, self.groups.keys().map(String::as_str))?;
+        }
+        group.fit = match group.fit {
+            Some(fit) => Some(validate::fit(fit).ok_or(EditError::BadFit)?),
+            None => None,
+        };
+        keep_all(&mut group.extra)?;
+        for input in group.inputs.values_mut() {
+            keep_all(&mut input.extra)?;
+        }
+        self.groups.insert(name.clone(), group);
+        Ok(Edit::RemoveGroup { name })
+    }
+
+    fn remove_group(&mut self, name: String) -> Result<Edit, EditError> {
+        let users = self.instances_of(&name);
+        if !users.is_empty() {
+            return Err(EditError::GroupInUse {
+                name: shown(&name),
+                users: listed(users.iter().map(String::as_str)),
+            });
+        }
+        match self.groups.remove(&name) {
+            Some(group) => Ok(Edit::AddGroup {
+                name,
+                group: Box::new(group),
+            }),
+            None => Err(missing("group", &name, self.groups.keys())),
+        }
+    }
+
+    /// Instances of a group outside itself: `node`, or `group/node`.
+    fn instances_of(&self, name: &str) -> Vec<String> {
+        let main = std::iter::once((None, &self.graph));
+        let groups = self.groups.iter().filter(|(group, _)| *group != name);
+        main.chain(groups.map(|(group, def)| (Some(group), &def.graph)))
+            .flat_map(|(group, graph)| graph.nodes().map(move |(id, node)| (group, id, node)))
+            .filter(|(_, _, node)| node.kind == GROUP_KIND && node.group.as_deref() == Some(name))
+            .map(|(group, id, _)| match group {
+                None => id.to_string(),
+                Some(group) => format!("{group}/{id}"),
+            })
+            .collect()
+    }
+}
+
+/// The sentence that something is not there.
+fn missing<'a>(what: &'static str, name: &str, known: impl IntoIterator<Item = &'a String>) -> EditError {
+    EditError::Missing {
+        what,
+        name: shown(name),
+        hint: hint(name, known.into_iter().map(String::as_str)),
+    }
+}
+
+/// A value as a file keeps it.
+fn keep(name: &str, value: Value) -> Result<Value, Problem> {
+    value.canonical().ok_or_else(|| Problem::BadValue { name: shown(name) })
+}
+
+/// Brings values to the form in which a file keeps them.
+fn keep_all(values: &mut BTreeMap<String, Value>) -> Result<(), Problem> {
+    for (name, value) in values {
+        *value = keep(name, std::mem::replace(value, Value::Null))?;
+    }
+    Ok(())
 }

@@ -18,6 +18,7 @@ pub enum Body {
 
 /// A change; [`Document::apply`](crate::Document::apply) makes it and gives its exact inverse.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the sentence of each edit says what its fields are")]
 pub enum Edit {
     /// Adds a node with its parameters and links.
     AddNode { body: Body, id: NodeId, node: Node },

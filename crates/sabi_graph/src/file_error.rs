@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::problem::Problem;
+use crate::json::{Fault, Json, Why};
+use crate::problem::{Problem, shown};
 
 /// Why a graph file cannot be read. Prints as `graph.sabi:12:7: node "edges", input "mask": …`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,7 +21,7 @@ pub struct FileError {
     /// The input of that node it is about.
     pub port: Option<String>,
     /// What is wrong.
-    pub problem: FileProblem,
+    pub problem: Box<FileProblem>,
 }
 
 /// What is wrong with a graph file.
@@ -90,7 +91,7 @@ impl fmt::Display for FileError {
             .peekable();
         while let Some((what, name)) = named.next() {
             let end = if named.peek().is_some() { ", " } else { ": " };
-            write!(f, "{what} {}{end}", crate::problem::shown(name))?;
+            write!(f, "{what} {}{end}", shown(name))?;
         }
         write!(f, "{}", self.problem)
     }
@@ -98,6 +99,82 @@ impl fmt::Display for FileError {
 
 impl std::error::Error for FileError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.problem)
+        Some(self.problem.as_ref())
+    }
+}
+
+/// A fault at a byte offset, on its way up to where the text and the names around it are known.
+#[derive(Debug)]
+pub(crate) struct Fail {
+    at: usize,
+    group: Option<String>,
+    node: Option<String>,
+    port: Option<String>,
+    problem: Box<FileProblem>,
+}
+
+impl Fail {
+    pub(crate) fn new(at: usize, problem: impl Into<FileProblem>) -> Self {
+        Fail {
+            at,
+            group: None,
+            node: None,
+            port: None,
+            problem: Box::new(problem.into()),
+        }
+    }
+
+    /// `key` must be `expected`, and is something else.
+    pub(crate) fn expected(found: &Json, key: &str, expected: impl Into<String>) -> Self {
+        Fail::new(
+            found.at,
+            FileProblem::Expected {
+                key: shown(key),
+                expected: expected.into(),
+                found: found.sort(),
+            },
+        )
+    }
+
+    pub(crate) fn in_group(mut self, name: &str) -> Self {
+        self.group.get_or_insert_with(|| name.to_owned());
+        self
+    }
+
+    pub(crate) fn in_node(mut self, id: &str) -> Self {
+        self.node.get_or_insert_with(|| id.to_owned());
+        self
+    }
+
+    pub(crate) fn in_port(mut self, input: &str) -> Self {
+        self.port.get_or_insert_with(|| input.to_owned());
+        self
+    }
+
+    /// The error, now that the text is at hand.
+    pub(crate) fn in_text(self, text: &str) -> FileError {
+        let before = text.get(..self.at).unwrap_or(text);
+        let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+        FileError {
+            name: None,
+            line: before.bytes().filter(|byte| *byte == b'\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+            group: self.group,
+            node: self.node,
+            port: self.port,
+            problem: self.problem,
+        }
+    }
+}
+
+impl From<Fault> for Fail {
+    fn from(fault: Fault) -> Self {
+        Fail::new(
+            fault.at,
+            match fault.why {
+                Why::Syntax(sentence) => FileProblem::Syntax(sentence),
+                Why::TooLarge => FileProblem::TooLarge,
+            },
+        )
     }
 }

@@ -1,6 +1,10 @@
 //! The document without its structure: groups inlined, reroutes gone, knobs applied.
 
+mod definitions;
 mod error;
+mod expand;
+mod knobs;
+mod trace;
 
 use std::collections::BTreeMap;
 
@@ -97,5 +101,39 @@ pub fn flatten(
     overrides: &Overrides,
     group_file: &mut dyn FnMut(&str) -> Result<Document, String>,
 ) -> Result<FlatGraph, FlattenError> {
-    todo!()
+    let all = definitions::Definitions::collect(document, group_file)?;
+    let mut expansion = expand::expand(&all, document.seed, overrides)?;
+    let mut nodes = std::mem::take(&mut expansion.nodes);
+    let mut tracer = trace::Tracer::new(&all, &expansion);
+    for (node, (instance, id)) in nodes.iter_mut().zip(&expansion.origins) {
+        node.inputs = tracer.inputs(*instance, id)?;
+    }
+    Ok(FlatGraph {
+        nodes: in_order(nodes)?,
+    })
+}
+
+/// Puts every node after those it reads, and points its links at where they stand now.
+fn in_order(nodes: Vec<FlatNode>) -> Result<Vec<FlatNode>, FlattenError> {
+    let ids: Vec<&str> = nodes.iter().map(|node| node.id.as_str()).collect();
+    let reads: Vec<Vec<usize>> = nodes
+        .iter()
+        .map(|node| node.inputs.values().map(|source| source.node).collect())
+        .collect();
+    // Each graph is free of circles and groups do not hold themselves, so their links together are as well.
+    let order = crate::order::topological(&ids, &reads).map_err(|circle| FlattenError::Circle {
+        nodes: crate::problem::listed(circle.into_iter().map(|index| ids[index])),
+    })?;
+    let mut place = vec![0; nodes.len()];
+    for (new, &old) in order.iter().enumerate() {
+        place[old] = new;
+    }
+    let mut taken: Vec<Option<FlatNode>> = nodes.into_iter().map(Some).collect();
+    let mut sorted: Vec<FlatNode> = order.into_iter().filter_map(|old| taken[old].take()).collect();
+    for node in &mut sorted {
+        for source in node.inputs.values_mut() {
+            source.node = place[source.node];
+        }
+    }
+    Ok(sorted)
 }

@@ -202,6 +202,10 @@ impl Graph {
     /// Unlinks an input; gives back the link that was there.
     pub(crate) fn unlink(&mut self, reader: &NodeId, input: &str) -> Result<Option<OutputRef>, Problem> {
         let target = self.find(reader.as_str())?;
+        let removed = self.net[target].1.inputs.remove(input);
+        if removed.is_none() {
+            return Ok(None);
+        }
         let edge = self
             .net
             .edges_directed(target, Direction::Incoming)
@@ -210,7 +214,7 @@ impl Graph {
         if let Some(edge) = edge {
             self.net.remove_edge(edge);
         }
-        Ok(self.net[target].1.inputs.remove(input))
+        Ok(removed)
     }
 
     /// The circle that a link from `from` into `reader` would close, if it would.

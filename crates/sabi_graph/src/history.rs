@@ -32,7 +32,7 @@ impl History {
         let inverse = document.apply(edit)?;
         self.redo.clear();
         match &mut self.open {
-            Some(step) => step.edits.insert(0, inverse),
+            Some(step) => step.edits.push(inverse),
             None => self.undo.push(Step {
                 name: name.to_owned(),
                 edits: vec![inverse],
@@ -52,9 +52,11 @@ impl History {
 
     /// Ends the open group, if there is one; a group without edits leaves no step.
     pub fn end(&mut self) {
-        if let Some(step) = self.open.take()
+        if let Some(mut step) = self.open.take()
             && !step.edits.is_empty()
         {
+            // They were made in this order, so they are taken back in the other.
+            step.edits.reverse();
             self.undo.push(step);
         }
     }

@@ -24,12 +24,16 @@ mod id;
 mod json;
 mod layout;
 mod migrate;
+mod name;
 mod nearest;
 mod order;
 mod port;
 mod problem;
 mod read;
 mod save;
+#[cfg(test)]
+mod tests;
+mod validate;
 mod value;
 
 pub use document::{Document, Exposed, Fit, Frame, GroupDef, GroupInput, Preview};

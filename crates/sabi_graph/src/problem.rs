@@ -133,10 +133,10 @@ pub(crate) fn shown(text: &str) -> String {
     format!("{cut:?}")
 }
 
-/// `; did you mean "x"?`, or nothing.
+/// ` (did you mean "x"?)`, or nothing.
 pub(crate) fn hint<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
     match crate::nearest(word, candidates) {
-        Some(near) => format!("; did you mean {}?", shown(near)),
+        Some(near) => format!(" (did you mean {}?)", shown(near)),
         None => String::new(),
     }
 }

@@ -1,5 +1,89 @@
-//! From text to a document.
+//! From text to a document, checking everything that can be checked without knowing the kinds.
+
+mod body;
+mod fields;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use body::{Body, read_body};
+use fields::Fields;
+
+use crate::document::{Fit, GroupDef, Preview};
+use crate::file_error::Fail;
+use crate::json::{Json, Tree};
+use crate::name::check_name;
 use crate::{Document, FileError};
+
 pub(crate) fn document(text: &str) -> Result<Document, FileError> {
-    todo!()
+    read(text).map_err(|fail| fail.in_text(text))
+}
+
+fn read(text: &str) -> Result<Document, Fail> {
+    let json = crate::migrate::to_newest(crate::json::parse(text)?)?;
+    let mut fields = Fields::of(json, "the file")?;
+    // Both were looked at before migration.
+    fields.take("format");
+    fields.take("version");
+    let name = fields.text("name")?.unwrap_or_default();
+    let preview = fields.take("preview").map(read_preview).transpose()?;
+    let fit = fields.take("fit").map(read_fit).transpose()?.unwrap_or_default();
+    let seed = fields.whole("seed")?.unwrap_or_default();
+    let groups = fields.map("groups")?;
+    let group_names: BTreeSet<String> = groups.iter().map(|member| member.key.clone()).collect();
+    let Body { graph, inputs, outputs } = read_body(&mut fields, &group_names)?;
+    let mut document = Document {
+        name,
+        preview,
+        fit,
+        seed,
+        graph,
+        groups: BTreeMap::new(),
+        inputs,
+        outputs,
+        extra: BTreeMap::new(),
+    };
+    for member in groups {
+        check_name("group", &member.key, "").map_err(|problem| Fail::new(member.key_at, problem))?;
+        let group = read_group(member.value, &group_names).map_err(|fail| fail.in_group(&member.key))?;
+        document.groups.insert(member.key, group);
+    }
+    document.extra = fields.extra()?;
+    Ok(document)
+}
+
+fn read_group(json: Json, group_names: &BTreeSet<String>) -> Result<GroupDef, Fail> {
+    let mut fields = Fields::of(json, "groups")?;
+    let name = fields.text("name")?;
+    let fit = fields.take("fit").map(read_fit).transpose()?;
+    let Body { graph, inputs, outputs } = read_body(&mut fields, group_names)?;
+    Ok(GroupDef {
+        name,
+        fit,
+        graph,
+        inputs,
+        outputs,
+        extra: fields.extra()?,
+    })
+}
+
+fn read_preview(json: Json) -> Result<Preview, Fail> {
+    let mut fields = Fields::of(json, "preview")?;
+    Ok(Preview {
+        mesh: fields.text("mesh")?,
+        size: fields.whole("size")?,
+        extra: fields.extra()?,
+    })
+}
+
+fn read_fit(json: Json) -> Result<Fit, Fail> {
+    match &json.tree {
+        Tree::Text(word) if word == "unit" => Ok(Fit::Unit),
+        Tree::Text(word) if word == "metres" => Ok(Fit::Metres),
+        Tree::Number(metres) if *metres > 0.0 => Ok(Fit::Length(*metres)),
+        _ => Err(Fail::expected(
+            &json,
+            "fit",
+            "\"unit\", \"metres\", or the length above zero that counts as 1",
+        )),
+    }
 }

@@ -1,6 +1,7 @@
 //! What a parameter holds: JSON's values, with numbers in one canonical form.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// A JSON-like value, as parameters and unknown keys hold it.
 #[derive(Clone, Debug, PartialEq)]
@@ -173,6 +174,32 @@ impl From<String> for Value {
 impl<T: Into<Value>> From<Vec<T>> for Value {
     fn from(items: Vec<T>) -> Self {
         Value::List(items.into_iter().map(Into::into).collect())
+    }
+}
+
+impl fmt::Display for Value {
+    /// On one line, as JSON; used in messages and keys.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Null => f.write_str("null"),
+            Value::Bool(on) => write!(f, "{on}"),
+            Value::Number(number) => f.write_str(&number_text(*number)),
+            Value::Text(text) => write!(f, "{text:?}"),
+            Value::List(items) => {
+                f.write_str("[")?;
+                for (index, item) in items.iter().enumerate() {
+                    write!(f, "{}{item}", if index > 0 { ", " } else { "" })?;
+                }
+                f.write_str("]")
+            }
+            Value::Object(members) => {
+                f.write_str("{")?;
+                for (index, (key, item)) in members.iter().enumerate() {
+                    write!(f, "{}{key:?}: {item}", if index > 0 { ", " } else { "" })?;
+                }
+                f.write_str("}")
+            }
+        }
     }
 }
 

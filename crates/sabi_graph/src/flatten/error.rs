@@ -1,5 +1,7 @@
 //! Why a document cannot be flattened.
 
+use crate::problem::Problem;
+
 /// Why a document cannot be flattened.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FlattenError {
@@ -47,4 +49,153 @@ pub enum FlattenError {
         /// What it was given.
         value: String,
     },
+    /// An instance of a group that is not there.
+    #[error("node {instance} is an instance of group {name}, which is not there{hint}")]
+    NoSuchGroup {
+        /// The instance, quoted.
+        instance: String,
+        /// The group, quoted.
+        name: String,
+        /// The nearest, as a question.
+        hint: String,
+    },
+    /// A group instance without a group.
+    #[error("node {instance} is a group instance but names no group")]
+    GroupNotNamed {
+        /// The instance, quoted.
+        instance: String,
+    },
+    /// A group file that could not be read.
+    #[error("node {instance} needs the group file {file}, which cannot be read: {why}")]
+    GroupFile {
+        /// The instance, quoted.
+        instance: String,
+        /// The path relative to the document, quoted.
+        file: String,
+        /// The reader's sentence.
+        why: String,
+    },
+    /// Group files without end in sight.
+    #[error("the graph uses more than {limit} group files; look for a folder that leads into itself")]
+    TooManyFiles {
+        /// The limit.
+        limit: usize,
+    },
+    /// A group inside itself.
+    #[error("a group cannot hold itself: {chain}; take one of these instances out")]
+    Recursion {
+        /// Groups, each holding the next.
+        chain: String,
+    },
+    /// Instances inside instances without end in sight.
+    #[error("groups stand inside each other more than {limit} deep; use fewer levels")]
+    TooDeep {
+        /// The limit.
+        limit: usize,
+    },
+    /// More than anybody could evaluate.
+    #[error(
+        "with all groups opened the graph has more than {count} nodes, or 256 MiB of parameters; use fewer instances"
+    )]
+    TooLarge {
+        /// The limit of nodes.
+        count: usize,
+    },
+    /// A knob that would hide one that every instance has.
+    #[error("the group of node {instance} exposes a knob {knob:?}, which every group instance has already; rename it")]
+    ReservedKnob {
+        /// The instance, quoted.
+        instance: String,
+        /// The knob.
+        knob: &'static str,
+    },
+    /// Seed, Scale or variant of an instance that is none.
+    #[error("the {knob} of group instance {instance} must be {expected}, not {value}")]
+    BadInstanceKnob {
+        /// The instance, quoted.
+        instance: String,
+        /// The knob.
+        knob: &'static str,
+        /// What belongs there.
+        expected: &'static str,
+        /// What is there.
+        value: String,
+    },
+    /// Scale knobs whose product no number can hold.
+    #[error(
+        "the Scale knobs down to group instance {instance} multiply to nothing or without bounds; bring them nearer to 1"
+    )]
+    ScaleOverflow {
+        /// The instance, quoted.
+        instance: String,
+    },
+    /// A parameter that the group of an instance does not expose.
+    #[error("group instance {instance} has no knob {name}{hint}; it has {known}")]
+    NoSuchInstanceKnob {
+        /// The instance, quoted.
+        instance: String,
+        /// The name, quoted.
+        name: String,
+        /// The nearest, as a question.
+        hint: String,
+        /// All of them, quoted.
+        known: String,
+    },
+    /// A link into an input that an instance or reroute does not have.
+    #[error("node {node} has no input {input}{hint}; it has {known}")]
+    NoSuchInput {
+        /// The node, quoted.
+        node: String,
+        /// The input, quoted.
+        input: String,
+        /// The nearest, as a question.
+        hint: String,
+        /// All of them, quoted.
+        known: String,
+    },
+    /// A link from an output that a group does not have.
+    #[error("group instance {instance} has no output {port}{hint}; it has {known}")]
+    NoSuchOutput {
+        /// The instance, quoted.
+        instance: String,
+        /// The output, quoted.
+        port: String,
+        /// The nearest, as a question.
+        hint: String,
+        /// All of them, quoted.
+        known: String,
+    },
+    /// A link from a group that does not say from which of its outputs.
+    #[error("a link from group instance {instance} must name one of its outputs as node.output; it has {known}")]
+    WhichOutput {
+        /// The instance, quoted.
+        instance: String,
+        /// All of them, quoted.
+        known: String,
+    },
+    /// A reroute has one output without a name.
+    #[error("node {node} is a reroute and has no output {port}; link from the node's id alone")]
+    ReroutePort {
+        /// The node, quoted.
+        node: String,
+        /// The output, quoted.
+        port: String,
+    },
+    /// A kind whose version is no number.
+    #[error("node {node} has the kind {kind}; after the @ stands a version from 1 up, as in \"noise/simplex@2\"")]
+    BadVersion {
+        /// The node, quoted.
+        node: String,
+        /// The kind, quoted.
+        kind: String,
+    },
+    /// Links that lead in a circle.
+    #[error("the nodes {nodes} feed each other in a circle; remove one of their links")]
+    Circle {
+        /// The nodes, quoted.
+        nodes: String,
+    },
+    /// A value that cannot be set.
+    #[error(transparent)]
+    Problem(#[from] Problem),
 }

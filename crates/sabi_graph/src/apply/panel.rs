@@ -1,0 +1,143 @@
+//! Edits of what is published: knobs, variants, ports; and of frames.
+
+use std::collections::BTreeMap;
+
+use super::nodes::check_output;
+use super::{keep, keep_all, missing};
+use crate::document::{Exposed, Frame, GroupInput};
+use crate::id::check_port_name;
+use crate::name::check_name;
+use crate::problem::{Problem, shown};
+use crate::validate;
+use crate::{Body, Document, Edit, EditError, OutputRef, Value};
+
+/// Inputs and outputs of a body.
+type Ports<'a> = (&'a BTreeMap<String, GroupInput>, &'a BTreeMap<String, OutputRef>);
+
+impl Document {
+    pub(super) fn ports(&self, body: &Body) -> Result<Ports<'_>, EditError> {
+        match body {
+            Body::Main => Ok((&self.inputs, &self.outputs)),
+            Body::Group(name) => match self.groups.get(name) {
+                Some(group) => Ok((&group.inputs, &group.outputs)),
+                None => Err(missing("group", name, self.groups.keys())),
+            },
+        }
+    }
+
+    pub(super) fn add_frame(&mut self, body: Body, id: String, mut frame: Frame) -> Result<Edit, EditError> {
+        check_name("frame", &id, "")?;
+        keep_all(&mut frame.extra)?;
+        Ok(match self.body_mut(&body)?.frames.insert(id.clone(), frame) {
+            Some(frame) => Edit::AddFrame { body, id, frame },
+            None => Edit::RemoveFrame { body, id },
+        })
+    }
+
+    pub(super) fn remove_frame(&mut self, body: Body, id: String) -> Result<Edit, EditError> {
+        let frames = &mut self.body_mut(&body)?.frames;
+        match frames.remove(&id) {
+            Some(frame) => Ok(Edit::AddFrame { body, id, frame }),
+            None => Err(missing("frame", &id, frames.keys())),
+        }
+    }
+
+    pub(super) fn expose(&mut self, body: Body, name: String, mut knob: Exposed) -> Result<Edit, EditError> {
+        let graph = self.body_mut(&body)?;
+        validate::knob(graph, &name, &knob)?;
+        knob.default = knob.default.map(|value| keep("default", value)).transpose()?;
+        if let Some(ends) = &mut knob.range {
+            for end in ends {
+                let bad = || Problem::BadValue { name: shown("range") };
+                *end = crate::canonical_number(*end).ok_or_else(bad)?;
+            }
+        }
+        keep_all(&mut knob.extra)?;
+        Ok(match graph.exposed.insert(name.clone(), knob) {
+            Some(knob) => Edit::Expose { body, name, knob },
+            None => Edit::Unexpose { body, name },
+        })
+    }
+
+    /// Variants lose the knob first, so that each of them still sets only what is exposed.
+    pub(super) fn unexpose(&mut self, body: Body, name: String) -> Result<Edit, EditError> {
+        let graph = self.body_mut(&body)?;
+        let Some(knob) = graph.exposed.remove(&name) else {
+            return Err(missing("knob", &name, graph.exposed.keys()));
+        };
+        let mut inverse = vec![Edit::Expose {
+            body: body.clone(),
+            name: name.clone(),
+            knob,
+        }];
+        for (variant, values) in &mut graph.variants {
+            if values.contains_key(&name) {
+                let (body, name_of_variant) = (body.clone(), variant.clone());
+                inverse.push(Edit::SetVariant {
+                    body,
+                    name: name_of_variant,
+                    values: Some(values.clone()),
+                });
+                values.remove(&name);
+            }
+        }
+        Ok(Edit::Batch(inverse))
+    }
+
+    pub(super) fn set_variant(
+        &mut self,
+        body: Body,
+        name: String,
+        mut values: Option<BTreeMap<String, Value>>,
+    ) -> Result<Edit, EditError> {
+        check_name("variant", &name, "")?;
+        let graph = self.body_mut(&body)?;
+        if let Some(values) = &mut values {
+            for knob in values.keys() {
+                validate::variant_sets(graph, &name, knob)?;
+            }
+            keep_all(values)?;
+        }
+        let values = match values {
+            Some(values) => graph.variants.insert(name.clone(), values),
+            None => graph.variants.remove(&name),
+        };
+        Ok(Edit::SetVariant { body, name, values })
+    }
+
+    pub(super) fn set_input(&mut self, body: Body, name: String, input: Option<GroupInput>) -> Result<Edit, EditError> {
+        let (graph, inputs, _) = self.parts_mut(&body)?;
+        let input = match input {
+            Some(mut input) => {
+                let mut fed = validate::Fed::new();
+                for (other, input) in inputs.iter().filter(|(other, _)| **other != name) {
+                    fed.extend(input.to.iter().map(|slot| (slot.clone(), other.clone())));
+                }
+                validate::group_input(graph, &mut fed, &name, &input)?;
+                keep_all(&mut input.extra)?;
+                inputs.insert(name.clone(), input)
+            }
+            None => inputs.remove(&name),
+        };
+        Ok(Edit::SetInput { body, name, input })
+    }
+
+    pub(super) fn set_output(
+        &mut self,
+        body: Body,
+        name: String,
+        output: Option<OutputRef>,
+    ) -> Result<Edit, EditError> {
+        let (graph, _, outputs) = self.parts_mut(&body)?;
+        let output = match output {
+            Some(from) => {
+                check_port_name(&name)?;
+                check_output(&from)?;
+                graph.find(from.node.as_str())?;
+                outputs.insert(name.clone(), from)
+            }
+            None => outputs.remove(&name),
+        };
+        Ok(Edit::SetOutput { body, name, output })
+    }
+}

@@ -1,0 +1,240 @@
+//! Every graph that takes part: the document, its groups in use, and the group files they name.
+
+use std::collections::BTreeMap;
+
+use super::FlattenError;
+use crate::document::{Document, Fit, GroupInput};
+use crate::problem::{hint, shown};
+use crate::validate::is_group_file;
+use crate::{GROUP_KIND, Graph, NodeId, OutputRef};
+
+/// Reads a group file by its path relative to the document.
+pub(super) type ReadFile<'a> = &'a mut dyn FnMut(&str) -> Result<Document, String>;
+
+/// Group files beyond this are refused; a folder that is linked into itself has no end.
+const FILE_LIMIT: usize = 1000;
+
+/// Which graph: a file (0 is the document), and a group in it or its main graph.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Address {
+    file: usize,
+    group: Option<String>,
+}
+
+/// The graphs in use; number 0 is the document's own.
+pub(super) struct Definitions<'a> {
+    document: &'a Document,
+    /// Group files with their paths; file `n` of an address is number `n - 1` here.
+    files: Vec<(String, Document)>,
+    addresses: Vec<Address>,
+    /// The graph that an instance stands for, by the graph it is in and its id.
+    pub(super) instances: BTreeMap<(usize, NodeId), usize>,
+}
+
+/// One graph in use.
+pub(super) struct Definition<'a> {
+    pub(super) graph: &'a Graph,
+    pub(super) inputs: &'a BTreeMap<String, GroupInput>,
+    pub(super) outputs: &'a BTreeMap<String, OutputRef>,
+    /// The fit its lengths were made for.
+    pub(super) fit: Fit,
+    /// The group file it was written in; `None` for the document.
+    pub(super) file: Option<&'a str>,
+}
+
+impl<'a> Definitions<'a> {
+    /// Collects all graphs that the document reaches.
+    pub(super) fn collect(document: &'a Document, read: ReadFile<'_>) -> Result<Self, FlattenError> {
+        let mut all = Definitions {
+            document,
+            files: Vec::new(),
+            addresses: vec![Address { file: 0, group: None }],
+            instances: BTreeMap::new(),
+        };
+        let mut number_of = BTreeMap::from([(all.addresses[0].clone(), 0)]);
+        let mut file_of = BTreeMap::new();
+        let mut uses = Vec::new();
+        while uses.len() < all.addresses.len() {
+            let user = uses.len();
+            let mut used = Vec::new();
+            for (id, name) in all.groups_named_in(user) {
+                let address = all.address(user, &id, &name, &mut file_of, read)?;
+                let number = *number_of.entry(address.clone()).or_insert(all.addresses.len());
+                if number == all.addresses.len() {
+                    all.addresses.push(address);
+                }
+                all.instances.insert((user, id), number);
+                used.push(number);
+            }
+            uses.push(used);
+        }
+        all.refuse_recursion(&uses)?;
+        Ok(all)
+    }
+
+    /// One graph by its number.
+    pub(super) fn get(&self, number: usize) -> Definition<'_> {
+        let address = &self.addresses[number];
+        let document = self.file(address.file);
+        let file = address.file.checked_sub(1).map(|index| self.files[index].0.as_str());
+        match address.group.as_ref().and_then(|name| document.groups.get(name)) {
+            Some(group) => Definition {
+                graph: &group.graph,
+                inputs: &group.inputs,
+                outputs: &group.outputs,
+                fit: group.fit.unwrap_or(document.fit),
+                file,
+            },
+            None => Definition {
+                graph: &document.graph,
+                inputs: &document.inputs,
+                outputs: &document.outputs,
+                fit: document.fit,
+                file,
+            },
+        }
+    }
+
+    /// How many graphs there are.
+    pub(super) fn len(&self) -> usize {
+        self.addresses.len()
+    }
+
+    fn file(&self, number: usize) -> &Document {
+        match number.checked_sub(1) {
+            None => self.document,
+            Some(index) => &self.files[index].1,
+        }
+    }
+
+    /// Instances in a graph, each with the name of its group.
+    fn groups_named_in(&self, number: usize) -> Vec<(NodeId, String)> {
+        let named = |(id, node): (&NodeId, &crate::Node)| {
+            let group = node.group.as_ref().filter(|_| node.kind == GROUP_KIND)?;
+            Some((id.clone(), group.clone()))
+        };
+        self.get(number).graph.nodes().filter_map(named).collect()
+    }
+
+    /// The graph that `name` means to an instance in graph `user`; a file is read when it is first named.
+    fn address(
+        &mut self,
+        user: usize,
+        id: &NodeId,
+        name: &str,
+        file_of: &mut BTreeMap<String, usize>,
+        read: &mut dyn FnMut(&str) -> Result<Document, String>,
+    ) -> Result<Address, FlattenError> {
+        let from = self.addresses[user].file;
+        let document = self.file(from);
+        if document.groups.contains_key(name) {
+            let group = Some(name.to_owned());
+            return Ok(Address { file: from, group });
+        }
+        if !is_group_file(name) {
+            return Err(FlattenError::NoSuchGroup {
+                instance: self.label(user, id),
+                name: shown(name),
+                hint: hint(name, document.groups.keys().map(String::as_str)),
+            });
+        }
+        let base = from.checked_sub(1).map_or("", |index| self.files[index].0.as_str());
+        let path = beside(base, name);
+        if let Some(&file) = file_of.get(&path) {
+            return Ok(Address { file, group: None });
+        }
+        if self.files.len() == FILE_LIMIT {
+            return Err(FlattenError::TooManyFiles { limit: FILE_LIMIT });
+        }
+        let document = read(&path).map_err(|why| FlattenError::GroupFile {
+            instance: self.label(user, id),
+            file: shown(&path),
+            why,
+        })?;
+        self.files.push((path.clone(), document));
+        file_of.insert(path, self.files.len());
+        Ok(Address {
+            file: self.files.len(),
+            group: None,
+        })
+    }
+
+    /// A node for messages, with the graph it is in.
+    fn label(&self, number: usize, id: &NodeId) -> String {
+        match number {
+            0 => shown(id.as_str()),
+            _ => format!("{} in group {}", shown(id.as_str()), shown(&self.name(number))),
+        }
+    }
+
+    /// A graph's name for messages.
+    fn name(&self, number: usize) -> String {
+        let Address { file, group } = &self.addresses[number];
+        let path = file.checked_sub(1).map(|index| self.files[index].0.as_str());
+        match (path, group) {
+            (None, None) => "the graph".to_owned(),
+            (None, Some(group)) => group.clone(),
+            (Some(path), None) => path.to_owned(),
+            (Some(path), Some(group)) => format!("{path}: {group}"),
+        }
+    }
+
+    fn refuse_recursion(&self, uses: &[Vec<usize>]) -> Result<(), FlattenError> {
+        let names: Vec<String> = (0..self.len()).map(|number| self.name(number)).collect();
+        let Err(mut circle) = crate::order::topological(&names, uses) else {
+            return Ok(());
+        };
+        // From the outside in: each holds an instance of the next.
+        circle[1..].reverse();
+        let mut chain: Vec<&str> = circle.iter().map(|&number| names[number].as_str()).collect();
+        chain.push(chain[0]);
+        Err(FlattenError::Recursion {
+            chain: chain.join(" → "),
+        })
+    }
+}
+
+/// A path that stands in `file`, seen from where `file` itself is seen from; absolute paths stay.
+fn beside(file: &str, path: &str) -> String {
+    let path = path.replace('\\', "/");
+    let has_drive = path.as_bytes().get(1) == Some(&b':');
+    let (root, folder) = match path.strip_prefix('/') {
+        Some(_) => ("/", ""),
+        None if has_drive => ("", ""),
+        None => (
+            if file.starts_with('/') { "/" } else { "" },
+            file.rsplit_once('/').map_or("", |(folder, _)| folder),
+        ),
+    };
+    let mut parts: Vec<&str> = Vec::new();
+    for part in folder.split('/').chain(path.split('/')) {
+        match part {
+            "" | "." => {}
+            ".." if parts.last().is_some_and(|last| *last != "..") => {
+                parts.pop();
+            }
+            _ => parts.push(part),
+        }
+    }
+    format!("{root}{}", parts.join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::beside;
+
+    #[test]
+    fn a_path_is_relative_to_the_file_it_stands_in() {
+        for (file, path, found) in [
+            ("", "rust.sabi", "rust.sabi"),
+            ("lib/rust.sabi", "noise.sabi", "lib/noise.sabi"),
+            ("lib/rust.sabi", "../noise.sabi", "noise.sabi"),
+            ("lib/rust.sabi", "../../a/./noise.sabi", "../a/noise.sabi"),
+            ("lib/rust.sabi", "/a/noise.sabi", "/a/noise.sabi"),
+            ("/lib/rust.sabi", "noise.sabi", "/lib/noise.sabi"),
+            ("lib/rust.sabi", "C:\\a\\noise.sabi", "C:/a/noise.sabi"),
+        ] {
+            assert_eq!(beside(file, path), found);
+        }
+    }
+}

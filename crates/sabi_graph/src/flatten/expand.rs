@@ -1,0 +1,223 @@
+//! Instances and the nodes in them, from the outside in.
+
+use std::collections::BTreeMap;
+
+use super::definitions::Definitions;
+use super::knobs::{self, Settings};
+use super::{FlatNode, FlattenError, Overrides};
+use crate::problem::{hint, listed, shown};
+use crate::{GROUP_KIND, Node, NodeId, REROUTE_KIND, Value};
+
+/// Instances inside instances beyond this are refused.
+const DEPTH_LIMIT: usize = 256;
+/// Nodes and instances beyond this are refused.
+const COUNT_LIMIT: usize = 100_000;
+/// Bytes of ids and parameters beyond this are refused.
+const BYTE_LIMIT: usize = 256 << 20;
+
+/// The document (number 0) or a group instance, opened.
+pub(super) struct Instance {
+    /// Number of its graph.
+    pub(super) definition: usize,
+    /// The instance it stands in, and its node there.
+    pub(super) parent: Option<(usize, NodeId)>,
+    /// What comes before the ids in it: empty, or `outer/inner/`.
+    pub(super) prefix: String,
+    depth: usize,
+    seeds: Vec<u32>,
+    length_scale: f64,
+    muted: bool,
+    settings: Settings,
+}
+
+/// What became of a node.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Spot {
+    /// The real node of that number.
+    Real(usize),
+    /// The instance of that number.
+    Opened(usize),
+    /// A reroute.
+    Wire,
+}
+
+/// All instances opened.
+#[derive(Default)]
+pub(super) struct Expansion {
+    pub(super) instances: Vec<Instance>,
+    /// Real nodes without their links, in no particular order.
+    pub(super) nodes: Vec<FlatNode>,
+    /// Where each real node comes from.
+    pub(super) origins: Vec<(usize, NodeId)>,
+    /// By instance and id.
+    pub(super) spots: BTreeMap<usize, BTreeMap<NodeId, Spot>>,
+    bytes: usize,
+}
+
+pub(super) fn expand(all: &Definitions<'_>, seed: u32, overrides: &Overrides) -> Result<Expansion, FlattenError> {
+    let mut expansion = Expansion::default();
+    expansion.instances.push(Instance {
+        definition: 0,
+        parent: None,
+        prefix: String::new(),
+        depth: 0,
+        seeds: vec![overrides.seed.unwrap_or(seed)],
+        length_scale: 1.0,
+        muted: false,
+        settings: knobs::overridden(all.get(0).graph, overrides)?,
+    });
+    let mut next = 0;
+    while next < expansion.instances.len() {
+        expansion.open(all, next)?;
+        next += 1;
+    }
+    Ok(expansion)
+}
+
+impl Expansion {
+    fn open(&mut self, all: &Definitions<'_>, number: usize) -> Result<(), FlattenError> {
+        let definition = all.get(self.instances[number].definition);
+        let mut set: BTreeMap<NodeId, Vec<(String, Value)>> = BTreeMap::new();
+        for (slot, value) in std::mem::take(&mut self.instances[number].settings) {
+            set.entry(slot.node).or_default().push((slot.name, value));
+        }
+        let mut spots = BTreeMap::new();
+        for (id, node) in definition.graph.nodes() {
+            let mut params = node.params.clone();
+            params.extend(set.remove(id).unwrap_or_default());
+            let path = format!("{}{id}", self.instances[number].prefix);
+            self.charge(&path, &params)?;
+            let spot = match node.kind.as_str() {
+                REROUTE_KIND => {
+                    check_inputs(&path, node, ["source"])?;
+                    Spot::Wire
+                }
+                GROUP_KIND => self.add_instance(all, number, id, node, path, &params)?,
+                _ => self.add_real(all, number, id, node, path, params)?,
+            };
+            spots.insert(id.clone(), spot);
+        }
+        self.spots.insert(number, spots);
+        Ok(())
+    }
+
+    /// Groups of groups grow by powers; this keeps a small file from filling the memory.
+    fn charge(&mut self, path: &str, params: &BTreeMap<String, Value>) -> Result<(), FlattenError> {
+        let values: usize = params.iter().map(|(name, value)| name.len() + weight(value)).sum();
+        // Every entry costs something beside its texts.
+        self.bytes += 256 + path.len() + values;
+        if self.bytes > BYTE_LIMIT || self.instances.len() + self.nodes.len() >= COUNT_LIMIT {
+            return Err(FlattenError::TooLarge { count: COUNT_LIMIT });
+        }
+        Ok(())
+    }
+
+    fn add_instance(
+        &mut self,
+        all: &Definitions<'_>,
+        number: usize,
+        id: &NodeId,
+        node: &Node,
+        path: String,
+        params: &BTreeMap<String, Value>,
+    ) -> Result<Spot, FlattenError> {
+        let outer = &self.instances[number];
+        let Some(&definition) = all.instances.get(&(outer.definition, id.clone())) else {
+            return Err(FlattenError::GroupNotNamed { instance: shown(&path) });
+        };
+        if outer.depth == DEPTH_LIMIT {
+            return Err(FlattenError::TooDeep { limit: DEPTH_LIMIT });
+        }
+        let group = all.get(definition);
+        check_inputs(&path, node, group.inputs.keys().map(String::as_str))?;
+        let knobs = knobs::of_instance(group.graph, &path, params)?;
+        let length_scale = outer.length_scale * knobs.scale;
+        if !(length_scale.is_finite() && length_scale > 0.0) {
+            return Err(FlattenError::ScaleOverflow { instance: shown(&path) });
+        }
+        let mut seeds = outer.seeds.clone();
+        // Without a seed of its own an instance gives what its nodes would give outside of it.
+        if knobs.seed != 0 {
+            seeds.push(knobs.seed);
+        }
+        let instance = Instance {
+            definition,
+            parent: Some((number, id.clone())),
+            prefix: format!("{path}/"),
+            depth: outer.depth + 1,
+            seeds,
+            length_scale,
+            muted: outer.muted || node.muted,
+            settings: knobs.settings,
+        };
+        self.instances.push(instance);
+        Ok(Spot::Opened(self.instances.len() - 1))
+    }
+
+    fn add_real(
+        &mut self,
+        all: &Definitions<'_>,
+        number: usize,
+        id: &NodeId,
+        node: &Node,
+        path: String,
+        params: BTreeMap<String, Value>,
+    ) -> Result<Spot, FlattenError> {
+        let outer = &self.instances[number];
+        let definition = all.get(outer.definition);
+        let (kind, version) = kind_and_version(&path, &node.kind)?;
+        self.nodes.push(FlatNode {
+            id: path,
+            kind,
+            version,
+            params,
+            inputs: BTreeMap::new(),
+            muted: outer.muted || node.muted,
+            seeds: outer.seeds.clone(),
+            length_scale: outer.length_scale,
+            fit: definition.fit,
+            file: definition.file.map(str::to_owned),
+        });
+        self.origins.push((number, id.clone()));
+        Ok(Spot::Real(self.nodes.len() - 1))
+    }
+}
+
+/// An instance or reroute has no inputs but these.
+fn check_inputs<'a>(path: &str, node: &Node, known: impl IntoIterator<Item = &'a str>) -> Result<(), FlattenError> {
+    let known: Vec<&str> = known.into_iter().collect();
+    match node.inputs.keys().find(|input| !known.contains(&input.as_str())) {
+        None => Ok(()),
+        Some(input) => Err(FlattenError::NoSuchInput {
+            node: shown(path),
+            input: shown(input),
+            hint: hint(input, known.iter().copied()),
+            known: listed(known),
+        }),
+    }
+}
+
+/// `noise/simplex@2` is kind `noise/simplex` in version 2.
+fn kind_and_version(path: &str, kind: &str) -> Result<(String, u32), FlattenError> {
+    let Some((name, version)) = kind.split_once('@') else {
+        return Ok((kind.to_owned(), 1));
+    };
+    match version.parse::<u32>() {
+        Ok(number) if number > 0 && !name.is_empty() => Ok((name.to_owned(), number)),
+        _ => Err(FlattenError::BadVersion {
+            node: shown(path),
+            kind: shown(kind),
+        }),
+    }
+}
+
+/// About how many bytes a value takes.
+fn weight(value: &Value) -> usize {
+    const SELF: usize = 32;
+    SELF + match value {
+        Value::Text(text) => text.len(),
+        Value::List(items) => items.iter().map(weight).sum(),
+        Value::Object(members) => members.iter().map(|(key, value)| key.len() + weight(value)).sum(),
+        Value::Null | Value::Bool(_) | Value::Number(_) => 0,
+    }
+}

@@ -1,0 +1,210 @@
+//! Knobs turned into parameters.
+
+use std::collections::BTreeMap;
+
+use super::{FlattenError, Overrides};
+use crate::document::Exposed;
+use crate::problem::{Problem, hint, listed, shown};
+use crate::value::number_text;
+use crate::{Graph, SlotRef, Value};
+
+/// Knobs that every group instance has, beside those its group exposes.
+pub(super) const INSTANCE_KNOBS: [&str; 3] = ["scale", "seed", "variant"];
+
+/// Parameters that knobs set, in order: later ones win.
+pub(super) type Settings = Vec<(SlotRef, Value)>;
+
+/// The control panel of one graph being set. `of` says whose it is in messages: nothing, or ` of "instance"`.
+pub(super) struct Panel<'a> {
+    graph: &'a Graph,
+    of: String,
+    settings: Settings,
+}
+
+impl<'a> Panel<'a> {
+    /// All knobs at their defaults, then the variant on top.
+    pub(super) fn new(graph: &'a Graph, of: String, variant: Option<&str>) -> Result<Self, FlattenError> {
+        let mut panel = Panel {
+            graph,
+            of,
+            settings: Vec::new(),
+        };
+        for (name, knob) in graph.exposed() {
+            if let Some(value) = &knob.default {
+                panel.turn(name, knob, value)?;
+            }
+        }
+        if let Some(variant) = variant {
+            for (name, value) in panel.variant(variant)? {
+                panel.set(name, value)?;
+            }
+        }
+        Ok(panel)
+    }
+
+    /// Sets an exposed knob; `false` when there is none of that name.
+    pub(super) fn set(&mut self, name: &str, value: &Value) -> Result<bool, FlattenError> {
+        let graph = self.graph;
+        match graph.exposed().get(name) {
+            Some(knob) => self.turn(name, knob, value).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// What was set, in order.
+    pub(super) fn into_settings(self) -> Settings {
+        self.settings
+    }
+
+    fn variant(&self, name: &str) -> Result<&'a BTreeMap<String, Value>, FlattenError> {
+        let variants = self.graph.variants();
+        let names = || variants.keys().map(String::as_str);
+        variants.get(name).ok_or_else(|| FlattenError::NoSuchVariant {
+            name: format!("{}{}", shown(name), self.of),
+            hint: hint(name, names()),
+            known: listed(names()),
+        })
+    }
+
+    fn turn(&mut self, name: &str, knob: &Exposed, value: &Value) -> Result<(), FlattenError> {
+        if let Some(range) = knob.range {
+            self.check_range(name, range, value)?;
+        }
+        self.settings
+            .extend(knob.to.iter().map(|slot| (slot.clone(), value.clone())));
+        Ok(())
+    }
+
+    fn check_range(&self, name: &str, [low, high]: [f64; 2], value: &Value) -> Result<(), FlattenError> {
+        let one = std::slice::from_ref(value);
+        for part in value.as_list().unwrap_or(one) {
+            let knob = format!("{}{}", shown(name), self.of);
+            let (low_text, high_text) = (number_text(low), number_text(high));
+            match part.as_number() {
+                Some(x) if (low..=high).contains(&x) => {}
+                Some(x) => {
+                    let value = number_text(x);
+                    return Err(FlattenError::OutOfRange {
+                        knob,
+                        value,
+                        low: low_text,
+                        high: high_text,
+                    });
+                }
+                None => {
+                    let value = part.sort().to_owned();
+                    return Err(FlattenError::NotANumber {
+                        knob,
+                        value,
+                        low: low_text,
+                        high: high_text,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What the overrides set in the main graph.
+pub(super) fn overridden(graph: &Graph, overrides: &Overrides) -> Result<Settings, FlattenError> {
+    let mut panel = Panel::new(graph, String::new(), overrides.variant.as_deref())?;
+    for (name, value) in &overrides.set {
+        let bad = || Problem::BadValue { name: shown(name) };
+        let value = value.clone().canonical().ok_or_else(bad)?;
+        if panel.set(name, &value)? {
+            continue;
+        }
+        let slot = name
+            .parse::<SlotRef>()
+            .ok()
+            .filter(|slot| graph.node(slot.node.as_str()).is_some());
+        panel
+            .settings
+            .push((slot.ok_or_else(|| no_such_knob(graph, name))?, value));
+    }
+    Ok(panel.into_settings())
+}
+
+fn no_such_knob(graph: &Graph, name: &str) -> FlattenError {
+    let knobs = || graph.exposed().keys().map(String::as_str);
+    let param = name.split_once('.').map_or("", |(_, param)| param);
+    let slots: Vec<String> = graph
+        .ids()
+        .map(|id| format!("{id}.{param}"))
+        .filter(|_| !param.is_empty())
+        .collect();
+    FlattenError::NoSuchKnob {
+        name: shown(name),
+        hint: hint(name, knobs().chain(slots.iter().map(String::as_str))),
+        known: listed(knobs()),
+    }
+}
+
+/// What an instance of a group sets inside it.
+pub(super) struct InstanceKnobs {
+    pub(super) settings: Settings,
+    /// 0 when not set.
+    pub(super) seed: u32,
+    /// 1 when not set.
+    pub(super) scale: f64,
+}
+
+/// Reads the parameters of the instance `id` of the group `graph`.
+pub(super) fn of_instance(
+    graph: &Graph,
+    id: &str,
+    params: &BTreeMap<String, Value>,
+) -> Result<InstanceKnobs, FlattenError> {
+    if let Some(knob) = INSTANCE_KNOBS.iter().find(|knob| graph.exposed().contains_key(**knob)) {
+        return Err(FlattenError::ReservedKnob {
+            instance: shown(id),
+            knob,
+        });
+    }
+    let bad = |knob: &'static str, expected: &'static str, value: &Value| FlattenError::BadInstanceKnob {
+        instance: shown(id),
+        knob,
+        expected,
+        value: brief(value),
+    };
+    let seed = match params.get("seed") {
+        None => 0,
+        Some(value) => value
+            .as_u32()
+            .ok_or_else(|| bad("seed", "a whole number from 0 to 4294967295", value))?,
+    };
+    let scale = match params.get("scale") {
+        None => 1.0,
+        Some(Value::Number(x)) if *x > 0.0 => *x,
+        Some(value) => return Err(bad("scale", "a number above zero", value)),
+    };
+    let variant = match params.get("variant") {
+        None => None,
+        Some(Value::Text(name)) => Some(name.as_str()),
+        Some(value) => return Err(bad("variant", "the name of a variant of the group", value)),
+    };
+    let mut panel = Panel::new(graph, format!(" of {}", shown(id)), variant)?;
+    for (name, value) in params {
+        if !INSTANCE_KNOBS.contains(&name.as_str()) && !panel.set(name, value)? {
+            let knobs = || graph.exposed().keys().map(String::as_str).chain(INSTANCE_KNOBS);
+            return Err(FlattenError::NoSuchInstanceKnob {
+                instance: shown(id),
+                name: shown(name),
+                hint: hint(name, knobs()),
+                known: listed(knobs()),
+            });
+        }
+    }
+    let settings = panel.into_settings();
+    Ok(InstanceKnobs { settings, seed, scale })
+}
+
+/// A value on one line, cut to a length people read.
+fn brief(value: &Value) -> String {
+    let text = value.to_json();
+    match text.char_indices().nth(80) {
+        None => text,
+        Some((end, _)) => format!("{}…", &text[..end]),
+    }
+}

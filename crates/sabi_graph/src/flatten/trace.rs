@@ -1,0 +1,164 @@
+//! Links followed through reroutes and the borders of groups to the real nodes they come from.
+
+use std::collections::BTreeMap;
+
+use super::definitions::{Definition, Definitions};
+use super::expand::{Expansion, Spot};
+use super::{FlatRef, FlattenError};
+use crate::problem::{hint, listed, shown};
+use crate::{NodeId, OutputRef};
+
+/// Inputs of nodes in a group, each with the group input that feeds it.
+type Fed<'a> = BTreeMap<&'a str, BTreeMap<&'a str, &'a str>>;
+
+pub(super) struct Tracer<'a> {
+    expansion: &'a Expansion,
+    definitions: Vec<Definition<'a>>,
+    /// By number of the definition.
+    fed: Vec<Fed<'a>>,
+    /// What was found behind reroutes, by instance and id.
+    behind: BTreeMap<(usize, &'a NodeId), Option<FlatRef>>,
+}
+
+impl<'a> Tracer<'a> {
+    pub(super) fn new(all: &'a Definitions<'_>, expansion: &'a Expansion) -> Self {
+        let definitions: Vec<Definition<'a>> = (0..all.len()).map(|number| all.get(number)).collect();
+        let fed = definitions.iter().map(fed_in).collect();
+        Tracer {
+            expansion,
+            definitions,
+            fed,
+            behind: BTreeMap::new(),
+        }
+    }
+
+    /// Links of the real node `id` of an instance. An input at whose end nothing is connected is left out.
+    pub(super) fn inputs(
+        &mut self,
+        instance: usize,
+        id: &'a NodeId,
+    ) -> Result<BTreeMap<String, FlatRef>, FlattenError> {
+        let number = self.expansion.instances[instance].definition;
+        let own = self.definitions[number]
+            .graph
+            .node(id.as_str())
+            .map(|node| &node.inputs);
+        let own = own.into_iter().flat_map(BTreeMap::keys).map(String::as_str);
+        let fed = self.fed[number]
+            .get(id.as_str())
+            .into_iter()
+            .flat_map(BTreeMap::keys)
+            .copied();
+        let mut names: Vec<&str> = own.chain(fed).collect();
+        names.sort_unstable();
+        names.dedup();
+        let mut inputs = BTreeMap::new();
+        for name in names {
+            if let Some((inside, from)) = self.link(instance, id, name)
+                && let Some(found) = self.trace(inside, from)?
+            {
+                inputs.insert(name.to_owned(), found);
+            }
+        }
+        Ok(inputs)
+    }
+
+    /// What an input is linked to, and in which instance that is: what feeds it from outside, else its own link.
+    fn link(&self, instance: usize, id: &NodeId, input: &str) -> Option<(usize, &'a OutputRef)> {
+        let opened = &self.expansion.instances[instance];
+        let feeding = self.fed[opened.definition]
+            .get(id.as_str())
+            .and_then(|inputs| inputs.get(input));
+        let outside = match (&opened.parent, feeding) {
+            // No deeper than instances nest.
+            (Some((outer, node)), Some(group_input)) => self.link(*outer, node, group_input),
+            _ => None,
+        };
+        outside.or_else(|| {
+            let node = self.definitions[opened.definition].graph.node(id.as_str())?;
+            Some((instance, node.inputs.get(input)?))
+        })
+    }
+
+    /// The real node at the beginning of a link; `None` when it begins at a reroute with nothing connected.
+    fn trace(&mut self, mut instance: usize, mut from: &'a OutputRef) -> Result<Option<FlatRef>, FlattenError> {
+        let mut passed = Vec::new();
+        let found = loop {
+            match self.spot(instance, &from.node) {
+                None => break None,
+                Some(Spot::Real(node)) => {
+                    break Some(FlatRef {
+                        node,
+                        port: from.port.clone(),
+                    });
+                }
+                Some(Spot::Opened(inner)) => {
+                    from = self.output(instance, inner, from)?;
+                    instance = inner;
+                }
+                Some(Spot::Wire) => {
+                    if let Some(port) = &from.port {
+                        let node = shown(&self.path(instance, &from.node));
+                        return Err(FlattenError::ReroutePort {
+                            node,
+                            port: shown(port),
+                        });
+                    }
+                    if let Some(found) = self.behind.get(&(instance, &from.node)) {
+                        break found.clone();
+                    }
+                    passed.push((instance, &from.node));
+                    match self.link(instance, &from.node, "source") {
+                        Some((inside, next)) => (instance, from) = (inside, next),
+                        None => break None,
+                    }
+                }
+            }
+        };
+        self.behind.extend(passed.into_iter().map(|wire| (wire, found.clone())));
+        Ok(found)
+    }
+
+    fn spot(&self, instance: usize, id: &NodeId) -> Option<Spot> {
+        self.expansion.spots.get(&instance)?.get(id).copied()
+    }
+
+    fn path(&self, instance: usize, id: &NodeId) -> String {
+        format!("{}{id}", self.expansion.instances[instance].prefix)
+    }
+
+    /// What the output of a group comes from, inside it.
+    fn output(&self, outer: usize, inner: usize, from: &OutputRef) -> Result<&'a OutputRef, FlattenError> {
+        let outputs = self.definitions[self.expansion.instances[inner].definition].outputs;
+        let names = || outputs.keys().map(String::as_str);
+        let instance = || shown(&self.path(outer, &from.node));
+        match &from.port {
+            Some(port) => outputs.get(port).ok_or_else(|| FlattenError::NoSuchOutput {
+                instance: instance(),
+                port: shown(port),
+                hint: hint(port, names()),
+                known: listed(names()),
+            }),
+            None if outputs.len() == 1 => outputs
+                .values()
+                .next()
+                .ok_or_else(|| self.ambiguous(instance(), names())),
+            None => Err(self.ambiguous(instance(), names())),
+        }
+    }
+
+    fn ambiguous<'n>(&self, instance: String, names: impl Iterator<Item = &'n str>) -> FlattenError {
+        let known = listed(names);
+        FlattenError::WhichOutput { instance, known }
+    }
+}
+
+fn fed_in<'a>(definition: &Definition<'a>) -> Fed<'a> {
+    let mut fed = Fed::new();
+    for (name, input) in definition.inputs {
+        for slot in &input.to {
+            fed.entry(slot.node.as_str()).or_default().insert(&slot.name, name);
+        }
+    }
+    fed
+}

@@ -1,0 +1,26 @@
+//! Names that people give to knobs, variants, frames and groups.
+
+use crate::problem::{Problem, shown};
+
+/// Longest such name, in characters.
+const NAME_LIMIT: usize = 200;
+
+/// Characters that no knob's name may have, since `--set NAME=VALUE` and `node.param` are told apart by them.
+pub(crate) const NOT_IN_KNOBS: &str = ".=";
+
+/// Checks a name: 1 to 200 characters, no control characters and none of `without`.
+pub(crate) fn check_name(what: &'static str, name: &str, without: &'static str) -> Result<(), Problem> {
+    let bad = |c: char| c.is_control() || without.contains(c);
+    if name.is_empty() || name.chars().count() > NAME_LIMIT || name.contains(bad) {
+        let without = match without {
+            "" => "none of them a control character",
+            _ => "without dots and equal signs",
+        };
+        return Err(Problem::BadName {
+            what,
+            name: shown(name),
+            without,
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,219 @@
+//! What a document and a group have alike: nodes, links, knobs, variants, frames and ports.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::fields::{Fields, text, value};
+use crate::document::{Exposed, Frame, GroupInput};
+use crate::file_error::Fail;
+use crate::id::check_port_name;
+use crate::json::{Json, Member};
+use crate::name::{NOT_IN_KNOBS, check_name};
+use crate::problem::Problem;
+use crate::validate;
+use crate::{Graph, Node, NodeId, OutputRef, PortType, SlotRef, Value};
+
+pub(super) struct Body {
+    pub(super) graph: Graph,
+    pub(super) inputs: BTreeMap<String, GroupInput>,
+    pub(super) outputs: BTreeMap<String, OutputRef>,
+}
+
+/// A link that was read, and where it stands.
+struct Link {
+    at: usize,
+    reader: NodeId,
+    input: String,
+    from: OutputRef,
+}
+
+pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> Result<Body, Fail> {
+    let mut graph = Graph::default();
+    read_nodes(&mut graph, fields, group_names)?;
+    for member in fields.map("exposed")? {
+        check_name("knob", &member.key, NOT_IN_KNOBS).map_err(at(member.key_at))?;
+        let knob = read_exposed(&graph, member.value, &member.key)?;
+        graph.exposed.insert(member.key, knob);
+    }
+    for member in fields.map("variants")? {
+        check_name("variant", &member.key, "").map_err(at(member.key_at))?;
+        let values = read_variant(&graph, member.value, &member.key)?;
+        graph.variants.insert(member.key, values);
+    }
+    for member in fields.map("frames")? {
+        check_name("frame", &member.key, "").map_err(at(member.key_at))?;
+        graph.frames.insert(member.key, read_frame(member.value)?);
+    }
+    let inputs = read_inputs(&graph, fields.map("inputs")?)?;
+    let outputs = read_outputs(&graph, fields.map("outputs")?)?;
+    Ok(Body { graph, inputs, outputs })
+}
+
+/// Puts a problem at a place in the text.
+fn at(at: usize) -> impl Fn(Problem) -> Fail {
+    move |problem| Fail::new(at, problem)
+}
+
+fn read_nodes(graph: &mut Graph, fields: &mut Fields, group_names: &BTreeSet<String>) -> Result<(), Fail> {
+    let mut links = Vec::new();
+    let nodes = fields.need("nodes", "a graph has \"nodes\": {}, even when there are none")?;
+    for member in super::fields::members(nodes, "nodes")? {
+        let id: NodeId = member.key.parse().map_err(at(member.key_at))?;
+        let node = read_node(&id, member.value, group_names, &mut links).map_err(|fail| fail.in_node(id.as_str()))?;
+        graph.insert(id, node).map_err(at(member.key_at))?;
+    }
+    for link in &links {
+        graph
+            .link(&link.reader, &link.input, link.from.clone())
+            .map_err(|problem| link_fail(link, problem))?;
+    }
+    graph.check_order().map_err(|problem| {
+        let closes = |link: &&Link| match &problem {
+            Problem::Cycle { nodes } => nodes.first() == Some(&link.reader) && nodes.last() == Some(&link.from.node),
+            _ => false,
+        };
+        match links.iter().find(closes) {
+            Some(link) => link_fail(link, problem),
+            None => Fail::new(0, problem),
+        }
+    })
+}
+
+fn link_fail(link: &Link, problem: Problem) -> Fail {
+    Fail::new(link.at, problem)
+        .in_node(link.reader.as_str())
+        .in_port(&link.input)
+}
+
+/// A node without its links, which go to `links`.
+fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec<Link>) -> Result<Node, Fail> {
+    let begin = json.at;
+    let mut fields = Fields::of(json, "nodes")?;
+    let kind_json = fields.take("kind").ok_or_else(|| Fail::new(begin, Problem::NoKind))?;
+    let kind_at = kind_json.at;
+    let kind = text(kind_json, "kind")?;
+    let group_json = fields.take("group");
+    let group_at = group_json.as_ref().map_or(kind_at, |json| json.at);
+    let group = group_json.map(|json| text(json, "group")).transpose()?;
+    let pos = fields.pair("pos")?.unwrap_or_default();
+    let node = Node {
+        kind,
+        params: read_params(fields.map("params")?)?,
+        inputs: BTreeMap::new(),
+        pos: pos.map(|x| x as f32),
+        muted: fields.flag("muted")?,
+        label: fields.text("label")?,
+        group,
+        extra: BTreeMap::new(),
+    };
+    validate::kind_and_group(&node, |name| groups.contains(name), groups.iter().map(String::as_str))
+        .map_err(at(group_at))?;
+    for member in fields.map("inputs")? {
+        let in_port = |fail: Fail| fail.in_port(&member.key);
+        check_port_name(&member.key).map_err(at(member.key_at))?;
+        let from_at = member.value.at;
+        let from = text(member.value, &member.key).map_err(in_port)?;
+        links.push(Link {
+            at: from_at,
+            reader: id.clone(),
+            from: from.parse().map_err(at(from_at)).map_err(in_port)?,
+            input: member.key,
+        });
+    }
+    Ok(Node {
+        extra: fields.extra()?,
+        ..node
+    })
+}
+
+fn read_params(members: Vec<Member>) -> Result<BTreeMap<String, Value>, Fail> {
+    let kept = |member: Member| {
+        let value = value(member.value, &member.key)?;
+        Ok((member.key, value))
+    };
+    members.into_iter().map(kept).collect()
+}
+
+/// `node.name` texts whose nodes must be there.
+fn read_slots(graph: &Graph, fields: &mut Fields) -> Result<Vec<SlotRef>, Fail> {
+    let mut slots = Vec::new();
+    for (begin, text) in fields.texts("to")? {
+        let slot: SlotRef = text.parse().map_err(at(begin))?;
+        graph.find(slot.node.as_str()).map_err(at(begin))?;
+        slots.push(slot);
+    }
+    Ok(slots)
+}
+
+fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, Fail> {
+    let begin = json.at;
+    let mut fields = Fields::of(json, "exposed")?;
+    let knob = Exposed {
+        to: read_slots(graph, &mut fields)?,
+        label: fields.text("label")?,
+        range: fields.pair("range")?,
+        default: fields.take("default").map(|json| value(json, "default")).transpose()?,
+        extra: fields.extra()?,
+    };
+    validate::knob(graph, name, &knob).map_err(at(begin))?;
+    Ok(knob)
+}
+
+fn read_variant(graph: &Graph, json: Json, name: &str) -> Result<BTreeMap<String, Value>, Fail> {
+    let mut values = BTreeMap::new();
+    for member in super::fields::members(json, name)? {
+        validate::variant_sets(graph, name, &member.key).map_err(at(member.key_at))?;
+        values.insert(member.key.clone(), value(member.value, &member.key)?);
+    }
+    Ok(values)
+}
+
+fn read_frame(json: Json) -> Result<Frame, Fail> {
+    let mut fields = Fields::of(json, "frames")?;
+    let parsed = |(begin, id): (usize, String)| id.parse().map_err(at(begin));
+    Ok(Frame {
+        title: fields.text("title")?,
+        color: fields.text("color")?,
+        nodes: fields
+            .texts("nodes")?
+            .into_iter()
+            .map(parsed)
+            .collect::<Result<_, _>>()?,
+        extra: fields.extra()?,
+    })
+}
+
+fn read_inputs(graph: &Graph, members: Vec<Member>) -> Result<BTreeMap<String, GroupInput>, Fail> {
+    let mut inputs = BTreeMap::new();
+    let mut fed = validate::Fed::new();
+    for member in members {
+        check_port_name(&member.key).map_err(at(member.key_at))?;
+        let mut fields = Fields::of(member.value, &member.key)?;
+        let input = GroupInput {
+            to: read_slots(graph, &mut fields)?,
+            ty: fields.take("type").map(read_type).transpose()?,
+            label: fields.text("label")?,
+            extra: fields.extra()?,
+        };
+        validate::group_input(graph, &mut fed, &member.key, &input).map_err(at(member.key_at))?;
+        inputs.insert(member.key, input);
+    }
+    Ok(inputs)
+}
+
+fn read_type(json: Json) -> Result<PortType, Fail> {
+    let word = text(json.clone(), "type")?;
+    let named = PortType::ALL.into_iter().find(|ty| ty.to_string() == word);
+    named.ok_or_else(|| Fail::expected(&json, "type", "\"mask\", \"color\", \"vector\" or \"material\""))
+}
+
+fn read_outputs(graph: &Graph, members: Vec<Member>) -> Result<BTreeMap<String, OutputRef>, Fail> {
+    let mut outputs = BTreeMap::new();
+    for member in members {
+        check_port_name(&member.key).map_err(at(member.key_at))?;
+        let begin = member.value.at;
+        let from: OutputRef = text(member.value, &member.key)?.parse().map_err(at(begin))?;
+        graph.find(from.node.as_str()).map_err(at(begin))?;
+        outputs.insert(member.key, from);
+    }
+    Ok(outputs)
+}

@@ -1,0 +1,136 @@
+//! An object whose known keys are taken out one by one; what is left is kept as it is.
+
+use std::collections::BTreeMap;
+
+use crate::Value;
+use crate::file_error::{Fail, FileProblem};
+use crate::json::{Json, Member, Tree};
+use crate::problem::{Problem, shown};
+
+pub(super) struct Fields {
+    /// Where the object begins.
+    at: usize,
+    members: BTreeMap<String, Json>,
+}
+
+impl Fields {
+    /// The members of an object; `what` names it in the message if it is none.
+    pub(super) fn of(json: Json, what: &str) -> Result<Self, Fail> {
+        let at = json.at;
+        let members = members(json, what)?
+            .into_iter()
+            .map(|member| (member.key, member.value));
+        Ok(Fields {
+            at,
+            members: members.collect(),
+        })
+    }
+
+    pub(super) fn take(&mut self, key: &str) -> Option<Json> {
+        self.members.remove(key)
+    }
+
+    /// The value of a key that must be there.
+    pub(super) fn need(&mut self, key: &str, advice: &'static str) -> Result<Json, Fail> {
+        let missing = FileProblem::Missing {
+            key: shown(key),
+            advice,
+        };
+        self.take(key).ok_or_else(|| Fail::new(self.at, missing))
+    }
+
+    pub(super) fn text(&mut self, key: &str) -> Result<Option<String>, Fail> {
+        self.take(key).map(|json| text(json, key)).transpose()
+    }
+
+    pub(super) fn flag(&mut self, key: &str) -> Result<bool, Fail> {
+        match self.take(key) {
+            None => Ok(false),
+            Some(Json {
+                tree: Tree::Bool(yes), ..
+            }) => Ok(yes),
+            Some(other) => Err(Fail::expected(&other, key, "true or false")),
+        }
+    }
+
+    /// A whole number that fits 32 bits.
+    pub(super) fn whole(&mut self, key: &str) -> Result<Option<u32>, Fail> {
+        let Some(json) = self.take(key) else {
+            return Ok(None);
+        };
+        match json.tree {
+            Tree::Number(x) if x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&x) => Ok(Some(x as u32)),
+            _ => Err(Fail::expected(&json, key, "a whole number from 0 to 4294967295")),
+        }
+    }
+
+    /// Two numbers.
+    pub(super) fn pair(&mut self, key: &str) -> Result<Option<[f64; 2]>, Fail> {
+        let Some(json) = self.take(key) else {
+            return Ok(None);
+        };
+        if let Tree::List(items) = &json.tree
+            && let [
+                Json {
+                    tree: Tree::Number(first),
+                    ..
+                },
+                Json {
+                    tree: Tree::Number(second),
+                    ..
+                },
+            ] = items[..]
+        {
+            return Ok(Some([first, second]));
+        }
+        Err(Fail::expected(&json, key, "a list of two numbers"))
+    }
+
+    /// The members of the object under a key; none when the key is not there.
+    pub(super) fn map(&mut self, key: &str) -> Result<Vec<Member>, Fail> {
+        self.take(key).map_or(Ok(Vec::new()), |json| members(json, key))
+    }
+
+    /// The items of the list under a key, each a text, with where they begin; none when the key is not there.
+    pub(super) fn texts(&mut self, key: &str) -> Result<Vec<(usize, String)>, Fail> {
+        match self.take(key) {
+            None => Ok(Vec::new()),
+            Some(Json {
+                tree: Tree::List(items),
+                ..
+            }) => items.into_iter().map(|item| Ok((item.at, text(item, key)?))).collect(),
+            Some(other) => Err(Fail::expected(&other, key, "a list of texts")),
+        }
+    }
+
+    /// All keys that nobody took, as they are.
+    pub(super) fn extra(self) -> Result<BTreeMap<String, Value>, Fail> {
+        let kept = |(key, json): (String, Json)| {
+            let value = value(json, &key)?;
+            Ok((key, value))
+        };
+        self.members.into_iter().map(kept).collect()
+    }
+}
+
+/// The members of an object under the key `what`.
+pub(super) fn members(json: Json, what: &str) -> Result<Vec<Member>, Fail> {
+    match json.tree {
+        Tree::Object(members) => Ok(members),
+        _ => Err(Fail::expected(&json, what, "an object in braces")),
+    }
+}
+
+pub(super) fn text(json: Json, key: &str) -> Result<String, Fail> {
+    match json.tree {
+        Tree::Text(text) => Ok(text),
+        _ => Err(Fail::expected(&json, key, "a text in quotes")),
+    }
+}
+
+/// A value that is kept as it is.
+pub(super) fn value(json: Json, name: &str) -> Result<Value, Fail> {
+    let at = json.at;
+    let bad = || Fail::new(at, Problem::BadValue { name: shown(name) });
+    json.into_value().canonical().ok_or_else(bad)
+}

@@ -1,0 +1,270 @@
+//! Edits and their inverses.
+
+use proptest::prelude::*;
+
+use super::random::{a_document, an_edit};
+use super::{config, document};
+use crate::{Body, Document, Edit, EditError, Exposed, Fit, GroupDef, History, Node, NodeId};
+
+fn id(text: &str) -> NodeId {
+    text.parse().unwrap()
+}
+
+const MAIN: Body = Body::Main;
+
+/// `a → b → c`, and all that can hang on a node.
+fn chain() -> Document {
+    document(
+        r#""exposed": { "amount": { "to": ["b.opacity", "c.opacity"] }, "only": { "to": ["b.gain"] } },
+           "variants": { "heavy": { "amount": 1, "only": 2 } },
+           "frames": { "f": { "nodes": ["a", "b", "c"] } },
+           "groups": { "g": { "nodes": {} } },
+           "inputs": { "where": { "to": ["b.position"] } },
+           "outputs": { "mask": "b" },"#,
+        r#""a": { "kind": "noise/white" },
+           "b": { "kind": "blend/mask", "inputs": { "below": "a", "above": "a.id" } },
+           "c": { "kind": "adjust/invert", "inputs": { "source": "b" } }"#,
+    )
+}
+
+#[test]
+fn removing_a_node_takes_what_hangs_on_it_and_undo_brings_it_all_back() {
+    let mut document = chain();
+    let before = document.to_json();
+    let inverse = document
+        .apply(Edit::RemoveNode {
+            body: MAIN,
+            id: id("b"),
+        })
+        .unwrap();
+    let after = document.to_json();
+    assert!(!after.contains("\"b"), "{after}");
+    assert!(!after.contains("only"), "a knob that turns nothing is gone: {after}");
+    assert!(after.contains("c.opacity"));
+    assert_eq!(Document::from_json(&after).as_ref(), Ok(&document));
+    let again = document.apply(inverse).unwrap();
+    assert_eq!(document.to_json(), before);
+    document.apply(again).unwrap();
+    assert_eq!(document.to_json(), after);
+}
+
+#[test]
+fn a_link_that_closes_a_circle_is_refused_with_its_nodes() {
+    let mut document = chain();
+    let link = |node: &str, from: &str| Edit::Connect {
+        body: MAIN,
+        node: id(node),
+        input: "source".to_owned(),
+        from: from.parse().unwrap(),
+    };
+    let error = document.apply(link("a", "c")).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "the nodes feed each other in a circle: a → b → c → a; remove one of these links"
+    );
+    let error = document.apply(link("a", "a")).unwrap_err().to_string();
+    assert_eq!(error, "node \"a\" cannot read its own result; connect another node");
+    assert_eq!(document, chain());
+}
+
+#[test]
+fn a_batch_that_fails_changes_nothing() {
+    let mut document = chain();
+    let edits = vec![
+        Edit::SetSeed { seed: 9 },
+        Edit::RemoveNode {
+            body: MAIN,
+            id: id("b"),
+        },
+        Edit::RemoveNode {
+            body: MAIN,
+            id: id("b"),
+        },
+    ];
+    let error = document.apply(Edit::Batch(edits)).unwrap_err();
+    assert_eq!(error.to_string(), "there is no node \"b\"");
+    assert_eq!(document, chain());
+}
+
+#[test]
+fn what_no_file_could_hold_is_refused() {
+    let bad_value = Edit::SetParam {
+        body: MAIN,
+        node: id("a"),
+        param: "x".to_owned(),
+        value: Some(f64::NAN.into()),
+    };
+    let knob = |range| Edit::Expose {
+        body: MAIN,
+        name: "k".to_owned(),
+        knob: Exposed {
+            range: Some(range),
+            ..Exposed::default()
+        },
+    };
+    let instance = |group: Option<&str>| Edit::AddNode {
+        body: MAIN,
+        id: id("i"),
+        node: Node {
+            group: group.map(str::to_owned),
+            ..Node::new(crate::GROUP_KIND)
+        },
+    };
+    for (edit, text) in [
+        (
+            bad_value,
+            "the value of \"x\" cannot be kept: numbers must be finite and below 3.4e38, lists nested at most 64 levels",
+        ),
+        (
+            Edit::SetFit { fit: Fit::Length(0.0) },
+            "a fit must be a length above zero, or \"unit\" or \"metres\"",
+        ),
+        (
+            Edit::Move {
+                body: MAIN,
+                node: id("a"),
+                pos: [f32::NAN, 0.0],
+            },
+            "a node can only stand at a finite place on the canvas",
+        ),
+        (
+            knob([1.0, 0.0]),
+            "the range of knob \"k\" is empty; write the lower end first",
+        ),
+        (
+            Edit::SetVariant {
+                body: MAIN,
+                name: "v".to_owned(),
+                values: Some([("amont".to_owned(), true.into())].into()),
+            },
+            "variant \"v\" sets \"amont\", which is not exposed (did you mean \"amount\"?)",
+        ),
+        (
+            Edit::Unexpose {
+                body: MAIN,
+                name: "amont".to_owned(),
+            },
+            "there is no knob \"amont\" (did you mean \"amount\"?)",
+        ),
+        (
+            instance(None),
+            "the node is a group instance but names no group; add \"group\": \"name or file.sabi\"",
+        ),
+        (
+            instance(Some("rust")),
+            "there is no group \"rust\"; define it under \"groups\", or name a .sabi file",
+        ),
+        (
+            Edit::AddGroup {
+                name: "g".to_owned(),
+                group: Box::default(),
+            },
+            "there is a group \"g\" already; choose another name",
+        ),
+        (Edit::SetSeed { seed: 0 }, ""),
+    ] {
+        let mut document = chain();
+        match document.apply(edit) {
+            Err(error) => assert_eq!(error.to_string(), text),
+            Ok(_) => assert_eq!(text, ""),
+        }
+        assert_eq!(document, chain());
+    }
+}
+
+#[test]
+fn a_group_in_use_cannot_be_removed() {
+    let mut document = chain();
+    let node = Node {
+        group: Some("g".to_owned()),
+        ..Node::new(crate::GROUP_KIND)
+    };
+    document
+        .apply(Edit::AddNode {
+            body: MAIN,
+            id: id("i"),
+            node: node.clone(),
+        })
+        .unwrap();
+    let group = Box::new(GroupDef::default());
+    document
+        .apply(Edit::AddGroup {
+            name: "h".to_owned(),
+            group,
+        })
+        .unwrap();
+    document
+        .apply(Edit::AddNode {
+            body: Body::Group("h".to_owned()),
+            id: id("j"),
+            node,
+        })
+        .unwrap();
+    let error = document.apply(Edit::RemoveGroup { name: "g".to_owned() }).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "group \"g\" is in use by \"i\", \"h/j\"; remove these instances first"
+    );
+    assert!(matches!(error, EditError::GroupInUse { .. }));
+}
+
+#[test]
+fn a_drag_of_many_edits_is_one_step_of_undo() {
+    let (mut document, mut history) = (chain(), History::new());
+    let before = document.to_json();
+    history.begin("Move");
+    for step in 1..5u8 {
+        let pos = [f32::from(step), 0.0];
+        history
+            .apply(
+                &mut document,
+                "ignored",
+                Edit::Move {
+                    body: MAIN,
+                    node: id("a"),
+                    pos,
+                },
+            )
+            .unwrap();
+    }
+    history.end();
+    history.apply(&mut document, "Seed", Edit::SetSeed { seed: 4 }).unwrap();
+    let after = document.to_json();
+    assert_eq!(history.undo_names().collect::<Vec<_>>(), ["Move", "Seed"]);
+    assert_eq!(history.undo(&mut document).unwrap().as_deref(), Some("Seed"));
+    assert_eq!(history.undo(&mut document).unwrap().as_deref(), Some("Move"));
+    assert_eq!(history.undo(&mut document).unwrap(), None);
+    assert_eq!(document.to_json(), before);
+    while history.redo(&mut document).unwrap().is_some() {}
+    assert_eq!(document.to_json(), after);
+    history.undo(&mut document).unwrap();
+    history.apply(&mut document, "Seed", Edit::SetSeed { seed: 5 }).unwrap();
+    assert_eq!(history.redo_names().count(), 0);
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn inverses_lead_back_to_the_same_bytes(mut document in a_document(), edits in prop::collection::vec(an_edit(), 1..20)) {
+        let before = document.to_json();
+        let mut inverses = Vec::new();
+        for edit in edits {
+            let unchanged = document.to_json();
+            match document.apply(edit) {
+                Ok(inverse) => inverses.push(inverse),
+                Err(_) => prop_assert_eq!(document.to_json(), unchanged, "a refused edit changed something"),
+            }
+        }
+        let after = document.to_json();
+        let mut again = Vec::new();
+        for inverse in inverses.into_iter().rev() {
+            again.push(document.apply(inverse).unwrap());
+        }
+        prop_assert_eq!(document.to_json(), before);
+        for edit in again.into_iter().rev() {
+            document.apply(edit).unwrap();
+        }
+        prop_assert_eq!(document.to_json(), after);
+    }
+}

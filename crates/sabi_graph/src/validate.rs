@@ -1,0 +1,117 @@
+//! What holds in every document, whether it was read or edited.
+
+use std::collections::BTreeMap;
+
+use crate::document::{Exposed, Fit, GroupDef, GroupInput};
+use crate::id::check_port_name;
+use crate::name::{NOT_IN_KNOBS, check_name};
+use crate::problem::{Problem, hint, shown};
+use crate::{GROUP_KIND, Graph, Node, SlotRef};
+
+/// Whether a group of that name is a file of its own.
+pub(crate) fn is_group_file(name: &str) -> bool {
+    name.ends_with(".sabi")
+}
+
+/// A node has a kind, and a group instance a group that is there.
+pub(crate) fn kind_and_group<'a>(
+    node: &Node,
+    is_group: impl Fn(&str) -> bool,
+    groups: impl IntoIterator<Item = &'a str>,
+) -> Result<(), Problem> {
+    if node.kind.is_empty() {
+        return Err(Problem::NoKind);
+    }
+    if node.kind != GROUP_KIND {
+        return Ok(());
+    }
+    match &node.group {
+        None => Err(Problem::GroupNotNamed),
+        Some(name) if is_group(name) || is_group_file(name) => Ok(()),
+        Some(name) => Err(Problem::NoSuchGroup {
+            name: shown(name),
+            hint: hint(name, groups),
+        }),
+    }
+}
+
+/// A knob has a name, a range that is one, and sets nodes that are there.
+pub(crate) fn knob(graph: &Graph, name: &str, knob: &Exposed) -> Result<(), Problem> {
+    check_name("knob", name, NOT_IN_KNOBS)?;
+    slots(graph, &knob.to)?;
+    match knob.range {
+        // Neither end may be undefined.
+        Some([low, high]) if !(low <= high && low.is_finite() && high.is_finite()) => {
+            Err(Problem::EmptyRange { knob: shown(name) })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn slots(graph: &Graph, slots: &[SlotRef]) -> Result<(), Problem> {
+    for slot in slots {
+        graph.find(slot.node.as_str())?;
+        if slot.name.is_empty() {
+            return Err(Problem::BadSlot {
+                text: shown(&slot.to_string()),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// A variant sets only what is exposed.
+pub(crate) fn variant_sets(graph: &Graph, variant: &str, knob: &str) -> Result<(), Problem> {
+    if graph.exposed().contains_key(knob) {
+        return Ok(());
+    }
+    Err(Problem::NotExposed {
+        variant: shown(variant),
+        knob: shown(knob),
+        hint: hint(knob, graph.exposed().keys().map(String::as_str)),
+    })
+}
+
+/// A group's input feeds inputs of nodes that are there, none of which is fed already.
+pub(crate) fn group_input(graph: &Graph, fed: &mut Fed, name: &str, input: &GroupInput) -> Result<(), Problem> {
+    check_port_name(name)?;
+    slots(graph, &input.to)?;
+    for slot in &input.to {
+        check_port_name(&slot.name)?;
+        if let Some(first) = fed.insert(slot.clone(), name.to_owned()) {
+            return Err(Problem::FedTwice {
+                first,
+                second: name.to_owned(),
+                slot: slot.to_string(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Inputs of nodes inside a group, each with the group input that feeds it.
+pub(crate) type Fed = BTreeMap<SlotRef, String>;
+
+/// The inputs and outputs of a group fit its graph.
+pub(crate) fn group_ports(group: &GroupDef) -> Result<(), Problem> {
+    let mut fed = Fed::new();
+    for (name, input) in &group.inputs {
+        group_input(&group.graph, &mut fed, name, input)?;
+    }
+    for (name, from) in &group.outputs {
+        check_port_name(name)?;
+        from.port.as_deref().map_or(Ok(()), check_port_name)?;
+        group.graph.find(from.node.as_str())?;
+    }
+    Ok(())
+}
+
+/// A length above zero, as files keep it.
+pub(crate) fn fit(fit: Fit) -> Option<Fit> {
+    match fit {
+        Fit::Length(metres) => crate::canonical_number(metres)
+            .filter(|metres| *metres > 0.0)
+            .map(Fit::Length),
+        other => Some(other),
+    }
+}
