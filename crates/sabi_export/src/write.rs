@@ -128,43 +128,53 @@ impl SetWriter<'_> {
         let (low, high) = bounds(self.layout, &pixels).unwrap_or(([0.0; 3], [0.0; 3]));
         let above_one = high[..components].iter().any(|&value| value > 1.0);
         let mut outputs = Vec::new();
-        for map in self.options.preset.maps_of(channel) {
+        for map in self.options.preset.maps_of(channel).cloned().collect::<Vec<_>>() {
             let file_name = map.file_name(&self.name, channel, udim);
             if (constant.is_some() && !self.options.all_maps) || (map.when == When::AboveOne && !above_one) {
                 self.bake.spared.insert(file_name);
                 continue;
             }
             let range = [low[0], high[0]];
-            let encoded =
-                encode(&pixels, self.layout.size, map.format, range).map_err(|source| ExportError::Encode {
-                    file_name: file_name.clone(),
-                    source,
-                })?;
-            self.bake.staging.stage(&file_name, &encoded.bytes)?;
-            let spans_range = matches!(
-                map.format,
-                Format::Png {
-                    codes: Codes::Range,
-                    ..
-                }
-            );
-            outputs.push(OutputRecord {
-                path: file_name,
-                channel: channel.clone(),
-                material: self.name.clone(),
-                udim,
-                width: self.layout.size,
-                height: self.layout.size,
-                bits: encoded.bits,
-                color_space: encoded.color_space,
-                range: spans_range.then_some(range),
-                blake3: blake3::hash(&encoded.bytes).to_hex().to_string(),
-            });
+            outputs.push(self.stage_map(channel, &pixels, map.format, file_name, range)?);
         }
         Ok(Written {
             outputs,
             constant,
             not_finite,
+        })
+    }
+
+    fn stage_map(
+        &mut self,
+        channel: &Channel,
+        pixels: &ChannelPixels,
+        format: Format,
+        file_name: String,
+        range: [f32; 2],
+    ) -> Result<OutputRecord, ExportError> {
+        let encoded = encode(pixels, self.layout.size, format, range).map_err(|source| ExportError::Encode {
+            file_name: file_name.clone(),
+            source,
+        })?;
+        self.bake.staging.stage(&file_name, &encoded.bytes)?;
+        let spans_range = matches!(
+            format,
+            Format::Png {
+                codes: Codes::Range,
+                ..
+            }
+        );
+        Ok(OutputRecord {
+            path: file_name,
+            channel: channel.clone(),
+            material: self.name.clone(),
+            udim: self.layout.key.udim,
+            width: self.layout.size,
+            height: self.layout.size,
+            bits: encoded.bits,
+            color_space: encoded.color_space,
+            range: spans_range.then_some(range),
+            blake3: blake3::hash(&encoded.bytes).to_hex().to_string(),
         })
     }
 }

@@ -233,26 +233,11 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     }
     let picture = DynamicImage::from_decoder(decoder).map_err(explain)?;
     let channels = picture.color().channel_count();
-    let pixels = match picture {
-        DynamicImage::ImageLuma8(samples) => Pixels::U8(samples.into_raw()),
-        DynamicImage::ImageLumaA8(samples) => Pixels::U8(samples.into_raw()),
-        DynamicImage::ImageRgb8(samples) => Pixels::U8(samples.into_raw()),
-        DynamicImage::ImageRgba8(samples) => Pixels::U8(samples.into_raw()),
-        DynamicImage::ImageLuma16(samples) => Pixels::U16(samples.into_raw()),
-        DynamicImage::ImageLumaA16(samples) => Pixels::U16(samples.into_raw()),
-        DynamicImage::ImageRgb16(samples) => Pixels::U16(samples.into_raw()),
-        DynamicImage::ImageRgba16(samples) => Pixels::U16(samples.into_raw()),
-        DynamicImage::ImageRgb32F(samples) => Pixels::F32(samples.into_raw()),
-        DynamicImage::ImageRgba32F(samples) => Pixels::F32(samples.into_raw()),
-        other => {
-            let feature = format!("its pixels are of the kind {:?}", other.color());
-            return Err(ImageError::Feature {
-                name: name.into(),
-                format: format_name,
-                feature,
-            });
-        }
-    };
+    let pixels = samples_of(picture).map_err(|feature| ImageError::Feature {
+        name: name.into(),
+        format: format_name,
+        feature,
+    })?;
     let color_space = if format == ImageFormat::Hdr {
         Declared::Linear
     } else {
@@ -264,6 +249,23 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
         channels,
         pixels,
         color_space,
+    })
+}
+
+/// The samples as they are, or what kind they are of that is not read.
+fn samples_of(picture: DynamicImage) -> Result<Pixels, String> {
+    Ok(match picture {
+        DynamicImage::ImageLuma8(samples) => Pixels::U8(samples.into_raw()),
+        DynamicImage::ImageLumaA8(samples) => Pixels::U8(samples.into_raw()),
+        DynamicImage::ImageRgb8(samples) => Pixels::U8(samples.into_raw()),
+        DynamicImage::ImageRgba8(samples) => Pixels::U8(samples.into_raw()),
+        DynamicImage::ImageLuma16(samples) => Pixels::U16(samples.into_raw()),
+        DynamicImage::ImageLumaA16(samples) => Pixels::U16(samples.into_raw()),
+        DynamicImage::ImageRgb16(samples) => Pixels::U16(samples.into_raw()),
+        DynamicImage::ImageRgba16(samples) => Pixels::U16(samples.into_raw()),
+        DynamicImage::ImageRgb32F(samples) => Pixels::F32(samples.into_raw()),
+        DynamicImage::ImageRgba32F(samples) => Pixels::F32(samples.into_raw()),
+        other => return Err(format!("its pixels are of the kind {:?}", other.color())),
     })
 }
 
