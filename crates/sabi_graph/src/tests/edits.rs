@@ -102,14 +102,6 @@ fn what_no_file_could_hold_is_refused() {
             ..Exposed::default()
         },
     };
-    let instance = |group: Option<&str>| Edit::AddNode {
-        body: MAIN,
-        id: id("i"),
-        node: Node {
-            group: group.map(str::to_owned),
-            ..Node::new(crate::GROUP_KIND)
-        },
-    };
     for (edit, text) in [
         (
             bad_value,
@@ -131,6 +123,22 @@ fn what_no_file_could_hold_is_refused() {
             knob([1.0, 0.0]),
             "the range of knob \"k\" is empty; write the lower end first",
         ),
+    ] {
+        refused(edit, text);
+    }
+}
+
+#[test]
+fn what_names_something_that_is_not_there_is_refused() {
+    let instance = |group: Option<&str>| Edit::AddNode {
+        body: MAIN,
+        id: id("i"),
+        node: Node {
+            group: group.map(str::to_owned),
+            ..Node::new(crate::GROUP_KIND)
+        },
+    };
+    for (edit, text) in [
         (
             Edit::SetVariant {
                 body: MAIN,
@@ -161,15 +169,16 @@ fn what_no_file_could_hold_is_refused() {
             },
             "there is a group \"g\" already; choose another name",
         ),
-        (Edit::SetSeed { seed: 0 }, ""),
     ] {
-        let mut document = chain();
-        match document.apply(edit) {
-            Err(error) => assert_eq!(error.to_string(), text),
-            Ok(_) => assert_eq!(text, ""),
-        }
-        assert_eq!(document, chain());
+        refused(edit, text);
     }
+}
+
+/// The edit is refused with these words and changes nothing.
+fn refused(edit: Edit, text: &str) {
+    let mut document = chain();
+    assert_eq!(document.apply(edit).unwrap_err().to_string(), text);
+    assert_eq!(document, chain());
 }
 
 #[test]

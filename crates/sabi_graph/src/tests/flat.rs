@@ -245,6 +245,10 @@ fn a_wrong_instance_says_what_its_group_has() {
         let document = with_instance(instance, &more);
         assert_eq!(flat(&document, &Overrides::default()).unwrap_err().to_string(), text);
     }
+}
+
+#[test]
+fn kinds_and_reroutes_are_written_as_they_are_meant() {
     let error = |nodes: &str| {
         flat(&document("", nodes), &Overrides::default())
             .unwrap_err()
