@@ -1,1 +1,39 @@
-//! A session: open, edit, evaluate, preview, bake.
+//! A session: open, evaluate, preview, bake, watch; what the command line and the editor call.
+//!
+//! [`Workpiece::open`] brings a graph and a model together; [`bake`] and [`preview`] are what is done with them.
+
+mod bake;
+mod cache_dir;
+mod check;
+mod describe;
+mod document;
+mod error;
+mod kinds;
+mod maps;
+mod prepare;
+mod preview;
+mod report;
+mod setting;
+mod source;
+mod stages;
+mod watch;
+mod workpiece;
+
+pub use bake::{BakeRequest, bake};
+pub use cache_dir::default_cache_dir;
+pub use check::{CheckReport, check};
+pub use describe::{describe_mesh, describe_nodes, diagnose};
+pub use document::OpenGraph;
+pub use error::{EngineError, ErrorKind};
+pub use kinds::Kinds;
+pub use prepare::{ModelOptions, Prepared};
+pub use preview::{PreviewRequest, preview};
+pub use report::{BakeReport, StageTimes};
+pub use setting::read_setting;
+pub use stages::{Progress, Silent, Stage};
+pub use watch::NodeWatcher;
+pub use workpiece::{Workpiece, WorkpieceOptions};
+
+pub use sabi_gpu::AdapterChoice;
+pub use sabi_graph::{Fit, Overrides};
+pub use sabi_surface::load::Up;

@@ -1,1 +1,21 @@
-//! The device: textures, pipelines, running a plan, readback.
+//! The device: choosing it, textures, pipelines, running a plan, readback.
+
+mod cache;
+mod device;
+mod error;
+mod finish;
+mod ghosts;
+mod pipelines;
+mod pool;
+mod readback;
+mod run;
+mod surface;
+mod tiles;
+
+pub use cache::{ResultCache, ResultKey};
+pub use device::{AdapterChoice, AdapterKind, AdapterSummary, Gpu, adapters};
+pub use error::GpuError;
+pub use pool::{DEFAULT_BUDGET_BYTES, PoolReport};
+pub use readback::PlaneData;
+pub use run::{Run, RunOptions, RunReport, SourceFill, SourceTexels, StepTime};
+pub use surface::{GpuSurface, SurfaceTables};

@@ -131,6 +131,14 @@ pub enum Role {
     Seed,
     /// Gradient stops: `[[position, "#rrggbb"], …]` in files.
     Stops,
+    /// `@extent low along` or `@extent high along`: not an artist's parameter; filled with the lowest or highest
+    /// `dot(vertex, normalize(along))` over the model's vertices, `along` being another parameter.
+    Extent {
+        /// Name of the parameter that holds the direction.
+        along: String,
+        /// Which end.
+        high: bool,
+    },
 }
 
 /// A default, as 32-bit components in artist's units (colors linear).

@@ -1,1 +1,30 @@
 //! A graph and its kinds become a list of passes: plain data that prints and compares.
+//!
+//! [`Planner::plan`] resolves the wanted part of a graph, gives every result a key that names its content, fuses
+//! connected regions of point nodes, and gives stored results slots from a pool.
+
+mod assign;
+mod channels;
+mod draft;
+mod error;
+mod fuse;
+mod inputs;
+mod keys;
+mod muted;
+mod plan;
+mod request;
+mod resolve;
+mod schedule;
+mod seeds;
+mod slots;
+mod values;
+
+pub use error::{PlanError, Problem};
+pub use plan::{BlockValues, Feedback, KernelStep, Plan, PlannedResult, Slot, SlotRef, SourceStep, Step};
+pub use request::{Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target, TextParam};
+pub use resolve::{Behavior, Resolved, ResolvedInput, ResolvedNode};
+pub use seeds::pcg;
+pub use values::{pack_params, read_param};
+
+#[cfg(test)]
+mod tests;

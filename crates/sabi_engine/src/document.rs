@@ -1,0 +1,84 @@
+//! A graph file and the files it stands among.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sabi_graph::{Document, FlatGraph, Overrides, flatten};
+
+use crate::error::{EngineError, ErrorKind};
+
+/// Graph files larger than this are refused before they are read.
+const SIZE_LIMIT_BYTES: u64 = 64 << 20;
+
+/// An open graph file.
+#[derive(Clone, Debug)]
+pub struct OpenGraph {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What it says.
+    pub document: Document,
+}
+
+impl OpenGraph {
+    /// Reads a graph file.
+    pub fn open(path: &Path) -> Result<OpenGraph, EngineError> {
+        let text =
+            read_text(path).map_err(|error| EngineError::new(error.kind, format!("{}: {error}", path.display())))?;
+        let document = Document::from_json(&text)
+            .map_err(|error| EngineError::new(ErrorKind::BadInput, error.with_name(&path.display().to_string())))?;
+        Ok(OpenGraph {
+            path: path.to_owned(),
+            document,
+        })
+    }
+
+    /// The folder that paths in the file start from.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// The graph without groups and reroutes, with overrides applied.
+    pub fn flatten(&self, overrides: &Overrides) -> Result<FlatGraph, EngineError> {
+        let folder = self.folder().to_owned();
+        let mut group_file = |name: &str| {
+            let path = folder.join(name);
+            let text = read_text(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+            Document::from_json(&text).map_err(|error| error.with_name(&path.display().to_string()).to_string())
+        };
+        flatten(&self.document, overrides, &mut group_file)
+            .map_err(|error| EngineError::new(ErrorKind::Usage, format!("{}: {error}", self.path.display())))
+    }
+}
+
+fn read_text(path: &Path) -> Result<String, EngineError> {
+    let missing = |error: std::io::Error| {
+        let why = match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file; check the path".to_owned(),
+            _ => format!("the file cannot be read: {error}"),
+        };
+        EngineError::new(ErrorKind::MissingInput, why)
+    };
+    let metadata = fs::metadata(path).map_err(missing)?;
+    if metadata.is_dir() {
+        return Err(EngineError::new(
+            ErrorKind::MissingInput,
+            "this is a folder; name a .sabi file",
+        ));
+    }
+    if metadata.len() > SIZE_LIMIT_BYTES {
+        let why = format!(
+            "the file has {} MiB; graphs have at most {}",
+            metadata.len() >> 20,
+            SIZE_LIMIT_BYTES >> 20
+        );
+        return Err(EngineError::new(ErrorKind::BadInput, why));
+    }
+    let bytes = fs::read(path).map_err(missing)?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        EngineError::new(
+            ErrorKind::BadInput,
+            format!("the file is not text: byte {at} is not UTF-8; graphs are JSON"),
+        )
+    })
+}

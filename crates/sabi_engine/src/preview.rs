@@ -1,0 +1,205 @@
+//! Any node's result in texture space, as a picture or as exact numbers.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use sabi_export::{AtlasTexels, Channel, Padding, PaddingMap, SetLayout, Staging, set_keys};
+use sabi_graph::{PortType, nearest};
+use sabi_image::{PngData, PngOptions, encode_exr, encode_png, quantize_u8, srgb8_from_linear};
+use sabi_nodes::kind::Channel as Stored;
+use sabi_nodes::link::Plane;
+use sabi_plan::{Mode, PlannedResult, Target};
+
+use crate::document::OpenGraph;
+use crate::error::{EngineError, ErrorKind};
+use crate::kinds::Kinds;
+use crate::maps::slot_of;
+use crate::stages::Progress;
+use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
+
+/// What to look at.
+pub struct PreviewRequest {
+    /// The graph file.
+    pub graph: PathBuf,
+    /// Model, overrides, fit, adapter.
+    pub workpiece: WorkpieceOptions,
+    /// Node id, or `id.port`.
+    pub node: String,
+    /// `.png` for a picture, `.exr` for the exact values.
+    pub output: PathBuf,
+    /// The material whose layout is shown; the first one if none.
+    pub material: Option<String>,
+}
+
+/// Writes one node's result.
+pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<String>, EngineError> {
+    let is_exact = match request.output.extension().and_then(|ending| ending.to_str()) {
+        Some("png") => false,
+        Some("exr") => true,
+        _ => {
+            let why = format!(
+                "{}: a preview is a .png or, for exact values, an .exr",
+                request.output.display()
+            );
+            return Err(EngineError::new(ErrorKind::Usage, why));
+        }
+    };
+    let open = OpenGraph::open(&request.graph)?;
+    let kinds = Kinds::beside(Some(&request.graph));
+    let mut workpiece = Workpiece::open(&open, kinds, &request.workpiece, progress)?;
+    let target = target(&workpiece, &request.node)?;
+    let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, workpiece.gpu.limits())?;
+    let run = workpiece.run(&plan, Duration::from_millis(200), progress, None)?;
+    let Some(result) = plan.results.first().filter(|result| !result.slots.is_empty()) else {
+        let why = format!("nothing is connected to '{}', so there is nothing to see", request.node);
+        return Err(EngineError::new(ErrorKind::BadInput, why));
+    };
+    let names = sabi_export::set_names(&workpiece.prepared.model);
+    let key = set_keys(&workpiece.prepared.atlas)
+        .into_iter()
+        .find(|key| match &request.material {
+            Some(wanted) => names.get(key.material as usize) == Some(wanted),
+            None => true,
+        });
+    let Some(key) = key else {
+        let wanted = request.material.clone().unwrap_or_default();
+        let why = format!("the model has no material '{wanted}'; it has {}", names.join(", "));
+        return Err(EngineError::new(ErrorKind::Usage, why));
+    };
+    let layout = SetLayout::new(&workpiece.prepared.atlas, key);
+    let planes = shown_planes(result).into_iter().map(|(name, plane, components)| {
+        let slot = slot_of(result, plane).ok_or_else(|| EngineError::new(ErrorKind::BadInput, "nothing to see"))?;
+        let data = workpiece.gpu.read(&workpiece.surface, &plan, &run, slot)?;
+        let texels: Vec<f32> = (0..data.len()).flat_map(|index| data.texel(index)).collect();
+        Ok((name, gathered(&layout, &texels, components)))
+    });
+    let planes: Vec<(&str, Vec<f32>)> = planes.collect::<Result<_, EngineError>>()?;
+    let bytes = if is_exact {
+        exact(&layout, &planes)
+    } else {
+        picture(&layout, result.stored.ty, &planes[0].1)
+    }?;
+    stop_if_canceled(progress)?;
+    write(request, &bytes)?;
+    Ok(workpiece.warnings)
+}
+
+fn write(request: &PreviewRequest, bytes: &[u8]) -> Result<(), EngineError> {
+    let folder = request.output.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut staging = Staging::create(folder.unwrap_or(std::path::Path::new(".")))?;
+    let name = request.output.file_name().unwrap_or_default().to_string_lossy();
+    staging.stage(&name, bytes)?;
+    staging.commit()?;
+    Ok(())
+}
+
+/// The target that `id` or `id.port` names.
+fn target(workpiece: &Workpiece, text: &str) -> Result<Target, EngineError> {
+    let graph = &workpiece.graph;
+    if let Some(node) = graph.find(text) {
+        return Ok(Target { node, port: None });
+    }
+    if let Some((id, port)) = text.rsplit_once('.')
+        && let Some(node) = graph.find(id)
+    {
+        return Ok(Target {
+            node,
+            port: Some(port.to_owned()),
+        });
+    }
+    let ids = || graph.nodes.iter().map(|node| node.id.as_str());
+    let advice = match nearest(text, ids()) {
+        Some(near) => format!("did you mean '{near}'?"),
+        None => format!("there are: {}", ids().collect::<Vec<_>>().join(", ")),
+    };
+    Err(EngineError::new(
+        ErrorKind::Usage,
+        format!("the graph has no node '{text}'; {advice}"),
+    ))
+}
+
+/// Planes to show: name in an EXR, plane, values a texel. A material shows its base color, and in an EXR all of it.
+fn shown_planes(result: &PlannedResult) -> Vec<(&'static str, Plane, usize)> {
+    result
+        .stored
+        .planes()
+        .into_iter()
+        .map(|plane| match plane {
+            Plane::Mask => ("", plane, 1),
+            Plane::Color | Plane::Vector => ("", plane, 3),
+            Plane::Material(Stored::Color) => ("", plane, 4),
+            Plane::Material(Stored::Surface) => ("surface.", plane, 3),
+            Plane::Material(Stored::Height) => ("height.", plane, 1),
+            Plane::Material(Stored::Slope) => ("slope.", plane, 3),
+            Plane::Material(Stored::Emission) => ("emission.", plane, 3),
+        })
+        .collect()
+}
+
+/// A plane in the layout of a texture set, four values a pixel in, `components` out.
+fn gathered(layout: &SetLayout, texels: &[f32], components: usize) -> Vec<f32> {
+    let padding = PaddingMap::new(layout, Padding::Texels(4));
+    let channel = Channel::Mask(String::new());
+    let parts: Vec<Vec<f32>> = (0..components)
+        .map(|first| {
+            padding
+                .gather(
+                    layout,
+                    &channel,
+                    AtlasTexels {
+                        data: texels,
+                        stride: 4,
+                        first,
+                    },
+                )
+                .data
+        })
+        .collect();
+    (0..padding.source.len())
+        .flat_map(|pixel| parts.iter().map(move |part| part[pixel]))
+        .collect()
+}
+
+fn exact(layout: &SetLayout, planes: &[(&str, Vec<f32>)]) -> Result<Vec<u8>, EngineError> {
+    let pixels = layout.source.len();
+    let mut channels: Vec<(String, Vec<f32>)> = Vec::new();
+    for (prefix, data) in planes {
+        let components = data.len() / pixels.max(1);
+        let names: &[&str] = if components == 1 { &["Y"] } else { &["R", "G", "B", "A"] };
+        for (at, name) in names.iter().enumerate().take(components) {
+            let values = data.iter().skip(at).step_by(components).copied().collect();
+            channels.push((format!("{prefix}{name}"), values));
+        }
+    }
+    let channels: Vec<(&str, &[f32])> = channels
+        .iter()
+        .map(|(name, values)| (name.as_str(), values.as_slice()))
+        .collect();
+    encode_exr(layout.size, layout.size, &channels).map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
+}
+
+/// Masks as gray, colors in sRGB, vectors with −1..1 brought to 0..1.
+fn picture(layout: &SetLayout, ty: PortType, data: &[f32]) -> Result<Vec<u8>, EngineError> {
+    let (codes, channels, srgb_chunk): (Vec<u8>, u8, bool) = match ty {
+        PortType::Mask => (data.iter().map(|value| quantize_u8(*value)).collect(), 1, false),
+        PortType::Color => (data.iter().map(|value| srgb8_from_linear(*value)).collect(), 3, true),
+        PortType::Vector => (
+            data.iter().map(|value| quantize_u8(value * 0.5 + 0.5)).collect(),
+            3,
+            false,
+        ),
+        PortType::Material => {
+            let rgb = data
+                .chunks_exact(4)
+                .flat_map(|pixel| pixel[..3].iter().map(|value| srgb8_from_linear(*value)));
+            (rgb.collect(), 3, true)
+        }
+    };
+    let options = PngOptions {
+        channels,
+        bits: 8,
+        srgb_chunk,
+    };
+    encode_png(layout.size, layout.size, PngData::U8(&codes), options)
+        .map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
+}

@@ -1,0 +1,148 @@
+//! Reads a model's picture at texture coordinates.
+
+use sabi_image::{Picture, Pixels, linear_from_srgb};
+use sabi_surface::model::{TextureRef, Wrap};
+
+/// Taps along one side of a texel's footprint, at most.
+const TAPS_LIMIT: u32 = 8;
+
+/// A picture with its wrap and its transform.
+pub(crate) struct Sampler {
+    picture: Picture,
+    /// Linear values of 8-bit codes.
+    code_table: Option<[f32; 256]>,
+    is_srgb: bool,
+    wrap: [Wrap; 2],
+    transform: [[f64; 3]; 2],
+    /// Taps a side: as many picture pixels as a texel of the atlas covers.
+    taps: u32,
+    texel: f64,
+}
+
+impl Sampler {
+    /// A picture sampled once a texel of an atlas of `size` texels for one unit of UV.
+    pub(crate) fn new(picture: Picture, texture: &TextureRef, is_srgb: bool, size: u32) -> Sampler {
+        let linear = |code: usize| {
+            let value = code as f32 / 255.0;
+            if is_srgb { linear_from_srgb(value) } else { value }
+        };
+        let code_table = matches!(picture.pixels, Pixels::U8(_)).then(|| std::array::from_fn(linear));
+        let larger = picture.width.max(picture.height);
+        Sampler {
+            code_table,
+            is_srgb,
+            wrap: texture.wrap,
+            transform: texture.transform.map(|row| row.map(f64::from)),
+            taps: larger.div_ceil(size.max(1)).clamp(1, TAPS_LIMIT),
+            texel: 1.0 / f64::from(size.max(1)),
+            picture,
+        }
+    }
+
+    /// Linear RGBA at the model's own texture coordinates, averaged over a texel.
+    pub(crate) fn sample(&self, uv: [f64; 2]) -> [f32; 4] {
+        let mut sum = [0.0_f32; 4];
+        for tap in 0..self.taps * self.taps {
+            let offset = |index: u32| ((f64::from(index) + 0.5) / f64::from(self.taps) - 0.5) * self.texel;
+            let at = [uv[0] + offset(tap % self.taps), uv[1] + offset(tap / self.taps)];
+            let value = self.bilinear(at);
+            for (sum, value) in sum.iter_mut().zip(value) {
+                *sum += value;
+            }
+        }
+        let count = (self.taps * self.taps) as f32;
+        sum.map(|sum| sum / count)
+    }
+
+    fn bilinear(&self, [u, v]: [f64; 2]) -> [f32; 4] {
+        let [u, v] = self.transform.map(|row| row[0] * u + row[1] * v + row[2]);
+        let x = u * f64::from(self.picture.width) - 0.5;
+        let y = v * f64::from(self.picture.height) - 0.5;
+        let (column, row) = (x.floor(), y.floor());
+        // A texel whose center is a pixel's center must give that pixel exactly, whatever the last bits say.
+        let weight = |fraction: f64| {
+            if !(1e-5..=1.0 - 1e-5).contains(&fraction) {
+                fraction.round()
+            } else {
+                fraction
+            }
+        };
+        let (wx, wy) = (weight(x - column) as f32, weight(y - row) as f32);
+        let tap = |dx: i64, dy: i64| self.pixel(column as i64 + dx, row as i64 + dy);
+        let mix = |a: [f32; 4], b: [f32; 4], t: f32| std::array::from_fn(|at| a[at] + (b[at] - a[at]) * t);
+        let upper = if wx == 0.0 {
+            tap(0, 0)
+        } else {
+            mix(tap(0, 0), tap(1, 0), wx)
+        };
+        if wy == 0.0 {
+            return upper;
+        }
+        let lower = if wx == 0.0 {
+            tap(0, 1)
+        } else {
+            mix(tap(0, 1), tap(1, 1), wx)
+        };
+        mix(upper, lower, wy)
+    }
+
+    fn pixel(&self, column: i64, row: i64) -> [f32; 4] {
+        let x = wrapped(column, self.picture.width, self.wrap[0]);
+        let y = wrapped(row, self.picture.height, self.wrap[1]);
+        let channels = usize::from(self.picture.channels);
+        let start = (y * self.picture.width as usize + x) * channels;
+        let raw = |at: usize| self.value(start + at, at);
+        match channels {
+            1 => [raw(0), raw(0), raw(0), 1.0],
+            2 => [raw(0), raw(0), raw(0), raw(1)],
+            3 => [raw(0), raw(1), raw(2), 1.0],
+            _ => [raw(0), raw(1), raw(2), raw(3)],
+        }
+    }
+
+    /// One sample, linear; the last of two or four is alpha, which is never encoded.
+    fn value(&self, index: usize, channel: usize) -> f32 {
+        let is_alpha = matches!((self.picture.channels, channel), (2, 1) | (4, 3));
+        let decode = |value: f32| {
+            if self.is_srgb && !is_alpha {
+                linear_from_srgb(value)
+            } else {
+                value
+            }
+        };
+        match &self.picture.pixels {
+            Pixels::U8(codes) => match &self.code_table {
+                Some(table) if !is_alpha => table[usize::from(codes[index])],
+                _ => f32::from(codes[index]) / 255.0,
+            },
+            Pixels::U16(codes) => decode(f32::from(codes[index]) / 65_535.0),
+            Pixels::F32(values) => values[index],
+        }
+    }
+}
+
+fn wrapped(index: i64, size: u32, wrap: Wrap) -> usize {
+    let size = i64::from(size);
+    let inside = match wrap {
+        Wrap::Repeat => index.rem_euclid(size),
+        Wrap::Clamp => index.clamp(0, size - 1),
+        Wrap::Mirror => {
+            let folded = index.rem_euclid(2 * size);
+            if folded < size { folded } else { 2 * size - 1 - folded }
+        }
+    };
+    inside as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Wrap, wrapped};
+
+    #[test]
+    fn each_wrap_repeats_as_its_name_says() {
+        let row = |wrap| (-2..5).map(|index| wrapped(index, 3, wrap)).collect::<Vec<_>>();
+        assert_eq!(row(Wrap::Repeat), [1, 2, 0, 1, 2, 0, 1]);
+        assert_eq!(row(Wrap::Clamp), [0, 0, 0, 1, 2, 2, 2]);
+        assert_eq!(row(Wrap::Mirror), [1, 0, 0, 1, 2, 2, 1]);
+    }
+}

@@ -1,0 +1,56 @@
+//! Node files that change while a session is open are read again.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use notify::{RecursiveMode, Watcher};
+
+use crate::error::{EngineError, ErrorKind};
+use crate::kinds::Kinds;
+
+/// Watches a folder of nodes.
+pub struct NodeWatcher {
+    folder: PathBuf,
+    changes: Receiver<()>,
+    // Watching ends when this is dropped.
+    _watcher: notify::RecommendedWatcher,
+}
+
+impl NodeWatcher {
+    /// Starts watching.
+    pub fn new(folder: &Path) -> Result<NodeWatcher, EngineError> {
+        let cannot = |error: notify::Error| {
+            let why = format!("{}: the folder cannot be watched: {error}", folder.display());
+            EngineError::new(ErrorKind::MissingInput, why)
+        };
+        let (sender, changes) = channel();
+        let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+            let is_change = event.is_ok_and(|event| !event.kind.is_access());
+            if is_change {
+                // The other end is gone only when the watcher is being dropped.
+                let _ = sender.send(());
+            }
+        })
+        .map_err(cannot)?;
+        watcher.watch(folder, RecursiveMode::Recursive).map_err(cannot)?;
+        Ok(NodeWatcher {
+            folder: folder.to_owned(),
+            changes,
+            _watcher: watcher,
+        })
+    }
+
+    /// Reads the folder again if anything in it changed, waiting up to `patience` for it. Nodes with faults keep their
+    /// last good version. Answers whether something was read.
+    pub fn refresh(&self, kinds: &mut Kinds, patience: Duration) -> bool {
+        if self.changes.recv_timeout(patience).is_err() {
+            return false;
+        }
+        // An editor saves in several steps; they arrive together.
+        while self.changes.recv_timeout(Duration::from_millis(30)).is_ok() {}
+        kinds.faults.clear();
+        kinds.add_folder(&self.folder);
+        true
+    }
+}

@@ -1,0 +1,181 @@
+//! A graph and a model brought together on a device.
+
+use std::time::{Duration, Instant};
+
+use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables};
+use sabi_graph::{Fit, FlatGraph, Overrides};
+use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, Target};
+
+use crate::document::OpenGraph;
+use crate::error::{EngineError, ErrorKind};
+use crate::kinds::Kinds;
+use crate::prepare::{ModelOptions, Prepared};
+use crate::report::StageTimes;
+use crate::source::{ModelSource, kind_for};
+use crate::stages::{Progress, Stage};
+
+/// How a graph and a model are brought together.
+pub struct WorkpieceOptions {
+    /// The model.
+    pub model: ModelOptions,
+    /// Variant, values and seed on top of the file.
+    pub overrides: Overrides,
+    /// What counts as 1, in place of the document's fit.
+    pub fit: Option<Fit>,
+    /// Which adapter.
+    pub adapter: AdapterChoice,
+    /// Bytes of textures that may be held at once.
+    pub budget_bytes: u64,
+}
+
+/// A graph on a model, ready to be evaluated.
+pub struct Workpiece {
+    /// The flat graph.
+    pub graph: FlatGraph,
+    /// All node kinds, with `source/model` as this model has it.
+    pub kinds: Kinds,
+    /// The model with its atlas.
+    pub prepared: Prepared,
+    /// The device.
+    pub gpu: Gpu,
+    /// The atlas on the device.
+    pub surface: GpuSurface,
+    /// What counts as 1.
+    pub fit: Fit,
+    /// Time spent so far.
+    pub times: StageTimes,
+    /// What the artist should know.
+    pub warnings: Vec<String>,
+    tables: SurfaceTables,
+    surface_key: [u8; 32],
+    budget_bytes: u64,
+}
+
+impl Workpiece {
+    /// Opens everything; a fault in the graph is found before the model is loaded.
+    pub fn open(
+        open: &OpenGraph,
+        mut kinds: Kinds,
+        options: &WorkpieceOptions,
+        progress: &dyn Progress,
+    ) -> Result<Workpiece, EngineError> {
+        let mut times = StageTimes::default();
+        let graph = times.load.time(|| open.flatten(&options.overrides))?;
+        let model = times.load.time(|| Prepared::load_model(&options.model))?;
+        progress.advance(Stage::Load, 1, 1);
+        stop_if_canceled(progress)?;
+        let prepared = times.atlas.time(|| Prepared::link(model, &options.model, progress))?;
+        stop_if_canceled(progress)?;
+        let fit = options.fit.clone().unwrap_or_else(|| open.document.fit.clone());
+        let seed = options.overrides.seed.unwrap_or(open.document.seed);
+        let gpu = times.compile.time(|| Gpu::open(&options.adapter))?;
+        let tables = times.load.time(|| prepared.tables(&fit, seed));
+        let surface = times.load.time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables))?;
+        let model_kind: SourceKind = kind_for(&prepared.model);
+        kinds.sources.insert(model_kind.id.clone(), model_kind);
+        let mut warnings = prepared.model.warnings.clone();
+        warnings.extend(prepared.atlas.report.warnings.iter().cloned());
+        warnings.extend(kinds.faults.iter().map(ToString::to_string));
+        let surface_key = surface_key(&prepared, &tables);
+        let budget_bytes = options.budget_bytes;
+        Ok(Workpiece {
+            graph,
+            kinds,
+            prepared,
+            gpu,
+            surface,
+            fit,
+            times,
+            warnings,
+            tables,
+            surface_key,
+            budget_bytes,
+        })
+    }
+
+    /// Plans what the targets need; warnings are kept, anything worse is an error.
+    pub fn plan(&mut self, targets: &[Target], mode: Mode, limits: Limits) -> Result<Plan, EngineError> {
+        let (plan, errors) = self.try_plan(targets, mode, limits);
+        let (warnings, errors): (Vec<PlanError>, Vec<PlanError>) = errors.into_iter().partition(PlanError::is_warning);
+        self.warnings.extend(warnings.iter().map(ToString::to_string));
+        if errors.is_empty() {
+            return Ok(plan);
+        }
+        let messages = errors.iter().map(ToString::to_string).collect();
+        Err(EngineError {
+            kind: ErrorKind::BadInput,
+            messages,
+        })
+    }
+
+    /// Plans what of the targets can be planned, and says what is at fault.
+    pub fn try_plan(&self, targets: &[Target], mode: Mode, limits: Limits) -> (Plan, Vec<PlanError>) {
+        let scale = self.prepared.working_from_model(&self.fit);
+        let planner = Planner {
+            graph: &self.graph,
+            library: &self.kinds.library,
+            sources: &self.kinds.sources,
+            sinks: &self.kinds.sinks,
+            lengths: Lengths {
+                working_from: &|fit| scale / self.prepared.working_from_model(fit),
+                extent: &|direction| self.prepared.extent(&self.fit, direction),
+            },
+            surface_key: self.surface_key,
+            mode,
+            limits,
+        };
+        planner.plan(targets)
+    }
+
+    /// Runs a plan; `submission` is how long one piece of work may hold the device.
+    pub fn run(
+        &mut self,
+        plan: &Plan,
+        submission: Duration,
+        progress: &dyn Progress,
+        cache: Option<&mut ResultCache>,
+    ) -> Result<Run, EngineError> {
+        let half_masks = self.gpu.limits().half_masks;
+        let needs_model = plan.steps.iter().any(|step| matches!(step, sabi_plan::Step::Source(_)));
+        let decoding = Instant::now();
+        let empty = sabi_surface::model::Model::default();
+        let model = if needs_model { &self.prepared.model } else { &empty };
+        let (mut source, warnings) = ModelSource::new(model, &self.prepared.atlas, &self.tables, half_masks);
+        self.times.load.add(decoding.elapsed());
+        self.warnings.extend(warnings);
+        let options = RunOptions {
+            submission,
+            is_canceled: &|| progress.is_canceled(),
+            progress: &|done, of| progress.advance(Stage::Run, done, of),
+            budget_bytes: self.budget_bytes,
+        };
+        let run = self
+            .gpu
+            .run(&self.surface, &self.kinds.library, plan, &options, &mut source, cache)?;
+        self.times.compile.add(run.report.compile);
+        self.times.run.add(run.report.run);
+        Ok(run)
+    }
+}
+
+/// Ends the work with an error if the user asked for it.
+pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineError> {
+    if progress.is_canceled() {
+        return Err(EngineError::new(ErrorKind::Interrupted, "stopped; nothing was written"));
+    }
+    Ok(())
+}
+
+/// Names everything about the surface that a result can depend on.
+fn surface_key(prepared: &Prepared, tables: &SurfaceTables) -> [u8; 32] {
+    let mut hash = blake3::Hasher::new();
+    hash.update(&prepared.atlas.size.to_le_bytes());
+    for rows in [&tables.geometry, &tables.frames] {
+        for row in rows {
+            for number in row {
+                hash.update(&number.to_le_bytes());
+            }
+        }
+    }
+    *hash.finalize().as_bytes()
+}

@@ -1,0 +1,88 @@
+//! Results kept by what they are, the least recently used ones dropped when the budget is full.
+
+use std::collections::BTreeMap;
+
+use sabi_nodes::link::Plane;
+use sabi_plan::{Plan, SlotRef};
+
+/// Names the content of one texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ResultKey {
+    /// Hash of everything that can change the result.
+    pub content: [u8; 32],
+    /// Which plane of it.
+    pub plane: Plane,
+}
+
+struct Kept {
+    texture: wgpu::Texture,
+    bytes: u64,
+    last_used: u64,
+}
+
+/// Results of earlier runs on one surface.
+pub struct ResultCache {
+    budget_bytes: u64,
+    bytes: u64,
+    runs: u64,
+    kept: BTreeMap<ResultKey, Kept>,
+}
+
+impl ResultCache {
+    /// An empty cache for so many bytes.
+    pub fn new(budget_bytes: u64) -> ResultCache {
+        ResultCache {
+            budget_bytes,
+            bytes: 0,
+            runs: 0,
+            kept: BTreeMap::new(),
+        }
+    }
+
+    /// Bytes held, and allowed.
+    pub fn bytes(&self) -> (u64, u64) {
+        (self.bytes, self.budget_bytes)
+    }
+
+    /// Textures of the slots whose content is known.
+    pub(crate) fn known(&self, keys: &BTreeMap<SlotRef, ResultKey>) -> BTreeMap<SlotRef, wgpu::Texture> {
+        keys.iter()
+            .filter_map(|(slot, key)| Some((*slot, self.kept.get(key)?.texture.clone())))
+            .collect()
+    }
+
+    /// Keeps what a run made and marks what it used; drops the least recently used results over the budget.
+    pub(crate) fn keep(
+        &mut self,
+        keys: &BTreeMap<SlotRef, ResultKey>,
+        textures: &[Option<wgpu::Texture>],
+        plan: &Plan,
+        texels: u64,
+    ) {
+        self.runs += 1;
+        for (slot, key) in keys {
+            let Some(texture) = &textures[*slot] else { continue };
+            let bytes = plan.slots[*slot].format.texel_bytes() * texels;
+            let kept = Kept {
+                texture: texture.clone(),
+                bytes,
+                last_used: self.runs,
+            };
+            self.bytes += bytes;
+            if let Some(before) = self.kept.insert(*key, kept) {
+                self.bytes -= before.bytes;
+            }
+        }
+        while self.bytes > self.budget_bytes {
+            let oldest = self
+                .kept
+                .iter()
+                .min_by_key(|(_, kept)| kept.last_used)
+                .map(|(key, _)| *key);
+            let Some(dropped) = oldest.and_then(|key| self.kept.remove(&key)) else {
+                break;
+            };
+            self.bytes -= dropped.bytes;
+        }
+    }
+}

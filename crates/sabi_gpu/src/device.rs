@@ -1,0 +1,266 @@
+//! Choosing an adapter and keeping its device.
+
+use std::fmt;
+use std::str::FromStr;
+use std::sync::{Arc, Mutex};
+
+use crate::error::GpuError;
+use crate::pipelines::Pipelines;
+
+/// Which adapter to use.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum AdapterChoice {
+    /// A discrete card before an integrated one before a software driver.
+    #[default]
+    Auto,
+    /// A software driver.
+    Cpu,
+    /// A graphics card.
+    Gpu,
+    /// One whose name contains this, case aside.
+    Named(String),
+}
+
+impl FromStr for AdapterChoice {
+    type Err = std::convert::Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(match text {
+            "auto" => AdapterChoice::Auto,
+            "cpu" => AdapterChoice::Cpu,
+            "gpu" => AdapterChoice::Gpu,
+            name => AdapterChoice::Named(name.to_owned()),
+        })
+    }
+}
+
+impl fmt::Display for AdapterChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            AdapterChoice::Auto => "auto",
+            AdapterChoice::Cpu => "cpu",
+            AdapterChoice::Gpu => "gpu",
+            AdapterChoice::Named(name) => name,
+        })
+    }
+}
+
+/// What kind of adapter it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AdapterKind {
+    /// A graphics card of its own.
+    Discrete,
+    /// Part of the processor.
+    Integrated,
+    /// A driver that runs on the processor.
+    Cpu,
+}
+
+impl fmt::Display for AdapterKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            AdapterKind::Discrete => "discrete",
+            AdapterKind::Integrated => "integrated",
+            AdapterKind::Cpu => "cpu",
+        })
+    }
+}
+
+/// What is shown of an adapter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AdapterSummary {
+    /// Name as the driver gives it.
+    pub name: String,
+    /// What kind it is.
+    pub kind: AdapterKind,
+    /// Driver and its version.
+    pub driver: String,
+    /// Interface it is reached by, such as `vulkan`.
+    pub backend: String,
+}
+
+impl AdapterSummary {
+    fn of(info: &wgpu::AdapterInfo) -> AdapterSummary {
+        let kind = match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => AdapterKind::Discrete,
+            wgpu::DeviceType::Cpu => AdapterKind::Cpu,
+            wgpu::DeviceType::IntegratedGpu | wgpu::DeviceType::VirtualGpu | wgpu::DeviceType::Other => {
+                AdapterKind::Integrated
+            }
+        };
+        AdapterSummary {
+            name: info.name.clone(),
+            kind,
+            driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+            backend: info.backend.to_string(),
+        }
+    }
+}
+
+fn found() -> Vec<(AdapterSummary, wgpu::Adapter)> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::PRIMARY;
+    let instance = wgpu::Instance::new(descriptor);
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+    let mut found: Vec<_> = adapters
+        .into_iter()
+        .map(|adapter| (AdapterSummary::of(&adapter.get_info()), adapter))
+        .collect();
+    found.sort_by_key(|(summary, _)| summary.kind);
+    found
+}
+
+/// All adapters, the one that `auto` takes first.
+pub fn adapters() -> Vec<AdapterSummary> {
+    found().into_iter().map(|(summary, _)| summary).collect()
+}
+
+/// What the driver said outside of any call.
+#[derive(Debug, Default)]
+pub(crate) struct Complaints {
+    first: Mutex<Option<GpuError>>,
+}
+
+impl Complaints {
+    fn put(&self, error: GpuError) {
+        if let Ok(mut first) = self.first.lock() {
+            first.get_or_insert(error);
+        }
+    }
+
+    fn take(&self) -> Result<(), GpuError> {
+        match self.first.lock().ok().and_then(|mut first| first.take()) {
+            Some(error) => Err(error),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A device with its queue and pipelines.
+pub struct Gpu {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) pipelines: Pipelines,
+    pub(crate) complaints: Arc<Complaints>,
+    summary: AdapterSummary,
+    limits: sabi_plan::Limits,
+}
+
+impl Gpu {
+    /// Opens the adapter of choice.
+    pub fn open(choice: &AdapterChoice) -> Result<Gpu, GpuError> {
+        let found = found();
+        if found.is_empty() {
+            return Err(GpuError::NoAdapter);
+        }
+        let known = found
+            .iter()
+            .map(|(summary, _)| summary.name.as_str())
+            .collect::<Vec<_>>()
+            .join(", ");
+        let fits = |summary: &AdapterSummary| match choice {
+            AdapterChoice::Auto => true,
+            AdapterChoice::Cpu => summary.kind == AdapterKind::Cpu,
+            AdapterChoice::Gpu => summary.kind != AdapterKind::Cpu,
+            AdapterChoice::Named(name) => summary.name.to_lowercase().contains(&name.to_lowercase()),
+        };
+        let chosen = found.into_iter().find(|(summary, _)| fits(summary));
+        let Some((summary, adapter)) = chosen else {
+            return Err(GpuError::NoSuchAdapter {
+                wanted: choice.to_string(),
+                known,
+            });
+        };
+        Gpu::adopt(summary, &adapter)
+    }
+
+    fn adopt(summary: AdapterSummary, adapter: &wgpu::Adapter) -> Result<Gpu, GpuError> {
+        let unfit = |why: String| GpuError::Unfit {
+            adapter: summary.name.clone(),
+            why,
+        };
+        let available = adapter.limits();
+        let half_masks = adapter
+            .get_texture_format_features(wgpu::TextureFormat::R16Float)
+            .allowed_usages
+            .contains(wgpu::TextureUsages::STORAGE_BINDING);
+        let mut required_features = wgpu::Features::empty();
+        if half_masks {
+            required_features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
+        }
+        if available.max_texture_dimension_2d < 4096 || available.max_storage_buffers_per_shader_stage < 6 {
+            return Err(unfit(
+                "it allows no textures of 4096 texels, or fewer than 6 storage buffers".to_owned(),
+            ));
+        }
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("sabi"),
+            required_features,
+            required_limits: available.clone(),
+            ..Default::default()
+        };
+        let opened = pollster::block_on(adapter.request_device(&descriptor));
+        let (device, queue) = opened.map_err(|error| unfit(error.to_string()))?;
+        let complaints = Arc::new(Complaints::default());
+        let lost = complaints.clone();
+        device.set_device_lost_callback(move |reason, message| {
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                lost.put(GpuError::Lost(message));
+            }
+        });
+        let uncaptured = complaints.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            uncaptured.put(driver_error(error, "a result"))
+        }));
+        let limits = sabi_plan::Limits {
+            sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64) - 1,
+            storage_textures: (available.max_storage_textures_per_shader_stage as usize).min(16),
+            half_masks,
+            ..sabi_plan::Limits::default()
+        };
+        Ok(Gpu {
+            pipelines: Pipelines::new(&device),
+            device,
+            queue,
+            complaints,
+            summary,
+            limits,
+        })
+    }
+
+    /// The adapter in use.
+    pub fn summary(&self) -> &AdapterSummary {
+        &self.summary
+    }
+
+    /// What a pass may bind here.
+    pub fn limits(&self) -> sabi_plan::Limits {
+        self.limits
+    }
+
+    /// Waits until all submitted work is done; reports what the driver complained about meanwhile.
+    pub fn wait(&self) -> Result<(), GpuError> {
+        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.complaints.take()?;
+        polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))
+    }
+
+    /// Runs `make` and turns what the driver says about it into an error.
+    pub(crate) fn guarded<T>(&self, what: &str, make: impl FnOnce(&wgpu::Device) -> T) -> Result<T, GpuError> {
+        let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let made = make(&self.device);
+        let errors = [pollster::block_on(validation.pop()), pollster::block_on(memory.pop())];
+        match errors.into_iter().flatten().next() {
+            Some(error) => Err(driver_error(error, what)),
+            None => Ok(made),
+        }
+    }
+}
+
+fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
+    match error {
+        wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory { what: what.to_owned() },
+        other => GpuError::Driver(other.to_string()),
+    }
+}

@@ -1,0 +1,76 @@
+//! Kernels that turn a material into what is exported.
+
+use bytemuck::{Pod, Zeroable};
+use sabi_nodes::link::Format;
+use sabi_plan::SlotRef;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pipelines::{storage_entry, texture_entry, uniform_entry};
+use crate::pool::{array_view, texture};
+use crate::readback::PlaneData;
+use crate::run::{Run, RunOptions};
+use crate::surface::GpuSurface;
+use crate::tiles::Slices;
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Relief {
+    has_height: u32,
+    has_slope: u32,
+    pad: [u32; 2],
+}
+
+impl Gpu {
+    /// Tangent-space normals of a run's height and slope: unit vectors, Y up, in the model's MikkTSpace frame.
+    ///
+    /// Ghosts are filled too, in the frame of the chart they belong to.
+    pub fn normals(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        height: Option<SlotRef>,
+        slope: Option<SlotRef>,
+        options: &RunOptions<'_>,
+    ) -> Result<PlaneData, GpuError> {
+        let kernel = self.fixed_kernel(
+            "normal",
+            None,
+            include_str!("../../../shaders/surface/normal.wgsl"),
+            &[
+                uniform_entry(0),
+                texture_entry(1),
+                texture_entry(2),
+                storage_entry(3, Format::Rgba32Float),
+            ],
+        )?;
+        let open = texture(self, [1, 1, 1], Format::R32Float)?;
+        let bound = |slot: Option<SlotRef>| {
+            let stored = slot.and_then(|slot| run.textures[slot].as_ref());
+            array_view(stored.unwrap_or(&open))
+        };
+        let (heights, slopes) = (bound(height), bound(slope));
+        let relief = Relief {
+            has_height: u32::from(height.is_some()),
+            has_slope: u32::from(slope.is_some()),
+            pad: [0; 2],
+        };
+        let relief = self.uniform(bytemuck::bytes_of(&relief));
+        let normals = run.pool.take(self, Format::Rgba32Float)?;
+        let view = array_view(&normals);
+        let group = self.bind(
+            &kernel.layout,
+            [
+                relief.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&heights),
+                wgpu::BindingResource::TextureView(&slopes),
+                wgpu::BindingResource::TextureView(&view),
+            ],
+        );
+        Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
+        let data = self.read_texture(&normals, surface.extent, Format::Rgba32Float)?;
+        run.pool.release(Format::Rgba32Float, normals);
+        run.report.pool = run.pool.report();
+        Ok(data)
+    }
+}

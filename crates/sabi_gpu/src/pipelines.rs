@@ -1,0 +1,236 @@
+//! Pipelines, compiled once for each kernel text.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
+
+use sabi_nodes::Library;
+use sabi_nodes::link::{Format, Kernel, KernelSpec, link};
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pool::wgpu_format;
+
+/// Reconstruction of a place from the atlas, appended to every kernel.
+pub(crate) const PLACE_WGSL: &str = include_str!("../../../shaders/surface/place.wgsl");
+
+/// A compiled kernel.
+pub(crate) struct CompiledKernel {
+    pub(crate) kernel: Kernel,
+    pub(crate) pipeline: wgpu::ComputePipeline,
+    pub(crate) layout: wgpu::BindGroupLayout,
+    /// Set once it ran for the first time, which is when software drivers compile it.
+    pub(crate) is_warm: std::sync::atomic::AtomicBool,
+}
+
+/// All pipelines of a device.
+pub(crate) struct Pipelines {
+    pub(crate) surface_layout: wgpu::BindGroupLayout,
+    kernels: Mutex<BTreeMap<[u8; 32], Arc<CompiledKernel>>>,
+    fixed: Mutex<BTreeMap<(&'static str, Option<Format>), Arc<FixedKernel>>>,
+}
+
+/// A kernel that is not made of nodes.
+pub(crate) struct FixedKernel {
+    pub(crate) pipeline: wgpu::ComputePipeline,
+    pub(crate) layout: wgpu::BindGroupLayout,
+}
+
+fn buffer_entry(binding: u32, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEntry {
+    entry(
+        binding,
+        wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+    )
+}
+
+fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty,
+        count: None,
+    }
+}
+
+/// A texture that is read texel by texel.
+pub(crate) fn texture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    sampled_entry(binding, wgpu::TextureSampleType::Float { filterable: false })
+}
+
+fn sampled_entry(binding: u32, sample_type: wgpu::TextureSampleType) -> wgpu::BindGroupLayoutEntry {
+    let view_dimension = wgpu::TextureViewDimension::D2Array;
+    entry(
+        binding,
+        wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension,
+            multisampled: false,
+        },
+    )
+}
+
+/// A texture that is written.
+pub(crate) fn storage_entry(binding: u32, format: Format) -> wgpu::BindGroupLayoutEntry {
+    let access = wgpu::StorageTextureAccess::WriteOnly;
+    let view_dimension = wgpu::TextureViewDimension::D2Array;
+    entry(
+        binding,
+        wgpu::BindingType::StorageTexture {
+            access,
+            format: wgpu_format(format),
+            view_dimension,
+        },
+    )
+}
+
+/// A buffer that is read.
+pub(crate) fn read_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    buffer_entry(binding, wgpu::BufferBindingType::Storage { read_only: true })
+}
+
+/// A buffer that is read and written.
+pub(crate) fn write_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    buffer_entry(binding, wgpu::BufferBindingType::Storage { read_only: false })
+}
+
+/// A small buffer of constants.
+pub(crate) fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    buffer_entry(binding, wgpu::BufferBindingType::Uniform)
+}
+
+impl Pipelines {
+    pub(crate) fn new(device: &wgpu::Device) -> Pipelines {
+        let surface_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("surface"),
+            entries: &[
+                uniform_entry(0),
+                read_entry(1),
+                sampled_entry(2, wgpu::TextureSampleType::Uint),
+                read_entry(3),
+                read_entry(4),
+                read_entry(5),
+            ],
+        });
+        Pipelines {
+            surface_layout,
+            kernels: Mutex::default(),
+            fixed: Mutex::default(),
+        }
+    }
+}
+
+impl Gpu {
+    /// The compiled kernel of a spec.
+    pub(crate) fn kernel(
+        &self,
+        spec: &KernelSpec,
+        library: &Library,
+        nodes: &[String],
+    ) -> Result<Arc<CompiledKernel>, GpuError> {
+        let refused = |why: String| GpuError::Kernel {
+            nodes: nodes.join(", "),
+            why,
+        };
+        let kernel = link(
+            spec,
+            |id| library.kind(id),
+            |name| library.libraries().text(name),
+            PLACE_WGSL,
+        )
+        .map_err(|error| refused(error.to_string()))?;
+        let key = *blake3::hash(kernel.wgsl.as_bytes()).as_bytes();
+        if let Ok(kernels) = self.pipelines.kernels.lock()
+            && let Some(known) = kernels.get(&key)
+        {
+            return Ok(known.clone());
+        }
+        let compiled = Arc::new(self.compile(kernel).map_err(|error| match error {
+            GpuError::Driver(why) => refused(why),
+            other => other,
+        })?);
+        if let Ok(mut kernels) = self.pipelines.kernels.lock() {
+            kernels.insert(key, compiled.clone());
+        }
+        Ok(compiled)
+    }
+
+    fn compile(&self, kernel: Kernel) -> Result<CompiledKernel, GpuError> {
+        let reads = kernel.reads as u32;
+        let loads = (1..=reads).map(texture_entry);
+        let stores = kernel
+            .writes
+            .iter()
+            .enumerate()
+            .map(|(at, format)| storage_entry(1 + reads + at as u32, *format));
+        let entries: Vec<_> = std::iter::once(read_entry(0)).chain(loads).chain(stores).collect();
+        let (pipeline, layout) = self.compute_pipeline("nodes", &kernel.wgsl, &entries)?;
+        Ok(CompiledKernel {
+            kernel,
+            pipeline,
+            layout,
+            is_warm: false.into(),
+        })
+    }
+
+    fn compute_pipeline(
+        &self,
+        label: &str,
+        wgsl: &str,
+        entries: &[wgpu::BindGroupLayoutEntry],
+    ) -> Result<(wgpu::ComputePipeline, wgpu::BindGroupLayout), GpuError> {
+        self.guarded(label, |device| {
+            let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries,
+            });
+            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+            });
+            let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(label),
+                bind_group_layouts: &[Some(&self.pipelines.surface_layout), Some(&layout)],
+                immediate_size: 0,
+            });
+            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(label),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some("main"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    // Kernels have no workgroup memory to clear.
+                    zero_initialize_workgroup_memory: false,
+                    ..Default::default()
+                },
+                cache: None,
+            });
+            (pipeline, layout)
+        })
+    }
+
+    /// A kernel of Sabi's own, by name and the format that its text writes.
+    pub(crate) fn fixed_kernel(
+        &self,
+        name: &'static str,
+        format: Option<Format>,
+        wgsl: &str,
+        entries: &[wgpu::BindGroupLayoutEntry],
+    ) -> Result<Arc<FixedKernel>, GpuError> {
+        if let Ok(fixed) = self.pipelines.fixed.lock()
+            && let Some(known) = fixed.get(&(name, format))
+        {
+            return Ok(known.clone());
+        }
+        let core = include_str!("../../../shaders/lib/core.wgsl");
+        let text = format!("{wgsl}\n{PLACE_WGSL}\n{core}");
+        let (pipeline, layout) = self.compute_pipeline(name, &text, entries)?;
+        let kernel = Arc::new(FixedKernel { pipeline, layout });
+        if let Ok(mut fixed) = self.pipelines.fixed.lock() {
+            fixed.insert((name, format), kernel.clone());
+        }
+        Ok(kernel)
+    }
+}

@@ -1,0 +1,124 @@
+//! Textures by format, handed out again, within a budget of bytes.
+
+use std::collections::BTreeMap;
+
+use sabi_nodes::link::Format;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+
+/// Bytes of textures that a run may hold unless told otherwise.
+pub const DEFAULT_BUDGET_BYTES: u64 = 4 << 30;
+
+/// Width, height, pages.
+pub(crate) type Extent = [u32; 3];
+
+/// What a pool holds and held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PoolReport {
+    /// Bytes of textures now.
+    pub bytes: u64,
+    /// The most there ever were.
+    pub peak_bytes: u64,
+}
+
+/// Textures of one extent.
+#[derive(Debug)]
+pub(crate) struct TexturePool {
+    extent: Extent,
+    budget_bytes: u64,
+    free: BTreeMap<Format, Vec<wgpu::Texture>>,
+    report: PoolReport,
+}
+
+impl TexturePool {
+    pub(crate) fn new(extent: Extent, budget_bytes: u64) -> TexturePool {
+        TexturePool {
+            extent,
+            budget_bytes,
+            free: BTreeMap::new(),
+            report: PoolReport::default(),
+        }
+    }
+
+    pub(crate) fn report(&self) -> PoolReport {
+        self.report
+    }
+
+    /// A texture of that format; its content is undefined.
+    pub(crate) fn take(&mut self, gpu: &Gpu, format: Format) -> Result<wgpu::Texture, GpuError> {
+        if let Some(texture) = self.free.get_mut(&format).and_then(Vec::pop) {
+            return Ok(texture);
+        }
+        let bytes = self.extent.iter().map(|side| u64::from(*side)).product::<u64>() * format.texel_bytes();
+        if self.report.bytes + bytes > self.budget_bytes {
+            // Textures of other formats that nobody uses make room first.
+            self.drop_free();
+        }
+        let needed = self.report.bytes + bytes;
+        if needed > self.budget_bytes {
+            return Err(GpuError::OverBudget {
+                needed_mib: needed >> 20,
+                budget_mib: self.budget_bytes >> 20,
+            });
+        }
+        let texture = texture(gpu, self.extent, format)?;
+        self.report.bytes = needed;
+        self.report.peak_bytes = self.report.peak_bytes.max(needed);
+        Ok(texture)
+    }
+
+    /// Gives a texture back.
+    pub(crate) fn release(&mut self, format: Format, texture: wgpu::Texture) {
+        self.free.entry(format).or_default().push(texture);
+    }
+
+    fn drop_free(&mut self) {
+        let texels: u64 = self.extent.iter().map(|side| u64::from(*side)).product();
+        for (format, textures) in std::mem::take(&mut self.free) {
+            self.report.bytes -= textures.len() as u64 * texels * format.texel_bytes();
+            textures.iter().for_each(wgpu::Texture::destroy);
+        }
+    }
+}
+
+/// The driver's name of a format.
+pub(crate) fn wgpu_format(format: Format) -> wgpu::TextureFormat {
+    match format {
+        Format::R16Float => wgpu::TextureFormat::R16Float,
+        Format::R32Float => wgpu::TextureFormat::R32Float,
+        Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+        Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+    }
+}
+
+/// A texture that kernels read and write.
+pub(crate) fn texture(gpu: &Gpu, [width, height, pages]: Extent, format: Format) -> Result<wgpu::Texture, GpuError> {
+    gpu.guarded("a texture", |device| {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: pages,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu_format(format),
+            usage: wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::STORAGE_BINDING
+                | wgpu::TextureUsages::COPY_SRC
+                | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        })
+    })
+}
+
+/// The whole texture as an array of pages.
+pub(crate) fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}

@@ -1,0 +1,117 @@
+//! From the device back into memory.
+
+use half::f16;
+use sabi_nodes::link::Format;
+use sabi_plan::{Plan, SlotRef};
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pool::Extent;
+use crate::run::Run;
+use crate::surface::GpuSurface;
+
+/// Texels of one plane as they were stored, page by page and row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaneData {
+    format: Format,
+    bytes: Vec<u8>,
+}
+
+impl PlaneData {
+    /// Number of texels.
+    pub fn len(&self) -> usize {
+        self.bytes.len() / self.format.texel_bytes() as usize
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.bytes.is_empty()
+    }
+
+    /// The stored bytes: equal bytes mean equal results.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Components of a texel; those that the format does not have are 0.
+    pub fn texel(&self, index: usize) -> [f32; 4] {
+        let size = self.format.texel_bytes() as usize;
+        let bytes = &self.bytes[index * size..][..size];
+        let half = |at: usize| f16::from_le_bytes([bytes[2 * at], bytes[2 * at + 1]]).to_f32();
+        let full =
+            |at: usize| f32::from_le_bytes([bytes[4 * at], bytes[4 * at + 1], bytes[4 * at + 2], bytes[4 * at + 3]]);
+        match self.format {
+            Format::R16Float => [half(0), 0.0, 0.0, 0.0],
+            Format::R32Float => [full(0), 0.0, 0.0, 0.0],
+            Format::Rgba16Float => [half(0), half(1), half(2), half(3)],
+            Format::Rgba32Float => [full(0), full(1), full(2), full(3)],
+        }
+    }
+}
+
+impl Gpu {
+    /// Reads a slot of a run.
+    pub fn read(&self, surface: &GpuSurface, plan: &Plan, run: &Run, slot: SlotRef) -> Result<PlaneData, GpuError> {
+        let missing =
+            || GpuError::Source("a result was asked for that the plan did not keep; this is a mistake in Sabi".into());
+        let texture = run.textures.get(slot).and_then(Option::as_ref).ok_or_else(missing)?;
+        self.read_texture(texture, surface.extent, plan.slots[slot].format)
+    }
+
+    /// Reads a whole texture, a page at a time.
+    pub(crate) fn read_texture(
+        &self,
+        texture: &wgpu::Texture,
+        [width, height, pages]: Extent,
+        format: Format,
+    ) -> Result<PlaneData, GpuError> {
+        let row = u64::from(width) * format.texel_bytes();
+        let padded = row.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
+        let buffer = self.guarded("a readback buffer", |device| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size: padded * u64::from(height),
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        })?;
+        let mut bytes = Vec::with_capacity((row * u64::from(height) * u64::from(pages)) as usize);
+        for page in 0..pages {
+            let mut encoder = self
+                .device
+                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut source = texture.as_image_copy();
+            source.origin.z = page;
+            encoder.copy_texture_to_buffer(
+                source,
+                wgpu::TexelCopyBufferInfo {
+                    buffer: &buffer,
+                    layout: wgpu::TexelCopyBufferLayout {
+                        offset: 0,
+                        bytes_per_row: Some(padded as u32),
+                        rows_per_image: Some(height),
+                    },
+                },
+                wgpu::Extent3d {
+                    width,
+                    height,
+                    depth_or_array_layers: 1,
+                },
+            );
+            self.queue.submit([encoder.finish()]);
+            buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+            self.wait()?;
+            let mapped = buffer.get_mapped_range(..);
+            if padded == row {
+                bytes.extend_from_slice(&mapped);
+            } else {
+                mapped
+                    .chunks_exact(padded as usize)
+                    .for_each(|line| bytes.extend_from_slice(&line[..row as usize]));
+            }
+            drop(mapped);
+            buffer.unmap();
+        }
+        Ok(PlaneData { format, bytes })
+    }
+}

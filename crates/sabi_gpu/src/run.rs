@@ -1,0 +1,428 @@
+//! Runs a plan: step by step, in submissions of a size that can be interrupted.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use sabi_nodes::Library;
+use sabi_nodes::link::{Format, Plane};
+use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
+
+use crate::cache::{ResultCache, ResultKey};
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pipelines::CompiledKernel;
+use crate::pool::{PoolReport, TexturePool, array_view, texture, wgpu_format};
+use crate::surface::GpuSurface;
+use crate::tiles::Slices;
+
+/// How a plan is run.
+pub struct RunOptions<'a> {
+    /// How long one submission may take: about 25 ms where a window shares the queue, more in a bake.
+    pub submission: Duration,
+    /// Asked between submissions; `true` stops the run.
+    pub is_canceled: &'a dyn Fn() -> bool,
+    /// Told after each step: steps done, steps in all.
+    pub progress: &'a dyn Fn(usize, usize),
+    /// Bytes of textures that may be held.
+    pub budget_bytes: u64,
+}
+
+/// Texels of one plane, in its storage format, page by page and row by row without padding.
+pub struct SourceTexels {
+    /// Name of the result.
+    pub output: String,
+    /// Which of its planes.
+    pub plane: Plane,
+    /// The bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// Makes the results that no kernel makes.
+pub trait SourceFill {
+    /// All planes of the results that the step names, ghosts included.
+    fn fill(&mut self, step: &SourceStep) -> Result<Vec<SourceTexels>, String>;
+}
+
+/// How long a step took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepTime {
+    /// Nodes in it, each with its share of the cost.
+    pub nodes: Vec<(String, f32)>,
+    /// Time between the first submission and the end of the last.
+    pub run: Duration,
+}
+
+/// What a run did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunReport {
+    /// Pipelines made, and their first dispatch, which is when software drivers compile.
+    pub compile: Duration,
+    /// Everything else.
+    pub run: Duration,
+    /// Steps that ran; those whose results were cached are not among them.
+    pub steps: Vec<StepTime>,
+    /// Textures held.
+    pub pool: PoolReport,
+}
+
+/// The results of a plan, still on the device.
+pub struct Run {
+    pub(crate) textures: Vec<Option<wgpu::Texture>>,
+    /// What happened.
+    pub report: RunReport,
+    pub(crate) pool: TexturePool,
+}
+
+impl Gpu {
+    /// Runs a plan; with a cache, steps whose results are known are left out and new results are kept.
+    pub fn run(
+        &self,
+        surface: &GpuSurface,
+        library: &Library,
+        plan: &Plan,
+        options: &RunOptions<'_>,
+        sources: &mut dyn SourceFill,
+        cache: Option<&mut ResultCache>,
+    ) -> Result<Run, GpuError> {
+        let started = Instant::now();
+        let mut runner = Runner {
+            gpu: self,
+            surface,
+            library,
+            plan,
+            options,
+            textures: plan.slots.iter().map(|_| None).collect(),
+            pool: TexturePool::new(surface.extent, options.budget_bytes),
+            report: RunReport::default(),
+            open_planes: BTreeMap::new(),
+        };
+        let keys = slot_keys(plan);
+        let known = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.known(&keys));
+        let steps = needed_steps(plan, &known);
+        for (slot, texture) in known {
+            runner.textures[slot] = Some(texture);
+        }
+        let last_use = last_uses(plan);
+        for (done, at) in steps.iter().enumerate() {
+            runner.step(&plan.steps[*at], sources)?;
+            if cache.is_none() {
+                runner.release_after(*at, &last_use);
+            }
+            (options.progress)(done + 1, steps.len());
+        }
+        self.wait()?;
+        let Runner {
+            textures,
+            pool,
+            mut report,
+            ..
+        } = runner;
+        report.pool = pool.report();
+        report.run = started.elapsed().saturating_sub(report.compile);
+        if let Some(cache) = cache {
+            cache.keep(&keys, &textures, plan, surface.texels());
+        }
+        Ok(Run { textures, report, pool })
+    }
+}
+
+/// Names the content of every slot of a plan in which no slot is used twice.
+fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
+    let mut keys = BTreeMap::new();
+    for step in &plan.steps {
+        match step {
+            Step::Source(source) => {
+                for (output, planes) in &source.writes {
+                    keys.extend(planes.iter().map(|(plane, slot)| {
+                        (
+                            *slot,
+                            ResultKey {
+                                content: *blake3::hash(&[&source.key[..], output.as_bytes()].concat()).as_bytes(),
+                                plane: *plane,
+                            },
+                        )
+                    }));
+                }
+            }
+            Step::Kernel(kernel) => {
+                let planes = kernel
+                    .spec
+                    .stores
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(store, spec)| spec.stored.planes().into_iter().map(move |plane| (store, plane)));
+                for ((store, plane), slot) in planes.zip(&kernel.writes) {
+                    if let (Some(slot), Some(content)) = (slot, kernel.keys.get(store)) {
+                        keys.insert(
+                            *slot,
+                            ResultKey {
+                                content: *content,
+                                plane,
+                            },
+                        );
+                    }
+                }
+            }
+        }
+    }
+    keys
+}
+
+fn reads(step: &Step) -> Vec<SlotRef> {
+    match step {
+        Step::Source(_) => Vec::new(),
+        Step::Kernel(kernel) => kernel.reads.iter().flatten().copied().collect(),
+    }
+}
+
+fn writes(step: &Step) -> Vec<SlotRef> {
+    match step {
+        Step::Source(source) => source
+            .writes
+            .iter()
+            .flat_map(|(_, planes)| planes)
+            .map(|(_, slot)| *slot)
+            .collect(),
+        Step::Kernel(kernel) => {
+            let scratch = kernel.feedback.iter().map(|feedback| feedback.scratch);
+            kernel.writes.iter().flatten().copied().chain(scratch).collect()
+        }
+    }
+}
+
+/// Steps that lead to a result that is not known yet.
+fn needed_steps(plan: &Plan, known: &BTreeMap<SlotRef, wgpu::Texture>) -> Vec<usize> {
+    let mut wanted: BTreeSet<SlotRef> = plan.results.iter().flat_map(|result| &result.slots).copied().collect();
+    let mut steps = Vec::new();
+    for (at, step) in plan.steps.iter().enumerate().rev() {
+        let is_missing = |slot: &SlotRef| wanted.contains(slot) && !known.contains_key(slot);
+        if known.is_empty() || writes(step).iter().any(is_missing) {
+            wanted.extend(reads(step));
+            steps.push(at);
+        }
+    }
+    steps.reverse();
+    steps
+}
+
+/// For each slot the steps after which nobody reads what it holds at that time.
+fn last_uses(plan: &Plan) -> BTreeMap<SlotRef, usize> {
+    let mut last = BTreeMap::new();
+    for (at, step) in plan.steps.iter().enumerate() {
+        last.extend(reads(step).into_iter().chain(writes(step)).map(|slot| (slot, at)));
+    }
+    last.extend(
+        plan.results
+            .iter()
+            .flat_map(|result| &result.slots)
+            .map(|slot| (*slot, usize::MAX)),
+    );
+    last
+}
+
+struct Runner<'a> {
+    gpu: &'a Gpu,
+    surface: &'a GpuSurface,
+    library: &'a Library,
+    plan: &'a Plan,
+    options: &'a RunOptions<'a>,
+    textures: Vec<Option<wgpu::Texture>>,
+    pool: TexturePool,
+    report: RunReport,
+    /// One-texel textures for planes that an interactive kernel binds and nobody has.
+    open_planes: BTreeMap<Format, wgpu::Texture>,
+}
+
+impl Runner<'_> {
+    fn step(&mut self, step: &Step, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
+        if (self.options.is_canceled)() {
+            return Err(GpuError::Canceled);
+        }
+        let started = Instant::now();
+        let compile_before = self.report.compile;
+        let nodes = match step {
+            Step::Source(source) => {
+                self.source(source, sources)?;
+                vec![(source.id.clone(), 1.0)]
+            }
+            Step::Kernel(kernel) => {
+                self.kernel(kernel)?;
+                kernel
+                    .nodes
+                    .iter()
+                    .cloned()
+                    .zip(kernel.shares.iter().copied())
+                    .collect()
+            }
+        };
+        let run = started.elapsed().saturating_sub(self.report.compile - compile_before);
+        self.report.steps.push(StepTime { nodes, run });
+        Ok(())
+    }
+
+    fn texture(&mut self, slot: SlotRef) -> Result<wgpu::Texture, GpuError> {
+        if let Some(texture) = &self.textures[slot] {
+            return Ok(texture.clone());
+        }
+        let texture = self.pool.take(self.gpu, self.plan.slots[slot].format)?;
+        self.textures[slot] = Some(texture.clone());
+        Ok(texture)
+    }
+
+    fn release_after(&mut self, at: usize, last_use: &BTreeMap<SlotRef, usize>) {
+        for (slot, last) in last_use {
+            if *last == at
+                && let Some(texture) = self.textures[*slot].take()
+            {
+                self.pool.release(self.plan.slots[*slot].format, texture);
+            }
+        }
+    }
+
+    fn open_plane(&mut self, format: Format) -> Result<wgpu::Texture, GpuError> {
+        if let Some(texture) = self.open_planes.get(&format) {
+            return Ok(texture.clone());
+        }
+        let made = texture(self.gpu, [1, 1, 1], format)?;
+        self.open_planes.insert(format, made.clone());
+        Ok(made)
+    }
+
+    fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
+        let filled = sources.fill(step).map_err(GpuError::Source)?;
+        for (output, planes) in &step.writes {
+            for (plane, slot) in planes {
+                let texels = filled
+                    .iter()
+                    .find(|texels| texels.output == *output && texels.plane == *plane);
+                let Some(texels) = texels else {
+                    let message = format!("node '{}' did not give '{output}'; this is a mistake in Sabi", step.id);
+                    return Err(GpuError::Source(message));
+                };
+                let texture = self.texture(*slot)?;
+                self.upload(&texture, self.plan.slots[*slot].format, &texels.bytes);
+            }
+        }
+        Ok(())
+    }
+
+    fn upload(&self, texture: &wgpu::Texture, format: Format, bytes: &[u8]) {
+        debug_assert_eq!(texture.format(), wgpu_format(format));
+        let [width, height, pages] = self.surface.extent;
+        let bytes_per_row = Some(width * format.texel_bytes() as u32);
+        self.gpu.queue.write_texture(
+            texture.as_image_copy(),
+            bytes,
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row,
+                rows_per_image: Some(height),
+            },
+            wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: pages,
+            },
+        );
+    }
+
+    fn kernel(&mut self, step: &KernelStep) -> Result<(), GpuError> {
+        let compiling = Instant::now();
+        let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
+        self.report.compile += compiling.elapsed();
+        let block = block_buffer(self.gpu, &compiled, step);
+        let times = step.feedback.as_ref().map_or(1, |feedback| feedback.times);
+        let mut last: Option<SlotRef> = None;
+        for round in 0..times {
+            let mut reads = step.reads.clone();
+            let mut writes = step.writes.clone();
+            if let Some(feedback) = &step.feedback {
+                if let Some(last) = last {
+                    reads[feedback.read] = Some(last);
+                }
+                // Taking turns so that the last round writes the result's own slot.
+                if !(times - 1 - round).is_multiple_of(2) {
+                    writes[0] = Some(feedback.scratch);
+                }
+                last = writes[0];
+            }
+            self.dispatch(step, &compiled, &block, &reads, &writes)?;
+        }
+        Ok(())
+    }
+
+    fn dispatch(
+        &mut self,
+        step: &KernelStep,
+        compiled: &CompiledKernel,
+        block: &wgpu::Buffer,
+        reads: &[Option<SlotRef>],
+        writes: &[Option<SlotRef>],
+    ) -> Result<(), GpuError> {
+        let mut views = Vec::new();
+        for slot in reads {
+            let texture = match slot {
+                Some(slot) => self.texture(*slot)?,
+                None => self.open_plane(Format::Rgba16Float)?,
+            };
+            views.push(array_view(&texture));
+        }
+        let mut written = Vec::new();
+        for (slot, format) in writes.iter().zip(&compiled.kernel.writes) {
+            let texture = match slot {
+                Some(slot) => self.texture(*slot)?,
+                None => self.open_plane(*format)?,
+            };
+            views.push(array_view(&texture));
+            written.push((slot.is_some(), texture, *format));
+        }
+        let textures = views.iter().map(wgpu::BindingResource::TextureView);
+        let group = self.gpu.bind(
+            &compiled.layout,
+            std::iter::once(block.as_entire_binding()).chain(textures),
+        );
+        let slices = Slices::new(self.gpu, self.surface, self.options.submission);
+        if !compiled.is_warm.swap(true, Ordering::Relaxed) {
+            let warming = Instant::now();
+            slices.warm(&compiled.pipeline, &group)?;
+            self.report.compile += warming.elapsed();
+        }
+        slices.run(&compiled.pipeline, &group, self.options.is_canceled)?;
+        if step.fills_ghosts {
+            for (_, texture, format) in written.iter().filter(|(is_kept, ..)| *is_kept) {
+                self.gpu
+                    .fill_ghosts(self.surface, slices.surface_group(), texture, *format)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The parameter block of a step, laid out as the kernel reads it.
+fn block_buffer(gpu: &Gpu, compiled: &CompiledKernel, step: &KernelStep) -> wgpu::Buffer {
+    let layout = &compiled.kernel.layout;
+    let mut bytes = vec![0_u8; layout.size as usize];
+    let mut put = |offset: u32, data: &[u8]| bytes[offset as usize..][..data.len()].copy_from_slice(data);
+    if let Some(flags) = layout.flags {
+        put(flags, bytemuck::cast_slice(&step.flags));
+    }
+    for (call, values) in layout.calls.iter().zip(&step.blocks) {
+        if let Some(params) = call.params {
+            put(params, &values.params);
+        }
+        for (offset, knob) in call.knobs.iter().zip(&values.knobs) {
+            if let (Some(offset), Some(knob)) = (offset, knob) {
+                put(*offset, bytemuck::cast_slice(knob));
+            }
+        }
+    }
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("parameters"),
+        size: u64::from(layout.size),
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    gpu.queue.write_buffer(&buffer, 0, &bytes);
+    buffer
+}

@@ -1,0 +1,266 @@
+//! The linked atlas on the device, in working units.
+
+use bytemuck::{Pod, Zeroable};
+use rayon::prelude::*;
+use sabi_surface::atlas::{Atlas, Ghost, TILE};
+use sabi_surface::model::Mesh;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pool::{Extent, array_view};
+
+/// Rows of four floats for each triangle; see `shaders/surface/place.wgsl`, which reads them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfaceTables {
+    /// Six rows a triangle: origin, its two steps a texel, and the same of the normal. The fourth column holds the
+    /// reference texel (x, y), the texel's width (negative on mirrored charts), ids, and the part's seed.
+    pub geometry: Vec<[f32; 4]>,
+    /// Four rows a triangle: tangent and its two steps a texel, then the chart's place and number.
+    pub frames: Vec<[f32; 4]>,
+}
+
+impl SurfaceTables {
+    /// The tables for a mesh scaled by `working_from_model`.
+    pub fn new(mesh: &Mesh, atlas: &Atlas, working_from_model: f64, seed: u32) -> SurfaceTables {
+        let rows: Vec<([[f32; 4]; 6], [[f32; 4]; 4])> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|triangle| triangle_rows(mesh, atlas, triangle, working_from_model, seed))
+            .collect();
+        let mut tables = SurfaceTables::default();
+        tables.geometry.reserve(6 * rows.len());
+        tables.frames.reserve(4 * rows.len());
+        for (geometry, frames) in rows {
+            tables.geometry.extend(geometry);
+            tables.frames.extend(frames);
+        }
+        tables
+    }
+}
+
+/// A quantity that is linear over a triangle: its value at the first corner, and its change a texel along u and v.
+fn affine(corners: [[f64; 3]; 3], inverse: [[f64; 2]; 2]) -> [[f64; 3]; 3] {
+    let mut rows = [corners[0], [0.0; 3], [0.0; 3]];
+    for axis in 0..3 {
+        let first = corners[1][axis] - corners[0][axis];
+        let second = corners[2][axis] - corners[0][axis];
+        rows[1][axis] = first * inverse[0][0] + second * inverse[1][0];
+        rows[2][axis] = first * inverse[0][1] + second * inverse[1][1];
+    }
+    rows
+}
+
+/// Inverse of the matrix whose rows are the texel vectors of the two edges at the first corner; zero without area.
+fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
+    let edge = |to: usize, axis: usize| f64::from(texels[to][axis]) - f64::from(texels[0][axis]);
+    let (a, b, c, d) = (edge(1, 0), edge(1, 1), edge(2, 0), edge(2, 1));
+    let determinant = a * d - b * c;
+    if determinant.abs() < 1e-12 {
+        return [[0.0; 2]; 2];
+    }
+    // Columns are the weights of the first and second edge for a step along u and along v.
+    [[d / determinant, -c / determinant], [-b / determinant, a / determinant]]
+}
+
+fn triangle_rows(
+    mesh: &Mesh,
+    atlas: &Atlas,
+    triangle: usize,
+    working_from_model: f64,
+    seed: u32,
+) -> ([[f32; 4]; 6], [[f32; 4]; 4]) {
+    let corners = mesh.triangles[triangle].map(|vertex| vertex as usize);
+    let texels = atlas.triangle_texels[triangle];
+    let inverse = edge_inverse(texels);
+    let scaled = |v: [f32; 3]| v.map(|x| f64::from(x) * working_from_model);
+    let position = affine(corners.map(|corner| scaled(mesh.positions[corner])), inverse);
+    let normal = affine(corners.map(|corner| mesh.normals[corner].map(f64::from)), inverse);
+    let tangent = affine(
+        corners.map(|corner| {
+            let [x, y, z, _] = mesh.tangents[corner].map(f64::from);
+            [x, y, z]
+        }),
+        inverse,
+    );
+    let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let width = length(position[1]).max(length(position[2]));
+    let chart = &atlas.charts[atlas.triangle_chart[triangle] as usize];
+    let signed_width = if chart.mirrored { -width.max(1e-30) } else { width };
+    let part = mesh.triangle_part[triangle];
+    let ids = (part & 0xffff) | (mesh.triangle_material[triangle] << 16);
+    let row = |v: [f64; 3], w: f32| [v[0] as f32, v[1] as f32, v[2] as f32, w];
+    let geometry = [
+        row(position[0], texels[0][0]),
+        row(position[1], texels[0][1]),
+        row(position[2], signed_width as f32),
+        row(normal[0], f32::from_bits(ids)),
+        row(normal[1], f32::from_bits(sabi_plan::pcg(seed ^ sabi_plan::pcg(part)))),
+        row(normal[2], 0.0),
+    ];
+    let [offset_u, offset_v] = chart.texel_from_uv;
+    let frames = [
+        row(tangent[0], mesh.tangents[corners[0]][3]),
+        row(tangent[1], 0.0),
+        row(tangent[2], 0.0),
+        [
+            offset_u as f32,
+            offset_v as f32,
+            f32::from_bits(atlas.triangle_chart[triangle]),
+            0.0,
+        ],
+    ];
+    (geometry, frames)
+}
+
+/// As `GhostLink` in `shaders/surface/place.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct GhostRow {
+    target_texel: [f32; 2],
+    triangle: u32,
+    texel: u32,
+    page: u32,
+    target_page: u32,
+    chart: u32,
+    pad: u32,
+    target_from_own: [f32; 4],
+}
+
+fn target_page(atlas: &Atlas, ghost: &Ghost) -> u32 {
+    atlas.charts[atlas.triangle_chart[ghost.target_triangle as usize] as usize].page
+}
+
+/// The surface on a device.
+pub struct GpuSurface {
+    pub(crate) extent: Extent,
+    pub(crate) tiles: wgpu::Buffer,
+    pub(crate) tile_count: u32,
+    pub(crate) owners: wgpu::TextureView,
+    pub(crate) geometry: wgpu::Buffer,
+    pub(crate) frames: wgpu::Buffer,
+    pub(crate) ghosts: wgpu::Buffer,
+    pub(crate) ghost_count: u32,
+    /// Texels for one unit of UV.
+    pub(crate) size: u32,
+    bytes: u64,
+}
+
+impl GpuSurface {
+    /// Uploads an atlas and its tables.
+    pub fn upload(gpu: &Gpu, atlas: &Atlas, tables: &SurfaceTables) -> Result<GpuSurface, GpuError> {
+        let [width, height] = atlas.page_size;
+        let extent = [width, height, atlas.pages];
+        // Eleven bits a coordinate and ten for the page, as `texel_of` unpacks them.
+        let tiles: Vec<u32> = atlas
+            .tiles
+            .iter()
+            .map(|tile| tile.column | (tile.row << 11) | (tile.page << 22))
+            .collect();
+        let ghosts: Vec<GhostRow> = atlas
+            .ghosts
+            .iter()
+            .map(|ghost| GhostRow {
+                target_texel: ghost.target_texel,
+                triangle: ghost.target_triangle,
+                texel: ghost.texel[0] | (ghost.texel[1] << 16),
+                page: ghost.texel[2],
+                target_page: target_page(atlas, ghost),
+                chart: ghost.chart,
+                pad: 0,
+                target_from_own: [
+                    ghost.target_from_own[0][0],
+                    ghost.target_from_own[0][1],
+                    ghost.target_from_own[1][0],
+                    ghost.target_from_own[1][1],
+                ],
+            })
+            .collect();
+        let limit = u64::from(gpu.device.limits().max_storage_buffer_binding_size);
+        let buffer = |what: &'static str, bytes: &[u8]| storage_buffer(gpu, what, bytes, limit);
+        let owners = owners_texture(gpu, atlas, extent)?;
+        let surface = GpuSurface {
+            extent,
+            tile_count: tiles.len() as u32,
+            tiles: buffer("the tile list", bytemuck::cast_slice(&tiles))?,
+            owners,
+            geometry: buffer("the triangles", bytemuck::cast_slice(&tables.geometry))?,
+            frames: buffer("the tangent frames", bytemuck::cast_slice(&tables.frames))?,
+            ghost_count: ghosts.len() as u32,
+            ghosts: buffer("the links over seams", bytemuck::cast_slice(&ghosts))?,
+            size: atlas.size,
+            bytes: atlas.owners.len() as u64 * 4,
+        };
+        gpu.wait()?;
+        Ok(surface)
+    }
+
+    /// Bytes of textures that the surface itself takes.
+    pub fn texture_bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Texels of all pages.
+    pub fn texels(&self) -> u64 {
+        self.extent.iter().map(|side| u64::from(*side)).product()
+    }
+
+    /// Number of 8 × 8 tiles with something on them.
+    pub fn tile_count(&self) -> u32 {
+        self.tile_count
+    }
+}
+
+fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: &[u8], limit: u64) -> Result<wgpu::Buffer, GpuError> {
+    let size = (bytes.len() as u64).max(64).next_multiple_of(16);
+    if size > limit {
+        return Err(GpuError::TooLarge {
+            what,
+            needed_mib: size >> 20,
+            limit_mib: limit >> 20,
+        });
+    }
+    let buffer = gpu.guarded(what, |device| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(what),
+            size,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    })?;
+    if !bytes.is_empty() {
+        gpu.queue.write_buffer(&buffer, 0, bytes);
+    }
+    Ok(buffer)
+}
+
+fn owners_texture(gpu: &Gpu, atlas: &Atlas, extent: Extent) -> Result<wgpu::TextureView, GpuError> {
+    let [width, height, pages] = extent;
+    debug_assert!(width.is_multiple_of(TILE) && height.is_multiple_of(TILE));
+    let size = wgpu::Extent3d {
+        width,
+        height,
+        depth_or_array_layers: pages,
+    };
+    let texture = gpu.guarded("the owner map", |device| {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("owners"),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::R32Uint,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        })
+    })?;
+    gpu.queue.write_texture(
+        texture.as_image_copy(),
+        bytemuck::cast_slice(&atlas.owners),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(4 * width),
+            rows_per_image: Some(height),
+        },
+        size,
+    );
+    Ok(array_view(&texture))
+}

@@ -1,0 +1,118 @@
+//! Kernels run over the covered tiles only, in slices that take about as long as asked.
+
+use std::time::{Duration, Instant};
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::surface::GpuSurface;
+
+/// Workgroups in a row of a dispatch; adapters allow 65 535.
+const ROW: u32 = 32_768;
+/// Tiles of the first slice of a kernel whose speed is not known yet.
+const FIRST_SLICE: u32 = 512;
+
+/// As `Pass` in `shaders/surface/place.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct PassConstants {
+    first_tile: u32,
+    end_tile: u32,
+    row_length: u32,
+    size: f32,
+}
+
+/// One kernel's way over the tiles.
+pub(crate) struct Slices<'a> {
+    gpu: &'a Gpu,
+    surface: &'a GpuSurface,
+    target: Duration,
+    constants: wgpu::Buffer,
+    group: wgpu::BindGroup,
+}
+
+impl<'a> Slices<'a> {
+    pub(crate) fn new(gpu: &'a Gpu, surface: &'a GpuSurface, target: Duration) -> Slices<'a> {
+        let constants = gpu.uniform(&[0; size_of::<PassConstants>()]);
+        let resources = [
+            constants.as_entire_binding(),
+            surface.tiles.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&surface.owners),
+            surface.geometry.as_entire_binding(),
+            surface.frames.as_entire_binding(),
+            surface.ghosts.as_entire_binding(),
+        ];
+        let group = gpu.bind(&gpu.pipelines.surface_layout, resources);
+        Slices {
+            gpu,
+            surface,
+            target,
+            constants,
+            group,
+        }
+    }
+
+    /// The bind group of the surface.
+    pub(crate) fn surface_group(&self) -> &wgpu::BindGroup {
+        &self.group
+    }
+
+    /// One workgroup over no tile: compiles the kernel where the driver does so at its first use.
+    pub(crate) fn warm(&self, pipeline: &wgpu::ComputePipeline, group: &wgpu::BindGroup) -> Result<(), GpuError> {
+        self.submit(pipeline, group, 0, 0);
+        self.gpu.wait()
+    }
+
+    /// The kernel over all tiles.
+    pub(crate) fn run(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        group: &wgpu::BindGroup,
+        is_canceled: &dyn Fn() -> bool,
+    ) -> Result<(), GpuError> {
+        let mut first = 0;
+        let mut length = FIRST_SLICE;
+        while first < self.surface.tile_count {
+            if is_canceled() {
+                return Err(GpuError::Canceled);
+            }
+            let end = (first + length).min(self.surface.tile_count);
+            let started = Instant::now();
+            self.submit(pipeline, group, first, end);
+            self.gpu.wait()?;
+            let taken = started.elapsed().max(Duration::from_micros(10));
+            // At most eight times as long as the last one, so that one quick slice does not lead to a long one.
+            let scale = (self.target.as_secs_f64() / taken.as_secs_f64()).clamp(0.125, 8.0);
+            length = ((f64::from(end - first) * scale) as u32).max(1);
+            first = end;
+        }
+        Ok(())
+    }
+
+    fn submit(&self, pipeline: &wgpu::ComputePipeline, group: &wgpu::BindGroup, first_tile: u32, end_tile: u32) {
+        let tiles = (end_tile - first_tile).max(1);
+        let row_length = tiles.min(ROW);
+        let constants = PassConstants {
+            first_tile,
+            end_tile,
+            row_length,
+            size: self.surface.size as f32,
+        };
+        self.gpu
+            .queue
+            .write_buffer(&self.constants, 0, bytemuck::bytes_of(&constants));
+        let mut encoder = self
+            .gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &self.group, &[]);
+            pass.set_bind_group(1, group, &[]);
+            pass.dispatch_workgroups(row_length, tiles.div_ceil(ROW), 1);
+        }
+        self.gpu.queue.submit([encoder.finish()]);
+    }
+}

@@ -1,0 +1,103 @@
+//! The parameter block of a kernel: where each call's parameters and knobs lie.
+
+use sabi_graph::PortType;
+
+use crate::kind::{InputDefault, Kind, ParamType};
+
+/// Byte layout of a kernel's parameter block; WGSL's rules for the storage address space.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BlockLayout {
+    /// Size in bytes, at least 16.
+    pub size: u32,
+    /// Offset of the four flag words; they come first, if the kernel has switches.
+    pub flags: Option<u32>,
+    /// One for each block index of the calls.
+    pub calls: Vec<CallLayout>,
+}
+
+/// Where one node's values lie.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CallLayout {
+    /// Offset of `struct Params`; none when the kind has no parameters.
+    pub params: Option<u32>,
+    /// Offset of each knob in the block, by index of the kind's input; none for inputs that are no knobs.
+    pub knobs: Vec<Option<u32>>,
+}
+
+impl BlockLayout {
+    /// The layout for these kinds, one a block index.
+    pub(super) fn new<'a>(kinds: impl Iterator<Item = &'a Kind>, with_flags: bool) -> BlockLayout {
+        let mut end = 0_u32;
+        let flags = with_flags.then(|| place(&mut end, 16, 16));
+        let calls = kinds
+            .map(|kind| {
+                let params = (kind.params_size > 0).then(|| place(&mut end, kind.params_size, params_align(kind)));
+                CallLayout {
+                    params,
+                    knobs: knob_offsets(kind, &mut end),
+                }
+            })
+            .collect();
+        BlockLayout {
+            size: end.next_multiple_of(16).max(16),
+            flags,
+            calls,
+        }
+    }
+}
+
+/// Members of a kind's knob struct: input name, WGSL type.
+pub(super) fn knob_members(kind: &Kind) -> Vec<(&str, &'static str)> {
+    let knobs = kind
+        .inputs
+        .iter()
+        .filter(|input| matches!(input.default, InputDefault::Knob(_)));
+    knobs
+        .map(|input| {
+            (
+                input.name.as_str(),
+                if input.ty == PortType::Mask { "f32" } else { "vec3f" },
+            )
+        })
+        .collect()
+}
+
+fn knob_offsets(kind: &Kind, end: &mut u32) -> Vec<Option<u32>> {
+    let is_knob = |default: &InputDefault| matches!(default, InputDefault::Knob(_));
+    let align = match knob_members(kind)
+        .iter()
+        .map(|(_, ty)| if *ty == "f32" { 4 } else { 16 })
+        .max()
+    {
+        Some(align) => align,
+        None => return vec![None; kind.inputs.len()],
+    };
+    *end = end.next_multiple_of(align);
+    let offsets = kind
+        .inputs
+        .iter()
+        .map(|input| {
+            is_knob(&input.default).then(|| match input.ty {
+                PortType::Mask => place(end, 4, 4),
+                _ => place(end, 12, 16),
+            })
+        })
+        .collect();
+    *end = end.next_multiple_of(align);
+    offsets
+}
+
+fn params_align(kind: &Kind) -> u32 {
+    let align = |ty| match ty {
+        ParamType::F32 | ParamType::U32 | ParamType::I32 => 4,
+        ParamType::Vec2 => 8,
+        ParamType::Vec3 | ParamType::Vec4 | ParamType::Stops(_) => 16,
+    };
+    kind.params.iter().map(|param| align(param.ty)).max().unwrap_or(4)
+}
+
+fn place(end: &mut u32, size: u32, align: u32) -> u32 {
+    let start = end.next_multiple_of(align);
+    *end = start + size;
+    start
+}

@@ -1,0 +1,387 @@
+//! Writes the WGSL of a kernel.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+use sabi_graph::PortType;
+
+use super::block::{BlockLayout, knob_members};
+use super::rename::with_prefix;
+use super::{Binding, Call, Convert, KernelSpec, Plane, Store, Stored, prefix};
+use crate::kind::{Argument, Channel, InputDefault, Kind, Output};
+
+/// A kernel's text and what the host needs to feed it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    /// WGSL with one entry point, `main`, of workgroup size 8 × 8.
+    pub wgsl: String,
+    /// Where parameters lie in the block.
+    pub layout: BlockLayout,
+    /// Number of texture bindings that are read, after binding 0 of group 1.
+    pub reads: usize,
+    /// Storage formats of the bindings that are written, after those.
+    pub writes: Vec<super::Format>,
+}
+
+/// Turns a spec into WGSL.
+///
+/// `kind` finds a kind by id, `library` the text of a shared file; `surface` is the text that reconstructs a
+/// [`Surface`](https://www.w3.org/TR/WGSL/) from the atlas. The spec must name only kinds and functions that exist.
+pub fn link<'a>(
+    spec: &KernelSpec,
+    kind: impl Fn(&str) -> Option<&'a Kind>,
+    library: impl Fn(&str) -> Option<&'a str>,
+    surface: &str,
+) -> Result<Kernel, LinkError> {
+    let kinds: Vec<&Kind> = spec
+        .calls
+        .iter()
+        .map(|call| kind(&call.kind).ok_or_else(|| LinkError::UnknownKind(call.kind.clone())))
+        .collect::<Result<_, _>>()?;
+    let mut blocks: BTreeMap<usize, &Kind> = BTreeMap::new();
+    for (call, kind) in spec.calls.iter().zip(&kinds) {
+        blocks.insert(call.block, kind);
+    }
+    let switches = spec
+        .calls
+        .iter()
+        .any(|call| call.inputs.iter().any(|b| matches!(b, Binding::Switch(_))));
+    let layout = BlockLayout::new(blocks.values().copied(), switches);
+
+    let mut out = String::new();
+    write_sources(&mut out, &blocks);
+    write_block(&mut out, &blocks, switches);
+    let (reads, writes) = write_bindings(&mut out, spec);
+    write_main(&mut out, spec, &kinds)?;
+    out.push_str(surface);
+    for name in libraries(&kinds) {
+        out.push('\n');
+        out.push_str(library(&name).ok_or_else(|| LinkError::UnknownLibrary(name.clone()))?);
+    }
+    Ok(Kernel {
+        wgsl: out,
+        layout,
+        reads,
+        writes,
+    })
+}
+
+/// Why a kernel could not be put together; both point to a mistake in the planner, not in a graph.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LinkError {
+    /// A call names a kind that does not exist.
+    #[error("the kernel calls the node kind '{0}', which is not loaded; reload the node folder")]
+    UnknownKind(String),
+    /// A kind uses a library that does not exist.
+    #[error("a node uses the library '{0}', which is not loaded; add `lib/{0}.wgsl` or remove the `@use`")]
+    UnknownLibrary(String),
+    /// A call names a function that its kind does not have.
+    #[error("the node kind '{0}' has no result '{1}'")]
+    UnknownFunction(String, String),
+}
+
+fn libraries(kinds: &[&Kind]) -> Vec<String> {
+    let mut names = vec!["core".to_owned()];
+    for name in kinds.iter().flat_map(|kind| &kind.libraries) {
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names
+}
+
+fn write_sources(out: &mut String, blocks: &BTreeMap<usize, &Kind>) {
+    let mut written = BTreeSet::new();
+    for kind in blocks.values() {
+        if !written.insert(&kind.id) {
+            continue;
+        }
+        let prefix = prefix(kind);
+        out.push_str(&with_prefix(&kind.source, &prefix));
+        let knobs = knob_members(kind);
+        if !knobs.is_empty() {
+            let _ = writeln!(out, "struct {prefix}Knobs {{");
+            for (name, ty) in knobs {
+                let _ = writeln!(out, "    {name}: {ty},");
+            }
+            out.push_str("}\n");
+        }
+        write_bounded(out, kind, &prefix);
+    }
+}
+
+/// A function that keeps loop-bounding parameters inside their range, whatever the buffer holds.
+fn write_bounded(out: &mut String, kind: &Kind, prefix: &str) {
+    if kind.params_size == 0 {
+        return;
+    }
+    let _ = writeln!(
+        out,
+        "fn {prefix}bounded(params: {prefix}Params) -> {prefix}Params {{\n    var bounded = params;"
+    );
+    for param in kind.params.iter().filter(|param| param.bounds_a_loop) {
+        if let Some([low, high]) = param.range {
+            let suffix = if param.ty == crate::kind::ParamType::U32 {
+                "u"
+            } else {
+                "i"
+            };
+            let (name, low, high) = (&param.name, low as i64, high as i64);
+            let _ = writeln!(
+                out,
+                "    bounded.{name} = clamp(bounded.{name}, {low}{suffix}, {high}{suffix});"
+            );
+        }
+    }
+    out.push_str("    return bounded;\n}\n");
+}
+
+fn write_block(out: &mut String, blocks: &BTreeMap<usize, &Kind>, switches: bool) {
+    out.push_str("struct Block {\n");
+    let empty = out.len();
+    if switches {
+        out.push_str("    flags: vec4u,\n");
+    }
+    for (index, kind) in blocks {
+        let prefix = prefix(kind);
+        if kind.params_size > 0 {
+            let _ = writeln!(out, "    params_{index}: {prefix}Params,");
+        }
+        if !knob_members(kind).is_empty() {
+            let _ = writeln!(out, "    knobs_{index}: {prefix}Knobs,");
+        }
+    }
+    if out.len() == empty {
+        out.push_str("    unused: vec4u,\n");
+    }
+    out.push_str("}\n@group(1) @binding(0) var<storage, read> block: Block;\n");
+}
+
+/// Name of a plane in generated code.
+fn plane_name(plane: Plane) -> &'static str {
+    match plane {
+        Plane::Mask => "mask",
+        Plane::Color => "rgb",
+        Plane::Vector => "xyz",
+        Plane::Material(Channel::Color) => "color",
+        Plane::Material(Channel::Surface) => "surface",
+        Plane::Material(Channel::Height) => "height",
+        Plane::Material(Channel::Slope) => "slope",
+        Plane::Material(Channel::Emission) => "emission",
+    }
+}
+
+fn write_bindings(out: &mut String, spec: &KernelSpec) -> (usize, Vec<super::Format>) {
+    let mut binding = 1;
+    for (index, load) in spec.loads.iter().enumerate() {
+        for plane in load.planes() {
+            let name = plane_name(plane);
+            let _ = writeln!(
+                out,
+                "@group(1) @binding({binding}) var load_{index}_{name}: texture_2d_array<f32>;"
+            );
+            binding += 1;
+        }
+    }
+    let reads = binding - 1;
+    let mut writes = Vec::new();
+    for (index, store) in spec.stores.iter().enumerate() {
+        for (plane, format) in store.stored.planes().into_iter().zip(&store.formats) {
+            let (name, format_name) = (plane_name(plane), format.wgsl());
+            let _ = writeln!(
+                out,
+                "@group(1) @binding({binding}) var store_{index}_{name}: texture_storage_2d_array<{format_name}, write>;"
+            );
+            binding += 1;
+            writes.push(*format);
+        }
+    }
+    (reads, writes)
+}
+
+fn write_main(out: &mut String, spec: &KernelSpec, kinds: &[&Kind]) -> Result<(), LinkError> {
+    out.push_str(
+        "@compute @workgroup_size(8, 8)\n\
+         fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {\n    \
+         let texel = texel_of(group, local);\n    let owner = owner_of(texel);\n",
+    );
+    out.push_str(if spec.on_ghosts {
+        "    if owner == EMPTY { return; }\n"
+    } else {
+        "    if (owner & GHOST_BIT) != 0u { return; }\n"
+    });
+    out.push_str("    let at = surface_at(texel, owner);\n");
+    let mut bounded = BTreeSet::new();
+    for (index, (call, kind)) in spec.calls.iter().zip(kinds).enumerate() {
+        if kind.params_size > 0 && bounded.insert(call.block) {
+            let (block, prefix) = (call.block, prefix(kind));
+            let _ = writeln!(out, "    let bounded_{block} = {prefix}bounded(block.params_{block});");
+        }
+        write_call(out, index, call, kind, spec)?;
+    }
+    for (index, store) in spec.stores.iter().enumerate() {
+        write_store(out, index, store);
+    }
+    out.push_str("}\n");
+    Ok(())
+}
+
+fn write_call(out: &mut String, index: usize, call: &Call, kind: &Kind, spec: &KernelSpec) -> Result<(), LinkError> {
+    let function = function(kind, &call.function)
+        .ok_or_else(|| LinkError::UnknownFunction(kind.id.clone(), call.function.clone()))?;
+    let mut arguments = Vec::new();
+    for argument in &function.arguments {
+        arguments.push(match argument {
+            Argument::At => "at".to_owned(),
+            Argument::Params => format!("bounded_{}", call.block),
+            Argument::Pass(pass) => {
+                let load = call.passes.get(*pass).copied().flatten().unwrap_or_default();
+                field_texture(load, &spec.loads[load])
+            }
+            Argument::Input(input) => match call.inputs[*input] {
+                Binding::Switch(load) => write_switch(out, index, *input, call, kind, load, &spec.loads[load]),
+                binding => input_expression(*input, binding, call, kind, spec),
+            },
+        });
+    }
+    let (prefix, name) = (prefix(kind), &call.function);
+    let _ = writeln!(out, "    let v{index} = {prefix}{name}({});", arguments.join(", "));
+    Ok(())
+}
+
+fn function<'a>(kind: &'a Kind, name: &str) -> Option<&'a Output> {
+    let passes = kind.passes.iter().map(|pass| &pass.function);
+    kind.outputs.iter().chain(passes).find(|function| function.name == name)
+}
+
+fn input_expression(input: usize, binding: Binding, call: &Call, kind: &Kind, spec: &KernelSpec) -> String {
+    match binding {
+        Binding::Default | Binding::Switch(_) => default_expression(input, call.block, kind),
+        Binding::Call(from, convert) => converted(&format!("v{from}"), convert),
+        Binding::Load(load, convert) => converted(&load_expression(load, &spec.loads[load]), convert),
+        Binding::Field(load) => field_texture(load, &spec.loads[load]),
+    }
+}
+
+fn default_expression(input: usize, block: usize, kind: &Kind) -> String {
+    let input = &kind.inputs[input];
+    match &input.default {
+        InputDefault::Knob(_) => format!("block.knobs_{block}.{}", input.name),
+        InputDefault::Expression(expression) => expression.clone(),
+        InputDefault::PlainMaterial | InputDefault::Required => "plain_material()".to_owned(),
+    }
+}
+
+fn converted(value: &str, convert: Convert) -> String {
+    match convert {
+        Convert::None => value.to_owned(),
+        Convert::Gray => format!("vec3f({value})"),
+        Convert::Luminance => format!("luminance({value})"),
+    }
+}
+
+fn field_texture(load: usize, stored: &Stored) -> String {
+    let plane = stored.planes().first().copied().map_or("mask", plane_name);
+    format!("load_{load}_{plane}")
+}
+
+fn texel_expression(load: usize, plane: Plane) -> String {
+    format!("textureLoad(load_{load}_{}, texel.xy, texel.z, 0)", plane_name(plane))
+}
+
+fn load_expression(load: usize, stored: &Stored) -> String {
+    match stored.ty {
+        PortType::Mask => format!("{}.x", texel_expression(load, Plane::Mask)),
+        PortType::Color => format!("{}.xyz", texel_expression(load, Plane::Color)),
+        PortType::Vector => format!("{}.xyz", texel_expression(load, Plane::Vector)),
+        PortType::Material => {
+            let has = |channel| stored.channels.contains(&channel);
+            let plane = |channel| texel_expression(load, Plane::Material(channel));
+            let color = if has(Channel::Color) {
+                plane(Channel::Color)
+            } else {
+                "vec4f(0.214, 0.214, 0.214, 1.0)".into()
+            };
+            let surface = if has(Channel::Surface) {
+                plane(Channel::Surface)
+            } else {
+                "vec4f(0.7, 0.0, 1.0, 0.0)".into()
+            };
+            let height = if has(Channel::Height) {
+                plane(Channel::Height)
+            } else {
+                "vec4f(0.0)".into()
+            };
+            let slope = if has(Channel::Slope) {
+                plane(Channel::Slope)
+            } else {
+                "vec4f(0.0)".into()
+            };
+            let emission = if has(Channel::Emission) {
+                plane(Channel::Emission)
+            } else {
+                "vec4f(0.0)".into()
+            };
+            format!("stored_material({color}, {surface}, {height}.x, {slope}.xyz, {emission}.xyz)")
+        }
+    }
+}
+
+/// Writes a local variable that the block's flags fill at run time, and answers its name.
+///
+/// Flag word 0 has two bits an input: 0 default, 1 as it is, 2 gray to color, 3 luminance. Word 1 has a bit a channel.
+fn write_switch(
+    out: &mut String,
+    index: usize,
+    input: usize,
+    call: &Call,
+    kind: &Kind,
+    load: usize,
+    stored: &Stored,
+) -> String {
+    let name = format!("in_{index}_{input}");
+    let default = default_expression(input, call.block, kind);
+    let mode = format!("((block.flags.x >> {}u) & 3u)", 2 * input);
+    let _ = writeln!(out, "    var {name} = {default};");
+    let value = match stored.ty {
+        PortType::Material => {
+            let plane = |channel| texel_expression(load, Plane::Material(channel));
+            format!(
+                "switched_material(block.flags.y >> {}u, {}, {}, {}.x, {}.xyz, {}.xyz)",
+                5 * input,
+                plane(Channel::Color),
+                plane(Channel::Surface),
+                plane(Channel::Height),
+                plane(Channel::Slope),
+                plane(Channel::Emission),
+            )
+        }
+        PortType::Mask => format!("switched_mask({mode}, {})", texel_expression(load, Plane::Mask)),
+        PortType::Color => format!("switched_color({mode}, {})", texel_expression(load, Plane::Color)),
+        PortType::Vector => format!("{}.xyz", texel_expression(load, Plane::Vector)),
+    };
+    let _ = writeln!(out, "    if {mode} != 0u {{ {name} = {value}; }}");
+    name
+}
+
+fn write_store(out: &mut String, index: usize, store: &Store) {
+    let call = store.call;
+    for plane in store.stored.planes() {
+        let value = match plane {
+            Plane::Mask => format!("vec4f(v{call}, 0.0, 0.0, 1.0)"),
+            Plane::Color | Plane::Vector => format!("vec4f(v{call}, 1.0)"),
+            Plane::Material(Channel::Color) => format!("vec4f(v{call}.base_color, v{call}.alpha)"),
+            Plane::Material(Channel::Surface) => {
+                format!("vec4f(v{call}.roughness, v{call}.metallic, v{call}.occlusion, 1.0)")
+            }
+            Plane::Material(Channel::Height) => format!("vec4f(v{call}.height, 0.0, 0.0, 1.0)"),
+            Plane::Material(Channel::Slope) => format!("vec4f(v{call}.slope, 1.0)"),
+            Plane::Material(Channel::Emission) => format!("vec4f(v{call}.emission, 1.0)"),
+        };
+        let name = plane_name(plane);
+        let _ = writeln!(
+            out,
+            "    textureStore(store_{index}_{name}, texel.xy, texel.z, {value});"
+        );
+    }
+}

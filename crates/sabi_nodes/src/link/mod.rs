@@ -1,0 +1,191 @@
+//! Linking: several node files become one compute kernel.
+//!
+//! A [`KernelSpec`] says what is called in which order and what is read from and written to storage; [`link`] turns
+//! it into WGSL. Names of different files are kept apart by a prefix, libraries are appended after the nodes.
+
+mod block;
+mod kernel;
+mod rename;
+
+use sabi_graph::PortType;
+
+use crate::kind::{Channel, Kind};
+
+pub use block::{BlockLayout, CallLayout};
+pub use kernel::{Kernel, LinkError, link};
+
+/// What a kernel does, as plain data. Two equal specs give the same text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KernelSpec {
+    /// Calls in order; a call may read results of earlier ones.
+    pub calls: Vec<Call>,
+    /// Stored results that are read.
+    pub loads: Vec<Stored>,
+    /// Results that are stored: which, and how.
+    pub stores: Vec<Store>,
+    /// Whether ghost texels are evaluated too: true for point nodes, false for fields.
+    pub on_ghosts: bool,
+}
+
+/// Evaluation of one function of a node.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Call {
+    /// Id of the kind.
+    pub kind: String,
+    /// Name of the function: an output or a pass.
+    pub function: String,
+    /// One for each input of the kind, in its order.
+    pub inputs: Vec<Binding>,
+    /// One for each pass of the kind: the load that holds its result, where the function reads it.
+    pub passes: Vec<Option<usize>>,
+    /// The parameter block of this call: calls of the same node share one.
+    pub block: usize,
+}
+
+/// Where an input comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// Nothing is connected: the knob, the default expression or the plain material.
+    Default,
+    /// The result of an earlier call.
+    Call(usize, Convert),
+    /// A stored result, read at this place.
+    Load(usize, Convert),
+    /// A stored result, handed over as a texture.
+    Field(usize),
+    /// Decided when the kernel runs, by the flags of the block: default, load, or load with conversion.
+    Switch(usize),
+}
+
+/// Conversion on a wire.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convert {
+    /// The types agree.
+    None,
+    /// Mask to color.
+    Gray,
+    /// Color to mask.
+    Luminance,
+}
+
+impl Convert {
+    /// The conversion from one port type to another that it accepts.
+    pub fn between(from: PortType, to: PortType) -> Convert {
+        match (from, to) {
+            (PortType::Mask, PortType::Color) => Convert::Gray,
+            (PortType::Color, PortType::Mask) => Convert::Luminance,
+            _ => Convert::None,
+        }
+    }
+}
+
+/// How a value lies in storage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stored {
+    /// What it is.
+    pub ty: PortType,
+    /// Channels of a material that take storage, in storage order; empty for other types.
+    pub channels: Vec<Channel>,
+}
+
+impl Stored {
+    /// Textures that hold it, in binding order.
+    pub fn planes(&self) -> Vec<Plane> {
+        match self.ty {
+            PortType::Mask => vec![Plane::Mask],
+            PortType::Color => vec![Plane::Color],
+            PortType::Vector => vec![Plane::Vector],
+            PortType::Material => self.channels.iter().map(|channel| Plane::Material(*channel)).collect(),
+        }
+    }
+}
+
+/// One stored result of a kernel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Store {
+    /// The call whose result it is.
+    pub call: usize,
+    /// How it is stored.
+    pub stored: Stored,
+    /// Texture formats, one for each plane.
+    pub formats: Vec<Format>,
+}
+
+/// One texture's worth of a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Plane {
+    /// One number.
+    Mask,
+    /// Linear RGB.
+    Color,
+    /// Three numbers.
+    Vector,
+    /// A channel of a material.
+    Material(Channel),
+}
+
+/// Storage format of a plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Format {
+    /// One half float.
+    R16Float,
+    /// One float.
+    R32Float,
+    /// Four half floats.
+    Rgba16Float,
+    /// Four floats.
+    Rgba32Float,
+}
+
+impl Format {
+    /// Bytes of one texel.
+    pub fn texel_bytes(self) -> u64 {
+        match self {
+            Format::R16Float => 2,
+            Format::R32Float => 4,
+            Format::Rgba16Float => 8,
+            Format::Rgba32Float => 16,
+        }
+    }
+
+    /// Name in WGSL.
+    pub fn wgsl(self) -> &'static str {
+        match self {
+            Format::R16Float => "r16float",
+            Format::R32Float => "r32float",
+            Format::Rgba16Float => "rgba16float",
+            Format::Rgba32Float => "rgba32float",
+        }
+    }
+}
+
+impl Plane {
+    /// The format that DESIGN §7 gives it; masks are half floats where the adapter can store them.
+    pub fn format(self, half_masks: bool) -> Format {
+        match self {
+            Plane::Mask if half_masks => Format::R16Float,
+            Plane::Mask | Plane::Material(Channel::Height) => Format::R32Float,
+            Plane::Color | Plane::Material(Channel::Color | Channel::Surface | Channel::Emission) => {
+                Format::Rgba16Float
+            }
+            Plane::Vector | Plane::Material(Channel::Slope) => Format::Rgba32Float,
+        }
+    }
+}
+
+/// The prefix that keeps a kind's names apart from those of other kinds in one module.
+fn prefix(kind: &Kind) -> String {
+    let mut prefix: String = kind
+        .id
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+        .collect();
+    if !prefix.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        prefix.insert(0, 'n');
+    }
+    prefix.push_str("__");
+    prefix
+}
+
+#[cfg(test)]
+mod tests;

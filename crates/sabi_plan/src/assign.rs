@@ -1,0 +1,140 @@
+//! Stored results get slots, and give them back after their last reader.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_graph::PortType;
+use sabi_nodes::link::{Plane, Stored};
+
+use crate::draft::{Draft, Kept};
+use crate::fuse::Value;
+use crate::keys::result_key;
+use crate::plan::{KernelStep, Plan, PlannedResult, SlotRef, Step};
+use crate::request::{Mode, Target};
+use crate::schedule::Builder;
+use crate::slots::SlotPool;
+
+impl Builder<'_, '_> {
+    /// Gives every stored plane a slot, and frees it after its last reader.
+    pub(crate) fn assign_slots(&self, drafts: Vec<Draft>, wanted: Vec<(Target, Option<Value>)>) -> Plan {
+        let keep_all = self.planner.mode == Mode::Interactive;
+        let half_masks = self.planner.limits.half_masks;
+        let wanted_values: BTreeSet<Value> = wanted.iter().filter_map(|(_, value)| *value).collect();
+        let mut last_use: BTreeMap<(Kept, Plane), usize> = BTreeMap::new();
+        for (at, draft) in drafts.iter().enumerate() {
+            for plane in draft.reads.iter().chain(&draft.writes).flatten().chain(&draft.scratch) {
+                last_use.insert(*plane, at);
+            }
+        }
+        let mut pool = SlotPool::default();
+        let mut slot_of: BTreeMap<(Kept, Plane), SlotRef> = BTreeMap::new();
+        let mut steps = Vec::new();
+        let mut nodes: Vec<String> = Vec::new();
+        for (at, draft) in drafts.into_iter().enumerate() {
+            for plane in draft.writes.iter().flatten().chain(&draft.scratch) {
+                slot_of.insert(*plane, pool.take(plane.1.format(half_masks)));
+            }
+            let slots = |planes: &[Option<(Kept, Plane)>]| -> Vec<Option<SlotRef>> {
+                planes.iter().map(|plane| plane.map(|plane| slot_of[&plane])).collect()
+            };
+            let (reads, writes) = (slots(&draft.reads), slots(&draft.writes));
+            steps.push(with_slots(
+                draft.step,
+                reads,
+                writes,
+                draft.scratch.map(|plane| slot_of[&plane]),
+            ));
+            add_names(&mut nodes, &steps[at]);
+            let dead: Vec<(Kept, Plane)> = slot_of
+                .keys()
+                .filter(|plane| last_use[*plane] == at && !keep_all)
+                .filter(|(kept, _)| !matches!(kept, Kept::Result(value) if wanted_values.contains(value)))
+                .copied()
+                .collect();
+            for plane in dead {
+                if let Some(slot) = slot_of.remove(&plane) {
+                    pool.release(slot);
+                }
+            }
+        }
+        let results = wanted
+            .into_iter()
+            .map(|(target, value)| self.result(target, value, &slot_of))
+            .collect();
+        Plan {
+            slots: pool.into_slots(),
+            steps,
+            results,
+            nodes,
+        }
+    }
+
+    fn result(
+        &self,
+        target: Target,
+        value: Option<Value>,
+        slot_of: &BTreeMap<(Kept, Plane), SlotRef>,
+    ) -> PlannedResult {
+        let Some((node, output)) = value else {
+            let stored = Stored {
+                ty: PortType::Material,
+                channels: Vec::new(),
+            };
+            return PlannedResult {
+                target,
+                from: None,
+                stored,
+                slots: Vec::new(),
+                key: [0; 32],
+            };
+        };
+        let stored = self.stored((node, output));
+        let slots = stored
+            .planes()
+            .iter()
+            .map(|plane| slot_of[&(Kept::Result((node, output)), *plane)])
+            .collect();
+        let name = self.node(node).output(output).map_or("", |(name, _)| name);
+        let key = result_key(self.node(node), name);
+        PlannedResult {
+            target,
+            from: Some((self.id(node), name.to_owned())),
+            stored,
+            slots,
+            key,
+        }
+    }
+}
+
+fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRef>>, scratch: Option<SlotRef>) -> Step {
+    match step {
+        Step::Source(mut source) => {
+            let planes = source.writes.iter_mut().flat_map(|(_, planes)| planes);
+            for ((_, place), slot) in planes.zip(writes.into_iter().flatten()) {
+                *place = slot;
+            }
+            Step::Source(source)
+        }
+        Step::Kernel(mut kernel) => {
+            if let (Some(feedback), Some(slot)) = (&mut kernel.feedback, scratch) {
+                feedback.scratch = slot;
+            }
+            Step::Kernel(KernelStep {
+                reads,
+                writes,
+                ..kernel
+            })
+        }
+    }
+}
+
+fn add_names(nodes: &mut Vec<String>, step: &Step) {
+    let names = match step {
+        Step::Source(source) => std::slice::from_ref(&source.id),
+        Step::Kernel(kernel) => &kernel.nodes,
+    };
+    for name in names {
+        if !nodes.contains(name) {
+            nodes.push(name.clone());
+        }
+    }
+}

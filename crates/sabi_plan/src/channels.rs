@@ -1,0 +1,45 @@
+//! Which channels a material result sets: those that are not set take no storage.
+
+use sabi_graph::PortType;
+use sabi_nodes::kind::{Channel, ChannelWrite, ParamValue};
+
+use crate::resolve::{Behavior, Resolved, ResolvedNode};
+
+/// Channels that each result sets: color and surface always, others when written, or passed on from an input.
+pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<Vec<Channel>> {
+    match node.behavior {
+        Behavior::Source(kind) | Behavior::Sink(kind) => {
+            kind.outputs.iter().map(|output| output.channels.clone()).collect()
+        }
+        Behavior::Shader(kind) => {
+            let passed_on: Vec<Channel> = node
+                .inputs
+                .iter()
+                .flatten()
+                .filter(|input| input.ty == PortType::Material)
+                .filter_map(|input| resolved.nodes[input.node].as_ref()?.channels.get(input.output).cloned())
+                .flatten()
+                .collect();
+            let is_on = |param: &usize| node.values.get(*param) != Some(&ParamValue::Unsigned(0));
+            let set = |write: &ChannelWrite| write.unless_off.iter().all(is_on);
+            kind.outputs
+                .iter()
+                .map(|output| {
+                    if output.ty != PortType::Material {
+                        return Vec::new();
+                    }
+                    let written = |channel| {
+                        output
+                            .channels
+                            .iter()
+                            .any(|write| write.channel == channel && set(write))
+                    };
+                    let always = |channel| matches!(channel, Channel::Color | Channel::Surface);
+                    let keeps =
+                        |channel: &Channel| always(*channel) || written(*channel) || passed_on.contains(channel);
+                    Channel::ALL.into_iter().filter(keeps).collect()
+                })
+                .collect()
+        }
+    }
+}

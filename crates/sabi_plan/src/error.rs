@@ -1,0 +1,183 @@
+//! What can be wrong with a graph once its kinds are known.
+
+use std::fmt;
+
+use sabi_graph::PortType;
+
+/// One problem, at a node and perhaps one of its ports or parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanError {
+    /// Id of the node in the flat graph.
+    pub node: String,
+    /// Kind as written.
+    pub kind: String,
+    /// What is wrong.
+    pub problem: Problem,
+}
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Problem {
+    /// No file describes this kind.
+    UnknownKind {
+        /// The kind with the most similar name.
+        nearest: Option<String>,
+    },
+    /// The file was written for a newer version of the kind.
+    NewerKind {
+        /// As the graph asks.
+        wanted: u32,
+        /// As the loaded file is.
+        loaded: u32,
+    },
+    /// The node has no such input.
+    UnknownInput {
+        /// As written.
+        port: String,
+        /// The most similar input.
+        nearest: Option<String>,
+    },
+    /// The node that an input names has no such result.
+    UnknownOutput {
+        /// The input.
+        port: String,
+        /// The node it names.
+        from: String,
+        /// As written.
+        output: String,
+        /// The most similar result.
+        nearest: Option<String>,
+    },
+    /// The wire carries what the input does not take.
+    Mistyped {
+        /// The input.
+        port: String,
+        /// What it takes.
+        takes: PortType,
+        /// Where the wire comes from.
+        from: String,
+        /// What it carries.
+        carries: PortType,
+    },
+    /// An input that must be connected is not.
+    MissingInput {
+        /// The input.
+        port: String,
+        /// What it takes.
+        takes: PortType,
+    },
+    /// The node has no such parameter.
+    UnknownParam {
+        /// As written.
+        param: String,
+        /// The most similar parameter.
+        nearest: Option<String>,
+    },
+    /// A parameter's value does not fit.
+    BadValue {
+        /// The parameter.
+        param: String,
+        /// What it takes, to follow "takes".
+        takes: String,
+        /// What it was given.
+        given: String,
+    },
+    /// The node has no result of that name, or none at all.
+    NoSuchResult {
+        /// As asked.
+        output: Option<String>,
+        /// The results there are.
+        known: Vec<String>,
+    },
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let PlanError { node, kind, problem } = self;
+        match problem {
+            Problem::UnknownKind { nearest } => {
+                write!(
+                    f,
+                    "node '{node}' is of kind '{kind}', which no loaded node file describes"
+                )?;
+                did_you_mean(f, nearest)
+            }
+            Problem::NewerKind { wanted, loaded } => write!(
+                f,
+                "node '{node}' was made with version {wanted} of '{kind}', but version {loaded} is loaded; update Sabi \
+                 or its node folder"
+            ),
+            Problem::UnknownInput { port, nearest } => {
+                write!(f, "node '{node}' ({kind}) has no input '{port}'")?;
+                did_you_mean(f, nearest)
+            }
+            Problem::UnknownOutput {
+                port,
+                from,
+                output,
+                nearest,
+            } => {
+                write!(
+                    f,
+                    "input '{port}' of node '{node}' asks '{from}' for '{output}', which it does not give"
+                )?;
+                did_you_mean(f, nearest)
+            }
+            Problem::Mistyped {
+                port,
+                takes,
+                from,
+                carries,
+            } => write!(
+                f,
+                "input '{port}' of node '{node}' takes a {takes}, but '{from}' gives a {carries}; connect a {takes}"
+            ),
+            Problem::MissingInput { port, takes } => {
+                write!(
+                    f,
+                    "input '{port}' of node '{node}' ({kind}) must be connected to a {takes}"
+                )
+            }
+            Problem::UnknownParam { param, nearest } => {
+                write!(
+                    f,
+                    "node '{node}' ({kind}) has no parameter '{param}'; it is kept and ignored"
+                )?;
+                did_you_mean(f, nearest)
+            }
+            Problem::BadValue { param, takes, given } => {
+                write!(
+                    f,
+                    "parameter '{param}' of node '{node}' ({kind}) takes {takes}, not {given}"
+                )
+            }
+            Problem::NoSuchResult {
+                output: Some(output),
+                known,
+            } if !known.is_empty() => {
+                write!(
+                    f,
+                    "node '{node}' ({kind}) has no result '{output}'; it gives {}",
+                    known.join(", ")
+                )
+            }
+            Problem::NoSuchResult { .. } => write!(f, "node '{node}' ({kind}) gives no result to look at"),
+        }
+    }
+}
+
+impl std::error::Error for PlanError {}
+
+impl PlanError {
+    /// Whether the graph can still be evaluated: the value is kept in the file and has no effect.
+    pub fn is_warning(&self) -> bool {
+        matches!(self.problem, Problem::UnknownParam { .. })
+    }
+}
+
+fn did_you_mean(f: &mut fmt::Formatter<'_>, nearest: &Option<String>) -> fmt::Result {
+    match nearest {
+        Some(nearest) => write!(f, "; did you mean '{nearest}'?"),
+        None => Ok(()),
+    }
+}

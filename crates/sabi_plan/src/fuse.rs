@@ -1,0 +1,211 @@
+//! Which nodes share a kernel.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_nodes::kind::{Reads, Shape};
+
+use crate::request::{Limits, Mode};
+use crate::resolve::{Behavior, Resolved};
+
+/// A result: node, and index of its output.
+pub(crate) type Value = (usize, usize);
+
+/// Nodes that are evaluated together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Group {
+    /// The engine fills the results.
+    Source { node: usize, outputs: Vec<usize> },
+    /// A node that reads stored results as textures.
+    Field { node: usize, outputs: Vec<usize> },
+    /// Point nodes in evaluation order, each with the results that are needed.
+    Points(Vec<(usize, Vec<usize>)>),
+}
+
+impl Group {
+    /// Results that this group makes.
+    pub(crate) fn values(&self) -> Vec<Value> {
+        match self {
+            Group::Source { node, outputs } | Group::Field { node, outputs } => {
+                outputs.iter().map(|output| (*node, *output)).collect()
+            }
+            Group::Points(members) => members
+                .iter()
+                .flat_map(|(node, outputs)| outputs.iter().map(|output| (*node, *output)))
+                .collect(),
+        }
+    }
+}
+
+/// Results that are read by something, or wanted.
+pub(crate) fn needed(resolved: &Resolved<'_>, wanted: &[Value]) -> BTreeSet<Value> {
+    let mut needed: BTreeSet<Value> = wanted.iter().copied().collect();
+    for node in &resolved.order {
+        let Some(ready) = &resolved.nodes[*node] else { continue };
+        needed.extend(ready.inputs.iter().flatten().map(|input| (input.node, input.output)));
+    }
+    needed
+}
+
+/// Cuts the wanted part of a graph into groups, in evaluation order.
+pub(crate) fn groups(
+    resolved: &Resolved<'_>,
+    needed: &BTreeSet<Value>,
+    wanted: &[Value],
+    mode: Mode,
+    limits: &Limits,
+) -> Vec<Group> {
+    let outputs_of = |node: usize| {
+        needed
+            .range((node, 0)..(node + 1, 0))
+            .map(|(_, output)| *output)
+            .collect::<Vec<_>>()
+    };
+    let mut groups = Vec::new();
+    let mut points = Vec::new();
+    for node in resolved.order.iter().copied() {
+        let Some(ready) = &resolved.nodes[node] else { continue };
+        let outputs = outputs_of(node);
+        match ready.behavior {
+            Behavior::Sink(_) => {}
+            _ if outputs.is_empty() => {}
+            Behavior::Source(_) => groups.push(Group::Source { node, outputs }),
+            Behavior::Shader(kind) if kind.shape == Shape::Field => groups.push(Group::Field { node, outputs }),
+            Behavior::Shader(_) => points.push((node, outputs)),
+        }
+    }
+    match mode {
+        Mode::Interactive => {
+            let single = |(node, outputs): (usize, Vec<usize>)| {
+                outputs
+                    .into_iter()
+                    .map(move |output| Group::Points(vec![(node, vec![output])]))
+            };
+            groups.extend(points.into_iter().flat_map(single));
+        }
+        Mode::Bake { fuse: false } => groups.extend(points.into_iter().map(|point| Group::Points(vec![point]))),
+        Mode::Bake { fuse: true } => {
+            for region in regions(resolved, points) {
+                cut(resolved, region, wanted, limits, &mut groups);
+            }
+        }
+    }
+    groups
+}
+
+/// Connected point nodes between which no stored result lies.
+///
+/// Each node gets the number of stored results that have to be made between it and the end, counted along the longest
+/// way; nodes of one number never wait for each other through a texture, so those that are connected form a region.
+fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec<(usize, Vec<usize>)>> {
+    let is_point: BTreeSet<usize> = points.iter().map(|(node, _)| *node).collect();
+    let mut distance: BTreeMap<usize, u32> = BTreeMap::new();
+    for node in resolved.order.iter().rev() {
+        let Some(ready) = &resolved.nodes[*node] else { continue };
+        let own = *distance.entry(*node).or_insert(0);
+        for input in ready.inputs.iter().flatten() {
+            let stored = !(is_point.contains(node) && is_point.contains(&input.node) && input.reads == Reads::Value);
+            let through = own + u32::from(stored);
+            let known = distance.entry(input.node).or_insert(0);
+            *known = (*known).max(through);
+        }
+    }
+    let mut region_of: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut regions: Vec<Vec<usize>> = Vec::new();
+    for (node, _) in &points {
+        let Some(ready) = &resolved.nodes[*node] else { continue };
+        let beside = ready
+            .inputs
+            .iter()
+            .flatten()
+            .filter(|input| is_point.contains(&input.node) && distance.get(&input.node) == distance.get(node));
+        let joined: BTreeSet<usize> = beside.filter_map(|input| region_of.get(&input.node).copied()).collect();
+        let home = joined.first().copied().unwrap_or_else(|| {
+            regions.push(Vec::new());
+            regions.len() - 1
+        });
+        for other in joined.iter().skip(1) {
+            let moved = std::mem::take(&mut regions[*other]);
+            region_of.extend(moved.iter().map(|node| (*node, home)));
+            regions[home].extend(moved);
+        }
+        regions[home].push(*node);
+        region_of.insert(*node, home);
+    }
+    let place: BTreeMap<usize, usize> = points.iter().enumerate().map(|(at, (node, _))| (*node, at)).collect();
+    regions.retain(|region| !region.is_empty());
+    regions
+        .into_iter()
+        .map(|mut region| {
+            region.sort_by_key(|node| place[node]);
+            region.into_iter().map(|node| points[place[&node]].clone()).collect()
+        })
+        .collect()
+}
+
+/// Cuts a region where it costs or binds more than a kernel may: the longest beginning that fits, then the rest.
+fn cut(
+    resolved: &Resolved<'_>,
+    mut region: Vec<(usize, Vec<usize>)>,
+    wanted: &[Value],
+    limits: &Limits,
+    groups: &mut Vec<Group>,
+) {
+    while !region.is_empty() {
+        let longest = (1..=region.len())
+            .rev()
+            .find(|count| fits(resolved, &region[..*count], wanted, limits));
+        let rest = region.split_off(longest.unwrap_or(1));
+        groups.push(Group::Points(std::mem::replace(&mut region, rest)));
+    }
+}
+
+fn fits(resolved: &Resolved<'_>, members: &[(usize, Vec<usize>)], wanted: &[Value], limits: &Limits) -> bool {
+    let cost: u64 = members
+        .iter()
+        .map(|(node, _)| u64::from(node_cost(resolved, *node)))
+        .sum();
+    if cost > u64::from(limits.cost) {
+        return false;
+    }
+    let inside: BTreeSet<usize> = members.iter().map(|(node, _)| *node).collect();
+    let mut loads: BTreeSet<Value> = BTreeSet::new();
+    for (node, _) in members {
+        let Some(ready) = &resolved.nodes[*node] else { continue };
+        let from_outside = ready
+            .inputs
+            .iter()
+            .flatten()
+            .filter(|input| !inside.contains(&input.node));
+        loads.extend(from_outside.map(|input| (input.node, input.output)));
+    }
+    let mut stores: BTreeSet<Value> = wanted
+        .iter()
+        .copied()
+        .filter(|(node, _)| inside.contains(node))
+        .collect();
+    for reader in resolved.order.iter().filter(|reader| !inside.contains(reader)) {
+        let Some(ready) = &resolved.nodes[*reader] else {
+            continue;
+        };
+        let read = ready.inputs.iter().flatten().map(|input| (input.node, input.output));
+        stores.extend(read.filter(|(node, _)| inside.contains(node)));
+    }
+    let planes = |values: &BTreeSet<Value>| values.iter().map(|value| planes(resolved, *value)).sum::<usize>();
+    planes(&loads) <= limits.sampled_textures && planes(&stores) <= limits.storage_textures
+}
+
+/// Expressions of a node, for the cost limit.
+pub(crate) fn node_cost(resolved: &Resolved<'_>, node: usize) -> u32 {
+    match resolved.nodes[node].as_ref().map(|ready| ready.behavior) {
+        Some(Behavior::Shader(kind)) => kind.cost,
+        _ => 0,
+    }
+}
+
+/// Number of textures that a result takes.
+fn planes(resolved: &Resolved<'_>, (node, output): Value) -> usize {
+    let channels = resolved.nodes[node]
+        .as_ref()
+        .and_then(|ready| ready.channels.get(output));
+    channels.map_or(1, |channels| channels.len().max(1))
+}

@@ -1,0 +1,58 @@
+//! A result's key names everything that can change it: there are no dirty flags.
+
+use sabi_graph::FlatNode;
+
+use crate::request::Planner;
+use crate::resolve::{Behavior, Resolved, ResolvedNode};
+
+impl Planner<'_> {
+    /// Key of a node's results: source text with its libraries, values, keys of the inputs, surface.
+    pub(crate) fn node_key(&self, node: &FlatNode, ready: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> [u8; 32] {
+        let mut hash = blake3::Hasher::new();
+        let mut part = |bytes: &[u8]| {
+            hash.update(&(bytes.len() as u64).to_le_bytes());
+            hash.update(bytes);
+        };
+        part(&self.surface_key);
+        part(node.kind.as_bytes());
+        match ready.behavior {
+            Behavior::Shader(kind) => {
+                part(kind.source.as_bytes());
+                for name in std::iter::once("core").chain(kind.libraries.iter().map(String::as_str)) {
+                    part(self.library.libraries().text(name).unwrap_or_default().as_bytes());
+                }
+            }
+            Behavior::Source(kind) | Behavior::Sink(kind) => {
+                part(&kind.content);
+                for (name, value) in &node.params {
+                    part(name.as_bytes());
+                    part(value.to_string().as_bytes());
+                }
+            }
+        }
+        part(&ready.params);
+        for (index, input) in ready.inputs.iter().enumerate() {
+            match input {
+                Some(input) => {
+                    part(&[1, input.output as u8]);
+                    part(&resolved.nodes[input.node].as_ref().map_or([0; 32], |from| from.key));
+                }
+                None => {
+                    part(&[0]);
+                    for number in ready.knobs.get(index).cloned().flatten().unwrap_or_default() {
+                        part(&number.to_le_bytes());
+                    }
+                }
+            }
+        }
+        *hash.finalize().as_bytes()
+    }
+}
+
+/// Key of one result of a node.
+pub(crate) fn result_key(node: &ResolvedNode<'_>, output: &str) -> [u8; 32] {
+    let mut hash = blake3::Hasher::new();
+    hash.update(&node.key);
+    hash.update(output.as_bytes());
+    *hash.finalize().as_bytes()
+}

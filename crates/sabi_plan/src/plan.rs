@@ -1,0 +1,193 @@
+//! The plan: passes as plain data, and as text.
+
+use std::fmt;
+
+use sabi_nodes::kind::Repeat;
+use sabi_nodes::link::{Format, KernelSpec, Plane, Stored};
+
+/// What is to be done, in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plan {
+    /// Textures that results lie in; several results may share one at different times.
+    pub slots: Vec<Slot>,
+    /// Steps in order.
+    pub steps: Vec<Step>,
+    /// The wanted results, in the order of the targets that could be planned.
+    pub results: Vec<PlannedResult>,
+    /// Ids of all nodes that take part, in evaluation order.
+    pub nodes: Vec<String>,
+}
+
+/// A texture of the pool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Slot {
+    /// Its format; all slots are as large as the atlas.
+    pub format: Format,
+}
+
+/// Index into [`Plan::slots`].
+pub type SlotRef = usize;
+
+/// One step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// The engine fills these slots.
+    Source(SourceStep),
+    /// A kernel runs over the surface.
+    Kernel(KernelStep),
+}
+
+/// Results made without a kernel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourceStep {
+    /// Index of the node in the flat graph.
+    pub node: usize,
+    /// Its id.
+    pub id: String,
+    /// Its kind.
+    pub kind: String,
+    /// Results that are read: name, planes and slots.
+    pub writes: Vec<(String, Vec<(Plane, SlotRef)>)>,
+    /// Key of the node's content.
+    pub key: [u8; 32],
+}
+
+/// A kernel over all covered tiles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KernelStep {
+    /// What the kernel is.
+    pub spec: KernelSpec,
+    /// Parameter bytes and knobs, one for each block of the spec.
+    pub blocks: Vec<BlockValues>,
+    /// Flag words of an interactive kernel; see `sabi_nodes::link`.
+    pub flags: [u32; 4],
+    /// Slots of the spec's loads, plane by plane; none where an interactive kernel has nothing to read.
+    pub reads: Vec<Option<SlotRef>>,
+    /// Slots of the spec's stores, plane by plane; none where an interactive kernel has a channel that is not set.
+    pub writes: Vec<Option<SlotRef>>,
+    /// Whether ghosts are filled over the links afterwards: true for fields, whose kernels skip them.
+    pub fills_ghosts: bool,
+    /// How often it runs, each time reading its own last result.
+    pub feedback: Option<Feedback>,
+    /// Ids of the nodes in it, in order.
+    pub nodes: Vec<String>,
+    /// Share of the kernel's cost for each of `nodes`; they add up to 1.
+    pub shares: Vec<f32>,
+    /// Keys of the stored results.
+    pub keys: Vec<[u8; 32]>,
+}
+
+/// Repetition of a field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Feedback {
+    /// Number of runs, at least 1.
+    pub times: u32,
+    /// Index into [`KernelStep::reads`] of the texture that is replaced by the last result from the second run on.
+    pub read: usize,
+    /// Slot that takes turns with the result's own.
+    pub scratch: SlotRef,
+}
+
+/// Values of one parameter block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlockValues {
+    /// Bytes of `struct Params`.
+    pub params: Vec<u8>,
+    /// Knob values by input, none where an input is no knob.
+    pub knobs: Vec<Option<Vec<f32>>>,
+}
+
+/// A wanted result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedResult {
+    /// The target as asked.
+    pub target: crate::Target,
+    /// Where it comes from: node id and result; none when a sink's input is not connected.
+    pub from: Option<(String, String)>,
+    /// How it is stored.
+    pub stored: Stored,
+    /// Slots, one a plane.
+    pub slots: Vec<SlotRef>,
+    /// Names its content.
+    pub key: [u8; 32],
+}
+
+impl Plan {
+    /// Number of kernel steps.
+    pub fn passes(&self) -> usize {
+        self.steps.iter().filter(|step| matches!(step, Step::Kernel(_))).count()
+    }
+
+    /// Groups of nodes that share a kernel.
+    pub fn fused(&self) -> Vec<Vec<String>> {
+        let kernels = self.steps.iter().filter_map(|step| match step {
+            Step::Kernel(kernel) if kernel.nodes.len() > 1 => Some(kernel.nodes.clone()),
+            _ => None,
+        });
+        kernels.collect()
+    }
+
+    /// Bytes of all slots for an atlas of so many texels.
+    pub fn slot_bytes(&self, texels: u64) -> u64 {
+        self.slots.iter().map(|slot| slot.format.texel_bytes() * texels).sum()
+    }
+}
+
+/// How often a function repeats, once its parameter is known.
+pub(crate) fn times(repeat: &Repeat, value_of: impl Fn(usize) -> u32) -> u32 {
+    match repeat {
+        Repeat::Once => 1,
+        Repeat::Times(times) => *times,
+        Repeat::Param(param) => value_of(*param),
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for step in &self.steps {
+            match step {
+                Step::Source(source) => {
+                    write!(f, "source {} {}", source.id, source.kind)?;
+                    let slots = source
+                        .writes
+                        .iter()
+                        .flat_map(|(_, planes)| planes)
+                        .map(|(_, slot)| Some(*slot));
+                    write_slots(f, " ->", slots)?;
+                }
+                Step::Kernel(kernel) => write_kernel(f, kernel)?,
+            }
+            writeln!(f)?;
+        }
+        for result in &self.results {
+            write!(f, "result {}", result.stored.ty)?;
+            write_slots(f, "", result.slots.iter().map(|slot| Some(*slot)))?;
+            writeln!(f)?;
+        }
+        Ok(())
+    }
+}
+
+fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result {
+    write!(f, "pass {}", kernel.nodes.join(" "))?;
+    write_slots(f, " <-", kernel.reads.iter().copied())?;
+    write_slots(f, " ->", kernel.writes.iter().copied())?;
+    if let Some(feedback) = &kernel.feedback {
+        write!(f, " x{} via s{}", feedback.times, feedback.scratch)?;
+    }
+    if kernel.fills_ghosts {
+        f.write_str(" halo")?;
+    }
+    Ok(())
+}
+
+fn write_slots(f: &mut fmt::Formatter<'_>, arrow: &str, slots: impl Iterator<Item = Option<SlotRef>>) -> fmt::Result {
+    let slots: Vec<SlotRef> = slots.flatten().collect();
+    if !slots.is_empty() {
+        f.write_str(arrow)?;
+    }
+    for slot in slots {
+        write!(f, " s{slot}")?;
+    }
+    Ok(())
+}

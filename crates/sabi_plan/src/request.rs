@@ -1,0 +1,128 @@
+//! What the planner is told.
+
+use std::collections::BTreeMap;
+
+use sabi_graph::{Fit, FlatGraph, PortType, Value};
+use sabi_nodes::Library;
+use sabi_nodes::kind::Channel;
+
+/// A node kind whose results the engine makes without a kernel, given to the planner as data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourceKind {
+    /// Identifier as in graph files.
+    pub id: String,
+    /// Name shown to artists.
+    pub label: String,
+    /// One sentence.
+    pub summary: String,
+    /// Parameters; the engine reads them itself.
+    pub params: Vec<TextParam>,
+    /// What may be connected; only sinks have inputs.
+    pub inputs: Vec<SourcePort>,
+    /// What it gives.
+    pub outputs: Vec<SourcePort>,
+    /// Hash of the content behind it (the model's textures, an image), which every key below it contains.
+    pub content: [u8; 32],
+}
+
+/// A parameter of a source kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextParam {
+    /// Name in graph files.
+    pub name: String,
+    /// What it does.
+    pub doc: String,
+    /// Value when not set.
+    pub default: Value,
+}
+
+/// A port of a source kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourcePort {
+    /// Name of the port.
+    pub name: String,
+    /// What it carries.
+    pub ty: PortType,
+    /// What it is for.
+    pub doc: String,
+    /// For a material result: the channels that it sets.
+    pub channels: Vec<Channel>,
+}
+
+/// A result that is wanted.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Target {
+    /// Index into [`FlatGraph::nodes`].
+    pub node: usize,
+    /// Name of the result; the first one if none. For a sink it names the input whose value is wanted.
+    pub port: Option<String>,
+}
+
+/// How passes are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// One pass a node and pipelines that survive rewiring; every result keeps a slot of its own.
+    Interactive,
+    /// Results live only until their last reader has run; with `fuse`, regions of point nodes are one pass.
+    Bake {
+        /// Whether to fuse.
+        fuse: bool,
+    },
+}
+
+/// What the adapter can bind, and how much goes into one kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Textures a pass may read, those of the surface not counted.
+    pub sampled_textures: usize,
+    /// Textures a pass may write.
+    pub storage_textures: usize,
+    /// Whether masks can be stored as half floats.
+    pub half_masks: bool,
+    /// naga expressions a fused kernel may hold: about sixteen noises of eight octaves, since compile time grows
+    /// faster than the kernel (DESIGN §5).
+    pub cost: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits {
+            sampled_textures: 12,
+            storage_textures: 4,
+            half_masks: true,
+            cost: 16 * 700,
+        }
+    }
+}
+
+/// What the model decides about lengths: plain functions, so that the planner needs no model.
+#[derive(Clone, Copy)]
+pub struct Lengths<'a> {
+    /// Factor from lengths written under a fit to working units, in which the fitted model lives.
+    pub working_from: &'a dyn Fn(&Fit) -> f64,
+    /// Lowest and highest `dot(vertex, direction)` over the fitted model's vertices, for a unit direction.
+    pub extent: &'a dyn Fn([f32; 3]) -> [f32; 2],
+}
+
+/// Kinds that only take: `output/material` and `output/mask`.
+pub type Sinks = BTreeMap<String, SourceKind>;
+
+/// Everything a plan depends on besides the targets.
+pub struct Planner<'a> {
+    /// The flat graph.
+    pub graph: &'a FlatGraph,
+    /// Kinds from WGSL files.
+    pub library: &'a Library,
+    /// Kinds made by the engine, by id.
+    pub sources: &'a BTreeMap<String, SourceKind>,
+    /// Kinds that only take, by id.
+    pub sinks: &'a Sinks,
+    /// Lengths of the model.
+    pub lengths: Lengths<'a>,
+    /// Names the surface (model, size, fit): part of every key.
+    pub surface_key: [u8; 32],
+    /// How to cut.
+    pub mode: Mode,
+    /// What the adapter allows.
+    pub limits: Limits,
+}

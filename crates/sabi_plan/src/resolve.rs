@@ -1,0 +1,396 @@
+//! Nodes meet their kinds: types are checked, values read, keys made.
+
+use sabi_graph::{FlatNode, FlatRef, PortType, nearest};
+use sabi_nodes::kind::{Channel, Input, InputDefault, Kind, ParamValue, Reads};
+use sabi_nodes::link::Convert;
+
+use crate::channels::channels;
+use crate::error::{PlanError, Problem};
+use crate::inputs::read_values;
+use crate::muted::{Ports, behind_muted};
+use crate::request::{Planner, SourceKind, SourcePort, Target};
+use crate::values::{Packing, pack_params};
+
+/// How a node is evaluated.
+#[derive(Clone, Copy, Debug)]
+pub enum Behavior<'a> {
+    /// By a kernel.
+    Shader(&'a Kind),
+    /// By the engine.
+    Source(&'a SourceKind),
+    /// Not at all: it only takes.
+    Sink(&'a SourceKind),
+}
+
+/// A node whose ports and values are known to be right.
+#[derive(Clone, Debug)]
+pub struct ResolvedNode<'a> {
+    /// How it is evaluated.
+    pub behavior: Behavior<'a>,
+    /// One for each input of the kind; none where nothing is connected.
+    pub inputs: Vec<Option<ResolvedInput>>,
+    /// Values of the parameters in artist's units; empty for sources and sinks.
+    pub values: Vec<ParamValue>,
+    /// Bytes of `struct Params`.
+    pub params: Vec<u8>,
+    /// Knob values by input.
+    pub knobs: Vec<Option<Vec<f32>>>,
+    /// For each output the channels that a material result sets.
+    pub channels: Vec<Vec<Channel>>,
+    /// Names the content of all results.
+    pub key: [u8; 32],
+}
+
+/// Where an input's value comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResolvedInput {
+    /// Index of the node in the flat graph.
+    pub node: usize,
+    /// Index of its result.
+    pub output: usize,
+    /// Type of that result.
+    pub ty: PortType,
+    /// Conversion on the way.
+    pub convert: Convert,
+    /// Whether the value is read here or as a stored texture.
+    pub reads: Reads,
+}
+
+/// The wanted part of a graph.
+#[derive(Debug, Default)]
+pub struct Resolved<'a> {
+    /// By index in the flat graph; none when not wanted, or not possible.
+    pub nodes: Vec<Option<ResolvedNode<'a>>>,
+    /// Indices of the resolved nodes, inputs first, chains kept together.
+    pub order: Vec<usize>,
+    /// Everything that is wrong in the wanted part, in evaluation order.
+    pub errors: Vec<PlanError>,
+}
+
+impl ResolvedNode<'_> {
+    /// Name and type of a result.
+    pub fn output(&self, index: usize) -> Option<(&str, PortType)> {
+        match self.behavior {
+            Behavior::Shader(kind) => kind.outputs.get(index).map(|output| (output.name.as_str(), output.ty)),
+            Behavior::Source(kind) | Behavior::Sink(kind) => {
+                kind.outputs.get(index).map(|output| (output.name.as_str(), output.ty))
+            }
+        }
+    }
+}
+
+impl<'a> Planner<'a> {
+    /// Resolves what the targets need.
+    pub fn resolve(&self, targets: &[Target]) -> Resolved<'a> {
+        let count = self.graph.nodes.len();
+        let mut resolved = Resolved {
+            nodes: (0..count).map(|_| None).collect(),
+            ..Resolved::default()
+        };
+        for node in self.evaluation_order(targets) {
+            match self.resolve_node(node, &resolved) {
+                Ok(Some(ready)) => {
+                    resolved.nodes[node] = Some(ready);
+                    resolved.order.push(node);
+                }
+                Ok(None) => {}
+                Err(errors) => resolved.errors.extend(errors),
+            }
+            let warnings = self.unknown_params(node);
+            resolved.errors.extend(warnings);
+        }
+        resolved
+    }
+
+    /// Nodes that the targets need, inputs before readers, by depth first so that chains stay together.
+    fn evaluation_order(&self, targets: &[Target]) -> Vec<usize> {
+        let mut seen = vec![false; self.graph.nodes.len()];
+        let mut order = Vec::new();
+        for target in targets {
+            // An explicit stack: graphs may be deeper than a thread's.
+            let mut stack = vec![(target.node, false)];
+            while let Some((node, inputs_done)) = stack.pop() {
+                if inputs_done {
+                    order.push(node);
+                } else if !std::mem::replace(&mut seen[node], true) {
+                    stack.push((node, true));
+                    let wires = self.graph.nodes[node].inputs.values();
+                    let behind = wires.filter_map(|from| behind_muted(self.graph, self, from));
+                    let fresh: Vec<usize> = behind.map(|from| from.node).filter(|from| !seen[*from]).collect();
+                    stack.extend(fresh.into_iter().rev().map(|from| (from, false)));
+                }
+            }
+        }
+        order
+    }
+
+    /// The behavior of a node's kind.
+    pub fn behavior(&self, node: &FlatNode) -> Result<Behavior<'a>, Problem> {
+        if let Some(kind) = self.sources.get(&node.kind) {
+            return Ok(Behavior::Source(kind));
+        }
+        if let Some(kind) = self.sinks.get(&node.kind) {
+            return Ok(Behavior::Sink(kind));
+        }
+        let Some(kind) = self.library.kind(&node.kind) else {
+            let own = self.sources.keys().chain(self.sinks.keys()).map(String::as_str);
+            let known = own.chain(self.library.kinds().map(|kind| kind.id.as_str()));
+            return Err(Problem::UnknownKind {
+                nearest: nearest(&node.kind, known).map(str::to_owned),
+            });
+        };
+        if node.version > kind.version {
+            return Err(Problem::NewerKind {
+                wanted: node.version,
+                loaded: kind.version,
+            });
+        }
+        Ok(Behavior::Shader(kind))
+    }
+
+    /// `Ok(None)` when a node above is at fault: this one only waits.
+    fn resolve_node(&self, index: usize, resolved: &Resolved<'a>) -> Result<Option<ResolvedNode<'a>>, Vec<PlanError>> {
+        let node = &self.graph.nodes[index];
+        let at_fault = |problem| PlanError {
+            node: node.id.clone(),
+            kind: node.kind.clone(),
+            problem,
+        };
+        let behavior = self.behavior(node).map_err(|problem| vec![at_fault(problem)])?;
+        let mut problems = Vec::new();
+        let mut waits = false;
+        let ports = ports(behavior);
+        for port in node.inputs.keys() {
+            if !ports.iter().any(|known| known.name == port) {
+                let known = ports.iter().map(|known| known.name);
+                let nearest = nearest(port, known).map(str::to_owned);
+                problems.push(Problem::UnknownInput {
+                    port: port.clone(),
+                    nearest,
+                });
+            }
+        }
+        let mut inputs = Vec::new();
+        for port in &ports {
+            match self.resolve_input(node, port, resolved) {
+                Ok(Wire::To(input)) => inputs.push(Some(input)),
+                Ok(Wire::Open) => inputs.push(None),
+                Ok(Wire::Waits) => waits = true,
+                Err(problem) => problems.push(problem),
+            }
+        }
+        let (values, knobs) = match behavior {
+            Behavior::Shader(kind) => read_values(kind, node, &mut problems),
+            _ => (Vec::new(), Vec::new()),
+        };
+        if !problems.is_empty() {
+            return Err(problems.into_iter().map(at_fault).collect());
+        }
+        if waits {
+            return Ok(None);
+        }
+        let mut ready = ResolvedNode {
+            behavior,
+            inputs,
+            params: self.pack(behavior, node, &values),
+            knobs,
+            values,
+            channels: Vec::new(),
+            key: [0; 32],
+        };
+        ready.channels = channels(&ready, resolved);
+        ready.key = self.node_key(node, &ready, resolved);
+        Ok(Some(ready))
+    }
+
+    fn pack(&self, behavior: Behavior<'_>, node: &FlatNode, values: &[ParamValue]) -> Vec<u8> {
+        let Behavior::Shader(kind) = behavior else {
+            return Vec::new();
+        };
+        let packing = Packing {
+            seeds: &node.seeds,
+            working_from_length: node.length_scale * (self.lengths.working_from)(&node.fit),
+            extent: self.lengths.extent,
+        };
+        pack_params(kind, values, &packing)
+    }
+
+    fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<Wire, Problem> {
+        let wire = node
+            .inputs
+            .get(port.name)
+            .and_then(|from| behind_muted(self.graph, self, from));
+        let Some(from) = wire else {
+            return if port.required {
+                Err(Problem::MissingInput {
+                    port: port.name.to_owned(),
+                    takes: port.ty,
+                })
+            } else {
+                Ok(Wire::Open)
+            };
+        };
+        let from_id = self.graph.nodes[from.node].id.clone();
+        let Some((output, ty)) = self.find_output(&from) else {
+            let Ok(behavior) = self.behavior(&self.graph.nodes[from.node]) else {
+                return Ok(Wire::Waits);
+            };
+            let output = from.port.unwrap_or_else(|| "result".to_owned());
+            let names = output_names(behavior);
+            let nearest = nearest(&output, names.iter().copied()).map(str::to_owned);
+            return Err(Problem::UnknownOutput {
+                port: port.name.to_owned(),
+                from: from_id,
+                output,
+                nearest,
+            });
+        };
+        if !port.ty.accepts(ty) {
+            let (takes, carries) = (port.ty, ty);
+            return Err(Problem::Mistyped {
+                port: port.name.to_owned(),
+                takes,
+                from: from_id,
+                carries,
+            });
+        }
+        if resolved.nodes[from.node].is_none() {
+            return Ok(Wire::Waits);
+        }
+        let convert = Convert::between(ty, port.ty);
+        Ok(Wire::To(ResolvedInput {
+            node: from.node,
+            output,
+            ty,
+            convert,
+            reads: port.reads,
+        }))
+    }
+
+    fn find_output(&self, from: &FlatRef) -> Option<(usize, PortType)> {
+        let find = |names: &[(&str, PortType)]| {
+            let index = match &from.port {
+                None => 0,
+                Some(port) => names.iter().position(|(name, _)| name == port)?,
+            };
+            names.get(index).map(|(_, ty)| (index, *ty))
+        };
+        match self.behavior(&self.graph.nodes[from.node]).ok()? {
+            Behavior::Shader(kind) => find(
+                &kind
+                    .outputs
+                    .iter()
+                    .map(|output| (output.name.as_str(), output.ty))
+                    .collect::<Vec<_>>(),
+            ),
+            Behavior::Source(kind) | Behavior::Sink(kind) => find(
+                &kind
+                    .outputs
+                    .iter()
+                    .map(|output| (output.name.as_str(), output.ty))
+                    .collect::<Vec<_>>(),
+            ),
+        }
+    }
+
+    /// Parameters that the kind does not have: kept in the file, without effect.
+    fn unknown_params(&self, index: usize) -> Vec<PlanError> {
+        let node = &self.graph.nodes[index];
+        let Ok(behavior) = self.behavior(node) else {
+            return Vec::new();
+        };
+        let known: Vec<&str> = match behavior {
+            Behavior::Shader(kind) => {
+                let params = kind.params.iter().map(|param| param.name.as_str());
+                let former = kind
+                    .params
+                    .iter()
+                    .flat_map(|param| param.formerly.iter().map(String::as_str));
+                params
+                    .chain(former)
+                    .chain(kind.inputs.iter().map(|input| input.name.as_str()))
+                    .collect()
+            }
+            Behavior::Source(kind) | Behavior::Sink(kind) => {
+                kind.params.iter().map(|param| param.name.as_str()).collect()
+            }
+        };
+        let unknown = node.params.keys().filter(|name| !known.contains(&name.as_str()));
+        let problem = |name: &String| Problem::UnknownParam {
+            param: name.clone(),
+            nearest: nearest(name, known.iter().copied()).map(str::to_owned),
+        };
+        unknown
+            .map(|name| PlanError {
+                node: node.id.clone(),
+                kind: node.kind.clone(),
+                problem: problem(name),
+            })
+            .collect()
+    }
+}
+
+enum Wire {
+    To(ResolvedInput),
+    Open,
+    Waits,
+}
+
+struct Port<'a> {
+    name: &'a str,
+    ty: PortType,
+    reads: Reads,
+    required: bool,
+}
+
+fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {
+    match behavior {
+        Behavior::Shader(kind) => {
+            let port = |input: &'a Input| Port {
+                name: &input.name,
+                ty: input.ty,
+                reads: input.reads,
+                required: input.default == InputDefault::Required,
+            };
+            kind.inputs.iter().map(port).collect()
+        }
+        Behavior::Source(kind) | Behavior::Sink(kind) => {
+            let port = |input: &'a SourcePort| Port {
+                name: &input.name,
+                ty: input.ty,
+                reads: Reads::Value,
+                required: true,
+            };
+            kind.inputs.iter().map(port).collect()
+        }
+    }
+}
+
+fn output_names(behavior: Behavior<'_>) -> Vec<&str> {
+    match behavior {
+        Behavior::Shader(kind) => kind.outputs.iter().map(|output| output.name.as_str()).collect(),
+        Behavior::Source(kind) | Behavior::Sink(kind) => {
+            kind.outputs.iter().map(|output| output.name.as_str()).collect()
+        }
+    }
+}
+
+impl Ports for Planner<'_> {
+    fn output(&self, node: usize, port: Option<&str>) -> Option<PortType> {
+        self.find_output(&FlatRef {
+            node,
+            port: port.map(str::to_owned),
+        })
+        .map(|(_, ty)| ty)
+    }
+
+    fn inputs(&self, node: usize) -> Vec<(String, PortType)> {
+        let Ok(behavior) = self.behavior(&self.graph.nodes[node]) else {
+            return Vec::new();
+        };
+        ports(behavior)
+            .into_iter()
+            .map(|port| (port.name.to_owned(), port.ty))
+            .collect()
+    }
+}

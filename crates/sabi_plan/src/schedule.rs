@@ -1,0 +1,335 @@
+//! Groups become steps, in an order that keeps few results alive.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_graph::PortType;
+use sabi_nodes::kind::{Argument, Channel, Kind, Output, ParamValue, Reads};
+use sabi_nodes::link::{Binding, Call, Stored};
+
+use crate::draft::{Draft, Kept, KernelDraft};
+use crate::error::{PlanError, Problem};
+use crate::fuse::{self, Group, Value};
+use crate::plan::{Plan, SourceStep, Step, times};
+use crate::request::{Mode, Planner, Target};
+use crate::resolve::{Behavior, Resolved, ResolvedNode};
+
+impl Planner<'_> {
+    /// Plans what the targets need. What is at fault, and what waits for it, is left out and reported.
+    pub fn plan(&self, targets: &[Target]) -> (Plan, Vec<PlanError>) {
+        let mut resolved = self.resolve(targets);
+        let mut errors = std::mem::take(&mut resolved.errors);
+        let mut wanted: Vec<(Target, Option<Value>)> = Vec::new();
+        for target in targets {
+            match self.wanted_value(&resolved, target) {
+                Ok(Some(value)) => wanted.push((target.clone(), value)),
+                Ok(None) => {}
+                Err(error) => errors.push(error),
+            }
+        }
+        let values: Vec<Value> = wanted.iter().filter_map(|(_, value)| *value).collect();
+        let needed = fuse::needed(&resolved, &values);
+        let groups = fuse::groups(&resolved, &needed, &values, self.mode, &self.limits);
+        let builder = Builder {
+            planner: self,
+            resolved: &resolved,
+            producer: producers(&groups),
+        };
+        let order = builder.order(&groups, &values);
+        let drafts: Vec<Draft> = order
+            .into_iter()
+            .flat_map(|group| builder.drafts(&groups[group], &values))
+            .collect();
+        (builder.assign_slots(drafts, wanted), errors)
+    }
+
+    /// The result that a target means; `None` inside when a sink's input is open, outside when it waits for a fault.
+    fn wanted_value(&self, resolved: &Resolved<'_>, target: &Target) -> Result<Option<Option<Value>>, PlanError> {
+        let Some(ready) = &resolved.nodes[target.node] else {
+            return Ok(None);
+        };
+        let names: Vec<&str> = match ready.behavior {
+            Behavior::Sink(kind) => kind.inputs.iter().map(|input| input.name.as_str()).collect(),
+            Behavior::Source(kind) => kind.outputs.iter().map(|output| output.name.as_str()).collect(),
+            Behavior::Shader(kind) => kind.outputs.iter().map(|output| output.name.as_str()).collect(),
+        };
+        let found = match &target.port {
+            None => (!names.is_empty()).then_some(0),
+            Some(port) => names.iter().position(|name| name == port),
+        };
+        let Some(index) = found else {
+            let node = &self.graph.nodes[target.node];
+            let known = names.iter().map(|name| (*name).to_owned()).collect();
+            let problem = Problem::NoSuchResult {
+                output: target.port.clone(),
+                known,
+            };
+            return Err(PlanError {
+                node: node.id.clone(),
+                kind: node.kind.clone(),
+                problem,
+            });
+        };
+        Ok(Some(match ready.behavior {
+            Behavior::Sink(_) => ready.inputs[index].map(|input| (input.node, input.output)),
+            _ => Some((target.node, index)),
+        }))
+    }
+}
+
+fn producers(groups: &[Group]) -> BTreeMap<Value, usize> {
+    let made = groups
+        .iter()
+        .enumerate()
+        .flat_map(|(at, group)| group.values().into_iter().map(move |value| (value, at)));
+    made.collect()
+}
+
+pub(crate) struct Builder<'p, 'a> {
+    pub(crate) planner: &'p Planner<'a>,
+    pub(crate) resolved: &'p Resolved<'a>,
+    producer: BTreeMap<Value, usize>,
+}
+
+impl Builder<'_, '_> {
+    pub(crate) fn node(&self, node: usize) -> &ResolvedNode<'_> {
+        self.resolved.nodes[node]
+            .as_ref()
+            .unwrap_or_else(|| unreachable!("only resolved nodes are grouped"))
+    }
+
+    pub(crate) fn id(&self, node: usize) -> String {
+        self.planner.graph.nodes[node].id.clone()
+    }
+
+    /// Groups that the wanted values need, by depth first from them, so that few results wait.
+    fn order(&self, groups: &[Group], wanted: &[Value]) -> Vec<usize> {
+        let mut seen = BTreeSet::new();
+        let mut order = Vec::new();
+        for value in wanted {
+            let mut stack = vec![(self.producer[value], false)];
+            while let Some((group, inputs_done)) = stack.pop() {
+                if inputs_done {
+                    order.push(group);
+                } else if seen.insert(group) {
+                    stack.push((group, true));
+                    let nodes: BTreeSet<usize> = groups[group].values().into_iter().map(|(node, _)| node).collect();
+                    let inputs = nodes.iter().flat_map(|node| self.node(*node).inputs.iter().flatten());
+                    let from = inputs.map(|input| self.producer[&(input.node, input.output)]);
+                    let fresh: Vec<usize> = from.filter(|from| !seen.contains(from)).collect();
+                    stack.extend(fresh.into_iter().rev().map(|from| (from, false)));
+                }
+            }
+        }
+        order
+    }
+
+    pub(crate) fn stored(&self, (node, output): Value) -> Stored {
+        let ready = self.node(node);
+        let ty = ready.output(output).map_or(PortType::Mask, |(_, ty)| ty);
+        let channels = if ty == PortType::Material {
+            ready.channels[output].clone()
+        } else {
+            Vec::new()
+        };
+        Stored { ty, channels }
+    }
+
+    fn drafts(&self, group: &Group, wanted: &[Value]) -> Vec<Draft> {
+        match group {
+            Group::Source { node, outputs } => vec![self.source(*node, outputs)],
+            Group::Field { node, outputs } => self.field(*node, outputs),
+            Group::Points(members) if self.planner.mode == Mode::Interactive => members
+                .iter()
+                .map(|(node, outputs)| self.single(*node, outputs[0]))
+                .collect(),
+            Group::Points(members) => vec![self.points(members, wanted)],
+        }
+    }
+
+    fn source(&self, node: usize, outputs: &[usize]) -> Draft {
+        let ready = self.node(node);
+        let mut writes = Vec::new();
+        let mut names = Vec::new();
+        for output in outputs {
+            let planes = self.stored((node, *output)).planes();
+            let name = ready.output(*output).map_or(String::new(), |(name, _)| name.to_owned());
+            names.push((name, planes.iter().map(|plane| (*plane, 0)).collect()));
+            writes.extend(
+                planes
+                    .into_iter()
+                    .map(|plane| Some((Kept::Result((node, *output)), plane))),
+            );
+        }
+        let step = SourceStep {
+            node,
+            id: self.id(node),
+            kind: self.planner.graph.nodes[node].kind.clone(),
+            writes: names,
+            key: ready.key,
+        };
+        Draft {
+            step: Step::Source(step),
+            reads: Vec::new(),
+            writes,
+            scratch: None,
+        }
+    }
+
+    /// A region of point nodes as one kernel.
+    fn points(&self, members: &[(usize, Vec<usize>)], wanted: &[Value]) -> Draft {
+        let group = self.producer[&(members[0].0, members[0].1[0])];
+        let mut kernel = KernelDraft::new(self, true);
+        let mut call_of: BTreeMap<Value, usize> = BTreeMap::new();
+        for (node, outputs) in members {
+            let block = kernel.block(*node);
+            for output in outputs {
+                let bindings = self.node(*node).inputs.iter().map(|input| match input {
+                    None => Binding::Default,
+                    Some(input) => match call_of.get(&(input.node, input.output)) {
+                        Some(call) => Binding::Call(*call, input.convert),
+                        None => Binding::Load(kernel.load((input.node, input.output)), input.convert),
+                    },
+                });
+                let inputs = bindings.collect();
+                let call = kernel.call(*node, *output, inputs, block);
+                call_of.insert((*node, *output), call);
+            }
+        }
+        for (value, call) in &call_of {
+            if wanted.contains(value) || self.is_read_outside(*value, group) {
+                kernel.store(*call, *value);
+            }
+        }
+        kernel.finish()
+    }
+
+    fn is_read_outside(&self, value: Value, group: usize) -> bool {
+        self.resolved.order.iter().any(|reader| {
+            let reads = self
+                .node(*reader)
+                .inputs
+                .iter()
+                .flatten()
+                .any(|input| (input.node, input.output) == value);
+            let outputs = self.producer.range((*reader, 0)..(*reader + 1, 0));
+            reads && outputs.into_iter().any(|(_, producer)| *producer != group)
+        })
+    }
+
+    /// One result of one point node, as a kernel that stays the same however the node is wired.
+    fn single(&self, node: usize, output: usize) -> Draft {
+        let Behavior::Shader(kind) = self.node(node).behavior else {
+            unreachable!("points are shaders")
+        };
+        let mut kernel = KernelDraft::new(self, true);
+        let block = kernel.block(node);
+        let mut flags = [0_u32; 4];
+        let mut inputs = Vec::new();
+        for (index, (port, input)) in kind.inputs.iter().zip(&self.node(node).inputs).enumerate() {
+            let channels = if port.ty == PortType::Material {
+                Channel::ALL.to_vec()
+            } else {
+                Vec::new()
+            };
+            let from = input.map(|input| (input.node, input.output));
+            inputs.push(Binding::Switch(
+                kernel.switched_load(from, Stored { ty: port.ty, channels }),
+            ));
+            if let Some(input) = input {
+                flags[0] |= mode_bits(input.ty, port.ty) << (2 * index);
+                let present = self
+                    .node(input.node)
+                    .channels
+                    .get(input.output)
+                    .cloned()
+                    .unwrap_or_default();
+                let bits = present.iter().fold(0, |bits, channel| bits | 1 << (*channel as u32));
+                flags[1] |= bits << (5 * index);
+            }
+        }
+        let call = kernel.call(node, output, inputs, block);
+        kernel.store_switched(call, (node, output));
+        kernel.flags = flags;
+        kernel.finish()
+    }
+
+    /// The passes of a field node and its results, each a kernel of its own.
+    fn field(&self, node: usize, outputs: &[usize]) -> Vec<Draft> {
+        let Behavior::Shader(kind) = self.node(node).behavior else {
+            unreachable!("fields are shaders")
+        };
+        let mut numbered: Vec<usize> = (0..kind.passes.len()).collect();
+        numbered.sort_by_key(|pass| kind.passes[*pass].number);
+        let passes = numbered
+            .into_iter()
+            .map(|pass| self.field_step(node, kind, &kind.passes[pass].function, Kept::Pass(node, pass)));
+        let results = outputs
+            .iter()
+            .map(|output| self.field_step(node, kind, &kind.outputs[*output], Kept::Result((node, *output))));
+        passes.chain(results).collect()
+    }
+
+    fn field_step(&self, node: usize, kind: &Kind, function: &Output, kept: Kept) -> Draft {
+        let mut kernel = KernelDraft::new(self, false);
+        let block = kernel.block(node);
+        let ready = self.node(node);
+        let mut inputs = Vec::new();
+        for (index, input) in ready.inputs.iter().enumerate() {
+            let is_read = function.arguments.contains(&Argument::Input(index));
+            inputs.push(match input {
+                Some(input) if is_read => {
+                    let load = kernel.load((input.node, input.output));
+                    match input.reads {
+                        Reads::Field => Binding::Field(load),
+                        Reads::Value => Binding::Load(load, input.convert),
+                    }
+                }
+                _ => Binding::Default,
+            });
+        }
+        let pass_is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
+        let passes: Vec<Option<usize>> = (0..kind.passes.len())
+            .map(|pass| pass_is_read(pass).then(|| kernel.load_pass(node, pass, kind.passes[pass].function.ty)))
+            .collect();
+        let first_field = function.arguments.iter().find_map(|argument| match argument {
+            Argument::Pass(pass) => passes[*pass],
+            Argument::Input(input) => match inputs[*input] {
+                Binding::Field(load) => Some(load),
+                _ => None,
+            },
+            _ => None,
+        });
+        kernel.spec.calls.push(Call {
+            kind: kind.id.clone(),
+            function: function.name.clone(),
+            inputs,
+            passes,
+            block,
+        });
+        kernel.store_kept(
+            0,
+            kept,
+            Stored {
+                ty: function.ty,
+                channels: Vec::new(),
+            },
+        );
+        let times = times(&function.repeat, |param| match ready.values.get(param) {
+            Some(ParamValue::Unsigned(times)) => *times,
+            _ => 1,
+        });
+        kernel.repeat = first_field
+            .filter(|_| times > 1)
+            .map(|read| (times, read, Kept::Scratch(node)));
+        kernel.finish()
+    }
+}
+
+/// Flag bits of an input: 1 as it is, 2 gray to color, 3 luminance.
+fn mode_bits(from: PortType, to: PortType) -> u32 {
+    match (from, to) {
+        (PortType::Mask, PortType::Color) => 2,
+        (PortType::Color, PortType::Mask) => 3,
+        _ => 1,
+    }
+}

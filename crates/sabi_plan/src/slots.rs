@@ -1,0 +1,35 @@
+//! Stored results share textures: a slot is free again once its last reader has run.
+
+use std::collections::BTreeMap;
+
+use sabi_nodes::link::Format;
+
+use crate::plan::{Slot, SlotRef};
+
+/// Hands out slots by format.
+#[derive(Debug, Default)]
+pub(crate) struct SlotPool {
+    slots: Vec<Slot>,
+    free: BTreeMap<Format, Vec<SlotRef>>,
+}
+
+impl SlotPool {
+    /// A slot of that format: the one freed last, or a new one.
+    pub(crate) fn take(&mut self, format: Format) -> SlotRef {
+        if let Some(slot) = self.free.get_mut(&format).and_then(Vec::pop) {
+            return slot;
+        }
+        self.slots.push(Slot { format });
+        self.slots.len() - 1
+    }
+
+    /// Gives a slot back.
+    pub(crate) fn release(&mut self, slot: SlotRef) {
+        self.free.entry(self.slots[slot].format).or_default().push(slot);
+    }
+
+    /// All slots ever taken.
+    pub(crate) fn into_slots(self) -> Vec<Slot> {
+        self.slots
+    }
+}

@@ -1,0 +1,128 @@
+//! Plans as text, without a device.
+
+mod faults;
+mod keys;
+mod passes;
+
+use std::collections::BTreeMap;
+
+use sabi_graph::{Document, FlatGraph, Overrides, PortType, Value, flatten};
+use sabi_nodes::Library;
+use sabi_nodes::kind::Channel;
+
+use crate::{Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, SourcePort, Target, TextParam};
+
+const FUSED: Mode = Mode::Bake { fuse: true };
+const UNFUSED: Mode = Mode::Bake { fuse: false };
+
+fn port(name: &str, ty: PortType, channels: &[Channel]) -> SourcePort {
+    SourcePort {
+        name: name.to_owned(),
+        ty,
+        doc: String::new(),
+        channels: channels.to_vec(),
+    }
+}
+
+fn kind(id: &str, inputs: Vec<SourcePort>, outputs: Vec<SourcePort>) -> SourceKind {
+    let name = TextParam {
+        name: "name".to_owned(),
+        doc: String::new(),
+        default: Value::Null,
+    };
+    SourceKind {
+        id: id.to_owned(),
+        label: String::new(),
+        summary: String::new(),
+        params: vec![name],
+        inputs,
+        outputs,
+        content: [0; 32],
+    }
+}
+
+/// A bench of its own: the built-in nodes, one source and the two sinks.
+struct Bench {
+    library: Library,
+    sources: BTreeMap<String, SourceKind>,
+    sinks: BTreeMap<String, SourceKind>,
+    limits: Limits,
+}
+
+impl Bench {
+    fn new() -> Bench {
+        let by_id = |kinds: Vec<SourceKind>| kinds.into_iter().map(|kind| (kind.id.clone(), kind)).collect();
+        let material = port("material", PortType::Material, &Channel::ALL);
+        Bench {
+            library: Library::builtin(),
+            sources: by_id(vec![kind("source/model", Vec::new(), vec![material.clone()])]),
+            sinks: by_id(vec![
+                kind("output/material", vec![material], Vec::new()),
+                kind("output/mask", vec![port("source", PortType::Mask, &[])], Vec::new()),
+            ]),
+            limits: Limits {
+                storage_textures: 8,
+                ..Limits::default()
+            },
+        }
+    }
+
+    fn plan(&self, graph: &FlatGraph, mode: Mode) -> (Plan, Vec<PlanError>) {
+        let planner = Planner {
+            graph,
+            library: &self.library,
+            sources: &self.sources,
+            sinks: &self.sinks,
+            lengths: Lengths {
+                working_from: &|_| 1.0,
+                extent: &|_| [0.0, 1.0],
+            },
+            surface_key: [7; 32],
+            mode,
+            limits: self.limits,
+        };
+        let is_sink = |kind: &str| kind.starts_with("output/");
+        let targets: Vec<Target> = (0..graph.nodes.len())
+            .filter(|node| is_sink(&graph.nodes[*node].kind))
+            .map(|node| Target { node, port: None })
+            .collect();
+        planner.plan(&targets)
+    }
+}
+
+fn flat(document: &Document) -> FlatGraph {
+    flatten(
+        document,
+        &Overrides::default(),
+        &mut |_| Err("no files here".to_owned()),
+    )
+    .expect("a sound document")
+}
+
+/// A graph from lines of the form `id kind input=node input=node …`; a value that names no node is a parameter.
+fn graph(lines: &str) -> FlatGraph {
+    let lines = lines.lines().map(str::trim).filter(|line| !line.is_empty());
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split_whitespace().collect()).collect();
+    let is_node = |name: &str| rows.iter().any(|row| name.split('.').next() == Some(row[0]));
+    let mut nodes = serde_json::Map::new();
+    for row in &rows {
+        let mut inputs = serde_json::Map::new();
+        let mut params = serde_json::Map::new();
+        let mut node = serde_json::json!({ "kind": row[1] });
+        for word in &row[2..] {
+            match word.split_once('=') {
+                None => node["muted"] = serde_json::json!(*word == "muted"),
+                Some((name, value)) if is_node(value) => drop(inputs.insert(name.to_owned(), value.into())),
+                Some((name, value)) => {
+                    let json = serde_json::from_str(value).unwrap_or_else(|_| value.into());
+                    params.insert(name.to_owned(), json);
+                }
+            }
+        }
+        node["inputs"] = inputs.into();
+        node["params"] = params.into();
+        nodes.insert(row[0].to_owned(), node);
+    }
+    let file = serde_json::json!({ "format": "sabi", "version": 1, "name": "test", "nodes": nodes });
+    flat(&Document::from_json(&file.to_string()).expect("a sound graph"))
+}

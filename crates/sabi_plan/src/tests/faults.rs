@@ -1,0 +1,74 @@
+//! What is said about graphs that cannot be planned.
+
+use super::{Bench, FUSED, graph};
+
+fn said(lines: &str) -> Vec<String> {
+    Bench::new()
+        .plan(&graph(lines), FUSED)
+        .1
+        .iter()
+        .map(ToString::to_string)
+        .collect()
+}
+
+#[test]
+fn each_fault_is_a_sentence_that_names_node_and_port() {
+    let cases = [
+        (
+            "a noise/simplx\n out output/mask source=a",
+            "node 'a' is of kind 'noise/simplx', which no loaded node file describes; did you mean 'noise/simplex'?",
+        ),
+        (
+            "a noise/simplex@9\n out output/mask source=a",
+            "node 'a' was made with version 9 of 'noise/simplex', but version 1 is loaded; update Sabi or its node folder",
+        ),
+        (
+            "b source/material\n out output/mask source=b",
+            "input 'source' of node 'out' takes a mask, but 'b' gives a material; connect a mask",
+        ),
+        (
+            "a noise/simplex\n b adjust/invert sourc=a\n out output/mask source=b",
+            "node 'b' (adjust/invert) has no input 'sourc'; did you mean 'source'?",
+        ),
+        (
+            "a noise/cells\n out output/mask source=a.idd",
+            "input 'source' of node 'out' asks 'a' for 'idd', which it does not give; did you mean 'id'?",
+        ),
+        (
+            "out output/mask",
+            "input 'source' of node 'out' (output/mask) must be connected to a mask",
+        ),
+        (
+            "s filter/smooth\n out output/mask source=s",
+            "input 'source' of node 's' (filter/smooth) must be connected to a mask",
+        ),
+        (
+            "a noise/simplex octaves=99\n out output/mask source=a",
+            "parameter 'octaves' of node 'a' (noise/simplex) takes a whole number from 1 to 16, not 99",
+        ),
+        (
+            "a noise/simplex mode=\"rigged\"\n out output/mask source=a",
+            "parameter 'mode' of node 'a' (noise/simplex) takes one of fbm, billow, ridged, not \"rigged\"",
+        ),
+        (
+            "a noise/simplex sizee=1\n out output/mask source=a",
+            "node 'a' (noise/simplex) has no parameter 'sizee'; it is kept and ignored; did you mean 'size'?",
+        ),
+    ];
+    for (lines, expected) in cases {
+        assert_eq!(said(lines), [expected], "{lines}");
+    }
+}
+
+#[test]
+fn a_fault_leaves_the_rest_of_the_graph_alone() {
+    let lines = "
+        a noise/simplex
+        bad noise/simplx
+        waits adjust/invert source=bad
+        out output/mask source=a
+        lost output/mask source=waits";
+    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(errors.len(), 1);
+    assert_eq!(plan.to_string(), "pass a -> s0\nresult mask s0\n");
+}

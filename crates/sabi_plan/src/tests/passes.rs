@@ -1,0 +1,257 @@
+//! How a graph is cut into passes, and where results lie.
+
+use sabi_graph::Document;
+
+use super::{Bench, FUSED, UNFUSED, flat, graph};
+use crate::{Mode, Step};
+
+const TWELVE: &str = "
+    clouds noise/simplex
+    grains noise/white
+    cells noise/cells
+    levels adjust/levels source=clouds
+    cut adjust/threshold source=cells
+    turned adjust/invert source=cut
+    both blend/mask below=levels above=turned
+    all blend/mask below=both above=grains
+    tint color/gradient source=clouds
+    base source/material
+    rust effect/layer base=base mask=all color_map=tint
+    worn material/blend below=base above=rust mask=levels
+    out output/material material=worn";
+
+#[test]
+fn a_chain_of_twelve_nodes_is_one_pass() {
+    let (plan, errors) = Bench::new().plan(&graph(TWELVE), FUSED);
+    assert_eq!(errors, []);
+    assert_eq!((plan.passes(), plan.nodes.len()), (1, 12), "{plan}");
+}
+
+#[test]
+fn each_node_of_a_fused_pass_is_called_once() {
+    let (plan, _) = Bench::new().plan(&graph(TWELVE), FUSED);
+    let Step::Kernel(kernel) = &plan.steps[0] else {
+        panic!("{plan}")
+    };
+    assert_eq!(kernel.spec.calls.len(), 12);
+}
+
+#[test]
+fn without_fusion_every_node_is_a_pass() {
+    let (plan, _) = Bench::new().plan(&graph(TWELVE), UNFUSED);
+    assert_eq!(plan.passes(), 12, "{plan}");
+}
+
+#[test]
+fn a_slot_is_reused_once_its_last_reader_has_run() {
+    let lines = "
+        a noise/simplex
+        b adjust/invert source=a
+        c adjust/invert source=b
+        d adjust/invert source=c
+        out output/mask source=d";
+    let (plan, _) = Bench::new().plan(&graph(lines), UNFUSED);
+    let expected = "\
+        pass a -> s0\n\
+        pass b <- s0 -> s1\n\
+        pass c <- s1 -> s0\n\
+        pass d <- s0 -> s1\n\
+        result mask s1\n";
+    assert_eq!(plan.to_string(), expected);
+}
+
+#[test]
+fn a_hundred_nodes_in_a_chain_need_two_slots() {
+    let mut lines = "n0 noise/simplex\n".to_owned();
+    for node in 1..100 {
+        lines += &format!("n{node} adjust/invert source=n{}\n", node - 1);
+    }
+    lines += "out output/mask source=n99";
+    let (plan, _) = Bench::new().plan(&graph(&lines), UNFUSED);
+    assert_eq!((plan.passes(), plan.slots.len()), (100, 2));
+}
+
+#[test]
+fn a_field_stands_between_two_regions_and_fills_its_ghosts() {
+    let lines = "
+        a noise/simplex
+        b adjust/levels source=a
+        soft filter/smooth source=b steps=3
+        c adjust/invert source=soft
+        d blend/mask below=c above=b
+        out output/mask source=d";
+    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(errors, []);
+    let expected = "\
+        pass a b -> s0\n\
+        pass soft <- s0 -> s1 x3 via s2 halo\n\
+        pass c d <- s1 s0 -> s2\n\
+        result mask s2\n";
+    assert_eq!(plan.to_string(), expected);
+}
+
+#[test]
+fn a_kernel_is_cut_at_the_cost_limit() {
+    let mut bench = Bench::new();
+    bench.limits.cost = 4 * bench.library.kind("noise/simplex").unwrap().cost + 200;
+    let mut lines = "n0 noise/simplex\n".to_owned();
+    for node in 1..10 {
+        lines += &format!("n{node} noise/simplex\nb{node} blend/mask below=n{node} above=");
+        lines += &if node == 1 {
+            "n0\n".to_owned()
+        } else {
+            format!("b{}\n", node - 1)
+        };
+    }
+    lines += "out output/mask source=b9";
+    let (plan, _) = bench.plan(&graph(&lines), FUSED);
+    assert!((3..=4).contains(&plan.passes()), "{plan}");
+    for step in &plan.steps {
+        let Step::Kernel(kernel) = step else { continue };
+        let noises = kernel.nodes.iter().filter(|node| node.starts_with('n')).count();
+        assert!(noises <= 4, "{plan}");
+    }
+}
+
+#[test]
+fn a_kernel_is_cut_at_what_the_adapter_can_store() {
+    let mut bench = Bench::new();
+    bench.limits.storage_textures = 2;
+    let mut lines = String::new();
+    for node in 0..5 {
+        lines += &format!("n{node} noise/simplex seed={node}\nm{node} blend/mask below=n{node} above=n0\n");
+        lines += &format!("o{node} output/mask source=m{node}\n");
+    }
+    let (plan, _) = bench.plan(&graph(&lines), FUSED);
+    for step in &plan.steps {
+        let Step::Kernel(kernel) = step else { continue };
+        assert!(kernel.writes.len() <= 2, "{plan}");
+    }
+    assert_eq!(plan.results.len(), 5);
+}
+
+#[test]
+fn only_what_is_asked_for_is_planned() {
+    let lines = "
+        a noise/simplex
+        idle noise/cells
+        out output/mask source=a";
+    let (plan, _) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(plan.nodes, ["a"]);
+}
+
+#[test]
+fn a_muted_node_passes_its_first_fitting_input_on() {
+    let lines = "
+        a noise/simplex
+        b noise/cells
+        mix blend/mask below=a above=b muted
+        out output/mask source=mix";
+    let (plan, _) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(plan.to_string(), "pass a -> s0\nresult mask s0\n");
+}
+
+#[test]
+fn a_muted_node_without_inputs_leaves_its_reader_its_knob() {
+    let lines = "
+        a noise/simplex muted
+        b adjust/invert source=a
+        out output/mask source=b";
+    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(errors, []);
+    assert_eq!(plan.nodes, ["b"]);
+}
+
+#[test]
+fn channels_that_nothing_sets_take_no_storage() {
+    let lines = "
+        base source/material
+        coat effect/layer base=base height_on=false
+        out output/material material=coat";
+    let (plan, _) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(plan.slots.len(), 2, "color and surface only: {plan}");
+    let raised = lines.replace("height_on=false", "height=0.1");
+    let (plan, _) = Bench::new().plan(&graph(&raised), FUSED);
+    assert_eq!(plan.slots.len(), 3, "and height: {plan}");
+}
+
+#[test]
+fn rewiring_an_interactive_graph_needs_no_new_kernel() {
+    let specs = |lines: &str| {
+        let (plan, _) = Bench::new().plan(&graph(lines), Mode::Interactive);
+        let kernels = plan.steps.iter().map(|step| match step {
+            Step::Kernel(kernel) => (kernel.spec.calls[0].kind.clone(), kernel.spec.clone()),
+            Step::Source(source) => panic!("{source:?}"),
+        });
+        kernels.collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let wired = "
+        a noise/simplex
+        c color/constant
+        t adjust/threshold source=a
+        m blend/mask below=a above=t mask=a
+        out output/mask source=m";
+    let rewired = "
+        a noise/simplex
+        c color/constant
+        t adjust/threshold source=c
+        m blend/mask below=t
+        n blend/mask below=m above=a
+        out output/mask source=n";
+    let (before, after) = (specs(wired), specs(rewired));
+    for (kind, spec) in &after {
+        if let Some(known) = before.get(kind) {
+            assert_eq!(known, spec, "{kind}");
+        }
+    }
+    assert_eq!(after.len(), 4);
+}
+
+#[test]
+fn a_graph_in_groups_six_deep_has_the_passes_of_its_flat_form() {
+    let inner = |name: usize, body: &str| {
+        format!(r#""g{name}": {{ "inputs": {{ "mask": {{ "to": [{body}"], "type": "mask" }} }}"#,)
+    };
+    // Three effects read one mask; the effects lie in groups, each around the next.
+    let mut groups = Vec::new();
+    groups.push(format!(
+        r#"{}, "outputs": {{ "material": "e3" }}, "nodes": {{
+            "b": {{ "kind": "source/material" }},
+            "e1": {{ "kind": "effect/layer", "inputs": {{ "base": "b" }} }},
+            "e2": {{ "kind": "effect/layer", "inputs": {{ "base": "e1" }} }},
+            "e3": {{ "kind": "effect/layer", "inputs": {{ "base": "e2" }} }} }} }}"#,
+        inner(1, r#""e1.mask", "e2.mask", "e3.mask"#)
+    ));
+    for level in 2..=6 {
+        groups.push(format!(
+            r#"{}, "outputs": {{ "material": "in.material" }}, "nodes": {{
+                "in": {{ "kind": "graph/group", "group": "g{}" }} }} }}"#,
+            inner(level, r#""in.mask"#),
+            level - 1
+        ));
+    }
+    let nested = format!(
+        r#"{{ "format": "sabi", "version": 1, "name": "nested", "groups": {{ {} }}, "nodes": {{
+            "m": {{ "kind": "noise/simplex" }},
+            "top": {{ "kind": "graph/group", "group": "g6", "inputs": {{ "mask": "m" }} }},
+            "out": {{ "kind": "output/material", "inputs": {{ "material": "top.material" }} }} }} }}"#,
+        groups.join(", ")
+    );
+    let document = Document::from_json(&nested).unwrap_or_else(|error| panic!("{error}"));
+    let (deep, errors) = Bench::new().plan(&flat(&document), FUSED);
+    assert_eq!(errors, []);
+    let lines = "
+        m noise/simplex
+        b source/material
+        e1 effect/layer base=b mask=m
+        e2 effect/layer base=e1 mask=m
+        e3 effect/layer base=e2 mask=m
+        out output/material material=e3";
+    let (plain, _) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!((deep.passes(), plain.passes()), (1, 1));
+    assert_eq!(deep.nodes.len(), plain.nodes.len());
+    assert_eq!(
+        deep.results[0].key, plain.results[0].key,
+        "the same content has the same name"
+    );
+}

@@ -1,0 +1,102 @@
+// The tangent-space normal of a material: the model's own slope and the gradient of the height, by the true metric.
+//
+// Surface gradient after Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU"; the frame is MikkTSpace's,
+// interpolated without normalizing, as those that decode the map use it.
+
+struct Relief {
+    has_height: u32,
+    has_slope: u32,
+    pad: vec2u,
+}
+
+@group(1) @binding(0) var<uniform> relief: Relief;
+@group(1) @binding(1) var heights: texture_2d_array<f32>;
+@group(1) @binding(2) var slopes: texture_2d_array<f32>;
+@group(1) @binding(3) var normals: texture_storage_2d_array<rgba32float, write>;
+
+fn height_at(texel: vec3i) -> f32 {
+    return textureLoad(heights, texel.xy, texel.z, 0).x;
+}
+
+// Change of the height a texel along u and v; Scharr's weights, exact for planes.
+fn height_steps(texel: vec3i) -> vec2f {
+    var steps = vec2f(0.0);
+    for (var row = -1; row <= 1; row++) {
+        let weight = select(3.0, 10.0, row == 0) / 32.0;
+        steps.x += weight * (height_at(texel + vec3i(1, row, 0)) - height_at(texel + vec3i(-1, row, 0)));
+        steps.y += weight * (height_at(texel + vec3i(row, 1, 0)) - height_at(texel + vec3i(row, -1, 0)));
+    }
+    return steps;
+}
+
+// The nearest owned texel within two steps; the texel itself if it is owned. w is 0 if there is none.
+fn anchor_of(texel: vec3i) -> vec4i {
+    var best = 1000;
+    var anchor = vec4i(texel, 0);
+    for (var index = 0; index < 25; index++) {
+        let step = vec2i(index % 5 - 2, index / 5 - 2);
+        let near = texel + vec3i(step, 0);
+        let distance = dot(step, step);
+        if near.x >= 0 && near.y >= 0 && distance < best && (owner_of(near) & GHOST_BIT) == 0u {
+            best = distance;
+            anchor = vec4i(near, 1);
+        }
+    }
+    return anchor;
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
+    let texel = texel_of(group, local);
+    if owner_of(texel) == EMPTY {
+        return;
+    }
+    let anchor = anchor_of(texel);
+    if anchor.w == 0 {
+        return;
+    }
+    // A ghost continues its own chart's triangle: a smooth edge stays smooth, and a hard one hard.
+    let triangle = owner_of(anchor.xyz);
+    let g = triangle * GEOMETRY_ROWS;
+    let f = triangle * FRAME_ROWS;
+    let step = vec2f(texel.xy) + 0.5 - vec2f(geometry[g].w, geometry[g + 1u].w);
+    let along_u = geometry[g + 1u].xyz;
+    let along_v = geometry[g + 2u].xyz;
+    let n = geometry[g + 3u].xyz + geometry[g + 4u].xyz * step.x + geometry[g + 5u].xyz * step.y;
+    let t = frames[f].xyz + frames[f + 1u].xyz * step.x + frames[f + 2u].xyz * step.y;
+    let b = frames[f].w * cross(n, t);
+    let up = unit_or(n, vec3f(0.0, 1.0, 0.0));
+
+    var slope = vec3f(0.0);
+    if relief.has_slope != 0u {
+        let stored = textureLoad(slopes, texel.xy, texel.z, 0).xyz;
+        slope = stored - up * dot(up, stored);
+    }
+    if relief.has_height != 0u {
+        // In the outer ring the stencil would leave the ghosts, so it is taken one texel further in.
+        let inward = anchor.xy - texel.xy;
+        let center = texel + vec3i(select(vec2i(0), sign(inward), max(abs(inward.x), abs(inward.y)) > 1), 0);
+        let change = height_steps(center);
+        let r1 = cross(along_v, up);
+        let r2 = cross(up, along_u);
+        let determinant = dot(along_u, r1);
+        if abs(determinant) > 1e-20 {
+            slope += (r1 * change.x + r2 * change.y) / determinant;
+        }
+    }
+    let tilted = up - slope;
+    // Cramer's rule for (t b n) x = tilted; the frame need not be orthonormal.
+    let volume = dot(t, cross(b, n));
+    var encoded = vec3f(0.0, 0.0, 1.0);
+    if abs(volume) > 1e-20 {
+        encoded = vec3f(
+            dot(tilted, cross(b, n)),
+            dot(tilted, cross(n, t)),
+            dot(tilted, cross(t, b)),
+        ) / volume;
+    }
+    encoded = unit_or(encoded, vec3f(0.0, 0.0, 1.0));
+    // Rounding noise must not tilt a flat map.
+    encoded = select(encoded, vec3f(0.0), abs(encoded) < vec3f(2e-6));
+    textureStore(normals, texel.xy, texel.z, vec4f(encoded, 1.0));
+}

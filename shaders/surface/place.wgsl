@@ -1,0 +1,146 @@
+// Reconstructs the place of a texel from the linked atlas. Appended to every kernel.
+
+const EMPTY: u32 = 0xffffffffu;
+const GHOST_BIT: u32 = 0x80000000u;
+// Rows of four floats a triangle has in `geometry` and in `frames`.
+const GEOMETRY_ROWS: u32 = 6u;
+const FRAME_ROWS: u32 = 4u;
+
+struct Pass {
+    // First tile of this dispatch in the tile list, and one past the last.
+    first_tile: u32,
+    end_tile: u32,
+    // Number of workgroups along x.
+    row_length: u32,
+    // Texels for one unit of UV.
+    size: f32,
+}
+
+struct GhostLink {
+    // Texel coordinates of the point over the seam, in the chart of its triangle.
+    target_texel: vec2f,
+    triangle: u32,
+    // The ghost's own texel: column | row << 16, and its page.
+    texel: u32,
+    page: u32,
+    // Page of the target's chart.
+    target_page: u32,
+    chart: u32,
+    pad: u32,
+    // Carries own texel vectors to texel vectors of the target's chart, column by column.
+    target_from_own: vec4f,
+}
+
+@group(0) @binding(0) var<uniform> dispatch: Pass;
+@group(0) @binding(1) var<storage, read> tiles: array<u32>;
+@group(0) @binding(2) var owners: texture_2d_array<u32>;
+@group(0) @binding(3) var<storage, read> geometry: array<vec4f>;
+@group(0) @binding(4) var<storage, read> frames: array<vec4f>;
+@group(0) @binding(5) var<storage, read> ghosts: array<GhostLink>;
+
+fn texel_of(group: vec3u, local: vec3u) -> vec3i {
+    let index = dispatch.first_tile + group.y * dispatch.row_length + group.x;
+    if index >= dispatch.end_tile {
+        return vec3i(-1);
+    }
+    // column: 11 bits, row: 11 bits, page: 10 bits
+    let tile = tiles[index];
+    let corner = vec2u(tile & 0x7ffu, (tile >> 11u) & 0x7ffu) * 8u;
+    return vec3i(vec2i(corner + local.xy), i32(tile >> 22u));
+}
+
+fn owner_of(texel: vec3i) -> u32 {
+    if texel.x < 0 {
+        return EMPTY;
+    }
+    return textureLoad(owners, texel.xy, texel.z, 0).r;
+}
+
+// The triangle under a texel, and where on its chart the texel's surface point lies.
+struct Spot {
+    triangle: u32,
+    point: vec2f,
+}
+
+fn spot_of(texel: vec3i, owner: u32) -> Spot {
+    if (owner & GHOST_BIT) != 0u {
+        let link = ghosts[owner & ~GHOST_BIT];
+        return Spot(link.triangle, link.target_texel);
+    }
+    return Spot(owner, vec2f(texel.xy) + 0.5);
+}
+
+fn unit_or(v: vec3f, fallback: vec3f) -> vec3f {
+    let square = dot(v, v);
+    return select(fallback, v * inverseSqrt(max(square, 1e-30)), square > 1e-30);
+}
+
+fn surface_at(texel: vec3i, owner: u32) -> Surface {
+    let spot = spot_of(texel, owner);
+    let g = spot.triangle * GEOMETRY_ROWS;
+    let f = spot.triangle * FRAME_ROWS;
+    let origin = geometry[g];
+    let along_u = geometry[g + 1u];
+    let along_v = geometry[g + 2u];
+    let normal = geometry[g + 3u];
+    let normal_u = geometry[g + 4u];
+    let normal_v = geometry[g + 5u];
+    let tangent = frames[f];
+    let tangent_u = frames[f + 1u];
+    let tangent_v = frames[f + 2u];
+    let chart = frames[f + 3u];
+    let step = spot.point - vec2f(origin.w, along_u.w);
+    let ids = bitcast<u32>(normal.w);
+    // The sign bit of the texel width says that the chart is mirrored, which turns the cross product over.
+    let turned = select(1.0, -1.0, along_v.w < 0.0);
+    let face = unit_or(cross(along_v.xyz, along_u.xyz) * turned, vec3f(0.0, 1.0, 0.0));
+    let shading = unit_or(normal.xyz + normal_u.xyz * step.x + normal_v.xyz * step.y, face);
+    let direction = tangent.xyz + tangent_u.xyz * step.x + tangent_v.xyz * step.y;
+    return Surface(
+        origin.xyz + along_u.xyz * step.x + along_v.xyz * step.y,
+        abs(along_v.w),
+        shading,
+        bitcast<u32>(chart.z),
+        face,
+        ids & 0xffffu,
+        vec4f(unit_or(direction, vec3f(1.0, 0.0, 0.0)), tangent.w),
+        (spot.point - chart.xy) / dispatch.size,
+        bitcast<u32>(normal_u.w),
+        ids >> 16u,
+        texel,
+    );
+}
+
+fn stored_material(color: vec4f, surface: vec4f, height: f32, slope: vec3f, emission: vec3f) -> Material {
+    return Material(color.xyz, color.w, surface.x, surface.y, surface.z, height, slope, emission);
+}
+
+// As `stored_material`, for channels that may be missing: bits of `present` in storage order.
+fn switched_material(
+    present: u32, color: vec4f, surface: vec4f, height: f32, slope: vec3f, emission: vec3f,
+) -> Material {
+    var material = plain_material();
+    if (present & 1u) != 0u {
+        material.base_color = color.xyz;
+        material.alpha = color.w;
+    }
+    if (present & 2u) != 0u {
+        material.roughness = surface.x;
+        material.metallic = surface.y;
+        material.occlusion = surface.z;
+    }
+    if (present & 4u) != 0u { material.height = height; }
+    if (present & 8u) != 0u { material.slope = slope; }
+    if (present & 16u) != 0u { material.emission = emission; }
+    return material;
+}
+
+// A mask input: as it is (1), or the luminance of a color (3).
+fn switched_mask(mode: u32, value: vec4f) -> f32 {
+    return select(value.x, luminance(value.xyz), mode == 3u);
+}
+
+// A color input: as it is (1), or a gray mask (2).
+fn switched_color(mode: u32, value: vec4f) -> vec3f {
+    return select(value.xyz, value.xxx, mode == 2u);
+}
