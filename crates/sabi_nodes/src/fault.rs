@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn any_range_gives_a_fault() {
-        for range in [0..0, 3..900, 900..901, 2..3, 5..1] {
+        for range in [0..0, 3..900, 900..901, 2..3, 4..4] {
             shown("ä\nö\u{2028}x", range);
         }
         shown("", 0..1);

@@ -234,17 +234,6 @@ pub(crate) fn read_header(text: Text<'_>, scan: &Scan, faults: &mut Vec<Fault>) 
             "Start the file with `//! Name` and, in the next line, `//! One sentence that says what it does.`",
         ));
     }
-    let mut version = 1;
-    if let Some(note) = notes.get("version") {
-        match note.joined().parse::<u32>() {
-            Ok(number) if number > 0 => version = number,
-            _ => faults.push(text.fault(
-                note.whole(),
-                "`@version` takes one whole number from 1 on.",
-                "Write `@version 2` when the algorithm gives other results than before.",
-            )),
-        }
-    }
     for name in ["alias", "use", "was"] {
         for note in notes.all(name).filter(|note| note.words.is_empty()) {
             faults.push(text.fault(
@@ -265,7 +254,25 @@ pub(crate) fn read_header(text: Text<'_>, scan: &Scan, faults: &mut Vec<Fault>) 
         aliases: gather("alias"),
         uses: notes.all("use").flat_map(|note| note.words.clone()).collect(),
         formerly: gather("was"),
-        version,
+        version: version(text, &notes, faults),
+    }
+}
+
+/// `@version N`, 1 when it is not said.
+fn version(text: Text<'_>, notes: &Notes, faults: &mut Vec<Fault>) -> u32 {
+    let Some(note) = notes.get("version") else {
+        return 1;
+    };
+    match note.joined().parse::<u32>() {
+        Ok(number) if number > 0 => number,
+        _ => {
+            faults.push(text.fault(
+                note.whole(),
+                "`@version` takes one whole number from 1 on.",
+                "Write `@version 2` when the algorithm gives other results than before.",
+            ));
+            1
+        }
     }
 }
 

@@ -123,18 +123,7 @@ impl ParamReader<'_> {
         }
         let default = self.default(ty, &role)?;
         self.check_in_range(&default, range);
-        let label = match notes.get("label") {
-            Some(note) if note.words.is_empty() => {
-                self.at_note(
-                    note,
-                    "`@label` gives no name.",
-                    "Write the name behind it: `@label Tile size`.",
-                );
-                return None;
-            }
-            Some(note) => note.joined(),
-            None => label_of(&name),
-        };
+        let label = self.label()?;
         let formerly = notes.all("was").flat_map(|note| note.words.iter());
         Some(Param {
             label,
@@ -149,6 +138,18 @@ impl ParamReader<'_> {
             formerly: formerly.map(|word| word.text.clone()).collect(),
             name,
         })
+    }
+
+    fn label(&mut self) -> Option<String> {
+        match self.notes.get("label").cloned() {
+            Some(note) if note.words.is_empty() => {
+                let advice = "Write the name behind it: `@label Tile size`.";
+                self.at_note(&note, "`@label` gives no name.", advice);
+                None
+            }
+            Some(note) => Some(note.joined()),
+            None => Some(label_of(&self.member.name)),
+        }
     }
 
     fn param_type(&mut self, module: &Module, ty: naga::Handle<Type>) -> Option<ParamType> {

@@ -125,6 +125,21 @@ fn check_function(
         };
         faults.extend(refused.map(|(message, advice)| linked.fault(span, message, advice)));
     }
+    check_statements(linked, function, faults);
+    let context = module.to_ctx();
+    for (handle, local) in function.local_variables.iter() {
+        if module.types[local.ty].inner.size(context) > LOCALS_LIMIT_BYTES {
+            faults.push(linked.fault(
+                function.local_variables.get_span(handle),
+                format!("The variable is larger than {} KiB.", LOCALS_LIMIT_BYTES / 1024),
+                "Compute less at a time; every texel has a copy of it.",
+            ));
+        }
+    }
+}
+
+/// What acts on more than one place, or not at all.
+fn check_statements(linked: &Linked<'_>, function: &Function, faults: &mut Vec<Fault>) {
     visit(&function.body, &mut |statement, span| {
         let what = match statement {
             Statement::Kill => "`discard`",
@@ -145,16 +160,6 @@ fn check_function(
             "A function gives the result of one place, from that place alone; return it.",
         ));
     });
-    let context = module.to_ctx();
-    for (handle, local) in function.local_variables.iter() {
-        if module.types[local.ty].inner.size(context) > LOCALS_LIMIT_BYTES {
-            faults.push(linked.fault(
-                function.local_variables.get_span(handle),
-                format!("The variable is larger than {} KiB.", LOCALS_LIMIT_BYTES / 1024),
-                "Compute less at a time; every texel has a copy of it.",
-            ));
-        }
-    }
 }
 
 /// A copy of the parameters could be changed, and a loop that it bounds would run without bound.

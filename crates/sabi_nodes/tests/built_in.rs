@@ -1,6 +1,9 @@
 //! The nodes that come with the program.
 
-use sabi_nodes::Library;
+#![allow(clippy::unwrap_used, reason = "a test that finds no node has failed")]
+
+use sabi_nodes::kind::Channel;
+use sabi_nodes::{Library, SourceFile, read_kind};
 
 #[test]
 fn every_built_in_node_and_library_is_faultless() {
@@ -10,4 +13,53 @@ fn every_built_in_node_and_library_is_faultless() {
     let shown: Vec<String> = faults.iter().map(ToString::to_string).collect();
     assert!(faults.is_empty(), "{}", shown.join("\n\n"));
     assert_eq!(library.kinds().count(), count);
+}
+
+#[test]
+fn a_layer_sets_the_channels_that_are_switched_on() {
+    let library = Library::builtin();
+    let layer = library.kind("effect/layer").unwrap();
+    let material = layer.output(Some("material")).unwrap();
+    let toggles = |channel| {
+        let write = material.channels.iter().find(|write| write.channel == channel)?;
+        let names = write.unless_off.iter().map(|index| layer.params[*index].name.as_str());
+        Some(names.collect::<Vec<_>>())
+    };
+    assert_eq!(toggles(Channel::Height), Some(vec!["height_on"]));
+    assert_eq!(toggles(Channel::Emission), Some(vec!["emission_on"]));
+    // Color and alpha, roughness and metallic share a texture each, and each of both sets it.
+    assert_eq!(toggles(Channel::Color), Some(vec![]));
+    assert_eq!(toggles(Channel::Surface), Some(vec![]));
+    // The slope is kept or fades: it is never set where there was none.
+    assert_eq!(toggles(Channel::Slope), None);
+}
+
+#[test]
+fn a_blend_of_materials_passes_their_channels_on() {
+    let library = Library::builtin();
+    let blend = library.kind("material/blend").unwrap();
+    assert_eq!(blend.output(None).unwrap().channels, []);
+}
+
+#[test]
+fn no_damaged_node_makes_the_reader_panic() {
+    let (files, libraries) = Library::builtin_files();
+    for file in files {
+        let lines: Vec<&str> = file.text.lines().collect();
+        for skipped in (0..lines.len()).step_by(3) {
+            let without = [&lines[..skipped], &lines[skipped + 1..]].concat().join("\n");
+            let cut = lines[..skipped].join("\n");
+            for text in [without, cut] {
+                let damaged = SourceFile { text, ..file.clone() };
+                let faults = read_kind(&damaged, &libraries).err().unwrap_or_default();
+                for fault in faults {
+                    assert!(
+                        !fault.message.contains("gave up"),
+                        "{} without line {skipped}: {fault}",
+                        file.id
+                    );
+                }
+            }
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! Every file in `tests/faults/` gives exactly the text beside it.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot read its own files has failed")]
+
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 

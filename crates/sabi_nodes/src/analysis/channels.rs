@@ -3,15 +3,16 @@
 //! Follows each member of the returned material back to where it comes from. A member that is only copied, mixed or
 //! selected from material inputs is not set: it passes theirs on. What is not understood counts as always set.
 
+mod toggles;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use naga::{
-    BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, MathFunction, Module, ScalarKind,
-    Statement, Type, TypeInner, UnaryOperator,
+    BinaryOperator, Expression, Function, Handle, LocalVariable, MathFunction, Module, Type, TypeInner, UnaryOperator,
 };
 
-use super::walk::{Store, calls, conjuncts, nested_blocks, stores};
-use crate::kind::{Channel, ChannelWrite, Param, Role};
+use super::walk::{Store, calls, is_zero, returns, stores};
+use crate::kind::{Channel, ChannelWrite, Param};
 use crate::params::params_type;
 
 /// Members of `Material` and their channels, by name.
@@ -168,10 +169,8 @@ impl<'m> Reader<'m> {
             calls: calls(&function.body),
             open: Vec::new(),
         };
-        let mut returned = Vec::new();
-        gather_returns(&function.body, &mut Vec::new(), &mut returned);
         let mut writes = self.none_set();
-        for (value, conditions) in returned {
+        for (value, conditions) in returns(&function.body) {
             let of = self.material(&mut frame, value, depth);
             let toggles = self.toggles(&frame, &conditions);
             join(&mut writes, of, &toggles);
@@ -298,23 +297,7 @@ impl<'m> Reader<'m> {
                 .into_iter()
                 .nth(member)
                 .unwrap_or(always()),
-            Expression::Load { pointer } => match frame.function.expressions[pointer] {
-                Expression::LocalVariable(local) => self.value_local(frame, local, member, depth),
-                Expression::AccessIndex { base, index } if index as usize == member => {
-                    match frame.function.expressions[base] {
-                        Expression::LocalVariable(local)
-                            if frame.function.local_variables[local].ty == self.material =>
-                        {
-                            self.material_local(frame, local, depth)
-                                .into_iter()
-                                .nth(member)
-                                .unwrap_or(always())
-                        }
-                        _ => always(),
-                    }
-                }
-                _ => always(),
-            },
+            Expression::Load { pointer } => self.value_behind(frame, pointer, member, depth),
             Expression::Select {
                 condition,
                 accept,
@@ -352,6 +335,22 @@ impl<'m> Reader<'m> {
         }
     }
 
+    /// What is read through a pointer and ends in a member.
+    fn value_behind(&mut self, frame: &mut Frame<'m>, pointer: Handle<Expression>, member: usize, depth: u32) -> Write {
+        let function = frame.function;
+        match function.expressions[pointer] {
+            Expression::LocalVariable(local) => self.value_local(frame, local, member, depth),
+            Expression::AccessIndex { base, index } if index as usize == member => match function.expressions[base] {
+                Expression::LocalVariable(local) if function.local_variables[local].ty == self.material => {
+                    let writes = self.material_local(frame, local, depth);
+                    writes.into_iter().nth(member).unwrap_or(always())
+                }
+                _ => always(),
+            },
+            _ => always(),
+        }
+    }
+
     /// A variable of its own that ends in a member.
     fn value_local(&mut self, frame: &mut Frame<'m>, local: Handle<LocalVariable>, member: usize, depth: u32) -> Write {
         if frame.open.contains(&local) {
@@ -380,125 +379,10 @@ impl<'m> Reader<'m> {
         frame.open.pop();
         write
     }
-
-    /// Toggles that are on when the conditions come out as told.
-    fn toggles(&self, frame: &Frame<'m>, conditions: &[(Handle<Expression>, bool)]) -> BTreeSet<usize> {
-        let mut found = BTreeSet::new();
-        for &(condition, taken) in conditions {
-            let parts = if taken {
-                conjuncts(frame.function, &frame.stores, condition)
-            } else {
-                vec![condition]
-            };
-            found.extend(parts.into_iter().filter_map(|part| self.toggle(frame, part, taken)));
-        }
-        found
-    }
-
-    /// The toggle that is on when `condition` comes out as `taken`.
-    fn toggle(&self, frame: &Frame<'m>, condition: Handle<Expression>, taken: bool) -> Option<usize> {
-        let (op, left, right) = match frame.function.expressions[condition] {
-            Expression::Unary {
-                op: UnaryOperator::LogicalNot,
-                expr,
-            } => {
-                // One level: nobody writes more, and a text can nest deep.
-                return match frame.function.expressions[expr] {
-                    Expression::Unary { .. } => None,
-                    _ => self.toggle(frame, expr, !taken),
-                };
-            }
-            Expression::As {
-                expr,
-                kind: ScalarKind::Bool,
-                ..
-            } if taken => return self.toggle_param(frame, expr),
-            Expression::Binary { op, left, right } => (op, left, right),
-            _ => return None,
-        };
-        let number = |side| match frame.function.expressions[side] {
-            Expression::Literal(Literal::U32(number)) => Some(number),
-            _ => None,
-        };
-        let (param, number, swapped) = match (number(left), number(right)) {
-            (None, Some(number)) => (left, number, false),
-            (Some(number), None) => (right, number, true),
-            _ => return None,
-        };
-        let is_on = match (op, number, taken) {
-            (BinaryOperator::NotEqual, 0, true) | (BinaryOperator::Equal, 1, true) => true,
-            (BinaryOperator::Equal, 0, false) | (BinaryOperator::NotEqual, 1, false) => true,
-            (BinaryOperator::Greater, 0, true) | (BinaryOperator::LessEqual, 0, false) => !swapped,
-            (BinaryOperator::GreaterEqual, 1, true) | (BinaryOperator::Less, 1, false) => !swapped,
-            (BinaryOperator::Less, 0, true) | (BinaryOperator::LessEqual, 1, true) => swapped,
-            _ => false,
-        };
-        if is_on { self.toggle_param(frame, param) } else { None }
-    }
-
-    fn toggle_param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<usize> {
-        let Expression::AccessIndex { base, index } = frame.function.expressions[expression] else {
-            return None;
-        };
-        let Expression::FunctionArgument(argument) = frame.function.expressions[base] else {
-            return None;
-        };
-        let ty = frame.function.arguments.get(argument as usize)?.ty;
-        let index = index as usize;
-        let is_toggle = self.params.get(index)?.role == Role::Toggle;
-        (Some(ty) == self.params_type && is_toggle).then_some(index)
-    }
 }
 
 fn join(writes: &mut Writes, others: Writes, toggles: &BTreeSet<usize>) {
     for (write, other) in writes.iter_mut().zip(others) {
         *write = either(write.take(), other.map(|other| &other | toggles));
-    }
-}
-
-/// Whether an expression is zero by what is written.
-fn is_zero(module: &Module, function: &Function, expression: Handle<Expression>, depth: u32) -> bool {
-    let Some(depth) = depth.checked_sub(1) else {
-        return false;
-    };
-    match &function.expressions[expression] {
-        Expression::Literal(Literal::F32(number)) => *number == 0.0,
-        Expression::ZeroValue(_) => true,
-        Expression::Splat { value, .. } => is_zero(module, function, *value, depth),
-        Expression::Compose { components, .. } => {
-            components.len() <= 4 && components.iter().all(|part| is_zero(module, function, *part, depth))
-        }
-        Expression::Constant(constant) => matches!(
-            module.global_expressions[module.constants[*constant].init],
-            Expression::ZeroValue(_) | Expression::Literal(Literal::F32(0.0))
-        ),
-        _ => false,
-    }
-}
-
-/// All values that a function returns, with the conditions around.
-fn gather_returns(
-    block: &Block,
-    conditions: &mut Vec<(Handle<Expression>, bool)>,
-    found: &mut Vec<(Handle<Expression>, Vec<(Handle<Expression>, bool)>)>,
-) {
-    for statement in block {
-        match statement {
-            Statement::Return { value: Some(value) } => found.push((*value, conditions.clone())),
-            Statement::If {
-                condition,
-                accept,
-                reject,
-            } => {
-                for (side, taken) in [(accept, true), (reject, false)] {
-                    conditions.push((*condition, taken));
-                    gather_returns(side, conditions, found);
-                    conditions.pop();
-                }
-            }
-            _ => nested_blocks(statement)
-                .into_iter()
-                .for_each(|nested| gather_returns(nested, conditions, found)),
-        }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use naga::{
     BinaryOperator, Expression, Function, Handle, Literal, LocalVariable, MathFunction, Module, Scalar, ScalarKind,
-    Type, TypeInner,
+    Type, TypeInner, UnaryOperator,
 };
 
 use super::walk::Store;
@@ -227,6 +227,17 @@ impl Query<'_, '_> {
             },
             Expression::Select { accept, reject, .. } => {
                 Some(self.get(accept, kind, depth).or(self.get(reject, kind, depth)))
+            }
+            Expression::Unary {
+                op: UnaryOperator::Negate,
+                expr,
+            } => {
+                let value = self.get(expr, kind, depth);
+                Some(Interval {
+                    low: -value.high,
+                    high: -value.low,
+                    params: value.params,
+                })
             }
             Expression::As { expr, .. } => {
                 let from = self.reader.kind(self.frame, expr, depth)?;

@@ -1,1 +1,103 @@
+mod channels;
+mod loops;
 
+use std::path::PathBuf;
+
+use crate::kind::Kind;
+use crate::{Libraries, Library, SourceFile, read_kind};
+
+/// Reads a node with these declarations; the kind, or the first message.
+fn read(text: &str) -> Result<Kind, String> {
+    let core = Library::builtin_files().1.text("core").unwrap().to_owned();
+    let libraries = Libraries([("core".to_owned(), core)].into());
+    let file = SourceFile {
+        path: PathBuf::from("test/node.wgsl"),
+        id: "test/node".to_owned(),
+        text: format!("//! Test\n//! A test.\n\n{text}"),
+    };
+    read_kind(&file, &libraries).map_err(|faults| faults[0].message.clone())
+}
+
+const TWO: &str = "struct Params {\n/// A.\n/// @default 0\na: f32,\n/// B.\n/// @default 0\nb: f32,\n}\n";
+
+/// Whether both parameters count as used by these functions.
+fn uses_both(functions: &str) -> bool {
+    match read(&format!("{TWO}{functions}")) {
+        Ok(_) => true,
+        Err(message) => {
+            assert!(message.contains("no effect"), "{message}");
+            false
+        }
+    }
+}
+
+#[test]
+fn a_parameter_counts_when_a_result_depends_on_it() {
+    for functions in [
+        "/// M.\nfn mask(params: Params) -> f32 { return params.a * params.b; }",
+        "/// M.\nfn mask(params: Params) -> f32 { return params.a; }\n/// N.\nfn more(params: Params) -> f32 { return params.b; }",
+        "fn help(params: Params) -> f32 { return params.b; }\n/// M.\nfn mask(params: Params) -> f32 { return params.a + help(params); }",
+        "fn help(p: Params, x: f32) -> f32 { return p.b + x; }\n/// M.\nfn mask(params: Params) -> f32 { let p = params; return help(p, p.a); }",
+        "/// M.\nfn mask(params: Params) -> f32 { var x = params.a; if params.b > 0.0 { x = 1.0; } return x; }",
+        "/// M.\nfn mask(params: Params) -> f32 { var x = array<f32, 4>(); x[u32(params.b)] = params.a; return x[1]; }",
+        "fn put(x: ptr<function, f32>, v: f32) { *x = v; }\n/// M.\nfn mask(params: Params) -> f32 { var x = params.a; put(&x, params.b); return x; }",
+        "/// M.\nfn mask(params: Params) -> f32 { switch u32(params.a) { case 0u: { return params.b; } default: { return 1.0; } } }",
+    ] {
+        assert!(uses_both(functions), "{functions}");
+    }
+}
+
+#[test]
+fn a_parameter_that_is_only_passed_around_does_not_count() {
+    for functions in [
+        "/// M.\nfn mask(params: Params) -> f32 { let b = params.b; return params.a; }",
+        "/// M.\nfn mask(params: Params) -> f32 { var b = params.b; b = b + params.b; return params.a; }",
+        "fn help(params: Params) -> f32 { return params.a; }\n/// M.\nfn mask(params: Params) -> f32 { return help(params); }",
+        "fn help(params: Params, x: f32) -> f32 { return params.a; }\n/// M.\nfn mask(params: Params) -> f32 { return help(params, params.b); }",
+        "fn unused(params: Params) -> f32 { return params.b; }\n/// M.\nfn mask(params: Params) -> f32 { return params.a; }",
+        "fn help(params: Params) -> f32 { return params.b; }\n/// M.\nfn mask(params: Params) -> f32 { let x = help(params); return params.a; }",
+    ] {
+        assert!(!uses_both(functions), "{functions}");
+    }
+}
+
+#[test]
+fn the_cost_expands_calls() {
+    let cost = |functions: &str| read(functions).unwrap().cost;
+    let once = cost(
+        "fn f(x: f32) -> f32 { return sin(x) * 2.0; }\n/// M.\nfn mask(at: Surface) -> f32 { return f(at.uv.x); }",
+    );
+    let twice = cost(
+        "fn f(x: f32) -> f32 { return sin(x) * 2.0; }\n/// M.\nfn mask(at: Surface) -> f32 { return f(at.uv.x) + f(at.uv.y); }",
+    );
+    assert!(once > 5 && twice > once + 5, "{once} {twice}");
+}
+
+#[test]
+fn a_text_just_below_the_depth_limit_is_read() {
+    for text in [
+        format!(
+            "/// M.\nfn mask(at: Surface) -> f32 {{ return {}at.uv.x; }}",
+            "at.uv.x + ".repeat(80)
+        ),
+        format!(
+            "/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; return {}x; }}",
+            "x + ".repeat(250)
+        ),
+        format!(
+            "/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; return {}x; }}",
+            "- ".repeat(250)
+        ),
+        format!(
+            "/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; if x > 0.0 {{ return 1.0; }} {}return x; }}",
+            "else if x > 1.0 { return 2.0; } ".repeat(100)
+        ),
+    ] {
+        let _ = read(&text);
+    }
+    let lets: String = (1..5_000)
+        .map(|i| format!("let x{i} = x{} + x{};\n", i - 1, i - 1))
+        .collect();
+    let text = format!("/// M.\nfn mask(at: Surface) -> f32 {{ let x0 = at.uv.x;\n{lets}return x4999; }}");
+    read(&text).unwrap();
+}

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use naga::{Block, Expression, Function, Handle, ImageQuery, Literal, LocalVariable, SampleLevel, Span, Statement};
+use naga::{
+    Block, Expression, Function, Handle, ImageQuery, Literal, LocalVariable, Module, SampleLevel, Span, Statement,
+};
 
 /// All expressions of a function with their places.
 pub(crate) fn expressions_with_spans(function: &Function) -> impl Iterator<Item = (&Expression, Span)> {
@@ -53,19 +55,9 @@ pub(crate) fn children(expression: &Expression, see: &mut impl FnMut(Handle<Expr
             depth_ref,
             ..
         } => {
-            all(&[
-                Some(*image),
-                Some(*sampler),
-                Some(*coordinate),
-                *array_index,
-                *offset,
-                *depth_ref,
-            ]);
-            match level {
-                SampleLevel::Exact(level) | SampleLevel::Bias(level) => all(&[Some(*level)]),
-                SampleLevel::Gradient { x, y } => all(&[Some(*x), Some(*y)]),
-                SampleLevel::Auto | SampleLevel::Zero => {}
-            }
+            all(&[Some(*image), Some(*sampler), Some(*coordinate)]);
+            all(&[*array_index, *offset, *depth_ref]);
+            all(&level_parts(level));
         }
         Expression::ImageLoad {
             image,
@@ -97,6 +89,14 @@ pub(crate) fn children(expression: &Expression, see: &mut impl FnMut(Handle<Expr
         } => all(&[Some(*arg), *arg1, *arg2, *arg3]),
         // Leaves, and what the rules refuse.
         _ => {}
+    }
+}
+
+fn level_parts(level: &SampleLevel) -> [Option<Handle<Expression>>; 2] {
+    match level {
+        SampleLevel::Exact(level) | SampleLevel::Bias(level) => [Some(*level), None],
+        SampleLevel::Gradient { x, y } => [Some(*x), Some(*y)],
+        SampleLevel::Auto | SampleLevel::Zero => [None, None],
     }
 }
 
@@ -245,4 +245,56 @@ pub(crate) fn calls(block: &Block) -> BTreeMap<usize, (Handle<Function>, Vec<Han
         }
     });
     calls
+}
+
+/// A value that a function returns, and the conditions around with the side taken.
+pub(crate) type Returned = (Handle<Expression>, Vec<(Handle<Expression>, bool)>);
+
+/// All values that a function returns.
+pub(crate) fn returns(block: &Block) -> Vec<Returned> {
+    let mut found = Vec::new();
+    gather_returns(block, &mut Vec::new(), &mut found);
+    found
+}
+
+fn gather_returns(block: &Block, conditions: &mut Vec<(Handle<Expression>, bool)>, found: &mut Vec<Returned>) {
+    for statement in block {
+        match statement {
+            Statement::Return { value: Some(value) } => found.push((*value, conditions.clone())),
+            Statement::If {
+                condition,
+                accept,
+                reject,
+            } => {
+                for (side, taken) in [(accept, true), (reject, false)] {
+                    conditions.push((*condition, taken));
+                    gather_returns(side, conditions, found);
+                    conditions.pop();
+                }
+            }
+            _ => nested_blocks(statement)
+                .into_iter()
+                .for_each(|nested| gather_returns(nested, conditions, found)),
+        }
+    }
+}
+
+/// Whether an expression is zero by what is written.
+pub(crate) fn is_zero(module: &Module, function: &Function, expression: Handle<Expression>, depth: u32) -> bool {
+    let Some(depth) = depth.checked_sub(1) else {
+        return false;
+    };
+    match &function.expressions[expression] {
+        Expression::Literal(Literal::F32(number)) => *number == 0.0,
+        Expression::ZeroValue(_) => true,
+        Expression::Splat { value, .. } => is_zero(module, function, *value, depth),
+        Expression::Compose { components, .. } => {
+            components.len() <= 4 && components.iter().all(|part| is_zero(module, function, *part, depth))
+        }
+        Expression::Constant(constant) => matches!(
+            module.global_expressions[module.constants[*constant].init],
+            Expression::ZeroValue(_) | Expression::Literal(Literal::F32(0.0))
+        ),
+        _ => false,
+    }
 }

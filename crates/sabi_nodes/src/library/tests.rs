@@ -1,1 +1,165 @@
+use std::fs;
 
+use super::*;
+
+const GOOD: &str = "//! Good\n//! A test.\n//! @was test/former\n//! @use wave\n\n/// The mask.\nfn mask(at: Surface) -> f32 {\n    return wave(at.uv.x);\n}\n";
+const BAD: &str = "//! Bad\n//! A test.\n\n/// The mask.\nfn mask(at: Surface) -> f32 {\n    return nothing;\n}\n";
+const WAVE: &str = "fn wave(x: f32) -> f32 { return sin(x); }\n";
+
+fn file(id: &str, text: &str) -> SourceFile {
+    SourceFile {
+        path: PathBuf::from(format!("{id}.wgsl")),
+        id: id.to_owned(),
+        text: text.to_owned(),
+    }
+}
+
+fn libraries(others: &[(&str, &str)]) -> Libraries {
+    let mut libraries = Libraries::default();
+    let core = Library::builtin_files().1.text("core").unwrap().to_owned();
+    libraries.0.insert("core".to_owned(), core);
+    for (name, text) in others {
+        libraries.0.insert((*name).to_owned(), (*text).to_owned());
+    }
+    libraries
+}
+
+#[test]
+fn one_broken_file_does_not_take_the_rest() {
+    let files = vec![file("test/bad", BAD), file("test/good", GOOD)];
+    let (library, faults) = Library::load(files, libraries(&[("wave", WAVE)]));
+    assert_eq!(
+        library.kinds().map(|kind| kind.id.as_str()).collect::<Vec<_>>(),
+        ["test/good"]
+    );
+    assert_eq!(faults.len(), 1);
+    assert_eq!((faults[0].line, faults[0].column), (6, 12));
+}
+
+#[test]
+fn a_kind_is_found_by_its_former_id_and_by_nearness() {
+    let (library, _) = Library::load(vec![file("test/good", GOOD)], libraries(&[("wave", WAVE)]));
+    assert_eq!(library.kind("test/former").unwrap().id, "test/good");
+    assert!(library.kind("test/other").is_none());
+    assert_eq!(library.nearest("test/goood"), Some("test/good"));
+    assert_eq!(library.nearest("good"), Some("test/good"));
+    assert_eq!(library.nearest("noise/simplex"), None);
+}
+
+#[test]
+fn a_reload_keeps_the_last_good_version() {
+    let (mut library, _) = Library::load(vec![file("test/good", GOOD)], libraries(&[("wave", WAVE)]));
+    let before = library.kind("test/good").unwrap().clone();
+    assert!(library.replace(file("test/good", BAD)).is_err());
+    assert_eq!(*library.kind("test/good").unwrap(), before);
+    library
+        .replace(file("test/good", &GOOD.replace("Good", "Better")))
+        .unwrap();
+    assert_eq!(library.kind("test/good").unwrap().label, "Better");
+    assert!(library.remove("test/good") && !library.remove("test/good"));
+}
+
+#[test]
+fn a_changed_library_is_taken_only_when_its_nodes_still_work() {
+    let (mut library, _) = Library::load(vec![file("test/good", GOOD)], libraries(&[("wave", WAVE)]));
+    let broken = library
+        .replace_library("wave", "fn wave(x: f32) -> f32 { return y; }".to_owned())
+        .unwrap_err();
+    assert_eq!(broken[0].path, PathBuf::from("lib/wave.wgsl"));
+    let renamed = library
+        .replace_library("wave", "fn waves(x: f32) -> f32 { return x; }".to_owned())
+        .unwrap_err();
+    assert!(renamed[0].message.contains("`wave`"));
+    assert_eq!(library.libraries().text("wave"), Some(WAVE));
+    let longer = "fn wave(x: f32) -> f32 { return sin(x) * cos(x) * 2.0; }";
+    let cost = library.kind("test/good").unwrap().cost;
+    library.replace_library("wave", longer.to_owned()).unwrap();
+    assert!(library.kind("test/good").unwrap().cost > cost);
+}
+
+#[test]
+fn libraries_bring_the_libraries_they_use_once() {
+    let texts = [
+        ("a", "//! @use b c\nfn a() -> f32 { return b() + c(); }\n"),
+        ("b", "//! @use c\nfn b() -> f32 { return c(); }\n"),
+        ("c", "//! @use a\nfn c() -> f32 { return 1.0; }\n"),
+    ];
+    let node = "//! N\n//! A test.\n//! @use c a\n\n/// The mask.\nfn mask() -> f32 { return a(); }\n";
+    let (library, faults) = Library::load(vec![file("test/n", node)], libraries(&texts));
+    assert_eq!(faults, []);
+    assert_eq!(library.kind("test/n").unwrap().libraries, ["c", "a", "b"]);
+}
+
+#[test]
+fn a_faulty_library_is_told_once() {
+    let files = vec![file("test/good", GOOD)];
+    let (library, faults) = Library::load(files, libraries(&[("wave", "fn wave( {")]));
+    assert_eq!(library.kinds().count(), 0);
+    assert_eq!(faults[0].path, PathBuf::from("lib/wave.wgsl"));
+    assert!(faults[1].message.contains("There is no library `wave`"));
+    assert_eq!(faults.len(), 2);
+}
+
+#[test]
+fn an_id_is_a_folder_and_a_name() {
+    for id in [
+        "good",
+        "Test/good",
+        "test/",
+        "/good",
+        "test/go od",
+        "test/a/b",
+        "1/2",
+        "../x",
+    ] {
+        let (_, faults) = Library::load(vec![file(id, GOOD)], libraries(&[("wave", WAVE)]));
+        assert!(faults[0].message.contains("not a name"), "{id}");
+    }
+}
+
+#[test]
+fn a_users_folder_adds_nodes_and_libraries() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    };
+    write("mine/good.wgsl", GOOD.as_bytes());
+    write("mine/bad.wgsl", BAD.as_bytes());
+    write("mine/bytes.wgsl", &[0xff, 0xfe]);
+    write("mine/huge.wgsl", &vec![b' '; 300 * 1024]);
+    write("mine/notes.txt", b"not a node");
+    write("test/taken.wgsl", GOOD.as_bytes());
+    write("lib/wave.wgsl", WAVE.as_bytes());
+    write("lib/broken.wgsl", b"fn (");
+    let taken = file(
+        "test/taken",
+        &GOOD.replace("//! @use wave\n", "").replace("wave(at.uv.x)", "at.uv.x"),
+    );
+    let (mut library, faults) = Library::load(vec![taken], libraries(&[]));
+    assert_eq!(faults, []);
+    let mut faults = library.load_folder(folder.path());
+    faults.sort_by_key(|fault| fault.path.clone());
+    let told: Vec<String> = faults
+        .iter()
+        .map(|fault| fault.path.file_name().unwrap().to_string_lossy().into_owned())
+        .collect();
+    assert_eq!(
+        told,
+        ["broken.wgsl", "bad.wgsl", "bytes.wgsl", "huge.wgsl", "taken.wgsl"]
+    );
+    assert!(faults[3].message.contains("larger than 256 KiB"));
+    assert!(library.kind("mine/good").is_some());
+    assert!(library.kind("mine/huge").is_none());
+    // Loading it again is a reload.
+    fs::remove_file(folder.path().join("mine/bad.wgsl")).unwrap();
+    assert_eq!(library.load_folder(folder.path()).len(), 4);
+}
+
+#[test]
+fn a_folder_that_is_not_there_is_told() {
+    let mut library = Library::default();
+    let faults = library.load_folder(std::path::Path::new("no/such/folder"));
+    assert!(faults[0].message.contains("cannot be read"));
+}

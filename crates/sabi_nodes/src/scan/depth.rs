@@ -12,14 +12,13 @@ pub(super) fn check_depth(text: Text<'_>, tokens: &[Token]) -> Option<Fault> {
     let mut open: Vec<usize> = vec![0];
     let mut total = 0;
     for token in tokens {
+        let is_inside = open.len() > 1;
         let count = open.last_mut()?;
         match token.kind {
             TokenKind::Sign('(' | '[' | '{') => open.push(0),
-            TokenKind::Sign(')' | ']' | '}') => {
-                if open.len() > 1 {
-                    total -= open.pop()?;
-                }
-            }
+            // One that was never opened is for naga to refuse.
+            TokenKind::Sign(')' | ']' | '}') if is_inside => total -= open.pop()?,
+            TokenKind::Sign(')' | ']' | '}') => {}
             TokenKind::Sign(',' | ';') => {
                 total -= *count;
                 *count = 0;

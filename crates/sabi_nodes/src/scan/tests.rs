@@ -1,1 +1,144 @@
+use std::path::Path;
 
+use super::*;
+
+fn scanned(text: &str) -> Result<Scan, Vec<Fault>> {
+    scan(Text {
+        path: Path::new("a.wgsl"),
+        text,
+    })
+}
+
+fn first_fault(text: &str) -> (u32, u32, String) {
+    let fault = scanned(text).unwrap_err().remove(0);
+    (fault.line, fault.column, fault.message)
+}
+
+#[test]
+fn declarations_are_found_with_names_members_and_comments() {
+    let text = "//! A\n//! B\n\nconst N = array<vec2f, 2>(vec2f(0, 1), vec2f(1, 0));\nconst_assert (1 < 2);\n\
+                /// Params.\nstruct Params {\n    /// One.\n    /// Two.\n    @align(16) a: array<vec4f, 4>,\n    b: f32\n}\n;\n\
+                /* plain /* nested */ */\n/// Doc.\n// plain\n@must_use\nfn mask(at: Surface, b: vec3<f32>,) -> f32 { if (1 < 2) { } return 0; }\n";
+    let scan = scanned(&text.replace("/* plain /* nested */ */\n", "")).unwrap();
+    assert!(scan.is_complete);
+    assert_eq!(
+        scan.header.iter().map(|line| line.text.as_str()).collect::<Vec<_>>(),
+        ["A", "B"]
+    );
+    let params = scan.params().unwrap();
+    assert_eq!(params.members[0].docs.len(), 2);
+    assert_eq!(params.members[1].name, "b");
+    let function = scan.functions().next().unwrap();
+    assert_eq!((function.name.as_str(), function.docs.len()), ("mask", 1));
+    assert_eq!(function.members.len(), 2);
+}
+
+#[test]
+fn types_are_found_in_the_text() {
+    let text = "struct Params { a: array<vec4f, 4>, b : f32 }";
+    let scan = scanned(text).unwrap();
+    let types: Vec<&str> = scan.items[0]
+        .members
+        .iter()
+        .map(|member| &text[member.type_range.clone()])
+        .collect();
+    assert_eq!(types, ["array<vec4f, 4>", "f32"]);
+}
+
+#[test]
+fn a_plain_comment_before_a_doc_comment_is_a_trap() {
+    let (line, column, message) = first_fault("//! A\n\n// plain\n/// doc\nfn f() {}\n");
+    assert_eq!((line, column), (4, 1));
+    assert!(message.contains("lost"), "{message}");
+    // Behind code it has the same effect.
+    assert_eq!(
+        first_fault("struct P {\n    a: f32, // plain\n    /// doc\n    b: f32,\n}").0,
+        3
+    );
+    assert_eq!(first_fault("fn f() {} // plain\n/// doc\nfn g() {}").0, 2);
+    // A block comment too.
+    assert_eq!(first_fault("/* plain */\n/// doc\nfn g() {}").0, 2);
+}
+
+#[test]
+fn a_plain_comment_below_a_doc_comment_is_no_trap() {
+    let scan = scanned("/// doc\n// plain\nfn f() {}\n").unwrap();
+    assert_eq!(scan.items[0].docs.len(), 1);
+}
+
+#[test]
+fn a_lost_block_of_lines_is_told_once() {
+    let faults = scanned("// plain\n/// a\n/// b\n/// c\nfn f() {}").unwrap_err();
+    assert_eq!(faults.len(), 1);
+}
+
+#[test]
+fn a_trailing_doc_comment_is_a_trap() {
+    assert_eq!(first_fault("struct P {\n    a: f32, /// doc\n}").0, 2);
+    assert_eq!(first_fault("struct P { /// doc\n    a: f32,\n}").0, 1);
+}
+
+#[test]
+fn doc_comments_that_describe_nothing_are_told() {
+    for text in [
+        "fn f() {\n    /// doc\n}",
+        "fn f(\n    /// doc\n    a: f32) {}",
+        "struct P {\n    a: f32,\n    /// doc\n}",
+        "fn f()\n    /// doc\n{}",
+        "const A =\n    /// doc\n    1;",
+    ] {
+        let (line, ..) = first_fault(text);
+        assert!((2..=3).contains(&line), "{text}");
+    }
+    assert_eq!(first_fault("fn f() {}\n\n/// doc\n").0, 3);
+}
+
+#[test]
+fn line_endings_of_all_systems_are_read() {
+    let scan = scanned("//! A\r\n//! B\r\n\r\n/// Doc.\r\nfn f() {}\r\n").unwrap();
+    assert_eq!(scan.header[1].text, "B");
+    assert_eq!(scan.items[0].docs[0].text, "Doc.");
+}
+
+#[test]
+fn a_text_that_nests_too_deep_is_refused() {
+    for text in [
+        format!("fn f() {{ let x = {}1; }}", "1 + ".repeat(100_000)),
+        format!("fn f() {{ let x = {}1; }}", "(".repeat(100_000)),
+        format!("fn f() {{ let x = {}1; }}", "-".repeat(1_000)),
+        format!("fn f() {{ if a {{}} {} }}", "else if a {} ".repeat(1_000)),
+        format!("fn f() {}", "{".repeat(1_000)),
+    ] {
+        assert!(first_fault(&text).2.contains("too deep"));
+    }
+}
+
+#[test]
+fn no_text_makes_the_scanner_panic() {
+    let good =
+        "//! A\n/// d\nstruct P { /// x\n a: array<f32, 2>, }\n/* é */ fn f(@a(1) b: f32) -> f32 { return 1; } // ü\n";
+    for end in (0..good.len()).filter(|end| good.is_char_boundary(*end)) {
+        let _ = scanned(&good[..end]);
+        let _ = scanned(&good[end..]);
+    }
+    for text in [
+        "",
+        "/",
+        "//",
+        "///",
+        "//!",
+        "/*",
+        "/**",
+        "/**/",
+        "@",
+        "fn",
+        "fn f(",
+        "struct",
+        "}",
+        ")",
+        "a: <",
+        "\u{2028}///",
+    ] {
+        let _ = scanned(text);
+    }
+}

@@ -1,0 +1,152 @@
+use super::read;
+
+/// Reads a mask with this body; `params` has `steps` 1..16, `signed` -4..4 and `free` without a range.
+fn mask(body: &str) -> Result<crate::kind::Kind, String> {
+    read(&format!(
+        "struct Params {{\n/// S.\n/// @range 1 16 @default 4\nsteps: u32,\n/// T.\n/// @range -4 4 @default 0\nsigned: i32,\n\
+         /// F.\n/// @default 4\nfree: u32,\n}}\n{body}"
+    ))
+}
+
+/// A mask whose body is `loops` around `sum += 1.0`, closed as often as it opens.
+fn looped(loops: &str) -> Result<Vec<String>, String> {
+    let opened = loops.matches('{').count() - loops.matches('}').count();
+    let text = format!(
+        "fn keep(params: Params) -> f32 {{ return f32(params.steps) + f32(params.signed) + f32(params.free); }}\n\
+         /// M.\nfn mask(at: Surface, params: Params) -> f32 {{\nvar sum = keep(params);\n{loops} sum += 1.0; {}\nreturn sum;\n}}\n",
+        "}".repeat(opened)
+    );
+    let bounding = |kind: crate::kind::Kind| {
+        let params = kind.params.into_iter().filter(|param| param.bounds_a_loop);
+        params.map(|param| param.name).collect()
+    };
+    mask(&text).map(bounding)
+}
+
+#[test]
+fn bounds_that_can_be_seen_are_found() {
+    for (loops, bounding) in [
+        ("for (var i = 0; i < 8; i++) {", &[][..]),
+        ("for (var i = 0u; i <= 8u; i += 2u) {", &[]),
+        ("for (var i = -2; i <= 2; i = i + 1) {", &[]),
+        ("for (var i = 0u; 8u > i; i++) {", &[]),
+        ("for (var i = 0u; i < params.steps; i++) {", &["steps"]),
+        ("for (var i = params.signed; i < 8; i++) {", &["signed"]),
+        ("for (var i = 0; i < i32(params.steps); i++) {", &["steps"]),
+        ("for (var i = 0u; i < params.steps * 2u + 1u; i++) {", &["steps"]),
+        ("for (var i = 0u; i < 1u << min(params.free, 4u); i++) {", &[]),
+        ("for (var i = 0u; i < min(params.free, 8u); i++) {", &[]),
+        ("for (var i = 0u; i < clamp(params.free, 1u, 8u); i++) {", &[]),
+        ("for (var i = 0u; i < params.free % 8u; i++) {", &[]),
+        ("for (var i = 0u; i < (params.free & 7u); i++) {", &[]),
+        ("let n = min(u32(at.uv.x), 5u);\nfor (var i = 0u; i < n; i++) {", &[]),
+        (
+            "var n = 3u; if at.uv.x > 0.0 { n = params.steps; }\nfor (var i = 0u; i < n; i++) {",
+            &["steps"],
+        ),
+        (
+            "for (var i = 0u; i < select(3u, params.steps, at.uv.x > 0.0); i++) {",
+            &["steps"],
+        ),
+        ("for (var i = 0u; i < 8u && sum < 4.0; i++) {", &[]),
+        (
+            "for (var i = 0; i < 8; i++) {\nfor (var j = i; j < 8; j++) {\nfor (var k = -j; k <= j; k++) {",
+            &[],
+        ),
+        (
+            "for (var i = 0; i < 8; i++) { if sum > 3.0 { continue; } if sum > 5.0 { break; }",
+            &[],
+        ),
+        ("for (var i = 0; i < 0; i++) {", &[]),
+        ("for (var i = 5; i < 3; i++) {", &[]),
+        ("for (var i = 0u; i < 65535u; i++) {", &[]),
+    ] {
+        assert_eq!(looped(loops).unwrap(), bounding, "{loops}");
+    }
+}
+
+#[test]
+fn bounds_that_cannot_be_seen_are_refused() {
+    for loops in [
+        "loop { if sum > 4.0 { break; }",
+        "while sum < 4.0 {",
+        "for (;;) { if sum > 4.0 { break; }",
+        "for (var i = 0u; i < params.free; i++) {",
+        "for (var i = 0u; i < u32(at.uv.x); i++) {",
+        "for (var i = 0; i < i32(at.uv.x); i++) {",
+        "for (var i = i32(at.uv.x); i < 8; i++) {",
+        "for (var i = 0u; i < max(params.free, 8u); i++) {",
+        "for (var i = 0u; i < params.steps - 2u; i++) {",
+        "for (var i = 0u; i < min(params.free, 8u) * 1000000000u; i++) {",
+        "for (var i = 0u; i <= 4294967295u; i++) {",
+        "for (var i = 8; i > 0; i--) {",
+        "for (var i = 0; i < 8; i--) {",
+        "for (var i = 0; i < 8; i += params.signed) {",
+        "for (var i = 0; i < 8; i *= 2) {",
+        "for (var i = 0; i != 8; i++) {",
+        "for (var i = 0; i < 8; i++) { i = 0;",
+        "for (var x = 0.0; x < 8.0; x += 1.0) {",
+        "for (var i = 0; i < 8 || sum < 4.0; i++) {",
+        "var n = 4u; for (var i = 0u; i < n; i++) { n = n + 1u;",
+        "for (var i = 0; i < 8; i++) { let p = &i; *p = 0;",
+        "loop { if sum > 1.0 { continue; } if sum > 4.0 { break; } continuing { sum += 1.0; break if sum > 3.0; } }\nif true {",
+    ] {
+        let message = looped(loops).map(|_| loops).unwrap_err();
+        assert!(
+            message.contains("cannot be seen") || message.contains("no bound"),
+            "{loops}: {message}"
+        );
+    }
+}
+
+#[test]
+fn nested_and_called_bounds_multiply() {
+    let text = |count: u32| {
+        format!(
+            "fn inner(n: u32) -> f32 {{ var sum = 0.0; for (var i = 0u; i < n; i++) {{ sum += 1.0; }} return sum; }}\n\
+             /// M.\nfn mask(params: Params) -> f32 {{ var sum = f32(params.signed) + f32(params.free); for (var i = 0u; i < params.steps; i++) {{ sum += inner({count}u); }} return sum; }}\n"
+        )
+    };
+    assert!(mask(&text(4096)).is_ok());
+    let message = mask(&text(4097)).unwrap_err();
+    assert!(message.contains("16 × 4097 = 65552 rounds"), "{message}");
+}
+
+#[test]
+fn a_loop_in_a_helper_is_bounded_by_what_it_is_called_with() {
+    let text = |argument: &str| {
+        format!(
+            "fn inner(n: u32) -> f32 {{ var sum = 0.0; for (var i = 0u; i < n; i++) {{ sum += 1.0; }} return sum; }}\n\
+             fn outer(params: Params) -> f32 {{ return inner({argument}) + f32(params.signed) + f32(params.free) + f32(params.steps); }}\n\
+             /// M.\nfn mask(params: Params) -> f32 {{ return outer(params); }}\n"
+        )
+    };
+    let bounds = |kind: crate::kind::Kind| kind.params[0].bounds_a_loop;
+    assert!(bounds(mask(&text("params.steps")).unwrap()));
+    assert!(!bounds(mask(&text("12u")).unwrap()));
+    assert!(mask(&text("params.free")).unwrap_err().contains("cannot be seen"));
+}
+
+#[test]
+fn a_tree_of_calls_cannot_grow_without_limit() {
+    let levels: String = (1..40)
+        .map(|i| {
+            format!(
+                "fn g{i}(x: f32) -> f32 {{ return g{}(x) + g{}(x + 1.0); }}\n",
+                i - 1,
+                i - 1
+            )
+        })
+        .collect();
+    let text = format!(
+        "fn g0(x: f32) -> f32 {{ return x; }}\n{levels}/// M.\nfn mask(at: Surface) -> f32 {{ return g39(at.uv.x); }}\n"
+    );
+    let message = read(&text).unwrap_err();
+    assert!(message.contains("rounds and calls"), "{message}");
+}
+
+#[test]
+fn a_function_that_is_never_called_may_do_as_it_likes() {
+    let text = "fn idle() -> f32 { var x = 0.0; loop { x += 1.0; if x > 4.0 { break; } } return x; }\n/// M.\nfn mask(at: Surface) -> f32 { return at.uv.x; }\n";
+    assert!(read(text).is_ok());
+}
