@@ -28,12 +28,12 @@ pub use error::{EngineError, ErrorKind};
 pub use kinds::Kinds;
 pub use prepare::{ModelOptions, Prepared};
 pub use preview::{PreviewRequest, preview};
-pub use report::{BakeReport, StageTimes};
+pub use report::{BakeReport, StageTime, StageTimes};
 pub use setting::read_setting;
 pub use stages::{Progress, Silent, Stage};
 pub use watch::NodeWatcher;
 pub use workpiece::{Workpiece, WorkpieceOptions};
 
-pub use sabi_gpu::AdapterChoice;
+pub use sabi_gpu::{AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu};
 pub use sabi_graph::{Fit, Overrides};
 pub use sabi_surface::load::Up;

@@ -24,6 +24,11 @@ impl StageTime {
         self.total += time;
     }
 
+    /// All of it.
+    pub fn total(&self) -> Duration {
+        self.total
+    }
+
     /// Milliseconds, to a tenth.
     pub fn ms(&self) -> f64 {
         (self.total.as_secs_f64() * 10_000.0).round() / 10.0

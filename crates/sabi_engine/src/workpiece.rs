@@ -1,5 +1,6 @@
 //! A graph and a model brought together on a device.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables};
@@ -37,7 +38,7 @@ pub struct Workpiece {
     /// The model with its atlas.
     pub prepared: Prepared,
     /// The device.
-    pub gpu: Gpu,
+    pub gpu: Arc<Gpu>,
     /// The atlas on the device.
     pub surface: GpuSurface,
     /// What counts as 1.
@@ -52,10 +53,10 @@ pub struct Workpiece {
 }
 
 impl Workpiece {
-    /// Opens everything; a fault in the graph is found before the model is loaded.
+    /// Opens everything on the adapter of choice; a fault in the graph is found before the model is loaded.
     pub fn open(
         open: &OpenGraph,
-        mut kinds: Kinds,
+        kinds: Kinds,
         options: &WorkpieceOptions,
         progress: &dyn Progress,
     ) -> Result<Workpiece, EngineError> {
@@ -66,9 +67,26 @@ impl Workpiece {
         stop_if_canceled(progress)?;
         let prepared = times.atlas.time(|| Prepared::link(model, &options.model, progress))?;
         stop_if_canceled(progress)?;
+        let gpu = times.compile.time(|| Gpu::open(&options.adapter))?;
+        let mut workpiece = Workpiece::assemble(open, graph, kinds, prepared, Arc::new(gpu), options)?;
+        workpiece.times.load.add(times.load.total());
+        workpiece.times.atlas = times.atlas;
+        workpiece.times.compile = times.compile;
+        Ok(workpiece)
+    }
+
+    /// Brings together what is loaded already, on a device that others use too.
+    pub fn assemble(
+        open: &OpenGraph,
+        graph: FlatGraph,
+        mut kinds: Kinds,
+        prepared: Prepared,
+        gpu: Arc<Gpu>,
+        options: &WorkpieceOptions,
+    ) -> Result<Workpiece, EngineError> {
+        let mut times = StageTimes::default();
         let fit = options.fit.clone().unwrap_or_else(|| open.document.fit.clone());
         let seed = options.overrides.seed.unwrap_or(open.document.seed);
-        let gpu = times.compile.time(|| Gpu::open(&options.adapter))?;
         let tables = times.load.time(|| prepared.tables(&fit, seed));
         let surface = times.load.time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables))?;
         let model_kind: SourceKind = kind_for(&prepared.model);
