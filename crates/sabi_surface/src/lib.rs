@@ -1,4 +1,5 @@
 //! A model file becomes a surface: loading, charts, the linked atlas, ray casting.
 
 pub mod atlas;
+pub mod load;
 pub mod model;

@@ -1,0 +1,196 @@
+//! Reading model files: glTF, GLB and OBJ become one [`Model`] in one world space.
+//!
+//! The readers check everything a file claims before they act on it: they answer with a model and warnings, or with a
+//! sentence, and never panic.
+
+mod error;
+mod gltf;
+mod normals;
+mod obj;
+mod piece;
+mod tangents;
+mod uri;
+mod warnings;
+
+use std::path::Path;
+
+use glam::{DMat3, DMat4, DVec3};
+
+pub use self::error::{Fault, LoadError};
+use crate::model::Model;
+
+/// More triangles than this are refused before anything is allocated for them.
+pub const MAX_TRIANGLES: u64 = 50_000_000;
+
+/// How a model is to be read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadOptions {
+    /// Which UV set becomes [`crate::model::Mesh::uvs`]: glTF's `TEXCOORD_n`; OBJ has set 0 alone.
+    pub uv_set: u32,
+    /// Which axis of the file points up; the model is turned so that it becomes +Y.
+    pub up: Up,
+    /// All lengths are multiplied by this; finite and above 0.
+    pub scale: f32,
+}
+
+impl Default for LoadOptions {
+    fn default() -> Self {
+        LoadOptions {
+            uv_set: 0,
+            up: Up::Y,
+            scale: 1.0,
+        }
+    }
+}
+
+impl LoadOptions {
+    fn world_from_file(&self) -> DMat4 {
+        let turn = match self.up {
+            Up::Y => DMat3::IDENTITY,
+            Up::Z => DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
+            Up::X => DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z),
+        };
+        DMat4::from_mat3(turn * f64::from(self.scale))
+    }
+}
+
+/// The axis of a file that points up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Up {
+    /// +Y, as glTF has it.
+    #[default]
+    Y,
+    /// +Z, as CAD and some exporters have it.
+    Z,
+    /// +X.
+    X,
+}
+
+/// Reads a model file and the files it names, from their places beside it.
+pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
+    let fault = |fault| LoadError {
+        model: path.display().to_string(),
+        fault,
+    };
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    if let Some(sentence) = refused_format(&name) {
+        // A missing file is the better news than a wrong ending.
+        let there = path.exists();
+        return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
+    }
+    let bytes = read_file(path).map_err(|reason| match reason {
+        Unread::Missing => fault(Fault::NoFile),
+        Unread::Other(reason) => fault(Fault::Unreadable(reason)),
+    })?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut resolve = |uri: &str| beside(folder, uri);
+    load_bytes(&name, &bytes, &mut resolve, options).map_err(|error| fault(error.fault))
+}
+
+/// Reads a model from bytes. `name` is its file name, ending included; `resolve` gives the bytes of a file beside it or
+/// the reason why not, and is asked for buffers, pictures and material libraries.
+pub fn load_bytes(
+    name: &str,
+    bytes: &[u8],
+    resolve: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+    options: &LoadOptions,
+) -> Result<Model, LoadError> {
+    let model = if bytes.is_empty() {
+        Err(Fault::Damaged("it is empty".into()))
+    } else if options.scale.is_finite() && options.scale > 0.0 {
+        match format_of(name, bytes) {
+            Ok(Format::Gltf) => gltf::read(name, bytes, resolve, options),
+            Ok(Format::Obj) => obj::read(name, bytes, resolve, options),
+            Err(fault) => Err(fault),
+        }
+    } else {
+        Err(Fault::Scale(options.scale))
+    };
+    model.map_err(|fault| LoadError {
+        model: name.to_string(),
+        fault,
+    })
+}
+
+enum Format {
+    Gltf,
+    Obj,
+}
+
+fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
+    if let Some(sentence) = refused_format(name) {
+        return Err(Fault::Format(sentence));
+    }
+    match ending(name).as_str() {
+        "gltf" | "glb" | "vrm" => Ok(Format::Gltf),
+        "obj" => Ok(Format::Obj),
+        _ if bytes.starts_with(b"glTF") => Ok(Format::Gltf),
+        _ if bytes.trim_ascii_start().starts_with(b"{") => Ok(Format::Gltf),
+        _ => Err(Fault::Format(
+            "this is not a model that is read here: give a .glb, .gltf or .obj file".into(),
+        )),
+    }
+}
+
+/// A sentence for the well-known formats that are not read.
+fn refused_format(name: &str) -> Option<String> {
+    let ending = ending(name);
+    let way = match ending.as_str() {
+        "fbx" | "dae" | "3ds" | "ply" | "stl" | "x3d" | "wrl" | "abc" | "usd" | "usda" | "usdc" | "usdz" => {
+            "open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)"
+        }
+        "blend" => "open it in Blender and export it with File > Export > glTF 2.0 (.glb)",
+        "max" | "ma" | "mb" | "c4d" | "hip" | "hiplc" | "skp" | "lwo" | "ztl" | "spp" => {
+            "export it from its own program as glTF 2.0 (.glb) or OBJ"
+        }
+        "step" | "stp" | "iges" | "igs" | "sldprt" | "3dm" | "ifc" => {
+            "tessellate it in its CAD program and export it as glTF 2.0 (.glb) or OBJ"
+        }
+        _ => return None,
+    };
+    Some(format!(".{ending} files are not read here: {way}"))
+}
+
+fn ending(name: &str) -> String {
+    name.rsplit_once('.')
+        .map_or(String::new(), |(_, ending)| ending.to_ascii_lowercase())
+}
+
+/// File name without its ending.
+fn stem(name: &str) -> String {
+    name.rsplit_once('.')
+        .map_or(name, |(stem, _)| if stem.is_empty() { name } else { stem })
+        .to_string()
+}
+
+enum Unread {
+    Missing,
+    Other(String),
+}
+
+/// The bytes of a plain file: a pipe or a device could go on for ever.
+fn read_file(path: &Path) -> Result<Vec<u8>, Unread> {
+    let unread = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => Unread::Missing,
+        _ => Unread::Other(error.to_string()),
+    };
+    if !std::fs::metadata(path).map_err(unread)?.is_file() {
+        return Err(Unread::Other("it is a folder or a device, not a file".into()));
+    }
+    std::fs::read(path).map_err(unread)
+}
+
+/// A file that a model names: as named, with the other system's separators, or by its bare name in the model's folder,
+/// since artists' files carry the paths of another machine.
+fn beside(folder: &Path, uri: &str) -> Result<Vec<u8>, String> {
+    let slashed = uri.replace('\\', "/");
+    let bare = slashed.rsplit('/').next().unwrap_or_default().to_string();
+    for candidate in [uri, &slashed, &bare] {
+        match read_file(&folder.join(candidate)) {
+            Ok(bytes) => return Ok(bytes),
+            Err(Unread::Missing) => {}
+            Err(Unread::Other(reason)) => return Err(reason),
+        }
+    }
+    Err("there is no such file".into())
+}

@@ -1,0 +1,78 @@
+//! Why a model could not be loaded, as sentences.
+
+/// A model that could not be loaded: which one, and why.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{model}: {fault}")]
+pub struct LoadError {
+    /// The model's file as the artist named it.
+    pub model: String,
+    /// What is wrong with it.
+    pub fault: Fault,
+}
+
+impl LoadError {
+    /// Whether a file is missing or unreadable, rather than wrong in what it holds.
+    pub fn is_missing(&self) -> bool {
+        matches!(
+            self.fault,
+            Fault::NoFile | Fault::Unreadable(_) | Fault::NoBuffer { .. }
+        )
+    }
+}
+
+/// What is wrong with a model.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// The model file is not there.
+    #[error("there is no such file; check the path")]
+    NoFile,
+    /// The model file is there and cannot be read.
+    #[error("the file cannot be read: {0}")]
+    Unreadable(String),
+    /// A file of vertex data beside the model cannot be read.
+    #[error(
+        "its vertex data is in `{uri}`, which cannot be read: {reason}; put that file back beside the model, or export the model as one .glb file"
+    )]
+    NoBuffer {
+        /// The file as the model names it.
+        uri: String,
+        /// Why it cannot be read.
+        reason: String,
+    },
+    /// A kind of file that is not read.
+    #[error("{0}")]
+    Format(String),
+    /// The file cannot be understood without a glTF extension that is not read.
+    #[error("it needs the glTF extension {extension}, which is not read here; {advice}")]
+    Extension {
+        /// The extension's name.
+        extension: String,
+        /// What to do about it.
+        advice: &'static str,
+    },
+    /// The UV set that was asked for is in no part of the model.
+    #[error("it has no UV set {asked}; {there}")]
+    UvSet {
+        /// The set that was asked for.
+        asked: u32,
+        /// Which sets there are.
+        there: String,
+    },
+    /// The file contradicts itself or its format.
+    #[error("the file is damaged: {0}")]
+    Damaged(String),
+    /// Nothing to texture; with the reasons that were found.
+    #[error("it has no triangles{0}")]
+    NoTriangles(String),
+    /// More than can be handled.
+    #[error("it has {0} triangles, and at most {max} are handled; reduce it or split it", max = super::MAX_TRIANGLES)]
+    TooLarge(u64),
+    /// A scale that is no length.
+    #[error("a scale of {0} makes no model; give a number above 0")]
+    Scale(f32),
+}
+
+/// Shorthand for a damaged file.
+pub(super) fn damaged<T>(what: impl Into<String>) -> Result<T, Fault> {
+    Err(Fault::Damaged(what.into()))
+}

@@ -1,0 +1,145 @@
+//! glTF 2.0 and GLB, read over the JSON types of the `gltf` crate with checks and readers of our own.
+
+mod accessor;
+mod buffers;
+mod document;
+mod material;
+mod primitive;
+mod scene;
+
+use glam::DMat4;
+use rayon::prelude::*;
+
+use self::buffers::Buffers;
+use self::document::Document;
+use self::material::Materials;
+use self::primitive::{Outcome, Source};
+use self::scene::Instance;
+use super::error::Fault;
+use super::warnings::Warnings;
+use super::{LoadOptions, MAX_TRIANGLES};
+use crate::model::Model;
+
+/// The files beside a model.
+pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
+
+/// Reads a `.gltf` or `.glb` file.
+pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+    let (document, binary) = Document::parse(bytes)?;
+    let mut warnings = Warnings::default();
+    document.check_extensions(&mut warnings)?;
+    let instances = scene::instances(&document, &mut warnings)?;
+    let buffers = Buffers::gather(&document, binary, resolve);
+    let source = Source {
+        document: &document,
+        buffers: &buffers,
+        uv_set: options.uv_set,
+    };
+    check_size(&source, &instances)?;
+
+    let pieces = source.pieces(instances.iter().map(|instance| instance.mesh))?;
+    let has = |what: fn(&Outcome) -> bool| pieces.values().flatten().any(what);
+    let with_uvs = has(|piece| !piece.piece.uvs.is_empty());
+    let with_colors = has(|piece| !piece.piece.colors.is_empty());
+    if !with_uvs {
+        primitive::check_uv_set(options.uv_set, pieces.values().flatten())?;
+    }
+
+    gather_warnings(&source, pieces.values().flatten(), with_uvs, &mut warnings);
+    let mut model = Model {
+        stem: super::stem(name),
+        ..Model::default()
+    };
+    let mut materials = Materials::default();
+    let world_from_file = options.world_from_file();
+    let mut lost = 0;
+    for instance in &instances {
+        let pieces = pieces.get(&instance.mesh).into_iter().flatten();
+        lost += place(
+            instance,
+            world_from_file,
+            pieces,
+            [with_uvs, with_colors],
+            &mut materials,
+            &mut model,
+        );
+    }
+    if lost > 0 {
+        warnings.add(format!(
+            "{lost} triangles reach out of the range of numbers once placed and are left out."
+        ));
+    }
+    if model.mesh.triangles.is_empty() {
+        if document.meshes.is_empty() {
+            warnings.add("it has no meshes");
+        }
+        return Err(warnings.into_fault());
+    }
+    materials.finish(&source, name, resolve, &mut model, &mut warnings);
+    model.warnings = warnings.finish();
+    Ok(model)
+}
+
+/// The warnings of the pieces, and one for those without the UVs that others have.
+fn gather_warnings<'a>(
+    source: &Source,
+    pieces: impl Iterator<Item = &'a Outcome>,
+    with_uvs: bool,
+    warnings: &mut Warnings,
+) {
+    for piece in pieces {
+        warnings.absorb(piece.warnings.clone());
+        if with_uvs && piece.piece.uvs.is_empty() && !piece.piece.triangles.is_empty() {
+            let material = source.document.material_label(piece.material);
+            let set = source.uv_set;
+            warnings.add(format!(
+                "Triangles of {material} have no UV set {set}; their texture coordinates are all zero."
+            ));
+        }
+    }
+}
+
+/// Puts the pieces of an instance into the model as one part; says how many triangles were lost.
+fn place<'a>(
+    instance: &Instance,
+    world_from_file: DMat4,
+    pieces: impl Iterator<Item = &'a Outcome>,
+    [with_uvs, with_colors]: [bool; 2],
+    materials: &mut Materials,
+    model: &mut Model,
+) -> usize {
+    let part = model.parts.len() as u32;
+    let mut lost = 0;
+    for piece in pieces {
+        let mut placed = piece.piece.placed(world_from_file * instance.file_from_mesh);
+        lost += placed.drop_broken();
+        if placed.triangles.is_empty() {
+            continue;
+        }
+        placed.materials = vec![materials.slot(piece.material); placed.triangles.len()];
+        placed.parts = vec![part; placed.triangles.len()];
+        placed.append_to(&mut model.mesh, with_uvs, with_colors);
+    }
+    if model.mesh.triangle_part.last() == Some(&part) {
+        model.parts.push(instance.name.clone());
+    }
+    lost
+}
+
+/// Adds up what the file claims before anything is allocated for it.
+fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
+    let claims: Vec<u64> = source
+        .document
+        .meshes
+        .par_iter()
+        .map(|mesh| mesh.primitives.iter().map(|p| source.claim(p)).sum())
+        .collect();
+    let total = instances
+        .iter()
+        .fold(0u64, |sum, instance| sum.saturating_add(claims[instance.mesh]));
+    if total > MAX_TRIANGLES {
+        Err(Fault::TooLarge(total))
+    } else {
+        Ok(())
+    }
+}

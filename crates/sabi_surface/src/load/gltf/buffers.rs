@@ -1,0 +1,153 @@
+//! The bytes behind buffer views, with every claimed range held against the true length.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::Resolve;
+use super::document::Document;
+use crate::load::error::{Fault, damaged};
+use crate::load::uri::Uri;
+
+/// All buffers of a file. One that is missing is a fault only once something reads it.
+pub(super) struct Buffers<'a> {
+    buffers: Vec<Result<Bytes<'a>, Fault>>,
+}
+
+/// Bytes of the file itself, decoded, or read once for all buffers that name the same file.
+#[derive(Clone)]
+enum Bytes<'a> {
+    Whole(Cow<'a, [u8]>),
+    Shared(Arc<[u8]>),
+}
+
+impl Bytes<'_> {
+    fn get(&self) -> &[u8] {
+        match self {
+            Bytes::Whole(bytes) => bytes,
+            Bytes::Shared(bytes) => bytes,
+        }
+    }
+}
+
+/// Equally long elements at equal distances.
+#[derive(Clone, Copy)]
+pub(super) struct Elements<'a> {
+    bytes: &'a [u8],
+    stride: usize,
+    size: usize,
+    count: usize,
+}
+
+impl<'a> Elements<'a> {
+    /// The bytes of each element, in order.
+    pub(super) fn iter(self) -> impl Iterator<Item = &'a [u8]> {
+        (0..self.count).map(move |index| &self.bytes[index * self.stride..][..self.size])
+    }
+}
+
+impl<'a> Buffers<'a> {
+    /// Fetches every buffer that the file names.
+    pub(super) fn gather(document: &Document, binary: Option<&'a [u8]>, resolve: &mut Resolve) -> Buffers<'a> {
+        let mut fetched = BTreeMap::new();
+        let buffers = document
+            .buffers
+            .iter()
+            .enumerate()
+            .map(|(index, buffer)| match (&buffer.uri, binary) {
+                (Some(uri), _) => fetch(uri, index, &mut fetched, resolve),
+                (None, Some(binary)) if index == 0 => Ok(Bytes::Whole(Cow::Borrowed(binary))),
+                (None, _) => Err(document.compression().unwrap_or_else(|| {
+                    Fault::Damaged(format!("buffers[{index}] names no file and is not the binary chunk"))
+                })),
+            })
+            .collect();
+        Buffers { buffers }
+    }
+
+    /// The bytes of a buffer view.
+    pub(super) fn view(&self, document: &Document, index: usize) -> Result<&[u8], Fault> {
+        let Some(view) = document.views.get(index) else {
+            return damaged(format!("there is no bufferViews[{index}]"));
+        };
+        let buffer = view.buffer.value();
+        let Some(bytes) = self.buffers.get(buffer) else {
+            return damaged(format!(
+                "bufferViews[{index}] is in buffers[{buffer}], which is not there"
+            ));
+        };
+        let bytes = bytes.as_ref().map_err(Clone::clone)?.get();
+        let (offset, length) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
+        let range = usize::try_from(offset)
+            .ok()
+            .zip(usize::try_from(offset.saturating_add(length)).ok());
+        match range.and_then(|(start, end)| bytes.get(start..end)) {
+            Some(bytes) => Ok(bytes),
+            None => damaged(format!(
+                "bufferViews[{index}] takes {length} bytes from {offset} on, and buffers[{buffer}] has {} bytes",
+                bytes.len()
+            )),
+        }
+    }
+
+    /// `count` elements of `size` bytes in a buffer view; `who` asks for them.
+    pub(super) fn elements(
+        &self,
+        document: &Document,
+        who: &str,
+        view: usize,
+        offset: u64,
+        size: usize,
+        count: u64,
+    ) -> Result<Elements<'_>, Fault> {
+        let bytes = self.view(document, view)?;
+        let stride = document.views[view].byte_stride.map_or(size, |stride| stride.0);
+        if stride < size {
+            return damaged(format!("{who} has elements of {size} bytes, {stride} bytes apart"));
+        }
+        let needed = match count {
+            0 => 0,
+            _ => u128::from(offset) + (u128::from(count) - 1) * stride as u128 + size as u128,
+        };
+        if needed > bytes.len() as u128 {
+            return damaged(format!(
+                "{who} needs {needed} bytes, and bufferViews[{view}] has {}",
+                bytes.len()
+            ));
+        }
+        // Both fit: they lie within bytes that are there.
+        let bytes = if count == 0 { &[] } else { &bytes[offset as usize..] };
+        Ok(Elements {
+            bytes,
+            stride,
+            size,
+            count: count as usize,
+        })
+    }
+}
+
+fn fetch<'a>(
+    uri: &str,
+    index: usize,
+    fetched: &mut BTreeMap<String, Result<Arc<[u8]>, Fault>>,
+    resolve: &mut Resolve,
+) -> Result<Bytes<'a>, Fault> {
+    let fault = |reason| Fault::NoBuffer {
+        uri: uri.chars().take(80).collect(),
+        reason,
+    };
+    match Uri::parse(uri) {
+        Uri::Data(bytes) => Ok(Bytes::Whole(Cow::Owned(bytes))),
+        Uri::Unusable(reason) if reason.starts_with("its data URI") => damaged(format!("buffers[{index}]: {reason}")),
+        Uri::Unusable(reason) => Err(fault(reason)),
+        Uri::Beside(path) => fetched
+            .entry(path.to_string())
+            .or_insert_with(|| {
+                resolve(&path)
+                    .or_else(|reason| resolve(uri).map_err(|_| fault(reason)))
+                    .map(Arc::from)
+            })
+            .clone()
+            .map(Bytes::Shared),
+    }
+}

@@ -1,0 +1,225 @@
+//! The container and its JSON: taken apart object by object, so that a fault is named by its place and what a texture
+//! job never looks at (animations, cameras, lights) can be as broken as it likes.
+
+use gltf::json;
+use serde_json::Value;
+
+use crate::load::error::{Fault, damaged};
+use crate::load::warnings::Warnings;
+
+/// The lists of a glTF file that matter here.
+#[derive(Default)]
+pub(super) struct Document {
+    pub(super) accessors: Vec<json::Accessor>,
+    pub(super) buffers: Vec<json::Buffer>,
+    pub(super) views: Vec<json::buffer::View>,
+    pub(super) images: Vec<json::Image>,
+    pub(super) materials: Vec<json::Material>,
+    pub(super) meshes: Vec<json::Mesh>,
+    pub(super) nodes: Vec<json::Node>,
+    pub(super) samplers: Vec<json::texture::Sampler>,
+    pub(super) textures: Vec<json::Texture>,
+    /// Root nodes of each scene.
+    pub(super) scenes: Vec<Vec<u64>>,
+    pub(super) default_scene: Option<u64>,
+    used: Vec<String>,
+    required: Vec<String>,
+}
+
+impl Document {
+    /// Splits a GLB container where there is one, and reads the JSON; also gives the binary chunk.
+    pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {
+        let (text, binary) = if bytes.starts_with(b"glTF") {
+            chunks(bytes)?
+        } else {
+            (bytes, None)
+        };
+        let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+        let root: Value = serde_json::from_slice(text)
+            .map_err(|error| Fault::Damaged(format!("its JSON cannot be read ({error})")))?;
+        let Value::Object(mut root) = root else {
+            return damaged("its JSON is not an object");
+        };
+        let version = root.get("asset").and_then(|asset| asset.get("version"));
+        match version
+            .and_then(Value::as_str)
+            .map(|version| version.split('.').next().unwrap_or_default())
+        {
+            Some("2") => {}
+            Some("") => return damaged("its asset does not say which version of glTF it is"),
+            Some("1" | "0") => return Err(old_version()),
+            Some(other) => return Err(Fault::Format(format!("this is glTF {other}, and glTF 2 is read here"))),
+            None => return damaged("its asset does not say which version of glTF it is"),
+        }
+        let root = &mut root;
+        let document = Document {
+            accessors: list(root, "accessors", serde_json::from_value)?,
+            buffers: list(root, "buffers", serde_json::from_value)?,
+            views: list(root, "bufferViews", serde_json::from_value)?,
+            images: list(root, "images", serde_json::from_value)?,
+            materials: list(root, "materials", serde_json::from_value)?,
+            meshes: list(root, "meshes", serde_json::from_value)?,
+            nodes: list(root, "nodes", serde_json::from_value)?,
+            samplers: list(root, "samplers", serde_json::from_value)?,
+            textures: list(root, "textures", serde_json::from_value)?,
+            scenes: list(root, "scenes", |scene| match scene.get("nodes") {
+                Some(nodes) => serde_json::from_value(nodes.clone()),
+                None => Ok(Vec::new()),
+            })?,
+            default_scene: root.get("scene").and_then(Value::as_u64),
+            used: list(root, "extensionsUsed", serde_json::from_value)?,
+            required: list(root, "extensionsRequired", serde_json::from_value)?,
+        };
+        Ok((document, binary))
+    }
+
+    /// Refuses files that mean something else without an extension that is not read here.
+    pub(super) fn check_extensions(&self, warnings: &mut Warnings) -> Result<(), Fault> {
+        for name in &self.required {
+            match name.as_str() {
+                "KHR_mesh_quantization" | "KHR_texture_transform" | "KHR_materials_emissive_strength" => {}
+                "EXT_texture_webp" => {}
+                // These change what is drawn with the surface, not the surface.
+                "KHR_lights_punctual" | "KHR_animation_pointer" | "KHR_xmp_json_ld" | "KHR_node_visibility" => {}
+                "KHR_texture_basisu" | "MSFT_texture_dds" | "EXT_texture_avif" => {
+                    warnings.add(format!("The file needs {name}: pictures stored that way are left out."));
+                }
+                _ if name.starts_with("KHR_materials_") => {
+                    warnings.add(format!("The file needs {name}, which is left out of its materials."));
+                }
+                _ => return Err(refused(name)),
+            }
+        }
+        for name in &self.used {
+            if name == "EXT_mesh_gpu_instancing" {
+                warnings.add("Copies made by EXT_mesh_gpu_instancing are left out.");
+            }
+        }
+        Ok(())
+    }
+
+    /// The compression that would explain vertex data without bytes.
+    pub(super) fn compression(&self) -> Option<Fault> {
+        self.used
+            .iter()
+            .chain(&self.required)
+            .find(|name| is_compression(name))
+            .map(|name| refused(name))
+    }
+
+    /// A material as a message names it.
+    pub(super) fn material_label(&self, material: Option<usize>) -> String {
+        match material {
+            None => "the unnamed material".to_string(),
+            Some(index) => match self.materials.get(index).and_then(|material| material.name.as_deref()) {
+                Some(name) if !name.is_empty() => format!("material `{name}`"),
+                _ => format!("material {index}"),
+            },
+        }
+    }
+
+    /// A mesh as a message names it.
+    pub(super) fn mesh_label(&self, mesh: usize) -> String {
+        match self.meshes.get(mesh).and_then(|mesh| mesh.name.as_deref()) {
+            Some(name) if !name.is_empty() => format!("mesh `{name}`"),
+            _ => format!("mesh {mesh}"),
+        }
+    }
+}
+
+fn is_compression(name: &str) -> bool {
+    matches!(
+        name,
+        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression"
+    )
+}
+
+fn refused(name: &str) -> Fault {
+    let advice = if is_compression(name) {
+        "save the model without mesh compression (Blender: untick Compression when exporting; gltf-transform: `gltf-transform copy in.glb out.glb`)"
+    } else {
+        "export the model without it"
+    };
+    Fault::Extension {
+        extension: name.to_string(),
+        advice,
+    }
+}
+
+fn old_version() -> Fault {
+    Fault::Format(
+        "this is glTF 1, and glTF 2 is read here; convert it (gltf-pipeline does so) or export it anew".into(),
+    )
+}
+
+/// One list of the file, read object by object.
+fn list<T>(
+    root: &mut serde_json::Map<String, Value>,
+    key: &str,
+    read: impl Fn(Value) -> serde_json::Result<T>,
+) -> Result<Vec<T>, Fault> {
+    match root.get_mut(key).map(Value::take) {
+        None => Ok(Vec::new()),
+        Some(Value::Array(values)) => values
+            .into_iter()
+            .enumerate()
+            .map(|(index, value)| {
+                read(value).map_err(|error| Fault::Damaged(format!("{key}[{index}] cannot be read ({error})")))
+            })
+            .collect(),
+        Some(_) => damaged(format!("{key} is not a list")),
+    }
+}
+
+/// The JSON and binary chunks of a GLB container.
+fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
+    let word = |at: usize| {
+        bytes
+            .get(at..at + 4)
+            .and_then(|word| word.try_into().ok())
+            .map(u32::from_le_bytes)
+    };
+    let (Some(version), Some(length)) = (word(4), word(8)) else {
+        return damaged("its GLB header is cut off");
+    };
+    match version {
+        2 => {}
+        1 => return Err(old_version()),
+        _ => {
+            return Err(Fault::Format(format!(
+                "this is version {version} of GLB, and version 2 is read here"
+            )));
+        }
+    }
+    let length = length as usize;
+    if length > bytes.len() {
+        return damaged(format!(
+            "its header promises {length} bytes and there are {}; it was cut off",
+            bytes.len()
+        ));
+    }
+    let word = |at: usize| word(at).filter(|_| at + 4 <= length);
+    let mut at = 12;
+    let (mut text, mut binary) = (None, None);
+    while at < length {
+        let (Some(size), Some(kind)) = (word(at), word(at + 4)) else {
+            return damaged("a chunk header is cut off");
+        };
+        let Some(chunk) = bytes[..length].get(at + 8..).and_then(|rest| rest.get(..size as usize)) else {
+            return damaged(format!(
+                "a chunk promises {size} bytes and reaches over the end of the file"
+            ));
+        };
+        match &kind.to_le_bytes() {
+            b"JSON" if text.is_none() => text = Some(chunk),
+            b"BIN\0" if text.is_some() && binary.is_none() => binary = Some(chunk),
+            _ if text.is_none() => return damaged("its first chunk is not JSON"),
+            _ => {}
+        }
+        at += 8 + size as usize;
+    }
+    match text {
+        Some(text) => Ok((text, binary)),
+        None => damaged("it has no JSON chunk"),
+    }
+}

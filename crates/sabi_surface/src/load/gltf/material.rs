@@ -1,0 +1,277 @@
+//! Materials in use, their textures, and the pictures behind them.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use gltf::json;
+use json::texture::WrappingMode;
+use json::validation::Checked;
+use serde_json::{Map, Value};
+
+use super::Resolve;
+use super::primitive::Source;
+use crate::load::uri::Uri;
+use crate::load::warnings::Warnings;
+use crate::model::{Model, ModelImage, ModelMaterial, TextureRef, Wrap};
+
+/// Extensions that keep a texture's picture elsewhere; the first is read.
+const OTHER_SOURCES: [&str; 4] = [
+    "EXT_texture_webp",
+    "KHR_texture_basisu",
+    "EXT_texture_avif",
+    "MSFT_texture_dds",
+];
+
+/// The materials that triangles use, numbered as they come up until [`Materials::finish`] puts them in file order.
+#[derive(Default)]
+pub(super) struct Materials {
+    /// Slot of each material; the default material's key sorts last.
+    slots: BTreeMap<(bool, usize), u32>,
+}
+
+impl Materials {
+    /// The slot of a material of the file; `None` is the default material.
+    pub(super) fn slot(&mut self, material: Option<usize>) -> u32 {
+        let next = self.slots.len() as u32;
+        *self
+            .slots
+            .entry((material.is_none(), material.unwrap_or(0)))
+            .or_insert(next)
+    }
+
+    /// Reads the materials in use and the pictures they name into `model`, and puts its triangles' materials in file order.
+    pub(super) fn finish(
+        self,
+        source: &Source,
+        name: &str,
+        resolve: &mut Resolve,
+        model: &mut Model,
+        warnings: &mut Warnings,
+    ) {
+        let mut new_from_slot = vec![0; self.slots.len()];
+        let mut pictures = Pictures {
+            source,
+            slots: BTreeMap::new(),
+            warnings,
+        };
+        for (new, ((is_default, index), slot)) in self.slots.into_iter().enumerate() {
+            new_from_slot[slot as usize] = new as u32;
+            let material = source.document.materials.get(index).filter(|_| !is_default);
+            model
+                .materials
+                .push(material.map_or_else(ModelMaterial::default, |material| pictures.material(index, material)));
+        }
+        for material in &mut model.mesh.triangle_material {
+            *material = new_from_slot[*material as usize];
+        }
+        let mut slots: Vec<_> = pictures.slots.into_iter().collect();
+        slots.sort_unstable_by_key(|(_, slot)| *slot);
+        for ((image, unread), _) in slots {
+            let image = read_image(source, name, image, unread, resolve);
+            if let Err(sentence) = &image.bytes {
+                warnings.add(sentence.clone());
+            }
+            model.images.push(image);
+        }
+    }
+}
+
+/// Pictures in the order in which materials name them.
+struct Pictures<'a> {
+    source: &'a Source<'a>,
+    /// An image of the file and whether it is in a format that is not read, to its place in the model.
+    slots: BTreeMap<(usize, Option<&'static str>), usize>,
+    warnings: &'a mut Warnings,
+}
+
+/// What the kinds of texture use have in common.
+struct Use<'a> {
+    texture: usize,
+    uv_set: u32,
+    transform: Option<&'a json::extensions::texture::TextureTransform>,
+}
+
+impl Pictures<'_> {
+    fn material(&mut self, index: usize, material: &json::Material) -> ModelMaterial {
+        let pbr = &material.pbr_metallic_roughness;
+        let label = self.source.document.material_label(Some(index));
+        let strength = material
+            .extensions
+            .as_ref()
+            .and_then(|extensions| extensions.emissive_strength.as_ref());
+        let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
+        let normal = material.normal_texture.as_ref();
+        let occlusion = material.occlusion_texture.as_ref();
+        let mut info = |info: &Option<json::texture::Info>| info.as_ref().and_then(|info| self.info(&label, info));
+        let base_color = info(&pbr.base_color_texture);
+        let metallic_roughness = info(&pbr.metallic_roughness_texture);
+        let emission = info(&material.emissive_texture);
+        ModelMaterial {
+            name: material.name.clone().unwrap_or_default(),
+            base_color_factor: finite(pbr.base_color_factor.0, 1.0),
+            metallic_factor: finite([pbr.metallic_factor.0], 1.0)[0],
+            roughness_factor: finite([pbr.roughness_factor.0], 1.0)[0],
+            emission_factor: finite(material.emissive_factor.0.map(|factor| factor * strength), 0.0),
+            normal_scale: normal.map_or(1.0, |normal| finite([normal.scale], 1.0)[0]),
+            occlusion_strength: occlusion.map_or(1.0, |occlusion| finite([occlusion.strength.0], 1.0)[0]),
+            base_color,
+            metallic_roughness,
+            emission,
+            normal: normal.and_then(|normal| {
+                let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
+                self.with_raw_transform(&label, normal.index.value(), normal.tex_coord, others)
+            }),
+            occlusion: occlusion.and_then(|occlusion| {
+                let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
+                self.with_raw_transform(&label, occlusion.index.value(), occlusion.tex_coord, others)
+            }),
+        }
+    }
+
+    fn info(&mut self, label: &str, info: &json::texture::Info) -> Option<TextureRef> {
+        let transform = info
+            .extensions
+            .as_ref()
+            .and_then(|extensions| extensions.texture_transform.as_ref());
+        self.texture(
+            label,
+            Use {
+                texture: info.index.value(),
+                uv_set: info.tex_coord,
+                transform,
+            },
+        )
+    }
+
+    /// Normal and occlusion textures keep their transform unread in the crate's types.
+    fn with_raw_transform(
+        &mut self,
+        label: &str,
+        texture: usize,
+        uv_set: u32,
+        others: Option<&Map<String, Value>>,
+    ) -> Option<TextureRef> {
+        let raw = others.and_then(|others| others.get("KHR_texture_transform"));
+        let transform = raw.and_then(|raw| serde_json::from_value(raw.clone()).ok());
+        if raw.is_some() && transform.is_none() {
+            self.warnings.add(format!(
+                "A texture transform of {label} cannot be read and is left out."
+            ));
+        }
+        self.texture(
+            label,
+            Use {
+                texture,
+                uv_set,
+                transform: transform.as_ref(),
+            },
+        )
+    }
+
+    fn texture(&mut self, label: &str, used: Use) -> Option<TextureRef> {
+        let document = self.source.document;
+        let index = used.texture;
+        let Some(texture) = document.textures.get(index) else {
+            self.warnings.add(format!(
+                "A texture of {label} is left out: there is no textures[{index}]."
+            ));
+            return None;
+        };
+        let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
+        let other = OTHER_SOURCES.into_iter().find_map(|name| {
+            let image = others?.get(name)?.get("source")?.as_u64()?;
+            Some((usize::try_from(image).ok()?, (name != OTHER_SOURCES[0]).then_some(name)))
+        });
+        let plain = Some((texture.source.value(), None)).filter(|(image, _)| *image < document.images.len());
+        let Some(picture) = plain.or(other.filter(|(image, _)| *image < document.images.len())) else {
+            self.warnings.add(format!(
+                "A texture of {label} is left out: textures[{index}] has no picture."
+            ));
+            return None;
+        };
+        let next = self.slots.len();
+        let image = *self.slots.entry(picture).or_insert(next);
+        let sampler = texture
+            .sampler
+            .and_then(|sampler| document.samplers.get(sampler.value()));
+        let uv_set = used
+            .transform
+            .and_then(|transform| transform.tex_coord)
+            .unwrap_or(used.uv_set);
+        let on_loaded_uv_set = uv_set == self.source.uv_set;
+        if !on_loaded_uv_set {
+            self.warnings.add(format!(
+                "A texture of {label} is meant for UV set {uv_set}, and set {} was loaded; it cannot be shown rightly.",
+                self.source.uv_set
+            ));
+        }
+        Some(TextureRef {
+            image,
+            wrap: sampler.map_or([Wrap::Repeat; 2], |sampler| {
+                [wrap(sampler.wrap_s), wrap(sampler.wrap_t)]
+            }),
+            transform: used
+                .transform
+                .map_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], transform_rows),
+            on_loaded_uv_set,
+        })
+    }
+}
+
+/// KHR_texture_transform: scaled, turned counter-clockwise as one sees it (v grows downward), moved.
+fn transform_rows(transform: &json::extensions::texture::TextureTransform) -> [[f32; 3]; 2] {
+    let [scale_u, scale_v] = finite(transform.scale.0, 1.0);
+    let [offset_u, offset_v] = finite(transform.offset.0, 0.0);
+    let (sin, cos) = f64::from(finite([transform.rotation.0], 0.0)[0]).sin_cos();
+    let (sin, cos) = (sin as f32, cos as f32);
+    [
+        [cos * scale_u, sin * scale_v, offset_u],
+        [-sin * scale_u, cos * scale_v, offset_v],
+    ]
+}
+
+fn wrap(mode: Checked<WrappingMode>) -> Wrap {
+    match mode {
+        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+        Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
+    }
+}
+
+fn finite<const N: usize>(values: [f32; N], otherwise: f32) -> [f32; N] {
+    values.map(|value| if value.is_finite() { value } else { otherwise })
+}
+
+/// The encoded bytes of an image, `unread` being the extension it would need.
+fn read_image(
+    source: &Source,
+    model: &str,
+    index: usize,
+    unread: Option<&'static str>,
+    resolve: &mut Resolve,
+) -> ModelImage {
+    let image = &source.document.images[index];
+    let uri = image.uri.as_deref().map(Uri::parse);
+    let name = match &uri {
+        Some(Uri::Beside(path)) => path.rsplit(['/', '\\']).next().unwrap_or_default().to_string(),
+        _ => format!("image {index} of {model}"),
+    };
+    let bytes: Result<Arc<[u8]>, String> = match (unread, uri, image.buffer_view) {
+        (Some(extension), ..) => Err(format!("it is stored with {extension}, which is not read here")),
+        (_, Some(Uri::Data(bytes)), _) => Ok(bytes.into()),
+        (_, Some(Uri::Beside(path)), _) => {
+            let raw = image.uri.as_deref().unwrap_or_default();
+            resolve(&path)
+                .or_else(|reason| resolve(raw).map_err(|_| reason))
+                .map(Arc::from)
+        }
+        (_, Some(Uri::Unusable(reason)), _) => Err(reason),
+        (_, None, Some(view)) => match source.buffers.view(source.document, view.value()) {
+            Ok(bytes) => Ok(bytes.into()),
+            Err(fault) => Err(fault.to_string()),
+        },
+        (_, None, None) => Err("the file does not say where it is".to_string()),
+    };
+    let bytes = bytes.map_err(|reason| format!("The picture {name} cannot be read: {reason}."));
+    ModelImage { name, bytes }
+}

@@ -1,0 +1,223 @@
+//! Primitives become [`Piece`]s: attributes read, strips and fans unrolled, normals and tangents completed.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use gltf::json;
+use json::mesh::{Mode, Semantic};
+use json::validation::Checked;
+use rayon::prelude::*;
+
+use super::buffers::Buffers;
+use super::document::Document;
+use crate::load::error::{Fault, damaged};
+use crate::load::normals::{self, Missing};
+use crate::load::piece::Piece;
+use crate::load::tangents;
+use crate::load::warnings::Warnings;
+
+/// A file with the bytes it names.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub(super) document: &'a Document,
+    pub(super) buffers: &'a Buffers<'a>,
+    pub(super) uv_set: u32,
+}
+
+/// A primitive that was read.
+#[derive(Default)]
+pub(super) struct Outcome {
+    pub(super) piece: Piece,
+    /// Its material in the file; `None` is glTF's default material.
+    pub(super) material: Option<usize>,
+    /// The UV sets it has.
+    uv_sets: BTreeSet<u32>,
+    pub(super) warnings: Warnings,
+}
+
+impl Source<'_> {
+    /// Reads the primitives of the meshes, each mesh once.
+    pub(super) fn pieces(&self, meshes: impl Iterator<Item = usize>) -> Result<BTreeMap<usize, Vec<Outcome>>, Fault> {
+        let meshes: BTreeSet<usize> = meshes.collect();
+        let primitives: Vec<(usize, usize)> = meshes
+            .iter()
+            .flat_map(|mesh| (0..self.document.meshes[*mesh].primitives.len()).map(|primitive| (*mesh, primitive)))
+            .collect();
+        // All of them are read before the first fault is taken, so that it is always the same one.
+        let outcomes: Vec<_> = primitives
+            .par_iter()
+            .map(|(mesh, primitive)| self.read(*mesh, *primitive))
+            .collect();
+        let mut pieces: BTreeMap<usize, Vec<Outcome>> = BTreeMap::new();
+        for ((mesh, _), outcome) in primitives.into_iter().zip(outcomes) {
+            pieces.entry(mesh).or_default().push(outcome?);
+        }
+        Ok(pieces)
+    }
+
+    /// How many triangles a primitive claims to have.
+    pub(super) fn claim(&self, primitive: &json::mesh::Primitive) -> u64 {
+        let counted = primitive.indices.or_else(|| attribute(primitive, Semantic::Positions));
+        let corners = counted.map_or(0, |index| self.claimed_count(index.value()));
+        match primitive.mode {
+            Checked::Valid(Mode::Triangles) => corners / 3,
+            Checked::Valid(Mode::TriangleStrip | Mode::TriangleFan) => corners.saturating_sub(2),
+            _ => 0,
+        }
+    }
+
+    fn read(&self, mesh: usize, number: usize) -> Result<Outcome, Fault> {
+        let primitive = &self.document.meshes[mesh].primitives[number];
+        let label = self.document.mesh_label(mesh);
+        let mut outcome = Outcome {
+            material: primitive.material.map(|index| index.value()),
+            ..Outcome::default()
+        };
+        if let Some(material) = outcome.material.filter(|index| *index >= self.document.materials.len()) {
+            return damaged(format!("{label} uses materials[{material}], which is not there"));
+        }
+        let mode = match primitive.mode {
+            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
+            Checked::Valid(_) => {
+                outcome
+                    .warnings
+                    .add(format!("Points and lines of {label} are left out."));
+                return Ok(outcome);
+            }
+            Checked::Invalid => return damaged(format!("{label} has a primitive of unknown mode")),
+        };
+        let Some(positions) = attribute(primitive, Semantic::Positions) else {
+            outcome
+                .warnings
+                .add(format!("A primitive of {label} has no positions and is left out."));
+            return Ok(outcome);
+        };
+        if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
+            outcome
+                .warnings
+                .add(format!("Morph targets of {label} are left out: it is taken at rest."));
+        }
+        let piece = &mut outcome.piece;
+        piece.positions = self.floats(positions.value(), &format!("positions of {label}"))?;
+        let corners = match primitive.indices {
+            Some(index) => self.indices(index.value(), &format!("indices of {label}"))?,
+            None => (0..piece.positions.len() as u32).collect(),
+        };
+        let vertices = piece.positions.len();
+        if let Some(vertex) = corners.iter().find(|vertex| **vertex as usize >= vertices) {
+            return damaged(format!("{label} names vertex {vertex} of {vertices}"));
+        }
+        if mode == Mode::Triangles && corners.len() % 3 != 0 {
+            outcome
+                .warnings
+                .add(format!("{label} ends in the middle of a triangle, which is left out."));
+        }
+        piece.triangles = triangles(mode, &corners);
+        outcome.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
+        self.read_attributes(primitive, &label, piece)?;
+        complete(&mut outcome, &label);
+        Ok(outcome)
+    }
+
+    fn read_attributes(&self, primitive: &json::mesh::Primitive, label: &str, piece: &mut Piece) -> Result<(), Fault> {
+        if let Some(index) = attribute(primitive, Semantic::Normals) {
+            piece.normals = self.floats(index.value(), &format!("normals of {label}"))?;
+            // Without normals, glTF has tangents ignored.
+            if let Some(index) = attribute(primitive, Semantic::Tangents) {
+                piece.tangents = self.floats(index.value(), &format!("tangents of {label}"))?;
+            }
+        }
+        if let Some(index) = attribute(primitive, Semantic::TexCoords(self.uv_set)) {
+            piece.uvs = self.floats(index.value(), &format!("UV set {} of {label}", self.uv_set))?;
+        }
+        if let Some(index) = attribute(primitive, Semantic::Colors(0)) {
+            piece.colors = self.colors(index.value(), &format!("colors of {label}"))?;
+        }
+        let count = piece.positions.len();
+        for (what, length) in [
+            ("normals", piece.normals.len()),
+            ("tangents", piece.tangents.len()),
+            ("texture coordinates", piece.uvs.len()),
+            ("colors", piece.colors.len()),
+        ] {
+            let given = match what {
+                "normals" => attribute(primitive, Semantic::Normals).is_some(),
+                _ => length > 0,
+            };
+            if given && length != count {
+                return damaged(format!("{label} has {count} positions and {length} {what}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Repairs what is broken and makes what is missing.
+fn complete(outcome: &mut Outcome, label: &str) {
+    let Outcome { piece, warnings, .. } = outcome;
+    let dropped = piece.drop_broken();
+    if dropped > 0 {
+        warnings.add(format!(
+            "{dropped} triangles of {label} touch positions that are no numbers and are left out."
+        ));
+    }
+    let repaired = piece.repair_attributes();
+    if repaired > 0 {
+        warnings.add(format!(
+            "{repaired} vertices of {label} have texture coordinates or colors that are no numbers; they were replaced."
+        ));
+    }
+    let had_normals = !piece.normals.is_empty();
+    let missing = if had_normals { Missing::Crease } else { Missing::Flat };
+    let made = normals::complete(piece, missing);
+    if had_normals && made > 0 {
+        warnings.add(format!(
+            "{made} vertices of {label} have normals without a direction; they were made anew."
+        ));
+    }
+    tangents::complete(piece, label, warnings);
+}
+
+/// Says that the chosen UV set is nowhere, unless no set at all is what the default set may mean.
+pub(super) fn check_uv_set<'a>(asked: u32, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<(), Fault> {
+    let sets: BTreeSet<u32> = outcomes.flat_map(|outcome| &outcome.uv_sets).copied().collect();
+    let there = match sets.iter().map(u32::to_string).collect::<Vec<_>>().as_slice() {
+        [] if asked == 0 => return Ok(()),
+        [] => "it has no UVs at all".to_string(),
+        [one] => format!("it has set {one}"),
+        [first @ .., last] => format!("it has the sets {} and {last}", first.join(", ")),
+    };
+    Err(Fault::UvSet { asked, there })
+}
+
+fn uv_set(semantic: &Checked<Semantic>) -> Option<u32> {
+    match semantic {
+        Checked::Valid(Semantic::TexCoords(set)) => Some(*set),
+        _ => None,
+    }
+}
+
+fn attribute(primitive: &json::mesh::Primitive, semantic: Semantic) -> Option<json::Index<json::Accessor>> {
+    primitive.attributes.get(&Checked::Valid(semantic)).copied()
+}
+
+/// glTF 2.0, 3.7.2.1: corners of triangles, strips and fans.
+fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
+    match mode {
+        Mode::TriangleStrip => corners
+            .windows(3)
+            .enumerate()
+            .map(|(index, v)| {
+                if index % 2 == 0 {
+                    [v[0], v[1], v[2]]
+                } else {
+                    [v[0], v[2], v[1]]
+                }
+            })
+            .collect(),
+        Mode::TriangleFan => match corners {
+            [center, rim @ ..] => rim.windows(2).map(|v| [v[0], v[1], *center]).collect(),
+            [] => Vec::new(),
+        },
+        _ => corners.as_chunks().0.to_vec(),
+    }
+}

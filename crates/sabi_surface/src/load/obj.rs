@@ -1,0 +1,220 @@
+//! Wavefront OBJ and its material libraries.
+//!
+//! Normals that the file leaves out are smooth up to a crease of 80°, or follow its smoothing groups where it has them.
+//! Texture coordinates are turned to glTF's convention (v grows downward). Vertex colors, an unwritten addition to the
+//! format, are taken as sRGB, as the programs that write them do.
+
+mod library;
+mod polygon;
+mod statements;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use self::library::Library;
+use self::statements::{Corner, NONE, Statements};
+use super::error::Fault;
+use super::normals::{self, Missing};
+use super::piece::Piece;
+use super::tangents;
+use super::warnings::Warnings;
+use super::{LoadOptions, MAX_TRIANGLES};
+use crate::model::{Mesh, Model, ModelMaterial};
+
+/// Reads an `.obj` file.
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    resolve: &mut super::gltf::Resolve,
+    options: &LoadOptions,
+) -> Result<Model, Fault> {
+    let mut warnings = Warnings::default();
+    let text = statements::decoded(bytes);
+    let statements = Statements::read(&text, &mut warnings)?;
+    let claim: u64 = statements.faces.iter().map(|face| face.corners.len() as u64 - 2).sum();
+    if claim > MAX_TRIANGLES {
+        return Err(Fault::TooLarge(claim));
+    }
+    if options.uv_set > 0 {
+        let there = if statements.uvs.is_empty() {
+            "it has no UVs at all"
+        } else {
+            "OBJ files have set 0 alone"
+        };
+        return Err(Fault::UvSet {
+            asked: options.uv_set,
+            there: there.into(),
+        });
+    }
+
+    let mut model = Model {
+        stem: super::stem(name),
+        ..Model::default()
+    };
+    let piece = triangulate(&statements, &mut warnings);
+    let mut placed = complete(piece, &mut warnings).placed(options.world_from_file());
+    if placed.drop_broken() > 0 {
+        warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
+    }
+    if placed.triangles.is_empty() {
+        return Err(warnings.into_fault());
+    }
+    let mut library = Library::default();
+    for names in &statements.libraries {
+        library.read(names, resolve, &mut warnings);
+    }
+    number_materials(&statements, &mut library, &mut placed, &mut model, &mut warnings);
+    number_parts(&statements, &mut placed, &mut model);
+    library.read_images(resolve, &mut model, &mut warnings);
+    let (with_uvs, with_colors) = (!placed.uvs.is_empty(), !placed.colors.is_empty());
+    let mut mesh = Mesh::default();
+    placed.append_to(&mut mesh, with_uvs, with_colors);
+    model.mesh = mesh;
+    model.warnings = warnings.finish();
+    Ok(model)
+}
+
+/// Faces become triangles, and corners that agree in everything one vertex.
+fn triangulate(statements: &Statements, warnings: &mut Warnings) -> Piece {
+    let mut piece = Piece::default();
+    let mut vertices: HashMap<Corner, u32> = HashMap::new();
+    let mut budget = polygon::Budget::default();
+    let mut without_uvs = BTreeSet::new();
+    let (with_uvs, with_normals) = (!statements.uvs.is_empty(), !statements.normals.is_empty());
+    for face in &statements.faces {
+        let corners = &statements.corners[face.corners.clone()];
+        if with_uvs && corners.iter().any(|corner| corner.uv == NONE) {
+            without_uvs.insert(face.material);
+        }
+        let numbers: Vec<u32> = corners
+            .iter()
+            .map(|corner| {
+                *vertices.entry(*corner).or_insert_with(|| {
+                    let at = |index: u32| index as usize;
+                    piece.positions.push(statements.positions[at(corner.position)]);
+                    if with_uvs {
+                        piece
+                            .uvs
+                            .push(statements.uvs.get(at(corner.uv)).copied().unwrap_or_default());
+                    }
+                    if with_normals {
+                        piece
+                            .normals
+                            .push(statements.normals.get(at(corner.normal)).copied().unwrap_or_default());
+                    }
+                    if !statements.colors.is_empty() {
+                        piece
+                            .colors
+                            .push(statements.colors.get(at(corner.position)).copied().unwrap_or([1.0; 4]));
+                    }
+                    piece.positions.len() as u32 - 1
+                })
+            })
+            .collect();
+        let before = piece.triangles.len();
+        let positions: Vec<[f32; 3]> = numbers.iter().map(|number| piece.positions[*number as usize]).collect();
+        polygon::triangulate(&positions, &mut budget, |triangle| {
+            piece.triangles.push(triangle.map(|corner| numbers[corner]));
+        });
+        let more = piece.triangles.len() - before;
+        piece.materials.extend(std::iter::repeat_n(face.material, more));
+        piece.parts.extend(std::iter::repeat_n(face.part, more));
+        piece.smoothing.extend(std::iter::repeat_n(face.smoothing, more));
+    }
+    if budget.is_spent() {
+        warnings.add("Some hollow faces have too many corners to be cut up well; triangulate the model on export.");
+    }
+    for material in without_uvs {
+        let label = statements.material_label(material);
+        warnings.add(format!(
+            "Some faces of {label} have no UVs; their texture coordinates are all zero."
+        ));
+    }
+    piece
+}
+
+/// Repairs what is broken and makes what is missing.
+fn complete(mut piece: Piece, warnings: &mut Warnings) -> Piece {
+    let dropped = piece.drop_broken();
+    if dropped > 0 {
+        warnings.add(format!(
+            "{dropped} triangles touch positions that are no numbers and are left out."
+        ));
+    }
+    let repaired = piece.repair_attributes();
+    if repaired > 0 {
+        warnings.add(format!(
+            "{repaired} vertices have texture coordinates or colors that are no numbers; they were replaced."
+        ));
+    }
+    let had_normals = !piece.normals.is_empty();
+    let made = normals::complete(&mut piece, Missing::Crease);
+    if had_normals && made > 0 {
+        warnings.add(format!(
+            "{made} vertices have no normal, or one without a direction; they were made anew."
+        ));
+    }
+    tangents::complete(&mut piece, "the model", warnings);
+    piece
+}
+
+/// Keeps the materials in use: those of the libraries in their order, then unknown names as they come up, then the unnamed one.
+fn number_materials(
+    statements: &Statements,
+    library: &mut Library,
+    piece: &mut Piece,
+    model: &mut Model,
+    warnings: &mut Warnings,
+) {
+    let used: BTreeSet<u32> = piece.materials.iter().copied().collect();
+    let mut order: Vec<(usize, u32)> = used
+        .into_iter()
+        .map(|slot| {
+            let name = &statements.materials[slot as usize];
+            (
+                if name.is_empty() {
+                    usize::MAX
+                } else {
+                    library.place(name).unwrap_or(usize::MAX - 1)
+                },
+                slot,
+            )
+        })
+        .collect();
+    order.sort_unstable();
+    let mut new_from_slot = BTreeMap::new();
+    for (new, (place, slot)) in order.into_iter().enumerate() {
+        let name = &statements.materials[slot as usize];
+        new_from_slot.insert(slot, new as u32);
+        if place == usize::MAX - 1 && !statements.libraries.is_empty() {
+            warnings.add(format!(
+                "Material `{name}` is in no material library that could be read; it gets plain values."
+            ));
+        }
+        model.materials.push(match library.take(name) {
+            Some(material) => material,
+            None => ModelMaterial {
+                name: name.clone(),
+                ..library::plain()
+            },
+        });
+    }
+    for material in &mut piece.materials {
+        *material = new_from_slot[material];
+    }
+}
+
+/// Keeps the parts in use, in the file's order.
+fn number_parts(statements: &Statements, piece: &mut Piece, model: &mut Model) {
+    let used: BTreeSet<u32> = piece.parts.iter().copied().collect();
+    let mut new_from_old = BTreeMap::new();
+    for old in used {
+        new_from_old.insert(old, model.parts.len() as u32);
+        let name = statements.parts[old as usize].clone();
+        model
+            .parts
+            .push(if name.is_empty() { model.stem.clone() } else { name });
+    }
+    for part in &mut piece.parts {
+        *part = new_from_old[part];
+    }
+}

@@ -1,0 +1,206 @@
+//! Material libraries (`.mtl`), as far as they go with metallic-roughness.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::statements::{decoded, logical_lines, split_word};
+use crate::load::gltf::Resolve;
+use crate::load::warnings::Warnings;
+use crate::model::{Model, ModelImage, ModelMaterial, TextureRef, Wrap};
+
+/// Materials by name, and the pictures that they name.
+#[derive(Default)]
+pub(super) struct Library {
+    materials: Vec<ModelMaterial>,
+    places: BTreeMap<String, usize>,
+    /// Paths of pictures as the library has them.
+    pictures: Vec<String>,
+}
+
+/// The material of faces that name none, or one that no library has: neither metal nor mirror.
+pub(super) fn plain() -> ModelMaterial {
+    ModelMaterial {
+        metallic_factor: 0.0,
+        ..ModelMaterial::default()
+    }
+}
+
+impl Library {
+    /// Where a material stands in its library.
+    pub(super) fn place(&self, name: &str) -> Option<usize> {
+        self.places.get(name).copied()
+    }
+
+    /// A copy of a material.
+    pub(super) fn take(&self, name: &str) -> Option<ModelMaterial> {
+        self.place(name).map(|place| self.materials[place].clone())
+    }
+
+    /// Reads what stands behind one `mtllib`: a name that may have spaces, or several names.
+    pub(super) fn read(&mut self, names: &str, resolve: &mut Resolve, warnings: &mut Warnings) {
+        let whole = resolve(names);
+        let all: Vec<&str> = names.split_ascii_whitespace().collect();
+        match whole {
+            Ok(bytes) => self.parse(&bytes, warnings),
+            Err(reason) if all.len() < 2 => {
+                warnings.add(format!("The material library {names} cannot be read: {reason}."));
+            }
+            Err(_) => {
+                for name in all {
+                    match resolve(name) {
+                        Ok(bytes) => self.parse(&bytes, warnings),
+                        Err(reason) => warnings.add(format!("The material library {name} cannot be read: {reason}.")),
+                    }
+                }
+            }
+        }
+    }
+
+    fn parse(&mut self, bytes: &[u8], warnings: &mut Warnings) {
+        let text = decoded(bytes);
+        let mut current = None;
+        for (_, line) in logical_lines(&text) {
+            let (keyword, rest) = split_word(&line);
+            if keyword == "newmtl" {
+                // The first of two materials of one name stays.
+                current = (!self.places.contains_key(rest)).then_some(self.materials.len());
+                if let Some(place) = current {
+                    self.places.insert(rest.to_string(), place);
+                    self.materials.push(ModelMaterial {
+                        name: rest.to_string(),
+                        ..plain()
+                    });
+                }
+            } else if let Some(place) = current {
+                self.statement(place, keyword, rest, warnings);
+            }
+        }
+    }
+
+    fn statement(&mut self, place: usize, keyword: &str, rest: &str, warnings: &mut Warnings) {
+        let picture = match keyword {
+            "map_Kd" | "map_Ke" => self.picture(rest),
+            _ => None,
+        };
+        let material = &mut self.materials[place];
+        let number = || {
+            rest.split_ascii_whitespace()
+                .next()?
+                .parse::<f32>()
+                .ok()
+                .filter(|x| x.is_finite())
+        };
+        match keyword {
+            // A picture stands in for the color, as the programs that write these files have it.
+            "map_Kd" if picture.is_some() => {
+                material.base_color = picture;
+                material.base_color_factor = [1.0, 1.0, 1.0, material.base_color_factor[3]];
+            }
+            "map_Ke" if picture.is_some() => {
+                material.emission = picture;
+                material.emission_factor = [1.0; 3];
+            }
+            "Kd" if material.base_color.is_none() => {
+                if let Some([r, g, b]) = color(rest) {
+                    material.base_color_factor = [r, g, b, material.base_color_factor[3]];
+                }
+            }
+            "Ke" if material.emission.is_none() => material.emission_factor = color(rest).unwrap_or([0.0; 3]),
+            "d" => material.base_color_factor[3] = number().map_or(1.0, |d| d.clamp(0.0, 1.0)),
+            "Tr" => material.base_color_factor[3] = number().map_or(1.0, |tr| 1.0 - tr.clamp(0.0, 1.0)),
+            "Pr" => material.roughness_factor = number().map_or(1.0, |pr| pr.clamp(0.0, 1.0)),
+            "Pm" => material.metallic_factor = number().map_or(0.0, |pm| pm.clamp(0.0, 1.0)),
+            "map_Pr" | "map_Pm" | "map_Bump" | "map_bump" | "bump" | "norm" | "map_d" => {
+                warnings.add(format!(
+                    "`{keyword}` of material `{}` is left out; glTF carries such maps.",
+                    material.name
+                ));
+            }
+            _ => {}
+        }
+    }
+
+    /// A use of the picture that stands behind a `map_…`, options first.
+    fn picture(&mut self, rest: &str) -> Option<TextureRef> {
+        let (path, wrap) = map_path(rest);
+        if path.is_empty() {
+            return None;
+        }
+        let image = self.pictures.iter().position(|known| known == path).unwrap_or_else(|| {
+            self.pictures.push(path.to_string());
+            self.pictures.len() - 1
+        });
+        let transform = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        Some(TextureRef {
+            image,
+            wrap: [wrap; 2],
+            transform,
+            on_loaded_uv_set: true,
+        })
+    }
+
+    /// Reads the pictures that the model's materials name, and numbers them anew.
+    pub(super) fn read_images(&self, resolve: &mut Resolve, model: &mut Model, warnings: &mut Warnings) {
+        let mut new_from_old = BTreeMap::new();
+        let used = model
+            .materials
+            .iter_mut()
+            .flat_map(|material| [&mut material.base_color, &mut material.emission]);
+        for used in used.flatten() {
+            used.image = *new_from_old.entry(used.image).or_insert_with(|| {
+                let path = &self.pictures[used.image];
+                let name = path.rsplit(['/', '\\']).next().unwrap_or_default().to_string();
+                let bytes: Result<Arc<[u8]>, String> = resolve(path)
+                    .map(Arc::from)
+                    .map_err(|reason| format!("The picture {name} cannot be read: {reason}."));
+                if let Err(sentence) = &bytes {
+                    warnings.add(sentence.clone());
+                }
+                model.images.push(ModelImage { name, bytes });
+                model.images.len() - 1
+            });
+        }
+    }
+}
+
+/// One to three finite numbers; one stands for a gray.
+fn color(rest: &str) -> Option<[f32; 3]> {
+    let values: Vec<f32> = rest
+        .split_ascii_whitespace()
+        .map_while(|word| word.parse().ok())
+        .collect();
+    match values[..] {
+        [gray] if gray.is_finite() => Some([gray; 3]),
+        [r, g, b, ..] if [r, g, b].iter().all(|x| x.is_finite()) => Some([r, g, b]),
+        _ => None,
+    }
+}
+
+/// The path behind the options of a `map_…`, and whether the picture tiles.
+fn map_path(mut rest: &str) -> (&str, Wrap) {
+    let mut wrap = Wrap::Repeat;
+    while rest.starts_with('-') {
+        let (option, mut tail) = split_word(rest);
+        let most = match option {
+            "-o" | "-s" | "-t" => 3,
+            "-mm" => 2,
+            "-blendu" | "-blendv" | "-cc" | "-clamp" | "-imfchan" | "-texres" | "-bm" | "-boost" | "-type"
+            | "-colorspace" => 1,
+            // No option: a file whose name begins with a dash.
+            _ => break,
+        };
+        for taken in 0..most {
+            let (word, after) = split_word(tail);
+            // The numbers of -o, -s and -t may be fewer.
+            if taken > 0 && word.parse::<f32>().is_err() {
+                break;
+            }
+            if option == "-clamp" && word == "on" {
+                wrap = Wrap::Clamp;
+            }
+            tail = after;
+        }
+        rest = tail;
+    }
+    (rest, wrap)
+}

@@ -1,0 +1,178 @@
+//! Faces of more than three corners: fans where they are convex, ears where they are not.
+
+use glam::{DVec2, DVec3, Vec3};
+
+/// Tests that a whole file may cost; hollow faces of thousands of corners would otherwise take for ever.
+const MOST_TESTS: u64 = 200_000_000;
+
+/// What is left of the tests.
+pub(super) struct Budget(u64);
+
+impl Default for Budget {
+    fn default() -> Self {
+        Budget(MOST_TESTS)
+    }
+}
+
+impl Budget {
+    /// Whether some face had to be cut up without looking.
+    pub(super) fn is_spent(&self) -> bool {
+        self.0 == 0
+    }
+}
+
+/// Cuts a face into `corners - 2` triangles of corner numbers, wound as the face is.
+pub(super) fn triangulate(corners: &[[f32; 3]], budget: &mut Budget, mut emit: impl FnMut([usize; 3])) {
+    let count = corners.len();
+    if count > 3 {
+        let flat = flattened(corners);
+        if !is_convex(&flat) {
+            return clip_ears(&flat, budget, emit);
+        }
+    }
+    for corner in 1..count.saturating_sub(1) {
+        emit([0, corner, corner + 1]);
+    }
+}
+
+/// The face seen against its normal (Newell 1972), counter-clockwise.
+fn flattened(corners: &[[f32; 3]]) -> Vec<DVec2> {
+    let at = |corner: usize| Vec3::from(corners[corner % corners.len()]).as_dvec3();
+    let origin = at(0);
+    let normal = (0..corners.len())
+        .map(|c| (at(c) - origin).cross(at(c + 1) - origin))
+        .sum::<DVec3>();
+    let Some(normal) = normal.try_normalize() else {
+        return vec![DVec2::ZERO; corners.len()];
+    };
+    let (across, along) = normal.any_orthonormal_pair();
+    (0..corners.len())
+        .map(|c| DVec2::new((at(c) - origin).dot(across), (at(c) - origin).dot(along)))
+        .collect()
+}
+
+/// Twice the signed area.
+fn area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+fn is_convex(flat: &[DVec2]) -> bool {
+    let count = flat.len();
+    let at = |corner: usize| flat[corner % count];
+    // Corners on a straight line may be measured slightly hollow.
+    let slack = -1e-9 * flat.iter().map(|at| at.length_squared()).fold(0.0, f64::max);
+    (0..count).all(|c| area(at(c), at(c + 1), at(c + 2)) >= slack)
+        // Every turn to the left and yet around twice: a star.
+        && (1..count - 1).all(|c| area(at(0), at(c), at(c + 1)) >= slack)
+}
+
+fn clip_ears(flat: &[DVec2], budget: &mut Budget, mut emit: impl FnMut([usize; 3])) {
+    let mut left: Vec<usize> = (0..flat.len()).collect();
+    let mut start = 0;
+    while left.len() > 3 {
+        let count = left.len();
+        // Going on behind the last ear keeps the triangles from all meeting in one corner.
+        let ear = (0..count)
+            .map(|step| (start + step) % count)
+            .find(|corner| is_ear(flat, &left, *corner, budget));
+        // A face that crosses itself may have no ear; any corner does then.
+        let ear = ear.unwrap_or(start % count);
+        emit([left[(ear + count - 1) % count], left[ear], left[(ear + 1) % count]]);
+        left.remove(ear);
+        start = ear % left.len();
+    }
+    emit([left[0], left[1], left[2]]);
+}
+
+/// Whether the triangle at a corner of what is left lies inside it.
+fn is_ear(flat: &[DVec2], left: &[usize], corner: usize, budget: &mut Budget) -> bool {
+    let count = left.len();
+    let at = |corner: usize| flat[left[corner % count]];
+    let [before, here, after] = [at(corner + count - 1), at(corner), at(corner + 1)];
+    if budget.is_spent() {
+        return true;
+    }
+    if area(before, here, after) <= 0.0 {
+        return false;
+    }
+    budget.0 = budget.0.saturating_sub(count as u64);
+    (corner + 2..corner + count - 1).map(at).all(|other| {
+        let is_corner = other == before || other == here || other == after;
+        let outside =
+            area(before, here, other) < 0.0 || area(here, after, other) < 0.0 || area(after, before, other) < 0.0;
+        is_corner || outside
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cut(corners: &[[f32; 3]]) -> Vec<[usize; 3]> {
+        let mut triangles = Vec::new();
+        triangulate(corners, &mut Budget::default(), |triangle| triangles.push(triangle));
+        triangles
+    }
+
+    fn area_of(corners: &[[f32; 3]], [a, b, c]: [usize; 3]) -> f64 {
+        let at = |corner: usize| Vec3::from(corners[corner]).as_dvec3();
+        (at(b) - at(a)).cross(at(c) - at(a)).z / 2.0
+    }
+
+    #[test]
+    fn a_convex_face_is_a_fan() {
+        let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(cut(&face), [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn a_hollow_face_is_covered_once() {
+        let arrow = [[0.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
+        let comb = [
+            [0.0, 0.0, 0.0],
+            [5.0, 0.0, 0.0],
+            [5.0, 2.0, 0.0],
+            [4.0, 2.0, 0.0],
+            [4.0, 1.0, 0.0],
+            [3.0, 1.0, 0.0],
+            [3.0, 2.0, 0.0],
+            [2.0, 2.0, 0.0],
+            [2.0, 1.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [1.0, 2.0, 0.0],
+            [0.0, 2.0, 0.0],
+        ];
+        for (face, area) in [(&arrow[..], 1.0), (&comb[..], 8.0)] {
+            let triangles = cut(face);
+            assert_eq!(triangles.len(), face.len() - 2);
+            assert!(
+                triangles.iter().all(|triangle| area_of(face, *triangle) >= 0.0),
+                "{triangles:?}"
+            );
+            assert_eq!(
+                triangles.iter().map(|triangle| area_of(face, *triangle)).sum::<f64>(),
+                area
+            );
+        }
+    }
+
+    #[test]
+    fn any_face_gives_two_triangles_fewer_than_corners() {
+        let star: Vec<[f32; 3]> = (0..5)
+            .map(|k| (k as f32 * 4.0 * std::f32::consts::PI / 5.0).sin_cos())
+            .map(|(y, x)| [x, y, 0.0])
+            .collect();
+        let bow = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let nothing = [[f32::NAN; 3]; 6];
+        let point = [[1.0; 3]; 5];
+        let huge = [
+            [3e38, 0.0, 0.0],
+            [-3e38, 1.0, 0.0],
+            [3e38, 3e38, 0.0],
+            [0.0, -3e38, 3e38],
+        ];
+        for face in [&star[..], &bow, &nothing, &point, &huge] {
+            assert_eq!(cut(face).len(), face.len() - 2);
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! Triangles on their way into a [`Mesh`]: repaired, completed, placed.
+
+use std::collections::HashMap;
+
+use glam::{DMat4, DVec3, Vec3};
+
+use super::tangents::perpendicular;
+use crate::model::Mesh;
+
+/// Triangles in the space of their mesh. Arrays of vertices are empty where the file has nothing to say.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Piece {
+    pub(super) positions: Vec<[f32; 3]>,
+    /// Zero where a vertex has none.
+    pub(super) normals: Vec<[f32; 3]>,
+    pub(super) tangents: Vec<[f32; 4]>,
+    pub(super) uvs: Vec<[f32; 2]>,
+    pub(super) colors: Vec<[f32; 4]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Material of each triangle.
+    pub(super) materials: Vec<u32>,
+    /// Part of each triangle.
+    pub(super) parts: Vec<u32>,
+    /// Smoothing of each triangle, for normals that have to be made; empty where the format has none.
+    pub(super) smoothing: Vec<Smoothing>,
+}
+
+/// What a file says about shading over a triangle's edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Smoothing {
+    /// Nothing: edges are smooth unless they turn sharply.
+    ByAngle,
+    /// Flat.
+    Off,
+    /// Smooth towards triangles of the same group.
+    Group(u32),
+}
+
+impl Piece {
+    /// Drops triangles that touch a position that is no number, and vertices that no triangle uses; says how many triangles went.
+    pub(super) fn drop_broken(&mut self) -> usize {
+        let finite: Vec<bool> = self
+            .positions
+            .iter()
+            .map(|at| at.iter().all(|x| x.is_finite()))
+            .collect();
+        let before = self.triangles.len();
+        if finite.contains(&false) {
+            let keep: Vec<bool> = self
+                .triangles
+                .iter()
+                .map(|corners| corners.iter().all(|v| finite[*v as usize]))
+                .collect();
+            retain(&mut self.triangles, &keep);
+            retain(&mut self.materials, &keep);
+            retain(&mut self.parts, &keep);
+            retain(&mut self.smoothing, &keep);
+        }
+        self.drop_unused();
+        before - self.triangles.len()
+    }
+
+    fn drop_unused(&mut self) {
+        let mut used = vec![false; self.positions.len()];
+        for corner in self.triangles.as_flattened() {
+            used[*corner as usize] = true;
+        }
+        if !used.contains(&false) {
+            return;
+        }
+        let mut new_from_old = vec![0u32; used.len()];
+        for (new, old) in (0..used.len()).filter(|old| used[*old]).enumerate() {
+            new_from_old[old] = new as u32;
+        }
+        for corner in self.triangles.as_flattened_mut() {
+            *corner = new_from_old[*corner as usize];
+        }
+        retain(&mut self.positions, &used);
+        retain(&mut self.normals, &used);
+        retain(&mut self.tangents, &used);
+        retain(&mut self.uvs, &used);
+        retain(&mut self.colors, &used);
+    }
+
+    /// Sets texture coordinates and colors that are no numbers to zero and white; says how many vertices that were.
+    pub(super) fn repair_attributes(&mut self) -> usize {
+        let mut repaired = 0;
+        for uv in &mut self.uvs {
+            if !uv.iter().all(|x| x.is_finite()) {
+                *uv = [0.0; 2];
+                repaired += 1;
+            }
+        }
+        for color in &mut self.colors {
+            if !color.iter().all(|x| x.is_finite()) {
+                *color = [1.0; 4];
+                repaired += 1;
+            }
+        }
+        repaired
+    }
+
+    /// Gives each vertex the value of its corners, splitting vertices whose corners disagree.
+    /// `corners` has three values a triangle; the result has one a vertex. Triangles keep their order.
+    pub(super) fn split_by<const N: usize>(&mut self, corners: &[[f32; N]]) -> Vec<[f32; N]> {
+        let count = self.positions.len();
+        let mut origins: Vec<u32> = Vec::new();
+        let mut values: Vec<Option<[f32; N]>> = vec![None; count];
+        let mut split: HashMap<(u32, [u32; N]), u32> = HashMap::new();
+        for (corner, value) in self.triangles.as_flattened_mut().iter_mut().zip(corners) {
+            let bits = value.map(f32::to_bits);
+            match values[*corner as usize] {
+                None => values[*corner as usize] = Some(*value),
+                Some(first) if first.map(f32::to_bits) == bits => {}
+                Some(_) => {
+                    let origin = *corner;
+                    *corner = *split.entry((origin, bits)).or_insert_with(|| {
+                        origins.push(origin);
+                        values.push(Some(*value));
+                        values.len() as u32 - 1
+                    });
+                }
+            }
+        }
+        repeat(&mut self.positions, &origins);
+        repeat(&mut self.normals, &origins);
+        repeat(&mut self.tangents, &origins);
+        repeat(&mut self.uvs, &origins);
+        repeat(&mut self.colors, &origins);
+        values.into_iter().map(|value| value.unwrap_or([0.0; N])).collect()
+    }
+
+    /// The piece as `world_from_mesh` places it. A mirroring placement turns the triangles around, so that outside stays outside.
+    pub(super) fn placed(&self, world_from_mesh: DMat4) -> Piece {
+        let mut placed = self.clone();
+        if world_from_mesh == DMat4::IDENTITY {
+            return placed;
+        }
+        let linear = glam::DMat3::from_mat4(world_from_mesh);
+        let mirrored = linear.determinant() < 0.0;
+        let sign = if mirrored { -1.0 } else { 1.0 };
+        // The cofactors are the inverse transpose times the determinant, and there when no inverse is.
+        let [a, b, c] = [linear.x_axis, linear.y_axis, linear.z_axis];
+        let normal_from_normal = glam::DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * sign;
+        for at in &mut placed.positions {
+            *at = world_from_mesh
+                .transform_point3(Vec3::from(*at).as_dvec3())
+                .as_vec3()
+                .into();
+        }
+        for normal in &mut placed.normals {
+            *normal = direction(normal_from_normal * Vec3::from(*normal).as_dvec3()).unwrap_or(*normal);
+        }
+        for (tangent, normal) in placed.tangents.iter_mut().zip(&placed.normals) {
+            let [x, y, z, w] = *tangent;
+            let turned = linear * Vec3::new(x, y, z).as_dvec3();
+            let [x, y, z] = direction(turned).unwrap_or_else(|| perpendicular(*normal));
+            *tangent = [x, y, z, if mirrored { -w } else { w }];
+        }
+        if mirrored {
+            for corners in &mut placed.triangles {
+                corners.swap(1, 2);
+            }
+        }
+        placed
+    }
+
+    /// Puts the piece's triangles behind those of `mesh`; missing texture coordinates become zero, missing colors white.
+    pub(super) fn append_to(self, mesh: &mut Mesh, with_uvs: bool, with_colors: bool) {
+        let first = mesh.positions.len() as u32;
+        let count = self.positions.len();
+        mesh.positions.extend(self.positions);
+        mesh.normals.extend(self.normals);
+        mesh.tangents.extend(self.tangents);
+        if with_uvs {
+            mesh.uvs.extend(self.uvs);
+            mesh.uvs.resize(first as usize + count, [0.0; 2]);
+        }
+        if with_colors {
+            mesh.colors.extend(self.colors);
+            mesh.colors.resize(first as usize + count, [1.0; 4]);
+        }
+        mesh.triangles
+            .extend(self.triangles.iter().map(|corners| corners.map(|v| v + first)));
+        mesh.triangle_material.extend(self.materials);
+        mesh.triangle_part.extend(self.parts);
+    }
+}
+
+/// Unit length, or `None` where there is no direction.
+pub(super) fn direction(vector: DVec3) -> Option<[f32; 3]> {
+    // Divided by the largest part first, so that tiny and huge vectors keep their direction.
+    let largest = vector.abs().max_element();
+    if !(vector.is_finite() && largest > 0.0) {
+        return None;
+    }
+    Some((vector / largest).normalize().as_vec3().into())
+}
+
+fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
+    let mut keep = keep.iter();
+    values.retain(|_| keep.next().copied().unwrap_or(false));
+}
+
+fn repeat<T: Copy>(values: &mut Vec<T>, origins: &[u32]) {
+    if values.is_empty() {
+        return;
+    }
+    values.reserve(origins.len());
+    for origin in origins {
+        values.push(values[*origin as usize]);
+    }
+}

@@ -1,0 +1,137 @@
+//! What a glTF `uri` holds: bytes of its own, or the path of a file beside the model.
+
+use std::borrow::Cow;
+
+/// A `uri`, taken apart.
+#[derive(Debug, PartialEq)]
+pub(super) enum Uri<'a> {
+    /// Bytes in the file itself.
+    Data(Vec<u8>),
+    /// A path relative to the model, `%20` and its like decoded.
+    Beside(Cow<'a, str>),
+    /// Something that is not fetched or not readable, as a reason.
+    Unusable(String),
+}
+
+impl<'a> Uri<'a> {
+    /// Takes a `uri` apart.
+    pub(super) fn parse(uri: &'a str) -> Uri<'a> {
+        if let Some(rest) = uri
+            .get(..5)
+            .filter(|head| head.eq_ignore_ascii_case("data:"))
+            .map(|_| &uri[5..])
+        {
+            return data(rest);
+        }
+        let scheme = uri.split([':', '/', '\\', '?']).next().unwrap_or_default();
+        // One letter is a drive, not a scheme.
+        if scheme.len() > 1 && uri[scheme.len()..].starts_with(':') && scheme.bytes().all(is_scheme_byte) {
+            return Uri::Unusable(format!("`{scheme}:` addresses are not fetched"));
+        }
+        match percent_decoded(uri).map(String::from_utf8) {
+            Some(Ok(path)) if path != uri => Uri::Beside(Cow::Owned(path)),
+            _ => Uri::Beside(Cow::Borrowed(uri)),
+        }
+    }
+}
+
+fn is_scheme_byte(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'.' | b'-')
+}
+
+fn data(rest: &str) -> Uri<'_> {
+    let Some((head, body)) = rest.split_once(',') else {
+        return Uri::Unusable("its data URI has no comma before the data".into());
+    };
+    let bytes = if head.to_ascii_lowercase().ends_with(";base64") {
+        percent_decoded(body).and_then(|body| base64(&body))
+    } else {
+        percent_decoded(body)
+    };
+    match bytes {
+        Some(bytes) => Uri::Data(bytes),
+        None => Uri::Unusable("its data URI is not proper base64".into()),
+    }
+}
+
+/// `None` where a `%` is not followed by two hexadecimal digits.
+fn percent_decoded(text: &str) -> Option<Vec<u8>> {
+    let mut out = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let [first, tail @ ..] = rest {
+        rest = tail;
+        if *first == b'%' {
+            let [high, low, tail @ ..] = rest else { return None };
+            let digit = |byte: &u8| char::from(*byte).to_digit(16);
+            out.push((digit(high)? * 16 + digit(low)?) as u8);
+            rest = tail;
+        } else {
+            out.push(*first);
+        }
+    }
+    Some(out)
+}
+
+/// Decodes base64 of either alphabet, padded or not (RFC 4648); `None` where it is neither.
+fn base64(text: &[u8]) -> Option<Vec<u8>> {
+    let end = text.iter().rposition(|byte| *byte != b'=').map_or(0, |last| last + 1);
+    if text.len() - end > 2 {
+        return None;
+    }
+    let mut out = Vec::with_capacity(end / 4 * 3 + 3);
+    let (mut bits, mut held) = (0u32, 0);
+    for byte in &text[..end] {
+        let value = match byte {
+            b'A'..=b'Z' => byte - b'A',
+            b'a'..=b'z' => byte - b'a' + 26,
+            b'0'..=b'9' => byte - b'0' + 52,
+            b'+' | b'-' => 62,
+            b'/' | b'_' => 63,
+            _ => return None,
+        };
+        bits = bits << 6 | u32::from(value);
+        held += 6;
+        if held >= 8 {
+            held -= 8;
+            out.push((bits >> held) as u8);
+            bits &= (1 << held) - 1;
+        }
+    }
+    // A single left-over digit cannot be a byte.
+    (held < 6).then_some(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_uri_is_taken_apart() {
+        let beside = |path: &str| Uri::Beside(Cow::Owned(path.to_string()));
+        let unusable = |reason: &str| Uri::Unusable(reason.to_string());
+        for (uri, expected) in [
+            (
+                "data:application/octet-stream;base64,AAECAw==",
+                Uri::Data(vec![0, 1, 2, 3]),
+            ),
+            ("data:;base64,AAECAw", Uri::Data(vec![0, 1, 2, 3])),
+            ("DATA:;BASE64,-_8=", Uri::Data(vec![0xfb, 0xff])),
+            ("data:,a%20b", Uri::Data(b"a b".to_vec())),
+            ("data:;base64,A", unusable("its data URI is not proper base64")),
+            ("data:;base64,A!==", unusable("its data URI is not proper base64")),
+            ("data:;base64,AAAA====", unusable("its data URI is not proper base64")),
+            ("data:base64", unusable("its data URI has no comma before the data")),
+            ("Box%20With%20Spaces.bin", beside("Box With Spaces.bin")),
+            ("100%.bin", beside("100%.bin")),
+            ("a/b.bin", beside("a/b.bin")),
+            ("C:\\a.bin", beside("C:\\a.bin")),
+            (
+                "https://example.org/a.bin",
+                unusable("`https:` addresses are not fetched"),
+            ),
+            ("", beside("")),
+        ] {
+            assert_eq!(Uri::parse(uri), expected, "{uri}");
+        }
+    }
+}

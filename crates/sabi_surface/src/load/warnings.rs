@@ -1,0 +1,55 @@
+//! What was repaired or left out, gathered while reading.
+
+use super::error::Fault;
+
+/// At most this many sentences: a broken file repeats itself.
+const MOST: usize = 40;
+
+/// Sentences for the artist, each once, in the order they came up.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Warnings {
+    sentences: Vec<String>,
+    left_out: usize,
+}
+
+impl Warnings {
+    /// Adds a sentence unless it was said before.
+    pub(super) fn add(&mut self, sentence: impl Into<String>) {
+        let sentence = sentence.into();
+        if self.sentences.contains(&sentence) {
+            return;
+        }
+        if self.sentences.len() < MOST {
+            self.sentences.push(sentence);
+        } else {
+            self.left_out += 1;
+        }
+    }
+
+    /// Adds all of `other`.
+    pub(super) fn absorb(&mut self, other: Warnings) {
+        for sentence in other.sentences {
+            self.add(sentence);
+        }
+        self.left_out += other.left_out;
+    }
+
+    /// Why nothing was left, for the message that says so.
+    pub(super) fn into_fault(self) -> Fault {
+        let reasons = self
+            .sentences
+            .into_iter()
+            .take(3)
+            .fold(String::new(), |reasons, reason| reasons + "; " + &reason);
+        Fault::NoTriangles(reasons.trim_end_matches('.').to_string())
+    }
+
+    /// The sentences, with a last one for those that were too many.
+    pub(super) fn finish(mut self) -> Vec<String> {
+        if self.left_out > 0 {
+            self.sentences
+                .push(format!("There were {} more warnings of this kind.", self.left_out));
+        }
+        self.sentences
+    }
+}

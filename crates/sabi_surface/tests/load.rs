@@ -1,0 +1,25 @@
+//! Loading models: what each layout gives, what each fault says, and that no file breaks it.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot make its input has failed")]
+#![allow(clippy::print_stdout, reason = "tests say what they left out")]
+
+#[path = "load/builder.rs"]
+mod builder;
+#[path = "load/completing.rs"]
+mod completing;
+#[path = "load/faults.rs"]
+mod faults;
+#[path = "load/fuzz.rs"]
+mod fuzz;
+#[path = "load/layouts.rs"]
+mod layouts;
+#[path = "load/materials.rs"]
+mod materials;
+#[path = "load/obj.rs"]
+mod obj;
+#[path = "load/placing.rs"]
+mod placing;
+#[path = "load/promises.rs"]
+mod promises;
+#[path = "load/shared_data.rs"]
+mod shared_data;

@@ -1,0 +1,163 @@
+//! Materials, textures and pictures of glTF files.
+
+use sabi_surface::load::{LoadOptions, load_bytes};
+use sabi_surface::model::{ModelMaterial, TextureRef, Wrap};
+use serde_json::{Value, json};
+
+use crate::builder::Gltf;
+
+const IDENTITY: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+/// The triangle with one material.
+fn with_material(material: Value) -> Gltf {
+    let mut file = Gltf::triangle();
+    let material = file.push("materials", material);
+    file.primitive()["material"] = json!(material);
+    file
+}
+
+/// The triangle with one material that has one picture as its base color.
+fn with_picture(image: Value) -> Gltf {
+    let mut file = with_material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }));
+    file.push("textures", json!({ "source": 0 }));
+    file.push("images", image);
+    file
+}
+
+#[test]
+fn factors_are_read_and_emission_includes_its_strength() {
+    let file = with_material(json!({
+        "name": "lamp",
+        "pbrMetallicRoughness": { "baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.6 },
+        "emissiveFactor": [1, 0.5, 0],
+        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 4 } }
+    }));
+    let expected = ModelMaterial {
+        name: "lamp".into(),
+        base_color_factor: [0.1, 0.2, 0.3, 0.4],
+        metallic_factor: 0.5,
+        roughness_factor: 0.6,
+        emission_factor: [4.0, 2.0, 0.0],
+        ..ModelMaterial::default()
+    };
+    assert_eq!(file.model().materials, [expected]);
+}
+
+#[test]
+fn materials_in_use_keep_the_order_of_the_file_and_the_unnamed_one_comes_last() {
+    let mut file = Gltf::triangle();
+    file.json["materials"] = json!([{ "name": "a" }, { "name": "unused" }, { "name": "b" }]);
+    let primitive = file.primitive().clone();
+    let material = |index: usize| {
+        let mut primitive = primitive.clone();
+        primitive["material"] = json!(index);
+        primitive
+    };
+    file.json["meshes"][0]["primitives"] = json!([primitive, material(2), material(0), material(2)]);
+    let model = file.model();
+    let names: Vec<&str> = model.materials.iter().map(|material| material.name.as_str()).collect();
+    assert_eq!(names, ["a", "b", ""]);
+    assert_eq!(model.mesh.triangle_material, [2, 1, 0, 1]);
+}
+
+#[test]
+fn a_texture_keeps_its_wrap_transform_and_uv_set() {
+    let mut file = with_picture(json!({ "uri": "data:image/png;base64,AQID" }));
+    file.push("samplers", json!({ "wrapS": 33071, "wrapT": 33648 }));
+    file.json["textures"][0]["sampler"] = json!(0);
+    file.json["materials"][0]["normalTexture"] = json!({ "index": 0, "scale": 0.5, "extensions": {
+        "KHR_texture_transform": { "offset": [0.25, 0.5], "rotation": std::f32::consts::FRAC_PI_2, "scale": [2, 4] } } });
+    file.json["materials"][0]["occlusionTexture"] = json!({ "index": 0, "texCoord": 1 });
+    let model = file.model();
+    let [material] = &model.materials[..] else {
+        panic!("one material")
+    };
+    let wrap = [Wrap::Clamp, Wrap::Mirror];
+    let plain = TextureRef {
+        image: 0,
+        wrap,
+        transform: IDENTITY,
+        on_loaded_uv_set: true,
+    };
+    assert_eq!(material.base_color, Some(plain.clone()));
+    assert_eq!(
+        material.occlusion,
+        Some(TextureRef {
+            on_loaded_uv_set: false,
+            ..plain
+        })
+    );
+    assert_eq!(material.normal_scale, 0.5);
+    // A quarter turn counter-clockwise, v growing downward: +u goes to -v.
+    let [row_u, row_v] = material.normal.as_ref().unwrap().transform;
+    for (value, expected) in row_u.iter().chain(&row_v).zip([0.0, 4.0, 0.25, -2.0, 0.0, 0.5]) {
+        assert!((value - expected).abs() < 1e-6, "{row_u:?} {row_v:?}");
+    }
+    assert_eq!(
+        model.warnings,
+        ["A texture of material 0 is meant for UV set 1, and set 0 was loaded; it cannot be shown rightly."]
+    );
+}
+
+#[test]
+fn pictures_come_from_data_from_views_and_from_files_with_spaces() {
+    let bytes = |file: &Gltf| {
+        let mut beside = |path: &str| match path {
+            "my picture.png" => Ok(vec![4, 5, 6]),
+            _ => Err("there is no such file".to_string()),
+        };
+        let model = load_bytes("test.glb", &file.glb(), &mut beside, &LoadOptions::default()).unwrap();
+        let [image] = &model.images[..] else {
+            panic!("one picture")
+        };
+        (
+            image.name.clone(),
+            image.bytes.clone().map(|bytes| bytes.to_vec()),
+            model.warnings,
+        )
+    };
+    let mut in_view = with_picture(json!({ "bufferView": 2, "mimeType": "image/png" }));
+    in_view.view(&[7, 8, 9]);
+    let missing = "The picture gone.png cannot be read: there is no such file.".to_string();
+    for (file, name, expected) in [
+        (
+            with_picture(json!({ "uri": "data:image/png;base64,AQID" })),
+            "image 0 of test.glb",
+            Ok(vec![1, 2, 3]),
+        ),
+        (
+            with_picture(json!({ "uri": "my%20picture.png" })),
+            "my picture.png",
+            Ok(vec![4, 5, 6]),
+        ),
+        (
+            with_picture(json!({ "uri": "my picture.png" })),
+            "my picture.png",
+            Ok(vec![4, 5, 6]),
+        ),
+        (in_view, "image 0 of test.glb", Ok(vec![7, 8, 9])),
+        (
+            with_picture(json!({ "uri": "textures/gone.png" })),
+            "gone.png",
+            Err(missing),
+        ),
+    ] {
+        let warnings: Vec<String> = expected.clone().err().into_iter().collect();
+        assert_eq!(bytes(&file), (name.to_string(), expected, warnings));
+    }
+}
+
+#[test]
+fn a_broken_texture_takes_nothing_else_with_it() {
+    let mut file = with_picture(json!({ "bufferView": 9 }));
+    file.json["materials"][0]["normalTexture"] = json!({ "index": 7 });
+    let model = file.model();
+    assert!(model.images[0].bytes.is_err() && model.materials[0].normal.is_none());
+    assert_eq!(
+        model.warnings,
+        [
+            "A texture of material 0 is left out: there is no textures[7].",
+            "The picture image 0 of test.glb cannot be read: the file is damaged: there is no bufferViews[9].",
+        ]
+    );
+}

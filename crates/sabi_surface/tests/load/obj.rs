@@ -1,0 +1,221 @@
+//! OBJ files and their material libraries.
+
+use sabi_surface::load::{LoadError, LoadOptions, load_bytes};
+use sabi_surface::model::{Model, ModelMaterial, Wrap};
+
+use crate::promises;
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+fn read(text: &str) -> Result<Model, LoadError> {
+    read_with(text, "")
+}
+
+fn read_with(text: &str, library: &str) -> Result<Model, LoadError> {
+    let mut beside = |path: &str| match path {
+        "my materials.mtl" => Ok(library.as_bytes().to_vec()),
+        "paint.png" => Ok(vec![1, 2, 3]),
+        _ => Err("there is no such file".to_string()),
+    };
+    let model = load_bytes("thing.obj", text.as_bytes(), &mut beside, &LoadOptions::default())?;
+    promises::check(&model);
+    Ok(model)
+}
+
+#[test]
+fn faces_read_the_same_however_they_are_written() {
+    let plain = read(&format!("{SQUARE}f 1 2 3 4\n")).unwrap();
+    assert_eq!(plain.mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(plain.mesh.normals, [[0.0, 0.0, 1.0]; 4]);
+    assert_eq!(
+        (plain.stem.as_str(), &plain.parts[..]),
+        ("thing", &["thing".to_string()][..])
+    );
+    for text in [
+        format!("{SQUARE}f -4 -3 -2 -1"),
+        format!("{SQUARE}f 1// 2// 3// 4//\n"),
+        format!("{SQUARE}f 1 2 \\\n 3 4\n"),
+        format!("{SQUARE}f 1 2 3 4\n").replace('\n', "\r\n"),
+        format!("{SQUARE}f 1 2 \\\n 3 4\n").replace('\n', "\r\n"),
+        format!("{SQUARE}f 1 2 3 4\n").replace('\n', "\r"),
+        format!("f 1 2 3 4\n{SQUARE}"),
+        format!("# a remark\n\n  \t{SQUARE}\tf  1\t2 3 4  \nunknown statement\n"),
+        format!("\u{feff}{SQUARE}f 1 2 3 4"),
+    ] {
+        assert_eq!(read(&text).unwrap().mesh, plain.mesh, "{text:?}");
+    }
+    let wide: Vec<u8> = format!("\u{feff}{SQUARE}f 1 2 3 4")
+        .encode_utf16()
+        .flat_map(u16::to_be_bytes)
+        .collect();
+    let mut nothing = crate::builder::nothing;
+    assert_eq!(
+        load_bytes("a.obj", &wide, &mut nothing, &LoadOptions::default())
+            .unwrap()
+            .mesh,
+        plain.mesh
+    );
+}
+
+#[test]
+fn texture_coordinates_turn_to_v_down() {
+    let model = read(&format!("{SQUARE}vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")).unwrap();
+    assert_eq!(model.mesh.uvs, [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]);
+    assert_eq!(model.mesh.tangents, [[1.0, 0.0, 0.0, 1.0]; 4]);
+}
+
+#[test]
+fn corners_that_differ_in_anything_are_vertices_of_their_own() {
+    let model = read(&format!(
+        "{SQUARE}vt 0 0\nvt 1 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1/2/1 3/1/1 4/1/1\n"
+    ))
+    .unwrap();
+    assert_eq!(model.mesh.triangles, [[0, 1, 2], [3, 2, 4]]);
+}
+
+/// Two squares that meet at the y axis, turned by `degrees` against each other.
+fn fold(degrees: f32, statements: [&str; 2]) -> Model {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let [before, between] = statements;
+    read(&format!(
+        "v -1 0 0\nv 0 0 0\nv 0 1 0\nv -1 1 0\nv {cos} 0 {z}\nv {cos} 1 {z}\n{before}f 1 2 3 4\n{between}f 2 5 6 3\n",
+        z = -sin
+    ))
+    .unwrap()
+}
+
+#[test]
+fn missing_normals_are_smooth_up_to_the_crease_or_as_the_groups_say() {
+    for (degrees, statements, vertices) in [
+        (60.0, ["", ""], 6),
+        (90.0, ["", ""], 8),
+        (60.0, ["s off\n", ""], 12),
+        (90.0, ["s 1\n", ""], 6),
+        (20.0, ["s 1\n", "s 2\n"], 8),
+    ] {
+        let mesh = fold(degrees, statements).mesh;
+        let flat = usize::from(statements[0] == "s off\n") * 4;
+        assert_eq!(mesh.positions.len() + flat, vertices, "{degrees}° {statements:?}");
+    }
+    let mesh = fold(60.0, ["", ""]).mesh;
+    let shared = mesh.normals[mesh.positions.iter().position(|at| *at == [0.0; 3]).unwrap()];
+    let expected = glam::Vec3::new(0.5, 0.0, 0.75f32.sqrt());
+    assert!(glam::Vec3::from(shared).abs_diff_eq(expected, 1e-6), "{shared:?}");
+}
+
+#[test]
+fn parts_follow_objects_and_groups() {
+    let model = read(&format!(
+        "{SQUARE}f 1 2 3\no unused\ng left wing\nf 2 3 4\no tail\nf 1 2 4\ng left wing\nf 1 3 4\n"
+    ));
+    let model = model.unwrap();
+    assert_eq!(model.parts, ["thing", "left wing", "tail"]);
+    assert_eq!(model.mesh.triangle_part, [0, 1, 2, 1]);
+}
+
+#[test]
+fn materials_come_from_the_library_in_its_order() {
+    let library = "newmtl metal\nKd 0.1 0.2 0.3\nPr 0.25\nPm 1\nKe 1 2 3\nd 0.5\nmap_Bump -bm 2 b.png\n\
+        newmtl paint\nKd 0.8 0.8 0.8\nmap_Kd -clamp on -s 1 1 -o 0.5 paint.png\nnewmtl never\n";
+    let faces = "f 1 2 3\nusemtl lost\nf 1 2 3\nusemtl paint\nf 1 2 3\nusemtl metal\nf 1 2 3\n";
+    let model = read_with(&format!("mtllib my materials.mtl\n{SQUARE}{faces}"), library).unwrap();
+    let names: Vec<&str> = model.materials.iter().map(|material| material.name.as_str()).collect();
+    assert_eq!(names, ["metal", "paint", "lost", ""]);
+    assert_eq!(model.mesh.triangle_material, [3, 2, 1, 0]);
+    let metal = ModelMaterial {
+        name: "metal".into(),
+        base_color_factor: [0.1, 0.2, 0.3, 0.5],
+        metallic_factor: 1.0,
+        roughness_factor: 0.25,
+        emission_factor: [1.0, 2.0, 3.0],
+        ..ModelMaterial::default()
+    };
+    assert_eq!(model.materials[0], metal);
+    let paint = &model.materials[1];
+    assert_eq!((paint.base_color_factor, paint.metallic_factor), ([1.0; 4], 0.0));
+    assert_eq!(paint.base_color.as_ref().unwrap().wrap, [Wrap::Clamp; 2]);
+    assert_eq!((model.images.len(), model.images[0].name.as_str()), (1, "paint.png"));
+    assert_eq!(
+        model.warnings,
+        [
+            "`map_Bump` of material `metal` is left out; glTF carries such maps.",
+            "Material `lost` is in no material library that could be read; it gets plain values.",
+        ]
+    );
+}
+
+#[test]
+fn vertex_colors_are_taken_as_srgb() {
+    let model = read("v 0 0 0 1 0.5 0\nv 1 0 0 1 1 1\nv 0 1 0\nf 1 2 3\n").unwrap();
+    assert!((model.mesh.colors[0][1] - 0.214_041).abs() < 1e-5);
+    assert_eq!(model.mesh.colors[1..], [[1.0; 4]; 2]);
+}
+
+#[test]
+fn what_is_left_out_is_said() {
+    let text = format!(
+        "mtllib gone.mtl\n{SQUARE}vt 0 0\nf 1/1 2/1 3/1\nusemtl a\nf 1 2 3\nf 1 2\nl 1 2\nf 1/9 2/9 3/9\nv nan 0 0\nf 1/1 2/1 5/1\n"
+    );
+    assert_eq!(
+        read(&text).unwrap().warnings,
+        [
+            "Faces with fewer than 3 corners are left out.",
+            "Points and lines are left out.",
+            "Faces name texture coordinates or normals that the file does not have.",
+            "Some faces of material `a` have no UVs; their texture coordinates are all zero.",
+            "1 triangles touch positions that are no numbers and are left out.",
+            "The material library gone.mtl cannot be read: there is no such file.",
+            "Material `a` is in no material library that could be read; it gets plain values.",
+        ]
+    );
+}
+
+#[test]
+fn each_fault_has_its_sentence() {
+    for (text, sentence) in [
+        ("v 0 0\n", "the file is damaged: line 1: `v` needs 3 numbers"),
+        (
+            "\r\n# remark\r\nv 0 0 zero\r\n",
+            "the file is damaged: line 3: `zero` is not a number",
+        ),
+        ("v 0 0 0\nf 1 2 3\n", "the file is damaged: a face names vertex 2 of 1"),
+        (
+            "f 0 1 2\n",
+            "the file is damaged: line 1: an index is 0, and they count from 1",
+        ),
+        (
+            "v 0 0 0\nf -2 1 1\n",
+            "the file is damaged: line 2: the index -2 reaches out of the file",
+        ),
+        (
+            "f 99999999999 1 1\n",
+            "the file is damaged: line 1: the index 99999999999 reaches out of the file",
+        ),
+        (
+            "f /1 /2 /3\n",
+            "the file is damaged: line 1: the corner `/1` names no vertex",
+        ),
+        ("f a b c\n", "the file is damaged: line 1: `a` is not an index"),
+        ("hello\n", "it has no triangles"),
+        (
+            "v 0 0 0\nv 0 0 0\nl 1 2\n",
+            "it has no triangles; Points and lines are left out",
+        ),
+    ] {
+        assert_eq!(
+            read(text).unwrap_err().to_string(),
+            format!("thing.obj: {sentence}"),
+            "{text:?}"
+        );
+    }
+    let options = LoadOptions {
+        uv_set: 1,
+        ..LoadOptions::default()
+    };
+    let text = format!("{SQUARE}vt 0 0\nf 1/1 2/1 3/1\n");
+    let error = load_bytes("a.obj", text.as_bytes(), &mut crate::builder::nothing, &options).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "a.obj: it has no UV set 1; OBJ files have set 0 alone"
+    );
+}

@@ -1,0 +1,48 @@
+//! What every model promises to those who use it.
+
+use sabi_surface::model::Model;
+
+/// What every model promises.
+pub(crate) fn check(model: &Model) {
+    let mesh = &model.mesh;
+    let count = mesh.positions.len();
+    assert!(!mesh.triangles.is_empty() && !model.materials.is_empty() && !model.parts.is_empty());
+    assert_eq!([mesh.normals.len(), mesh.tangents.len()], [count; 2]);
+    assert!(mesh.uvs.is_empty() || mesh.uvs.len() == count);
+    assert!(mesh.colors.is_empty() || mesh.colors.len() == count);
+    assert_eq!(
+        [mesh.triangle_material.len(), mesh.triangle_part.len()],
+        [mesh.triangles.len(); 2]
+    );
+    assert!(
+        mesh.triangles
+            .as_flattened()
+            .iter()
+            .all(|vertex| (*vertex as usize) < count)
+    );
+    assert!(
+        mesh.triangle_material
+            .iter()
+            .all(|material| (*material as usize) < model.materials.len())
+    );
+    assert!(
+        mesh.triangle_part
+            .iter()
+            .all(|part| (*part as usize) < model.parts.len())
+    );
+    assert!(
+        mesh.positions
+            .as_flattened()
+            .iter()
+            .chain(mesh.uvs.as_flattened())
+            .all(|x| x.is_finite())
+    );
+    assert!(mesh.colors.as_flattened().iter().all(|x| x.is_finite()));
+    let unit = |vector: &[f32]| (vector.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() < 1e-4;
+    assert!(mesh.normals.iter().all(|normal| unit(normal)));
+    assert!(
+        mesh.tangents
+            .iter()
+            .all(|tangent| unit(&tangent[..3]) && tangent[3].abs() == 1.0)
+    );
+}
