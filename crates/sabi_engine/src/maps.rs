@@ -5,6 +5,7 @@ use sabi_export::{
     AtlasTexels, BakeWriter, Channel, ConstantRecord, OutputRecord, Padding, PaddingMap, SetLayout, SetOptions,
 };
 use sabi_gpu::{PlaneData, Run, RunOptions};
+use sabi_graph::PortType;
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
@@ -78,116 +79,98 @@ impl MapWriter<'_> {
         for (done, set) in sets.iter().enumerate() {
             progress.advance(Stage::Encode, done, sets.len());
             let padding = PaddingMap::new(&set.layout, self.padding);
+            let mut maps = SetMaps {
+                from: self,
+                set,
+                padding,
+                writer: &mut *writer,
+                written: &mut written,
+            };
             if let Some(result) = set.material {
-                self.material(run, set, result, &padding, writer, progress, &mut written)?;
+                maps.material(run, result, progress)?;
             }
             for (name, result) in &set.masks {
                 stop_if_canceled(progress)?;
-                self.mask(run, set, name, result, &padding, writer, &mut written)?;
+                maps.mask(run, name, result)?;
             }
         }
         progress.advance(Stage::Encode, sets.len(), sets.len());
         Ok(written)
     }
 
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "one set's way to disk; a struct of borrows would only rename them"
-    )]
-    fn material(
-        &self,
-        run: &mut Run,
-        set: &SetWork<'_>,
-        result: &PlannedResult,
-        padding: &PaddingMap,
-        writer: &mut BakeWriter,
-        progress: &dyn Progress,
-        written: &mut WrittenMaps,
-    ) -> Result<(), EngineError> {
+    fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
+        Ok(self.workpiece.gpu.read(&self.workpiece.surface, self.plan, run, slot)?)
+    }
+}
+
+/// One texture set on its way to disk.
+struct SetMaps<'a> {
+    from: &'a MapWriter<'a>,
+    set: &'a SetWork<'a>,
+    padding: PaddingMap,
+    writer: &'a mut BakeWriter,
+    written: &'a mut WrittenMaps,
+}
+
+/// Stored channels, and for each the exported ones with the first of their values in a texel.
+const MAPS: [(Stored, &[(Channel, usize)]); 4] = [
+    (Stored::Color, &[(Channel::BaseColor, 0), (Channel::Opacity, 3)]),
+    (
+        Stored::Surface,
+        &[(Channel::Roughness, 0), (Channel::Metallic, 1), (Channel::Occlusion, 2)],
+    ),
+    (Stored::Height, &[(Channel::Height, 0)]),
+    (Stored::Emission, &[(Channel::Emission, 0)]),
+];
+
+impl SetMaps<'_> {
+    fn material(&mut self, run: &mut Run, result: &PlannedResult, progress: &dyn Progress) -> Result<(), EngineError> {
+        let workpiece = self.from.workpiece;
         let slot = |channel| slot_of(result, Plane::Material(channel));
-        let model_from_working = (1.0 / self.workpiece.prepared.working_from_model(&self.workpiece.fit)) as f32;
-        let groups: [(Stored, f32, &[(Channel, usize)]); 4] = [
-            (Stored::Color, 1.0, &[(Channel::BaseColor, 0), (Channel::Opacity, 3)]),
-            (
-                Stored::Surface,
-                1.0,
-                &[(Channel::Roughness, 0), (Channel::Metallic, 1), (Channel::Occlusion, 2)],
-            ),
-            (Stored::Height, model_from_working, &[(Channel::Height, 0)]),
-            (Stored::Emission, 1.0, &[(Channel::Emission, 0)]),
-        ];
-        for (stored, scale, channels) in groups {
+        let model_from_working = (1.0 / workpiece.prepared.working_from_model(&workpiece.fit)) as f32;
+        for (stored, channels) in MAPS {
             stop_if_canceled(progress)?;
+            let scale = if stored == Stored::Height {
+                model_from_working
+            } else {
+                1.0
+            };
+            let stride = channels
+                .iter()
+                .map(|(channel, first)| first + channel.components())
+                .max()
+                .unwrap_or(1);
             let texels = match slot(stored) {
-                Some(slot) => {
-                    let plane = self.workpiece.gpu.read(&self.workpiece.surface, self.plan, run, slot)?;
-                    let stride = channels
-                        .iter()
-                        .map(|(channel, first)| first + channel.components())
-                        .max()
-                        .unwrap_or(1);
-                    Some(Texels::new(&plane, stride, scale))
-                }
+                Some(slot) => Some(Texels::new(&self.from.read(run, slot)?, stride, scale)),
                 None => None,
             };
             for (channel, first) in channels {
-                self.channel(set, channel, texels.as_ref(), *first, padding, writer, written)?;
+                self.channel(channel, texels.as_ref(), *first)?;
             }
         }
         let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));
         let normals = if height.is_some() || slope.is_some() {
-            written.finish_passes += 1;
-            let gpu = &self.workpiece.gpu;
-            let plane = gpu.normals(&self.workpiece.surface, run, height, slope, &self.run_options)?;
+            self.written.finish_passes += 1;
+            let plane = workpiece
+                .gpu
+                .normals(&workpiece.surface, run, height, slope, &self.from.run_options)?;
             Some(Texels::new(&plane, 3, 1.0))
         } else {
             None
         };
-        self.channel(set, &Channel::Normal, normals.as_ref(), 0, padding, writer, written)
+        self.channel(&Channel::Normal, normals.as_ref(), 0)
     }
 
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "one map's way to disk; a struct of borrows would only rename them"
-    )]
-    fn mask(
-        &self,
-        run: &Run,
-        set: &SetWork<'_>,
-        name: &str,
-        result: &PlannedResult,
-        padding: &PaddingMap,
-        writer: &mut BakeWriter,
-        written: &mut WrittenMaps,
-    ) -> Result<(), EngineError> {
-        let channel = Channel::Mask(name.to_owned());
+    fn mask(&mut self, run: &Run, name: &str, result: &PlannedResult) -> Result<(), EngineError> {
         let texels = match result.slots.first() {
-            Some(slot) => {
-                let plane = self
-                    .workpiece
-                    .gpu
-                    .read(&self.workpiece.surface, self.plan, run, *slot)?;
-                Some(gray(&plane, result.stored.ty == sabi_graph::PortType::Color))
-            }
+            Some(slot) => Some(gray(&self.from.read(run, *slot)?, result.stored.ty == PortType::Color)),
             None => None,
         };
-        self.channel(set, &channel, texels.as_ref(), 0, padding, writer, written)
+        self.channel(&Channel::Mask(name.to_owned()), texels.as_ref(), 0)
     }
 
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "one map's way to disk; a struct of borrows would only rename them"
-    )]
-    fn channel(
-        &self,
-        set: &SetWork<'_>,
-        channel: &Channel,
-        texels: Option<&Texels>,
-        first: usize,
-        padding: &PaddingMap,
-        writer: &mut BakeWriter,
-        written: &mut WrittenMaps,
-    ) -> Result<(), EngineError> {
+    /// Writes one channel; without texels, what the channel is where nothing sets it.
+    fn channel(&mut self, channel: &Channel, texels: Option<&Texels>, first: usize) -> Result<(), EngineError> {
         let none = Texels {
             data: Vec::new(),
             stride: channel.components(),
@@ -198,20 +181,19 @@ impl MapWriter<'_> {
             stride: texels.stride,
             first,
         };
-        let pixels = padding.gather(&set.layout, channel, from);
-        let done = writer
-            .set(&set.layout, &set.name, &self.options)
-            .channel(channel, pixels)?;
+        let pixels = self.padding.gather(&self.set.layout, channel, from);
+        let mut set = self.writer.set(&self.set.layout, &self.set.name, &self.from.options);
+        let done = set.channel(channel, pixels)?;
         if done.not_finite > 0 {
-            written.warnings.push(format!(
+            self.written.warnings.push(format!(
                 "{} values of {} in '{}' were no numbers and were replaced; look for a division by zero in the graph",
                 done.not_finite,
                 channel.name(),
-                set.name
+                self.set.name
             ));
         }
-        written.outputs.extend(done.outputs);
-        written.constants.extend(done.constant);
+        self.written.outputs.extend(done.outputs);
+        self.written.constants.extend(done.constant);
         Ok(())
     }
 }

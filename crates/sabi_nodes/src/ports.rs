@@ -22,6 +22,9 @@ pub(crate) const ANNOTATIONS: &[&str] = &[
     "input", "pass", "repeat", "vector", "optional", "default", "type", "label",
 ];
 
+/// Inputs that the flags of an interactive kernel have room for.
+const INPUT_LIMIT: usize = 16;
+
 /// What the functions of a file say.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ports {
@@ -265,6 +268,11 @@ impl<'a> PortReader<'a> {
                     message,
                     "Give it the same type everywhere, or another name.",
                 );
+                None
+            }
+            None if self.inputs.len() == INPUT_LIMIT => {
+                let message = format!("A node has at most {INPUT_LIMIT} inputs.");
+                self.at(member.name_range.clone(), message, "Split the node in two.");
                 None
             }
             None => {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Argument, Channel, Kind, Output, ParamValue, Reads};
-use sabi_nodes::link::{Binding, Call, Stored};
+use sabi_nodes::link::{Binding, Call, INPUTS_A_WORD, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft};
 use crate::error::{PlanError, Problem};
@@ -244,7 +244,7 @@ impl Builder<'_, '_> {
                     .cloned()
                     .unwrap_or_default();
                 let bits = present.iter().fold(0, |bits, channel| bits | 1 << (*channel as u32));
-                flags[1] |= bits << (5 * index);
+                flags[1 + (index / INPUTS_A_WORD).min(2)] |= bits << (5 * (index % INPUTS_A_WORD));
             }
         }
         let call = kernel.call(node, output, inputs, block);

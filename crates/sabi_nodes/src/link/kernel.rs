@@ -7,7 +7,7 @@ use sabi_graph::PortType;
 
 use super::block::{BlockLayout, knob_members};
 use super::rename::with_prefix;
-use super::{Binding, Call, Convert, KernelSpec, Plane, Store, Stored, prefix};
+use super::{Binding, Call, Convert, INPUTS_A_WORD, KernelSpec, Plane, Store, Stored, prefix};
 use crate::kind::{Argument, Channel, InputDefault, Kind, Output};
 
 /// A kernel's text and what the host needs to feed it.
@@ -329,7 +329,8 @@ fn load_expression(load: usize, stored: &Stored) -> String {
 
 /// Writes a local variable that the block's flags fill at run time, and answers its name.
 ///
-/// Flag word 0 has two bits an input: 0 default, 1 as it is, 2 gray to color, 3 luminance. Word 1 has a bit a channel.
+/// Flag word 0 has two bits an input: 0 default, 1 as it is, 2 gray to color, 3 luminance. The others have a bit a
+/// channel, [`INPUTS_A_WORD`] inputs each.
 fn write_switch(
     out: &mut String,
     index: usize,
@@ -347,8 +348,9 @@ fn write_switch(
         PortType::Material => {
             let plane = |channel| texel_expression(load, Plane::Material(channel));
             format!(
-                "switched_material(block.flags.y >> {}u, {}, {}, {}.x, {}.xyz, {}.xyz)",
-                5 * input,
+                "switched_material(block.flags.{} >> {}u, {}, {}, {}.x, {}.xyz, {}.xyz)",
+                ["y", "z", "w"][(input / INPUTS_A_WORD).min(2)],
+                5 * (input % INPUTS_A_WORD),
                 plane(Channel::Color),
                 plane(Channel::Surface),
                 plane(Channel::Height),

@@ -14,6 +14,9 @@ use crate::kind::{Channel, Kind};
 pub use block::{BlockLayout, CallLayout};
 pub use kernel::{Kernel, LinkError, link};
 
+/// Inputs whose material channels one flag word of a switched kernel describes.
+pub const INPUTS_A_WORD: usize = 6;
+
 /// What a kernel does, as plain data. Two equal specs give the same text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KernelSpec {

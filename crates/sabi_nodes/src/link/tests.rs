@@ -1,1 +1,181 @@
+//! Kernels as text that naga takes.
 
+use sabi_graph::PortType;
+
+use super::{Binding, Call, Convert, Format, Kernel, KernelSpec, Store, Stored, link};
+use crate::kind::Channel;
+use crate::{Library, validate_wgsl};
+
+const PLACE: &str = include_str!("../../../../shaders/surface/place.wgsl");
+
+fn linked(spec: &KernelSpec) -> Kernel {
+    let library = Library::builtin();
+    let kernel = link(
+        spec,
+        |id| library.kind(id),
+        |name| library.libraries().text(name),
+        PLACE,
+    );
+    let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
+    validate_wgsl(&kernel.wgsl).unwrap_or_else(|fault| panic!("{fault}\n{}", kernel.wgsl));
+    kernel
+}
+
+fn call(kind: &str, function: &str, inputs: Vec<Binding>, block: usize) -> Call {
+    Call {
+        kind: kind.to_owned(),
+        function: function.to_owned(),
+        inputs,
+        passes: Vec::new(),
+        block,
+    }
+}
+
+fn mask() -> Stored {
+    Stored {
+        ty: PortType::Mask,
+        channels: Vec::new(),
+    }
+}
+
+fn stores_mask(of: usize) -> Vec<Store> {
+    vec![Store {
+        call: of,
+        stored: mask(),
+        formats: vec![Format::R16Float],
+    }]
+}
+
+#[test]
+fn two_calls_of_one_kind_share_its_source() {
+    let noise = |block| call("noise/simplex", "mask", vec![Binding::Default], block);
+    let inputs = vec![
+        Binding::Call(0, Convert::None),
+        Binding::Call(1, Convert::None),
+        Binding::Default,
+    ];
+    let spec = KernelSpec {
+        calls: vec![noise(0), noise(1), call("blend/mask", "mask", inputs, 2)],
+        loads: Vec::new(),
+        stores: stores_mask(2),
+        on_ghosts: true,
+    };
+    let kernel = linked(&spec);
+    assert_eq!(kernel.wgsl.matches("fn noise_simplex__mask(").count(), 1);
+    assert_eq!(kernel.wgsl.matches("= noise_simplex__mask(").count(), 2);
+    assert_eq!(kernel.layout.calls.len(), 3);
+}
+
+#[test]
+fn a_parameter_that_bounds_a_loop_is_clamped_on_the_device() {
+    let spec = KernelSpec {
+        calls: vec![call("noise/simplex", "mask", vec![Binding::Default], 0)],
+        loads: Vec::new(),
+        stores: stores_mask(0),
+        on_ghosts: true,
+    };
+    let kernel = linked(&spec);
+    assert!(
+        kernel
+            .wgsl
+            .contains("bounded.octaves = clamp(bounded.octaves, 1u, 16u);"),
+        "{}",
+        kernel.wgsl
+    );
+}
+
+#[test]
+fn a_field_takes_a_texture_and_leaves_ghosts_alone() {
+    let spec = KernelSpec {
+        calls: vec![call("filter/smooth", "mask", vec![Binding::Field(0)], 0)],
+        loads: vec![mask()],
+        stores: stores_mask(0),
+        on_ghosts: false,
+    };
+    let kernel = linked(&spec);
+    assert_eq!((kernel.reads, kernel.writes.len()), (1, 1));
+    assert!(kernel.wgsl.contains("if (owner & GHOST_BIT) != 0u { return; }"));
+}
+
+#[test]
+fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
+    let library = Library::builtin();
+    let mut seen = 0;
+    for kind in library.kinds().filter(|kind| kind.shape == crate::kind::Shape::Point) {
+        for output in &kind.outputs {
+            let all = |ty| Stored {
+                ty,
+                channels: if ty == PortType::Material {
+                    Channel::ALL.to_vec()
+                } else {
+                    Vec::new()
+                },
+            };
+            let stored = all(output.ty);
+            let formats = stored.planes().iter().map(|plane| plane.format(true)).collect();
+            let spec = KernelSpec {
+                calls: vec![call(
+                    &kind.id,
+                    &output.name,
+                    (0..kind.inputs.len()).map(Binding::Switch).collect(),
+                    0,
+                )],
+                loads: kind.inputs.iter().map(|input| all(input.ty)).collect(),
+                stores: vec![Store {
+                    call: 0,
+                    stored,
+                    formats,
+                }],
+                on_ghosts: true,
+            };
+            let kernel = linked(&spec);
+            assert_eq!(kernel.layout.flags.is_some(), !kind.inputs.is_empty(), "{}", kind.id);
+            seen += 1;
+        }
+    }
+    assert!(seen >= library.kinds().count() - 1);
+}
+
+#[test]
+fn the_block_lies_where_naga_puts_it() {
+    let library = Library::builtin();
+    for kind in library.kinds() {
+        let Some(output) = kind.outputs.first() else { continue };
+        let inputs = kind.inputs.iter().enumerate().map(|(index, input)| match input.reads {
+            crate::kind::Reads::Field => Binding::Field(index),
+            crate::kind::Reads::Value => Binding::Default,
+        });
+        let first = call("noise/white", "mask", vec![Binding::Default], 0);
+        let spec = KernelSpec {
+            calls: vec![first, call(&kind.id, &output.name, inputs.collect(), 1)],
+            loads: kind.inputs.iter().map(|_| mask()).collect(),
+            stores: Vec::new(),
+            on_ghosts: true,
+        };
+        let kernel = linked(&spec);
+        let module = naga::front::wgsl::parse_str(&kernel.wgsl).unwrap();
+        let (_, block) = module
+            .types
+            .iter()
+            .find(|(_, ty)| ty.name.as_deref() == Some("Block"))
+            .unwrap();
+        let naga::TypeInner::Struct { members, span } = &block.inner else {
+            panic!("Block is a struct")
+        };
+        let offset = |name: &str| {
+            members
+                .iter()
+                .find(|m| m.name.as_deref() == Some(name))
+                .map(|m| m.offset)
+        };
+        let ours = &kernel.layout.calls[1];
+        assert_eq!(offset("params_1"), ours.params, "{}", kind.id);
+        assert_eq!(
+            offset("knobs_1"),
+            ours.knobs.iter().flatten().next().copied(),
+            "{}",
+            kind.id
+        );
+        assert_eq!(*span, kernel.layout.size, "{}", kind.id);
+    }
+}
