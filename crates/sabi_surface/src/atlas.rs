@@ -1,6 +1,38 @@
 //! The linked atlas: UV charts on pages of texels, with ghost texels that know the surface point over the seam.
 //!
 //! Texel coordinates: the center of texel `(x, y)` lies at `(x + 0.5, y + 0.5)`; `y` grows downward like `v`.
+//!
+//! The way from a mesh to an atlas, one file a step: `topology` (which triangles meet at an edge), `charts`
+//! (which belong together), `raster` and `mask` (which texel centers a chart covers), `split` (charts that
+//! overlap themselves), `place` and `pack` (where charts go), `fill` (owners), `ring` (ghosts), `walk` and
+//! `links` (where ghosts lead), `leap`, `overlap` and `report`.
+
+mod build;
+mod cache;
+mod charts;
+mod codec;
+mod error;
+mod fill;
+mod fixed;
+mod leap;
+mod level;
+mod links;
+mod mask;
+mod overlap;
+mod pack;
+mod place;
+mod raster;
+mod report;
+mod ring;
+mod split;
+#[cfg(test)]
+mod tests;
+mod topology;
+mod walk;
+
+pub use cache::{atlas_key, cached};
+pub use error::AtlasError;
+pub use level::AtlasLevel;
 
 /// A texel that nothing owns.
 pub const EMPTY: u32 = u32::MAX;
@@ -9,12 +41,58 @@ pub const GHOST_BIT: u32 = 1 << 31;
 /// Side of the square tiles that work is cut into, texels.
 pub const TILE: u32 = 8;
 
+/// Rings of ghost texels around a chart.
+pub const RINGS: u32 = 2;
+
+/// What an atlas is built for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AtlasOptions {
+    /// Texels for one unit of UV, 16 to 16384.
+    pub size: u32,
+    /// Largest width and height of a page in texels, a multiple of [`TILE`], 32 to 16384.
+    pub page_limit: u32,
+}
+
+impl AtlasOptions {
+    /// An atlas of `size` texels for one unit of UV, on pages that every adapter takes.
+    pub fn new(size: u32) -> AtlasOptions {
+        AtlasOptions { size, page_limit: 8192 }
+    }
+}
+
+/// What a texel holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// Nothing.
+    Empty,
+    /// The surface itself, with the number of the triangle.
+    Triangle(u32),
+    /// A ghost, with its index in [`Atlas::ghosts`].
+    Ghost(u32),
+}
+
+impl Atlas {
+    /// What texel `(x, y)` of `page` holds; [`Owner::Empty`] outside of the pages.
+    pub fn owner(&self, x: u32, y: u32, page: u32) -> Owner {
+        let [width, height] = self.page_size;
+        if x >= width || y >= height || page >= self.pages {
+            return Owner::Empty;
+        }
+        let row = page as usize * height as usize + y as usize;
+        match self.owners.get(row * width as usize + x as usize) {
+            None | Some(&EMPTY) => Owner::Empty,
+            Some(&value) if value & GHOST_BIT != 0 => Owner::Ghost(value & !GHOST_BIT),
+            Some(&value) => Owner::Triangle(value),
+        }
+    }
+}
+
 /// The linked atlas of one model at one size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atlas {
     /// Texels for one unit of UV.
     pub size: u32,
-    /// Width and height of every page, multiples of [`TILE`], at most 8192.
+    /// Width and height of every page, multiples of [`TILE`], at most [`AtlasOptions::page_limit`].
     pub page_size: [u32; 2],
     /// Number of pages.
     pub pages: u32,
@@ -24,13 +102,15 @@ pub struct Atlas {
     pub charts: Vec<Chart>,
     /// Chart of each triangle.
     pub triangle_chart: Vec<u32>,
-    /// Corners of each triangle in texel coordinates of its chart's page.
+    /// Corners of each triangle in texel coordinates of its chart's page. For the affine map of a triangle that is
+    /// small against a texel take the differences of `uv × size` instead: these are rounded to f32 on the page.
     pub triangle_texels: Vec<[[f32; 2]; 3]>,
     /// Ghosts in the order of their texels.
     pub ghosts: Vec<Ghost>,
     /// Tiles with at least one owned or ghost texel: page, tile row, tile column, in that order of sorting.
     pub tiles: Vec<TileRef>,
-    /// For each texel the radius in texels within which a straight step stays inside the chart; 0 outside.
+    /// For each texel the radius in texels within which a straight step stays inside the chart and does not reach
+    /// a texel whose metric differs by more than 5 % from its neighbor's; 0 outside and beside such a jump.
     pub leap: Vec<u8>,
     /// What was found and done.
     pub report: AtlasReport,
@@ -86,11 +166,12 @@ pub struct TileRef {
 /// What was found while building, for `sabi mesh` and the report file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AtlasReport {
-    /// Owned texels of all charts divided by the texels of the unit squares in use.
+    /// Owned texels of all charts divided by the texels of the unit squares in use, one for each material.
     pub coverage: f32,
-    /// Owned texels whose place in the unit square another chart claims as well.
+    /// Owned texels whose place in their material's unit square another chart claims as well, UV tiles wrapped
+    /// onto one square as a repeating texture does.
     pub overlap_texels: u64,
-    /// Pairs of overlapping charts, lower index first, with the number of texels they share.
+    /// Pairs of overlapping charts, lower index first, with the number of places they share; the first 10 000 pairs.
     pub overlapping_charts: Vec<(u32, u32, u64)>,
     /// Charts that coincide in UV with an earlier one (stacked or mirrored copies).
     pub stacked_charts: u32,
@@ -100,16 +181,20 @@ pub struct AtlasReport {
     pub degenerate_uv_triangles: u32,
     /// Triangles without area in space.
     pub degenerate_triangles: u32,
-    /// Edges shared by more than two triangles, treated as borders.
+    /// Edges shared by more than two triangles. Two of them stay linked where they alone are of one part or alone
+    /// share the edge's vertices; the others have a border there.
     pub nonmanifold_edges: u32,
     /// Edges with one triangle.
     pub border_edges: u32,
     /// Charts thinner than two texels.
     pub thin_charts: u32,
-    /// Charts that were moved from their place in the user's layout.
+    /// Charts that were moved against their place in the user's layout.
     pub moved_charts: u32,
     /// Links that gave up and point to their anchor texel.
     pub unlinked_ghosts: u32,
+    /// Links whose end was pulled by less than two texels towards the next owned texel, because none was in reach
+    /// of bilinear sampling: at the tips of charts and where a chart is thin.
+    pub pulled_ghosts: u32,
     /// Sentences for the artist.
     pub warnings: Vec<String>,
 }

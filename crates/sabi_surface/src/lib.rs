@@ -1,5 +1,6 @@
 //! A model file becomes a surface: loading, charts, the linked atlas, ray casting.
 
 pub mod atlas;
+pub mod bvh;
 pub mod load;
 pub mod model;

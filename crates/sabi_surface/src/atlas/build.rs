@@ -1,0 +1,336 @@
+//! From a mesh to its atlas: the steps in order.
+
+use rayon::prelude::*;
+
+use super::charts::{Partition, partition};
+use super::fixed::{UNIT, Uvs, cross, sub};
+use super::links::{Links, Pages, link};
+use super::mask::{Mask, texel_box};
+use super::overlap::overlap;
+use super::place::{Placement, place};
+use super::report::Findings;
+use super::ring::Occupancy;
+use super::split::Splitter;
+use super::topology::Topology;
+use super::walk::Ground;
+use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, RINGS, TILE, fill, leap};
+use crate::model::Mesh;
+
+impl Atlas {
+    /// Builds the linked atlas of a mesh: the same bytes for the same mesh and options, on any machine with any
+    /// number of threads.
+    pub fn build(mesh: &Mesh, options: &AtlasOptions) -> Result<Atlas, AtlasError> {
+        let AtlasOptions { size, page_limit } = *options;
+        if !(16..=16384).contains(&size) {
+            return Err(AtlasError::SizeOutOfRange { size });
+        }
+        if !(32..=16384).contains(&page_limit) || !page_limit.is_multiple_of(TILE) {
+            return Err(AtlasError::PageLimitOutOfRange { limit: page_limit });
+        }
+        let uvs = Uvs::check(mesh, size)?;
+        let topology = Topology::new(mesh);
+        let orientations: Vec<i8> = (0..mesh.triangles.len() as u32)
+            .into_par_iter()
+            .map(|triangle| uvs.orientation(triangle))
+            .collect();
+        let plan = Plan {
+            mesh,
+            topology: &topology,
+            uvs,
+            orientations: &orientations,
+            size,
+            page_limit,
+        };
+        let whole = partition(mesh, &topology, &orientations);
+        let masks = plan.masks(&whole)?;
+        match plan.split(&whole, &masks) {
+            None => plan.assemble(&whole, masks.into_iter().map(|(mask, _)| mask).collect()),
+            Some(split) => {
+                let masks = plan.masks(&split)?.into_iter().map(|(mask, _)| mask).collect();
+                plan.assemble(&split, masks)
+            }
+        }
+    }
+
+    /// The atlas of the same charts at another size.
+    pub(super) fn rebuild(&self, mesh: &Mesh, size: u32, page_limit: u32) -> Result<Atlas, AtlasError> {
+        let (triangles, expected) = (mesh.triangles.len(), self.triangle_chart.len());
+        if triangles != expected {
+            return Err(AtlasError::WrongMesh { triangles, expected });
+        }
+        let uvs = Uvs::check(mesh, size)?;
+        let topology = Topology::new(mesh);
+        let orientations: Vec<i8> = (0..triangles as u32)
+            .map(|triangle| uvs.orientation(triangle))
+            .collect();
+        let plan = Plan {
+            mesh,
+            topology: &topology,
+            uvs,
+            orientations: &orientations,
+            size,
+            page_limit,
+        };
+        let partition = Partition::numbered(self.triangle_chart.clone(), self.charts.len());
+        let masks = plan.masks(&partition)?.into_iter().map(|(mask, _)| mask).collect();
+        plan.assemble(&partition, masks)
+    }
+}
+
+/// Texels of all charts' rectangles together: a bit each while building.
+const RECTANGLES_LIMIT: u64 = 1 << 33;
+
+/// What is known before charts are placed.
+struct Plan<'a> {
+    mesh: &'a Mesh,
+    topology: &'a Topology,
+    uvs: Uvs<'a>,
+    orientations: &'a [i8],
+    size: u32,
+    page_limit: u32,
+}
+
+impl Plan<'_> {
+    /// The texels of each chart, and whether it claims one twice. Refuses what would not fit before it is allocated.
+    fn masks(&self, partition: &Partition) -> Result<Vec<(Mask, bool)>, AtlasError> {
+        let charts = 0..partition.len();
+        let boxes: Vec<Option<[i64; 4]>> = charts
+            .clone()
+            .into_par_iter()
+            .map(|chart| texel_box(&self.uvs, partition.triangles(chart)))
+            .collect();
+        let limit = self.page_limit - 2 * RINGS;
+        let mut texels = 0u64;
+        for (chart, around) in boxes.iter().enumerate() {
+            let Some([x0, y0, x1, y1]) = *around else { continue };
+            let (width, height) = ((x1 - x0) as u64, (y1 - y0) as u64);
+            if width.max(height) > u64::from(limit) {
+                let triangle = partition.triangles(chart)[0];
+                return Err(AtlasError::ChartTooLarge {
+                    triangle,
+                    width,
+                    height,
+                    size: self.size,
+                    limit,
+                });
+            }
+            texels += width * height;
+        }
+        if texels > RECTANGLES_LIMIT {
+            let (needed, limit) = (format!("{texels} texels"), format!("{RECTANGLES_LIMIT} texels"));
+            return Err(AtlasError::TooManyTexels {
+                size: self.size,
+                charts: partition.len(),
+                needed,
+                limit,
+            });
+        }
+        Ok(charts
+            .into_par_iter()
+            .map(|chart| Mask::of_chart(&self.uvs, partition.triangles(chart), boxes[chart]))
+            .collect())
+    }
+
+    /// A finer partition, when charts overlap themselves.
+    fn split(&self, partition: &Partition, masks: &[(Mask, bool)]) -> Option<Partition> {
+        let splitter = Splitter {
+            mesh: self.mesh,
+            topology: self.topology,
+            uvs: self.uvs,
+            partition,
+        };
+        let suspects: Vec<usize> = (0..masks.len()).filter(|&chart| masks[chart].1).collect();
+        let found: Vec<Vec<u32>> = suspects.par_iter().map(|&chart| splitter.split(chart)).collect();
+        if found
+            .iter()
+            .all(|labels| labels.iter().all(|&label| label == labels[0]))
+        {
+            return None;
+        }
+        // A chart's label is its first triangle, before as after.
+        let mut labels: Vec<u32> = partition
+            .triangle_chart
+            .iter()
+            .map(|&chart| partition.triangles(chart as usize)[0])
+            .collect();
+        for (&chart, found) in suspects.iter().zip(&found) {
+            for (&triangle, &label) in partition.triangles(chart).iter().zip(found) {
+                labels[triangle as usize] = label;
+            }
+        }
+        Some(Partition::from_labels(self.mesh, &labels))
+    }
+
+    fn assemble(&self, partition: &Partition, masks: Vec<Mask>) -> Result<Atlas, AtlasError> {
+        if masks.iter().all(Mask::is_empty) {
+            return Err(AtlasError::NoArea { size: self.size });
+        }
+        let placement = place(&masks, self.size, self.page_limit)?;
+        let mut owners = fill::fill(&self.uvs, partition, &placement);
+        let leap = leap::leap(self.mesh, &self.uvs, partition, &owners, placement.page_size);
+        let occupancy = Occupancy::new(&owners, placement.page_size);
+        let sound = self.sound_triangles();
+        let links = self.links(partition, &masks, &placement, &owners, &occupancy, &sound);
+        let [width, height] = placement.page_size.map(|side| side as usize);
+        for (index, ghost) in links.ghosts.iter().enumerate() {
+            let [x, y, page] = ghost.texel.map(|value| value as usize);
+            owners[(page * height + y) * width + x] = GHOST_BIT | index as u32;
+        }
+        let charts = self.charts(partition, &masks, &placement);
+        let findings = Findings {
+            mesh: self.mesh,
+            topology: self.topology,
+            uvs: self.uvs,
+            partition,
+            orientations: self.orientations,
+            sound: &sound,
+            charts: &charts,
+            masks: &masks,
+            placement: &placement,
+            size: self.size,
+        };
+        let overlap = overlap(&self.uvs, partition, &charts, &masks, self.size);
+        let Links {
+            ghosts,
+            unlinked,
+            pulled,
+        } = links;
+        let report = findings.report(overlap, unlinked, pulled);
+        Ok(Atlas {
+            size: self.size,
+            page_size: placement.page_size,
+            pages: placement.pages,
+            triangle_chart: partition.triangle_chart.clone(),
+            triangle_texels: self.triangle_texels(partition, &placement),
+            tiles: occupancy.tiles(),
+            owners,
+            charts,
+            ghosts,
+            leap,
+            report,
+        })
+    }
+
+    /// The ghosts around all charts, and where they lead.
+    fn links(
+        &self,
+        partition: &Partition,
+        masks: &[Mask],
+        placement: &Placement,
+        owners: &[u32],
+        occupancy: &Occupancy,
+        sound: &[bool],
+    ) -> Links {
+        let usable: Vec<bool> = (0..sound.len())
+            .map(|triangle| {
+                let chart = partition.triangle_chart[triangle] as usize;
+                sound[triangle] && self.orientations[triangle] != 0 && !masks[chart].is_empty()
+            })
+            .collect();
+        let hanging = occupancy.hanging(owners, |triangle| usable[triangle as usize]);
+        let ground = Ground {
+            mesh: self.mesh,
+            topology: self.topology,
+            uvs: self.uvs,
+            usable: &usable,
+        };
+        link(
+            &ground,
+            &Pages {
+                owners,
+                partition,
+                placement,
+            },
+            &hanging,
+        )
+    }
+
+    /// Which triangles have area in space, beyond what rounding of their positions could make.
+    fn sound_triangles(&self) -> Vec<bool> {
+        self.mesh
+            .triangles
+            .par_iter()
+            .map(|triangle| {
+                let [a, b, c] = triangle.map(|vertex| self.mesh.positions[vertex as usize].map(f64::from));
+                let reach = [a, b, c]
+                    .iter()
+                    .flatten()
+                    .fold(0.0f64, |reach, value| reach.max(value.abs()));
+                let edge = |from: [f64; 3], to: [f64; 3]| [0, 1, 2].map(|axis| to[axis] - from[axis]);
+                let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+                let longest = length(edge(a, b)).max(length(edge(b, c))).max(length(edge(c, a)));
+                let (u, v) = (edge(a, b), edge(a, c));
+                let area2 = length([0, 1, 2].map(|axis| {
+                    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+                    u[i] * v[j] - u[j] * v[i]
+                }));
+                // False for what is not a number, too.
+                area2 > longest * reach * f64::from(f32::EPSILON)
+            })
+            .collect()
+    }
+
+    fn triangle_texels(&self, partition: &Partition, placement: &Placement) -> Vec<[[f32; 2]; 3]> {
+        partition
+            .triangle_chart
+            .par_iter()
+            .enumerate()
+            .map(|(triangle, &chart)| {
+                let offset = placement.charts[chart as usize].offset.map(f64::from);
+                self.uvs
+                    .corners(triangle as u32)
+                    .map(|corner| [(corner[0] + offset[0]) as f32, (corner[1] + offset[1]) as f32])
+            })
+            .collect()
+    }
+
+    fn charts(&self, partition: &Partition, masks: &[Mask], placement: &Placement) -> Vec<Chart> {
+        (0..partition.len())
+            .into_par_iter()
+            .map(|chart| {
+                let (triangles, mask, place) = (partition.triangles(chart), &masks[chart], placement.charts[chart]);
+                let corner = [0, 1].map(|axis| mask.origin[axis] + i64::from(place.offset[axis]));
+                let bounds = if mask.is_empty() {
+                    [0; 4]
+                } else {
+                    [
+                        corner[0],
+                        corner[1],
+                        corner[0] + i64::from(mask.width),
+                        corner[1] + i64::from(mask.height),
+                    ]
+                };
+                let turned: f64 = triangles
+                    .iter()
+                    .map(|&triangle| {
+                        let [a, b, c] = self.uvs.corners(triangle);
+                        cross(sub(b, a), sub(c, a))
+                    })
+                    .sum();
+                Chart {
+                    page: place.page,
+                    texel_from_uv: place.offset,
+                    bounds: bounds.map(|value| value as u32),
+                    material: self.mesh.triangle_material[triangles[0] as usize],
+                    uv_tile: self.uv_tile(triangles),
+                    // Counter-clockwise seen from outside is clockwise in numbers, since v grows downward.
+                    mirrored: turned > 0.0,
+                    triangles: triangles.len() as u32,
+                    texels: mask.count() as u32,
+                }
+            })
+            .collect()
+    }
+
+    /// The UV tile of the middle of a chart's rectangle.
+    fn uv_tile(&self, triangles: &[u32]) -> [i32; 2] {
+        let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
+        for corner in triangles.iter().flat_map(|&triangle| self.uvs.fixed(triangle)) {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(corner[axis]);
+                high[axis] = high[axis].max(corner[axis]);
+            }
+        }
+        [0, 1].map(|axis| (low[axis] + high[axis]).div_euclid(2 * i64::from(self.size) * UNIT) as i32)
+    }
+}

@@ -1,0 +1,148 @@
+//! Charts: triangles connected through edges that are not seams in UV.
+
+use super::topology::{NO_TWIN, Topology};
+use crate::model::Mesh;
+
+/// Which chart each triangle belongs to; charts are numbered by material, then by first triangle.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Partition {
+    /// Chart of each triangle.
+    pub(super) triangle_chart: Vec<u32>,
+    /// Start of each chart's triangles in `members`, and the end of the last.
+    starts: Vec<usize>,
+    /// Triangles sorted by chart, then by number.
+    members: Vec<u32>,
+}
+
+impl Partition {
+    /// Numbers the groups that any labels make.
+    pub(super) fn from_labels(mesh: &Mesh, labels: &[u32]) -> Partition {
+        // A label that no group has yet stands at its first triangle.
+        let mut first = vec![u32::MAX; labels.iter().map(|&label| label as usize + 1).max().unwrap_or(0)];
+        for (triangle, &label) in labels.iter().enumerate() {
+            let first = &mut first[label as usize];
+            *first = (*first).min(triangle as u32);
+        }
+        let mut order: Vec<(u32, u32, u32)> = first
+            .iter()
+            .enumerate()
+            .filter(|&(_, &first)| first != u32::MAX)
+            .map(|(label, &first)| (mesh.triangle_material[first as usize], first, label as u32))
+            .collect();
+        order.sort_unstable();
+        let mut chart_of_label = vec![0; first.len()];
+        for (chart, &(_, _, label)) in order.iter().enumerate() {
+            chart_of_label[label as usize] = chart as u32;
+        }
+        Partition::numbered(
+            labels.iter().map(|&label| chart_of_label[label as usize]).collect(),
+            order.len(),
+        )
+    }
+
+    /// Charts that are numbered already.
+    pub(super) fn numbered(triangle_chart: Vec<u32>, charts: usize) -> Partition {
+        let mut starts = vec![0; charts + 1];
+        for &chart in &triangle_chart {
+            starts[chart as usize + 1] += 1;
+        }
+        for chart in 0..charts {
+            starts[chart + 1] += starts[chart];
+        }
+        let mut next = starts.clone();
+        let mut members = vec![0; triangle_chart.len()];
+        for (triangle, &chart) in triangle_chart.iter().enumerate() {
+            members[next[chart as usize]] = triangle as u32;
+            next[chart as usize] += 1;
+        }
+        Partition {
+            triangle_chart,
+            starts,
+            members,
+        }
+    }
+
+    /// Number of charts.
+    pub(super) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Triangles of a chart in rising order.
+    pub(super) fn triangles(&self, chart: usize) -> &[u32] {
+        &self.members[self.starts[chart]..self.starts[chart + 1]]
+    }
+}
+
+/// The charts of a mesh, before any that overlap themselves are split.
+pub(super) fn partition(mesh: &Mesh, topology: &Topology, orientations: &[i8]) -> Partition {
+    let mut sets = Sets::new(orientations);
+    // Triangles without area in UV last: they join what lies around them but never two opposite sides of a fold.
+    for with_flat in [false, true] {
+        for (edge, &twin) in topology.twins.iter().enumerate() {
+            if twin == NO_TWIN || (twin as usize) < edge {
+                continue;
+            }
+            let (a, b) = (edge / 3, twin as usize / 3);
+            let flat = orientations[a] == 0 || orientations[b] == 0;
+            if flat == with_flat && !is_seam(mesh, topology, edge as u32, twin) {
+                sets.join(a as u32, b as u32);
+            }
+        }
+    }
+    let labels: Vec<u32> = (0..mesh.triangles.len() as u32)
+        .map(|triangle| sets.find(triangle))
+        .collect();
+    Partition::from_labels(mesh, &labels)
+}
+
+/// Whether the two triangles at an edge disagree about its texture coordinates or their material.
+pub(super) fn is_seam(mesh: &Mesh, topology: &Topology, edge: u32, twin: u32) -> bool {
+    let (a, b) = (edge as usize / 3, twin as usize / 3);
+    if mesh.triangle_material[a] != mesh.triangle_material[b] {
+        return true;
+    }
+    let ends = |edge: u32| [edge, edge / 3 * 3 + (edge + 1 - edge / 3 * 3) % 3];
+    let [a0, a1] = ends(edge);
+    let [mut b0, mut b1] = ends(twin);
+    if topology.corners[a0 as usize] != topology.corners[b0 as usize] {
+        std::mem::swap(&mut b0, &mut b1);
+    }
+    let uv = |corner: u32| mesh.uvs[mesh.triangles[corner as usize / 3][corner as usize % 3] as usize];
+    // Not-a-number differs from itself, which is a seam as well.
+    uv(a0) != uv(b0) || uv(a1) != uv(b1)
+}
+
+/// Disjoint sets of triangles that wind the same way in UV.
+struct Sets {
+    parents: Vec<u32>,
+    orientations: Vec<i8>,
+}
+
+impl Sets {
+    fn new(orientations: &[i8]) -> Sets {
+        Sets {
+            parents: (0..orientations.len() as u32).collect(),
+            orientations: orientations.to_vec(),
+        }
+    }
+
+    fn find(&mut self, mut triangle: u32) -> u32 {
+        while self.parents[triangle as usize] != triangle {
+            let above = self.parents[self.parents[triangle as usize] as usize];
+            self.parents[triangle as usize] = above;
+            triangle = above;
+        }
+        triangle
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        let (low, high) = (a.min(b) as usize, a.max(b) as usize);
+        let ways = (self.orientations[low], self.orientations[high]);
+        if low == high || (ways.0 != ways.1 && ways.0 != 0 && ways.1 != 0) {
+            return;
+        }
+        self.parents[high] = low as u32;
+        self.orientations[low] = if ways.0 != 0 { ways.0 } else { ways.1 };
+    }
+}

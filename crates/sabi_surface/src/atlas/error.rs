@@ -1,0 +1,107 @@
+//! Why an atlas could not be built.
+
+/// Why an atlas could not be built, as a sentence to the person who can change it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum AtlasError {
+    /// Nothing to put on an atlas.
+    #[error("the model has no triangles, so there is no surface to work on; choose a model with faces")]
+    NoTriangles,
+    /// No UVs.
+    #[error(
+        "the model has no texture coordinates, and the maps need a place for every part of it; unwrap it in your \
+         modeling program and export it with UVs"
+    )]
+    NoUvs,
+    /// UVs that cover no texel.
+    #[error(
+        "the model's texture coordinates cover no texel at {size} texels for the unit square: they have no area, or \
+         next to none; unwrap it in your modeling program or bake at a larger size"
+    )]
+    NoArea {
+        /// Texels asked for.
+        size: u32,
+    },
+    /// The mesh contradicts itself.
+    #[error("the mesh is damaged: {what}; export the model again")]
+    BrokenMesh {
+        /// What does not fit.
+        what: String,
+    },
+    /// Size outside of what is supported.
+    #[error("a size of {size} texels was asked for, but it has to be between 16 and 16384")]
+    SizeOutOfRange {
+        /// Texels asked for.
+        size: u32,
+    },
+    /// Page limit outside of what is supported.
+    #[error("a page limit of {limit} texels was asked for, but it has to be a multiple of 8 between 32 and 16384")]
+    PageLimitOutOfRange {
+        /// Texels asked for.
+        limit: u32,
+    },
+    /// UVs too far away to count texels.
+    #[error(
+        "the texture coordinate ({u}, {v}) of vertex {vertex} lies too far from the unit square to be placed at \
+         {size} texels; move the UVs back into 0 to 1"
+    )]
+    UvTooFar {
+        /// Vertex number.
+        vertex: u32,
+        /// Its u, as text.
+        u: String,
+        /// Its v, as text.
+        v: String,
+        /// Texels for the unit square.
+        size: u32,
+    },
+    /// A chart does not fit on a page.
+    #[error(
+        "a UV chart (the one with triangle {triangle}) is {width} × {height} texels large at size {size}, but a page \
+         holds {limit} × {limit}; choose a smaller size, or split the chart in your modeling program"
+    )]
+    ChartTooLarge {
+        /// One of its triangles.
+        triangle: u32,
+        /// Texels across.
+        width: u64,
+        /// Texels down.
+        height: u64,
+        /// Texels for the unit square.
+        size: u32,
+        /// Largest chart a page takes, texels.
+        limit: u32,
+    },
+    /// More texels than can be held.
+    #[error(
+        "at size {size} the model's {charts} UV charts need {needed}, but at most {limit} can be held; choose a smaller \
+         size, or let charts share less of the unit square"
+    )]
+    TooManyTexels {
+        /// Texels for the unit square.
+        size: u32,
+        /// Number of charts.
+        charts: usize,
+        /// What would be needed, with its unit.
+        needed: String,
+        /// What there is, with its unit.
+        limit: String,
+    },
+    /// A level below anything useful.
+    #[error("level {level} of an atlas of {size} texels would be {level_size} texels, but it has to keep at least 8")]
+    LevelTooSmall {
+        /// Level asked for.
+        level: u32,
+        /// Size of the finest level.
+        size: u32,
+        /// Size the level would have.
+        level_size: u32,
+    },
+    /// Mesh and atlas do not belong together.
+    #[error("the mesh has {triangles} triangles but the atlas was built for {expected}; build the atlas of this mesh")]
+    WrongMesh {
+        /// Triangles of the mesh.
+        triangles: usize,
+        /// Triangles of the atlas.
+        expected: usize,
+    },
+}

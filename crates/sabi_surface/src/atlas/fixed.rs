@@ -1,0 +1,119 @@
+//! Texture coordinates in texels, exact and snapped.
+
+use super::AtlasError;
+use crate::model::Mesh;
+
+/// Parts of a texel that corners are snapped to for the raster.
+pub(super) const UNIT: i64 = 256;
+/// Farther than this many texels from the origin the raster could not count.
+const REACH_TEXELS: f64 = (1u64 << 30) as f64;
+
+/// A mesh's texture coordinates at one size.
+#[derive(Clone, Copy)]
+pub(super) struct Uvs<'a> {
+    mesh: &'a Mesh,
+    size: f64,
+}
+
+impl<'a> Uvs<'a> {
+    /// Checks that the mesh is whole and its texture coordinates can be counted in texels.
+    pub(super) fn check(mesh: &'a Mesh, size: u32) -> Result<Uvs<'a>, AtlasError> {
+        if mesh.triangles.is_empty() {
+            return Err(AtlasError::NoTriangles);
+        }
+        if mesh.uvs.is_empty() {
+            return Err(AtlasError::NoUvs);
+        }
+        let broken = |what: String| Err(AtlasError::BrokenMesh { what });
+        let vertices = mesh.positions.len();
+        if mesh.uvs.len() != vertices {
+            return broken(format!(
+                "it has {vertices} positions but {} texture coordinates",
+                mesh.uvs.len()
+            ));
+        }
+        let triangles = mesh.triangles.len();
+        if mesh.triangle_material.len() != triangles || mesh.triangle_part.len() != triangles {
+            return broken("not every triangle has a material and a part".to_owned());
+        }
+        if triangles >= (1 << 30) {
+            return broken(format!("{triangles} triangles are more than can be numbered"));
+        }
+        if let Some(bad) = mesh
+            .triangles
+            .iter()
+            .flatten()
+            .find(|&&vertex| vertex as usize >= vertices)
+        {
+            return broken(format!("a triangle names vertex {bad} of {vertices}"));
+        }
+        let size_f = f64::from(size);
+        for (vertex, uv) in mesh.uvs.iter().enumerate() {
+            let far = |value: f32| value.is_finite() && (f64::from(value) * size_f).abs() > REACH_TEXELS;
+            if far(uv[0]) || far(uv[1]) {
+                let [u, v] = uv.map(|value| format!("{value:e}"));
+                return Err(AtlasError::UvTooFar {
+                    vertex: vertex as u32,
+                    u,
+                    v,
+                    size,
+                });
+            }
+        }
+        Ok(Uvs { mesh, size: size_f })
+    }
+
+    /// `uv × size` of a vertex; 0 where it is not a number.
+    fn texel(&self, vertex: u32) -> [f64; 2] {
+        self.mesh.uvs[vertex as usize].map(|value| {
+            if value.is_finite() {
+                f64::from(value) * self.size
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// Corners of a triangle in texels of the user's layout.
+    pub(super) fn corners(&self, triangle: u32) -> [[f64; 2]; 3] {
+        self.mesh.triangles[triangle as usize].map(|vertex| self.texel(vertex))
+    }
+
+    /// Corners of a triangle in parts of a texel of the user's layout.
+    pub(super) fn fixed(&self, triangle: u32) -> [[i64; 2]; 3] {
+        self.corners(triangle)
+            .map(|corner| corner.map(|value| (value * UNIT as f64).round() as i64))
+    }
+
+    /// Which way a triangle winds in UV: 1, −1, or 0 when it is thinner than its coordinates are exact.
+    ///
+    /// Independent of the size, so that every level has the same charts.
+    pub(super) fn orientation(&self, triangle: u32) -> i8 {
+        let [a, b, c] = self.mesh.triangles[triangle as usize].map(|vertex| {
+            self.mesh.uvs[vertex as usize].map(|value| if value.is_finite() { f64::from(value) } else { 0.0 })
+        });
+        let edges = [sub(b, a), sub(c, b), sub(a, c)];
+        let longest = edges.iter().map(|edge| edge[0].hypot(edge[1])).fold(0.0, f64::max);
+        let reach = [a, b, c]
+            .iter()
+            .flatten()
+            .fold(0.0, |reach: f64, value| reach.max(value.abs()));
+        let area2 = cross(sub(b, a), sub(c, a));
+        // The height over the longest edge against half a step of an f32 at that distance.
+        if area2.abs() <= longest * reach * f64::from(f32::EPSILON) {
+            0
+        } else {
+            area2.signum() as i8
+        }
+    }
+}
+
+/// `a − b`.
+pub(super) fn sub(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// Twice the signed area between two vectors.
+pub(super) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}

@@ -1,0 +1,126 @@
+//! Links: the surface point that each ghost stands for.
+
+use rayon::prelude::*;
+
+use super::charts::Partition;
+use super::place::Placement;
+use super::ring::Hanging;
+use super::walk::{Ground, Landing};
+use super::{EMPTY, Ghost};
+
+/// How far a link's end may lie from the owned texel it is pulled to.
+const PULL_TEXELS: i64 = 4;
+/// Of a pulled end, the distance along the longer axis that remains to the texel's center.
+const PULLED_DISTANCE: f64 = 0.875;
+/// An owned texel counts for bilinear sampling from this weight on.
+const LEAST_WEIGHT: f64 = 1e-3;
+
+/// Owners and places to look links up in.
+pub(super) struct Pages<'a> {
+    pub(super) owners: &'a [u32],
+    pub(super) partition: &'a Partition,
+    pub(super) placement: &'a Placement,
+}
+
+/// The ghosts with their links, how many have none, and how many were pulled to an owned texel.
+pub(super) struct Links {
+    pub(super) ghosts: Vec<Ghost>,
+    pub(super) unlinked: u32,
+    pub(super) pulled: u32,
+}
+
+/// How a ghost got its link.
+enum Way {
+    Walked,
+    Pulled,
+    Gave,
+}
+
+/// Links all ghosts, in their order.
+pub(super) fn link(ground: &Ground, pages: &Pages, hanging: &[Hanging]) -> Links {
+    let linked: Vec<(Ghost, Way)> = hanging.par_iter().map(|hanging| pages.link(ground, hanging)).collect();
+    let count = |way: fn(&Way) -> bool| linked.iter().filter(|linked| way(&linked.1)).count() as u32;
+    Links {
+        unlinked: count(|way| matches!(way, Way::Gave)),
+        pulled: count(|way| matches!(way, Way::Pulled)),
+        ghosts: linked.into_iter().map(|(ghost, _)| ghost).collect(),
+    }
+}
+
+impl Pages<'_> {
+    fn link(&self, ground: &Ground, hanging: &Hanging) -> (Ghost, Way) {
+        let Hanging {
+            texel,
+            anchor,
+            triangle,
+        } = *hanging;
+        let chart = self.partition.triangle_chart[triangle as usize];
+        let offset = self.placement.charts[chart as usize].offset.map(f64::from);
+        let start = [0, 1].map(|axis| f64::from(anchor[axis]) + 0.5 - offset[axis]);
+        let step = [0, 1].map(|axis| f64::from(texel[axis]) - f64::from(anchor[axis]));
+        let found = ground
+            .walk(triangle, start, step)
+            .and_then(|landing| self.reachable(landing));
+        let ghost = |triangle, texel: [f64; 2], transport: [[f64; 2]; 2]| Ghost {
+            texel: hanging.texel,
+            chart,
+            target_triangle: triangle,
+            target_texel: texel.map(|value| value as f32),
+            target_from_own: transport.map(|column| column.map(|value| value as f32)),
+        };
+        match found {
+            Some((landing, texel, false)) => (ghost(landing.triangle, texel, landing.transport), Way::Walked),
+            Some((landing, texel, true)) => (ghost(landing.triangle, texel, landing.transport), Way::Pulled),
+            None => {
+                let center = anchor.map(|value| f64::from(value) + 0.5);
+                (ghost(triangle, center, [[1.0, 0.0], [0.0, 1.0]]), Way::Gave)
+            }
+        }
+    }
+
+    /// The end on its page, and whether it had to be pulled so that bilinear sampling finds an owned texel.
+    fn reachable(&self, landing: Landing) -> Option<(Landing, [f64; 2], bool)> {
+        let chart = self.partition.triangle_chart[landing.triangle as usize];
+        let offset = self.placement.charts[chart as usize].offset;
+        let texel = [0, 1].map(|axis| landing.texel[axis] + f64::from(offset[axis]));
+        let nearest = self.nearest_owned(chart, texel)?;
+        let away = [0, 1].map(|axis| nearest[axis] - texel[axis]);
+        let longest = away[0].abs().max(away[1].abs());
+        if (1.0 - away[0].abs()).max(0.0) * (1.0 - away[1].abs()).max(0.0) >= LEAST_WEIGHT {
+            return Some((landing, texel, false));
+        }
+        let pull = 1.0 - PULLED_DISTANCE / longest;
+        Some((landing, [0, 1].map(|axis| texel[axis] + away[axis] * pull), true))
+    }
+
+    /// Center of the owned texel of a chart that is nearest to a point.
+    fn nearest_owned(&self, chart: u32, texel: [f64; 2]) -> Option<[f64; 2]> {
+        let [width, height] = self.placement.page_size.map(i64::from);
+        let page = i64::from(self.placement.charts[chart as usize].page);
+        let [column, row] = texel.map(|value| value.floor() as i64);
+        let mut nearest: Option<(f64, [f64; 2])> = None;
+        for reach in 0..=PULL_TEXELS {
+            for y in (row - reach).max(0)..=(row + reach).min(height - 1) {
+                for x in (column - reach).max(0)..=(column + reach).min(width - 1) {
+                    if (x - column).abs().max((y - row).abs()) != reach {
+                        continue;
+                    }
+                    let owner = self.owners[((page * height + y) * width + x) as usize];
+                    if owner == EMPTY || self.partition.triangle_chart[owner as usize] != chart {
+                        continue;
+                    }
+                    let center = [x as f64 + 0.5, y as f64 + 0.5];
+                    let distance = (center[0] - texel[0]).hypot(center[1] - texel[1]);
+                    if nearest.is_none_or(|(least, _)| distance < least) {
+                        nearest = Some((distance, center));
+                    }
+                }
+            }
+            // Texels further out are at least this far away.
+            if nearest.is_some_and(|(least, _)| least <= reach as f64) {
+                break;
+            }
+        }
+        nearest.map(|(_, center)| center)
+    }
+}

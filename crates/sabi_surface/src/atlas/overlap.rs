@@ -1,0 +1,290 @@
+//! Which charts share places in the user's layout, where maps have room for one of them only.
+
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+
+use super::Chart;
+use super::charts::Partition;
+use super::fixed::{UNIT, Uvs};
+use super::mask::{Mask, for_each_run};
+
+/// Pairs that are listed; more would tell nobody more.
+const PAIRS_LIMIT: usize = 10_000;
+/// Pairs that are looked at in the hope of listing them.
+const CANDIDATES_LIMIT: usize = 200_000;
+
+/// What charts share.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Overlap {
+    /// Owned texels whose place another chart claims, too.
+    pub(super) texels: u64,
+    /// Pairs with the number of places they share.
+    pub(super) pairs: Vec<(u32, u32, u64)>,
+    /// Charts that coincide with an earlier one.
+    pub(super) stacked: u32,
+}
+
+/// Finds all overlaps; UV tiles are wrapped onto the unit square, materials have one each.
+pub(super) fn overlap(uvs: &Uvs, partition: &Partition, charts: &[Chart], masks: &[Mask], size: u32) -> Overlap {
+    let mut found = Overlap::default();
+    let numbers: Vec<usize> = (0..charts.len()).collect();
+    for of_material in numbers.chunk_by(|&a, &b| charts[a].material == charts[b].material) {
+        if of_material.len() > 1 {
+            overlap_of_material(uvs, partition, charts, masks, size, of_material, &mut found);
+        }
+    }
+    found
+}
+
+fn overlap_of_material(
+    uvs: &Uvs,
+    partition: &Partition,
+    charts: &[Chart],
+    masks: &[Mask],
+    size: u32,
+    numbers: &[usize],
+    found: &mut Overlap,
+) {
+    let mut square = Square::new(size);
+    for &chart in numbers {
+        square.claim(&Wrapped::new(&masks[chart], size));
+    }
+    if square.twice.iter().all(|&word| word == 0) {
+        return;
+    }
+    let crowded: Vec<(usize, Wrapped)> = numbers
+        .iter()
+        .map(|&chart| (chart, Wrapped::new(&masks[chart], size)))
+        .filter(|(_, wrapped)| square.shared(wrapped) > 0)
+        .collect();
+    found.texels += crowded.iter().map(|(_, wrapped)| square.shared(wrapped)).sum::<u64>();
+    let mut stacked = coinciding(uvs, partition, charts, size, crowded.iter().map(|&(chart, _)| chart));
+    let room = PAIRS_LIMIT - found.pairs.len();
+    let pairs = pairs(&crowded, room);
+    for &(a, b, shared) in &pairs {
+        let texels = |chart: u32| u64::from(charts[chart as usize].texels);
+        // The same texels by other triangles.
+        if shared == texels(a) && shared == texels(b) {
+            stacked.insert(b as usize);
+        }
+    }
+    found.pairs.extend(pairs);
+    found.stacked += stacked.len() as u32;
+}
+
+/// Pairs of charts that share places.
+fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
+    let mut candidates = Vec::new();
+    'all: for (index, (_, a)) in crowded.iter().enumerate() {
+        for (other, (_, b)) in crowded.iter().enumerate().skip(index + 1) {
+            if a.near(b) {
+                candidates.push((index, other));
+                if candidates.len() == CANDIDATES_LIMIT {
+                    break 'all;
+                }
+            }
+        }
+    }
+    let shared: Vec<u64> = candidates
+        .par_iter()
+        .map(|&(a, b)| crowded[a].1.shared(&crowded[b].1))
+        .collect();
+    let listed = candidates.iter().zip(shared).filter(|&(_, shared)| shared > 0);
+    listed
+        .map(|(&(a, b), shared)| (crowded[a].0 as u32, crowded[b].0 as u32, shared))
+        .take(room)
+        .collect()
+}
+
+/// Charts whose triangles lie exactly on those of an earlier one, whichever way round.
+fn coinciding(
+    uvs: &Uvs,
+    partition: &Partition,
+    charts: &[Chart],
+    size: u32,
+    numbers: impl Iterator<Item = usize>,
+) -> BTreeSet<usize> {
+    let mut seen = BTreeSet::new();
+    let mut stacked = BTreeSet::new();
+    for chart in numbers {
+        let tile = charts[chart]
+            .uv_tile
+            .map(|tile| i64::from(tile) * i64::from(size) * UNIT);
+        let mut triangles: Vec<[[i64; 2]; 3]> = partition
+            .triangles(chart)
+            .iter()
+            .map(|&triangle| {
+                let mut corners = uvs
+                    .fixed(triangle)
+                    .map(|corner| [corner[0] - tile[0], corner[1] - tile[1]]);
+                corners.sort_unstable();
+                corners
+            })
+            .collect();
+        triangles.sort_unstable();
+        let mut hasher = blake3::Hasher::new();
+        for value in triangles.iter().flatten().flatten() {
+            hasher.update(&value.to_le_bytes());
+        }
+        if !seen.insert(*hasher.finalize().as_bytes()) {
+            stacked.insert(chart);
+        }
+    }
+    stacked
+}
+
+/// A unit square of texels: claimed, and claimed by more than one chart.
+struct Square {
+    words: usize,
+    once: Vec<u64>,
+    twice: Vec<u64>,
+}
+
+impl Square {
+    fn new(size: u32) -> Square {
+        let words = size as usize / 64 + 1;
+        let bits = vec![0; words * size as usize];
+        Square {
+            words,
+            once: bits.clone(),
+            twice: bits,
+        }
+    }
+
+    fn claim(&mut self, wrapped: &Wrapped) {
+        for (y, bits) in wrapped.rows() {
+            let start = y * self.words + wrapped.first_word;
+            let once = &mut self.once[start..start + bits.len()];
+            let twice = &mut self.twice[start..start + bits.len()];
+            for ((once, twice), bits) in once.iter_mut().zip(twice).zip(bits) {
+                *twice |= *once & bits;
+                *once |= bits;
+            }
+        }
+    }
+
+    /// Texels of a chart that another one claims as well.
+    fn shared(&self, wrapped: &Wrapped) -> u64 {
+        let row = |(y, bits): (usize, &[u64])| {
+            let twice = &self.twice[y * self.words + wrapped.first_word..];
+            twice
+                .iter()
+                .zip(bits)
+                .map(|(twice, bits)| u64::from((twice & bits).count_ones()))
+                .sum::<u64>()
+        };
+        wrapped.rows().map(row).sum()
+    }
+}
+
+/// A chart's texels wrapped onto the unit square.
+struct Wrapped {
+    size: usize,
+    /// First row, and how many follow, around the end of the square to its start.
+    top: usize,
+    height: usize,
+    /// First word of a row, and how many.
+    first_word: usize,
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Wrapped {
+    fn new(mask: &Mask, size: u32) -> Wrapped {
+        let size = size as usize;
+        let [left, top] = mask.origin.map(|value| value.rem_euclid(size as i64) as usize);
+        let (first, last) = match left + mask.width as usize {
+            right if right <= size => (left / 64, right / 64),
+            _ => (0, size / 64),
+        };
+        let height = (mask.height as usize).min(size);
+        let words = last - first + 1;
+        let mut bits = vec![0u64; words * height];
+        for (y, row) in mask.rows().enumerate() {
+            let target = &mut bits[y % size * words..][..words];
+            for_each_run(row, |x0, x1| {
+                for x in WrappedRun::new(left + x0, left + x1, size) {
+                    set(target, x.start - first * 64, x.end - first * 64);
+                }
+            });
+        }
+        Wrapped {
+            size,
+            top,
+            height,
+            first_word: first,
+            words,
+            bits,
+        }
+    }
+
+    fn rows(&self) -> impl Iterator<Item = (usize, &[u64])> {
+        (0..self.height).map(|y| ((self.top + y) % self.size, &self.bits[y * self.words..][..self.words]))
+    }
+
+    /// Whether two charts could share a place.
+    fn near(&self, other: &Wrapped) -> bool {
+        let rows_meet = (other.top + self.size - self.top) % self.size < self.height
+            || (self.top + self.size - other.top) % self.size < other.height;
+        let (a, b) = (self.first_word, other.first_word);
+        rows_meet && a < b + other.words && b < a + self.words
+    }
+
+    fn shared(&self, other: &Wrapped) -> u64 {
+        let from = self.first_word.max(other.first_word);
+        let to = (self.first_word + self.words).min(other.first_word + other.words);
+        let mut shared = 0;
+        for (y, bits) in self.rows() {
+            let row = (y + other.size - other.top) % other.size;
+            if row < other.height {
+                let theirs = &other.bits[row * other.words..][..other.words];
+                let ours = &bits[from - self.first_word..to - self.first_word];
+                let theirs = &theirs[from - other.first_word..to - other.first_word];
+                shared += ours
+                    .iter()
+                    .zip(theirs)
+                    .map(|(a, b)| u64::from((a & b).count_ones()))
+                    .sum::<u64>();
+            }
+        }
+        shared
+    }
+}
+
+/// The pieces of a run of columns that lie in one unit square each.
+struct WrappedRun {
+    from: usize,
+    to: usize,
+    size: usize,
+}
+
+impl WrappedRun {
+    fn new(from: usize, to: usize, size: usize) -> WrappedRun {
+        // Once around is everything.
+        WrappedRun {
+            from,
+            to: to.min(from + size),
+            size,
+        }
+    }
+}
+
+impl Iterator for WrappedRun {
+    type Item = std::ops::Range<usize>;
+
+    fn next(&mut self) -> Option<std::ops::Range<usize>> {
+        let start = self.from % self.size;
+        let length = (self.to - self.from).min(self.size - start);
+        self.from += length;
+        (length > 0).then_some(start..start + length)
+    }
+}
+
+fn set(row: &mut [u64], from: usize, to: usize) {
+    for (index, word) in row.iter_mut().enumerate().take((to - 1) / 64 + 1).skip(from / 64) {
+        let low = from.saturating_sub(index * 64);
+        let high = (to - index * 64).min(64);
+        *word |= (u64::MAX << low) & (u64::MAX >> (64 - high));
+    }
+}

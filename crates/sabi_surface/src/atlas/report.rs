@@ -1,0 +1,164 @@
+//! What was found while building, in numbers and in sentences.
+
+use std::collections::BTreeSet;
+
+use super::charts::Partition;
+use super::fixed::{Uvs, cross, sub};
+use super::mask::Mask;
+use super::overlap::Overlap;
+use super::place::Placement;
+use super::topology::Topology;
+use super::{AtlasReport, Chart};
+use crate::model::Mesh;
+
+/// Densest against sparsest chart beyond which texels differ visibly in size.
+const DENSITY_RATIO: f64 = 4.0;
+/// Charts below this share of the surface say nothing about density.
+const DENSITY_LEAST_SHARE: f64 = 1e-3;
+
+/// What the report is made from.
+pub(super) struct Findings<'a> {
+    pub(super) mesh: &'a Mesh,
+    pub(super) topology: &'a Topology,
+    pub(super) uvs: Uvs<'a>,
+    pub(super) partition: &'a Partition,
+    pub(super) orientations: &'a [i8],
+    pub(super) sound: &'a [bool],
+    pub(super) charts: &'a [Chart],
+    pub(super) masks: &'a [Mask],
+    pub(super) placement: &'a Placement,
+    pub(super) size: u32,
+}
+
+impl Findings<'_> {
+    pub(super) fn report(&self, overlap: Overlap, unlinked_ghosts: u32, pulled_ghosts: u32) -> AtlasReport {
+        let materials: BTreeSet<u32> = self.charts.iter().map(|chart| chart.material).collect();
+        let owned: u64 = self.charts.iter().map(|chart| u64::from(chart.texels)).sum();
+        let squares = materials.len() as f64 * f64::from(self.size).powi(2);
+        let count = |found: &mut dyn Iterator<Item = bool>| found.filter(|&found| found).count() as u32;
+        let mut report = AtlasReport {
+            coverage: (owned as f64 / squares) as f32,
+            overlap_texels: overlap.texels,
+            overlapping_charts: overlap.pairs,
+            stacked_charts: overlap.stacked,
+            mirrored_charts: count(&mut self.charts.iter().map(|chart| chart.mirrored)),
+            degenerate_uv_triangles: count(&mut self.orientations.iter().map(|&way| way == 0)),
+            degenerate_triangles: count(&mut self.sound.iter().map(|&sound| !sound)),
+            nonmanifold_edges: self.topology.nonmanifold_edges,
+            border_edges: self.topology.border_edges,
+            thin_charts: count(&mut self.masks.iter().map(Mask::is_thin)),
+            moved_charts: self.moved_charts(),
+            unlinked_ghosts,
+            pulled_ghosts,
+            warnings: Vec::new(),
+        };
+        report.warnings = self.warnings(&report, owned);
+        report
+    }
+
+    fn moved_charts(&self) -> u32 {
+        if self.placement.kept {
+            return 0;
+        }
+        let moved = |chart: &&Chart| chart.texels > 0 && (chart.texel_from_uv != [0, 0] || chart.page != 0);
+        self.charts.iter().filter(moved).count() as u32
+    }
+
+    fn warnings(&self, report: &AtlasReport, owned: u64) -> Vec<String> {
+        let mut warnings = Vec::new();
+        warnings.extend(overlap_warning(report, owned));
+        let outside = self
+            .charts
+            .iter()
+            .filter(|chart| chart.uv_tile != [0, 0] && chart.texels > 0)
+            .count() as u32;
+        if outside > 0 {
+            let charts = counted(outside, "UV chart lies", "UV charts lie");
+            warnings.push(format!("{charts} outside of the unit square; maps repeat there"));
+        }
+        if report.degenerate_uv_triangles > 0 {
+            let triangles = counted(report.degenerate_uv_triangles, "triangle has", "triangles have");
+            warnings.push(format!("{triangles} no area in UV and no place on the maps"));
+        }
+        if report.thin_charts > 0 {
+            let charts = counted(report.thin_charts, "UV chart is", "UV charts are");
+            warnings.push(format!(
+                "{charts} thinner than two texels at size {}; a larger size or fewer, larger charts would help",
+                self.size
+            ));
+        }
+        if report.nonmanifold_edges > 0 {
+            let edges = counted(report.nonmanifold_edges, "edge is shared", "edges are shared");
+            warnings.push(format!(
+                "{edges} by more than two triangles; filters treat those as borders"
+            ));
+        }
+        if let Some(ratio) = self.density_ratio().filter(|&ratio| ratio > DENSITY_RATIO) {
+            warnings.push(format!(
+                "texels are up to {ratio:.1} times as dense on some UV charts as on others; scale them alike when you \
+                 unwrap"
+            ));
+        }
+        warnings
+    }
+
+    /// Texels for a unit of length on the densest chart over those on the sparsest.
+    fn density_ratio(&self) -> Option<f64> {
+        let areas: Vec<(f64, f64)> = (0..self.partition.len())
+            .map(|chart| self.areas(self.partition.triangles(chart)))
+            .collect();
+        let least = areas.iter().map(|(space, _)| space).sum::<f64>() * DENSITY_LEAST_SHARE;
+        let densities = areas
+            .iter()
+            .filter(|(space, texels)| *space > least && *texels > 0.0)
+            .map(|(space, texels)| (texels / space).sqrt());
+        let (low, high) = densities.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), density| {
+            (low.min(density), high.max(density))
+        });
+        (low < high).then(|| high / low)
+    }
+
+    /// Area in model units and in texels.
+    fn areas(&self, triangles: &[u32]) -> (f64, f64) {
+        triangles
+            .iter()
+            .filter(|&&triangle| self.sound[triangle as usize])
+            .fold((0.0, 0.0), |sum, &triangle| {
+                let [q0, q1, q2] = self.uvs.corners(triangle);
+                let texels = cross(sub(q1, q0), sub(q2, q0)).abs() / 2.0;
+                let [a, b, c] = self.mesh.triangles[triangle as usize]
+                    .map(|vertex| glam::DVec3::from(self.mesh.positions[vertex as usize].map(f64::from)));
+                (sum.0 + (b - a).cross(c - a).length() / 2.0, sum.1 + texels)
+            })
+    }
+}
+
+fn overlap_warning(report: &AtlasReport, owned: u64) -> Option<String> {
+    let share = report.overlap_texels as f64 / owned.max(1) as f64;
+    let copies = match report.stacked_charts {
+        0 => String::new(),
+        copies => format!(
+            " ({})",
+            counted(copies, "stacked or mirrored copy", "stacked or mirrored copies")
+        ),
+    };
+    (report.overlap_texels > 0).then(|| {
+        format!(
+            "UV charts overlap on {} of the surface{copies}: each is worked out for itself, but a map has room for one \
+             of them",
+            percent(share)
+        )
+    })
+}
+
+fn counted(count: u32, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
+fn percent(share: f64) -> String {
+    if share < 0.001 {
+        "less than 0.1 %".to_owned()
+    } else {
+        format!("{:.1} %", share * 100.0)
+    }
+}

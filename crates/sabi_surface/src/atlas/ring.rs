@@ -1,0 +1,173 @@
+//! Rings: the texels around charts that become ghosts, each with the owned texel it hangs on.
+
+use rayon::prelude::*;
+
+use super::mask::{for_each_run, or_shifted};
+use super::{EMPTY, RINGS, TILE, TileRef};
+
+/// Rows that one task looks at.
+const BAND_ROWS: usize = 32;
+
+/// Owned texels, a bit each.
+pub(super) struct Occupancy {
+    width: usize,
+    height: usize,
+    words: usize,
+    bits: Vec<u64>,
+}
+
+/// A ghost before it is linked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Hanging {
+    /// Column, row, page.
+    pub(super) texel: [u32; 3],
+    /// The nearest owned texel, on the same page.
+    pub(super) anchor: [u32; 2],
+    /// Its owner.
+    pub(super) triangle: u32,
+}
+
+impl Occupancy {
+    pub(super) fn new(owners: &[u32], page_size: [u32; 2]) -> Occupancy {
+        let [width, height] = page_size.map(|side| side as usize);
+        let words = width / 64 + 1;
+        let mut bits = vec![0u64; owners.len() / width * words];
+        bits.par_chunks_mut(words)
+            .zip(owners.par_chunks(width))
+            .for_each(|(bits, owners)| {
+                for (word, owners) in bits.iter_mut().zip(owners.chunks(64)) {
+                    for (bit, &owner) in owners.iter().enumerate() {
+                        *word |= u64::from(owner != EMPTY) << bit;
+                    }
+                }
+            });
+        Occupancy {
+            width,
+            height,
+            words,
+            bits,
+        }
+    }
+
+    fn rows(&self) -> usize {
+        self.bits.len() / self.words
+    }
+
+    fn row(&self, row: usize) -> &[u64] {
+        &self.bits[row * self.words..][..self.words]
+    }
+
+    /// Owned texels and those within the rings around them, in one row of all pages.
+    fn grown_row(&self, row: usize) -> Vec<u64> {
+        let ring = RINGS as usize;
+        let page_top = row / self.height * self.height;
+        let first = row.saturating_sub(ring).max(page_top);
+        let last = (row + ring).min(page_top + self.height - 1);
+        let mut tall = vec![0; self.words];
+        for near in first..=last {
+            tall.iter_mut()
+                .zip(self.row(near))
+                .for_each(|(tall, word)| *tall |= word);
+        }
+        let mut grown = vec![0; self.words];
+        for shift in -i64::from(RINGS)..=i64::from(RINGS) {
+            or_shifted(&mut grown, &tall, shift);
+        }
+        grown
+    }
+
+    /// All ghosts in the order of their texels. `prefer` says which triangles are good to hang on; others are taken
+    /// only where there is no such triangle.
+    pub(super) fn hanging(&self, owners: &[u32], prefer: impl Fn(u32) -> bool + Sync) -> Vec<Hanging> {
+        let around = neighborhood();
+        let bands: Vec<usize> = (0..self.rows()).step_by(BAND_ROWS).collect();
+        let found: Vec<Vec<Hanging>> = bands
+            .into_par_iter()
+            .map(|top| {
+                let mut found = Vec::new();
+                for row in top..(top + BAND_ROWS).min(self.rows()) {
+                    let mut ring = self.grown_row(row);
+                    ring.iter_mut()
+                        .zip(self.row(row))
+                        .for_each(|(ring, owned)| *ring &= !owned);
+                    for_each_run(&ring, |x0, x1| {
+                        let texels = x0..x1.min(self.width);
+                        found.extend(texels.filter_map(|x| self.hang(owners, x, row, &around, &prefer)));
+                    });
+                }
+                found
+            })
+            .collect();
+        found.concat()
+    }
+
+    fn hang(
+        &self,
+        owners: &[u32],
+        x: usize,
+        row: usize,
+        around: &[[i64; 2]],
+        prefer: &impl Fn(u32) -> bool,
+    ) -> Option<Hanging> {
+        let (page, y) = (row / self.height, row % self.height);
+        let mut fallback = None;
+        for [dx, dy] in around {
+            let (near_x, near_y) = (x as i64 + dx, y as i64 + dy);
+            if near_x < 0 || near_y < 0 || near_x >= self.width as i64 || near_y >= self.height as i64 {
+                continue;
+            }
+            let triangle = owners[(page * self.height + near_y as usize) * self.width + near_x as usize];
+            if triangle == EMPTY {
+                continue;
+            }
+            let hanging = Hanging {
+                texel: [x as u32, y as u32, page as u32],
+                anchor: [near_x as u32, near_y as u32],
+                triangle,
+            };
+            if prefer(triangle) {
+                return Some(hanging);
+            }
+            fallback = fallback.or(Some(hanging));
+        }
+        fallback
+    }
+
+    /// Tiles with at least one owned or ghost texel.
+    pub(super) fn tiles(&self) -> Vec<TileRef> {
+        let tile = TILE as usize;
+        let tile_rows: Vec<usize> = (0..self.rows() / tile).collect();
+        let found: Vec<Vec<TileRef>> = tile_rows
+            .into_par_iter()
+            .map(|tile_row| {
+                let mut any = vec![0u64; self.words];
+                for row in tile_row * tile..(tile_row + 1) * tile {
+                    any.iter_mut()
+                        .zip(self.grown_row(row))
+                        .for_each(|(any, word)| *any |= word);
+                }
+                let (page, row) = (tile_row * tile / self.height, tile_row * tile % self.height / tile);
+                (0..self.width / tile)
+                    .filter(|column| any[column / 8] >> (column % 8 * tile) & 0xff != 0)
+                    .map(|column| TileRef {
+                        page: page as u32,
+                        row: row as u32,
+                        column: column as u32,
+                    })
+                    .collect()
+            })
+            .collect();
+        found.concat()
+    }
+}
+
+/// Steps to all texels within the rings, the nearest first; of equally near ones the smallest index first.
+fn neighborhood() -> Vec<[i64; 2]> {
+    let ring = i64::from(RINGS);
+    let mut steps: Vec<[i64; 2]> = (-ring..=ring)
+        .flat_map(|dy| (-ring..=ring).map(move |dx| [dx, dy]))
+        .collect();
+    steps.retain(|step| *step != [0, 0]);
+    steps.sort_by_key(|[dx, dy]| (dx * dx + dy * dy, *dy, *dx));
+    steps
+}

@@ -1,0 +1,136 @@
+//! Charts that overlap themselves become several.
+
+use std::collections::VecDeque;
+
+use super::charts::{Partition, is_seam};
+use super::fixed::{UNIT, Uvs};
+use super::raster::spans;
+use super::topology::{NO_TWIN, Topology};
+use crate::model::Mesh;
+
+const NOBODY: u32 = u32::MAX;
+
+/// What a split looks at.
+pub(super) struct Splitter<'a> {
+    pub(super) mesh: &'a Mesh,
+    pub(super) topology: &'a Topology,
+    pub(super) uvs: Uvs<'a>,
+    pub(super) partition: &'a Partition,
+}
+
+impl Splitter<'_> {
+    /// Grows a chart anew from its first triangle, over neighbors, as long as no texel center is claimed by two
+    /// triangles that do not touch in UV; what is left over grows further charts the same way.
+    ///
+    /// Gives the first triangle of its new chart for each of the chart's triangles, in their order.
+    pub(super) fn split(&self, chart: usize) -> Vec<u32> {
+        let triangles = self.partition.triangles(chart);
+        let mut grid = Grid::around(&self.uvs, triangles);
+        // Dense numbers within the chart.
+        let local = |triangle: u32| triangles.binary_search(&triangle).ok();
+        let mut labels = vec![NOBODY; triangles.len()];
+        for start in 0..triangles.len() {
+            if labels[start] != NOBODY {
+                continue;
+            }
+            let seed = triangles[start];
+            let mut grown = Vec::new();
+            let mut seen = vec![start];
+            let mut queued = vec![false; triangles.len()];
+            queued[start] = true;
+            let mut queue = VecDeque::from([start]);
+            while let Some(at) = queue.pop_front() {
+                let triangle = triangles[at];
+                if triangle != seed && !self.fits(&grid, triangle) {
+                    continue;
+                }
+                grid.paint(self.uvs.fixed(triangle), triangle);
+                labels[at] = seed;
+                grown.push(triangle);
+                for neighbor in self.neighbors(triangle).filter_map(local) {
+                    if labels[neighbor] == NOBODY && !queued[neighbor] {
+                        queued[neighbor] = true;
+                        seen.push(neighbor);
+                        queue.push_back(neighbor);
+                    }
+                }
+            }
+            for triangle in grown {
+                grid.paint(self.uvs.fixed(triangle), NOBODY);
+            }
+        }
+        labels
+    }
+
+    /// Triangles over the edges of one, in their order, that are no seams.
+    fn neighbors(&self, triangle: u32) -> impl Iterator<Item = u32> {
+        (3 * triangle..3 * triangle + 3).filter_map(|edge| {
+            let twin = self.topology.twins[edge as usize];
+            (twin != NO_TWIN && !is_seam(self.mesh, self.topology, edge, twin)).then_some(twin / 3)
+        })
+    }
+
+    /// Whether all centers of a triangle are free or belong to triangles that touch it.
+    fn fits(&self, grid: &Grid, triangle: u32) -> bool {
+        let mut fits = true;
+        spans(self.uvs.fixed(triangle), (i64::MIN / 4, i64::MAX / 4), |y, x0, x1| {
+            fits = fits
+                && grid
+                    .row(y, x0, x1)
+                    .iter()
+                    .all(|&owner| owner == NOBODY || self.touch(owner, triangle));
+        });
+        fits
+    }
+
+    /// Whether two triangles share a corner in space and in UV. Slivers may turn over when their corners are
+    /// snapped, which is no overlap of the user's making.
+    fn touch(&self, a: u32, b: u32) -> bool {
+        let corner = |triangle: u32, k: usize| {
+            let place = self.topology.corners[triangle as usize * 3 + k];
+            (place, self.uvs.fixed(triangle)[k])
+        };
+        (0..3).any(|i| (0..3).any(|j| corner(a, i) == corner(b, j)))
+    }
+}
+
+/// Owners of a chart's texels while it grows.
+struct Grid {
+    origin: [i64; 2],
+    width: usize,
+    owners: Vec<u32>,
+}
+
+impl Grid {
+    fn around(uvs: &Uvs, triangles: &[u32]) -> Grid {
+        let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
+        for corner in triangles.iter().flat_map(|&triangle| uvs.fixed(triangle)) {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(corner[axis].div_euclid(UNIT));
+                high[axis] = high[axis].max(corner[axis].div_euclid(UNIT) + 1);
+            }
+        }
+        let [width, height] = [0, 1].map(|axis| (high[axis] - low[axis]).max(0) as usize);
+        Grid {
+            origin: low,
+            width,
+            owners: vec![NOBODY; width * height],
+        }
+    }
+
+    fn place(&self, y: i64, x0: i64, x1: i64) -> std::ops::Range<usize> {
+        let start = (y - self.origin[1]) as usize * self.width + (x0 - self.origin[0]) as usize;
+        start..start + (x1 - x0) as usize
+    }
+
+    fn row(&self, y: i64, x0: i64, x1: i64) -> &[u32] {
+        &self.owners[self.place(y, x0, x1)]
+    }
+
+    fn paint(&mut self, corners: [[i64; 2]; 3], owner: u32) {
+        spans(corners, (i64::MIN / 4, i64::MAX / 4), |y, x0, x1| {
+            let place = self.place(y, x0, x1);
+            self.owners[place].fill(owner);
+        });
+    }
+}

@@ -1,0 +1,262 @@
+//! Meshes that are not as they should be.
+
+use super::shapes::*;
+use crate::atlas::{Atlas, AtlasError, AtlasOptions, GHOST_BIT};
+use crate::model::Mesh;
+
+fn build(mesh: &Mesh, size: u32) -> Result<Atlas, AtlasError> {
+    Atlas::build(mesh, &AtlasOptions::new(size))
+}
+
+fn told(mesh: &Mesh, options: AtlasOptions) -> String {
+    Atlas::build(mesh, &options).unwrap_err().to_string()
+}
+
+fn assert_finite(atlas: &Atlas) {
+    for ghost in &atlas.ghosts {
+        let numbers = ghost.target_texel.iter().chain(ghost.target_from_own.iter().flatten());
+        assert!(numbers.into_iter().all(|value| value.is_finite()), "{ghost:?}");
+    }
+    assert!(atlas.report.coverage.is_finite());
+}
+
+#[test]
+fn errors_say_what_to_do() {
+    let mesh = cube(1);
+    let mut bare = mesh.clone();
+    bare.uvs.clear();
+    assert_eq!(
+        told(&bare, AtlasOptions::new(64)),
+        "the model has no texture coordinates, and the maps need a place for every part of it; unwrap it in your \
+         modeling program and export it with UVs"
+    );
+    assert_eq!(
+        told(&Mesh::default(), AtlasOptions::new(64)),
+        "the model has no triangles, so there is no surface to work on; choose a model with faces"
+    );
+    assert_eq!(
+        told(&mesh, AtlasOptions::new(15)),
+        "a size of 15 texels was asked for, but it has to be between 16 and 16384"
+    );
+    assert_eq!(
+        told(
+            &mesh,
+            AtlasOptions {
+                size: 64,
+                page_limit: 100
+            }
+        ),
+        "a page limit of 100 texels was asked for, but it has to be a multiple of 8 between 32 and 16384"
+    );
+    assert_eq!(
+        told(&square(Frame::straight([0.5, 0.5], 8.0), 1), AtlasOptions::new(2048)),
+        "a UV chart (the one with triangle 0) is 16385 × 16385 texels large at size 2048, but a page holds 8188 × 8188; \
+         choose a smaller size, or split the chart in your modeling program"
+    );
+    assert_eq!(
+        told(&square(Frame::straight([3e6, 0.5], 0.5), 1), AtlasOptions::new(1024)),
+        "the texture coordinate (2.9999998e6, 2.5e-1) of vertex 0 lies too far from the unit square to be placed at 1024 \
+         texels; move the UVs back into 0 to 1"
+    );
+    assert_eq!(
+        told(&square(Frame::straight([0.5, 0.5], 0.001), 1), AtlasOptions::new(64)),
+        "the model's texture coordinates cover no texel at 64 texels for the unit square: they have no area, or next \
+         to none; unwrap it in your modeling program or bake at a larger size"
+    );
+    let mut wild = mesh.clone();
+    wild.triangles[3][1] = 999;
+    assert_eq!(
+        told(&wild, AtlasOptions::new(64)),
+        "the mesh is damaged: a triangle names vertex 999 of 24; export the model again"
+    );
+    let mut short = mesh;
+    short.triangle_part.pop();
+    assert_eq!(
+        told(&short, AtlasOptions::new(64)),
+        "the mesh is damaged: not every triangle has a material and a part; export the model again"
+    );
+}
+
+#[test]
+fn sizes_that_no_memory_holds_are_refused_before_anything_is_allocated() {
+    let mut mesh = Mesh::default();
+    for layer in 0..300 {
+        let place = [f64::from(layer) * 2.0, 0.0, 0.0];
+        patch(
+            &mut mesh,
+            [place, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            Frame::straight([0.25, 0.25], 0.49),
+            1,
+        );
+    }
+    assert_eq!(
+        told(&mesh, AtlasOptions::new(16384)),
+        "at size 16384 the model's 300 UV charts need 19344270000 texels, but at most 8589934592 texels can be held; \
+         choose a smaller size, or let charts share less of the unit square"
+    );
+}
+
+#[test]
+fn a_fin_is_a_border_and_the_sheet_it_stands_on_goes_on() {
+    let mut mesh = square(Frame::straight([0.3, 0.5], 0.4), 2);
+    // The sheet's middle edge gets a third triangle with vertices of its own.
+    let first = mesh.positions.len() as u32;
+    mesh.positions
+        .extend([[0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.5, 0.25, 0.4]]);
+    mesh.uvs.extend([[0.7, 0.3], [0.7, 0.6], [0.9, 0.45]]);
+    triangle(&mut mesh, [first, first + 1, first + 2]);
+    let atlas = build(&mesh, 128).unwrap();
+    assert_eq!(atlas.report.nonmanifold_edges, 1);
+    assert_eq!(atlas.charts.len(), 2);
+    let fin = mesh.triangles.len() as u32 - 1;
+    for ghost in &atlas.ghosts {
+        let own = atlas.triangle_chart[fin as usize] == ghost.chart;
+        assert_eq!(ghost.target_triangle == fin, own, "a link crosses the fin");
+    }
+    assert!(
+        atlas.report.warnings.iter().any(|warning| {
+            warning == "1 edge is shared by more than two triangles; filters treat those as borders"
+        })
+    );
+    // Sharing the sheet's vertices nobody can tell which two belong together: all three get a border.
+    let last = mesh.triangles.len() - 1;
+    mesh.triangles[last] = [1, 4, first + 2];
+    let atlas = build(&mesh, 128).unwrap();
+    assert_eq!(atlas.report.nonmanifold_edges, 1);
+    assert_finite(&atlas);
+}
+
+#[test]
+fn two_sheets_on_one_another_stay_two_sheets() {
+    let mut mesh = square(Frame::straight([0.3, 0.5], 0.4), 3);
+    let front = mesh.triangles.len();
+    patch(
+        &mut mesh,
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        Frame::straight([0.75, 0.5], 0.4),
+        3,
+    );
+    for corners in &mut mesh.triangles[front..] {
+        corners.swap(1, 2);
+    }
+    let atlas = build(&mesh, 128).unwrap();
+    assert_eq!(atlas.charts.len(), 2);
+    assert_eq!(atlas.report.unlinked_ghosts, 0);
+}
+
+#[test]
+fn triangles_without_area_do_no_harm() {
+    let mut mesh = cube(3);
+    let vertices = mesh.positions.len() as u32;
+    // No area in UV, none in space, none in either, one point only, and a sliver between two neighbors.
+    for k in 0..24 {
+        let at = k * 7 % vertices;
+        triangle(&mut mesh, [at, at, (at + 1) % vertices]);
+        triangle(&mut mesh, [at, at, at]);
+        let base = mesh.positions.len() as u32;
+        let p = mesh.positions[at as usize];
+        mesh.positions.extend([p, p, [p[0] + 0.1, p[1], p[2]]]);
+        let uv = mesh.uvs[at as usize];
+        mesh.uvs.extend([uv, [uv[0] + 0.02, uv[1]], [uv[0], uv[1] + 0.02]]);
+        triangle(&mut mesh, [base, base + 1, base + 2]);
+        mesh.positions
+            .extend([p, [p[0] + 0.1, p[1], p[2]], [p[0], p[1] + 0.1, p[2]]]);
+        mesh.uvs.extend([uv, uv, uv]);
+        triangle(&mut mesh, [base + 3, base + 4, base + 5]);
+    }
+    for size in [16, 100, 333] {
+        let atlas = build(&mesh, size).unwrap();
+        assert_finite(&atlas);
+        assert_eq!(atlas.report.degenerate_uv_triangles, 24 * 3);
+        assert_eq!(atlas.report.degenerate_triangles, 24 * 3);
+    }
+}
+
+#[test]
+fn numbers_that_are_none_do_no_harm() {
+    let mut mesh = cube(4);
+    for (k, value) in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE]
+        .into_iter()
+        .enumerate()
+    {
+        mesh.positions[k * 9] = [value, 0.0, value];
+        if value.abs() < 1e6 || !value.is_finite() {
+            mesh.uvs[k * 9 + 4] = [value, 0.5];
+        }
+    }
+    assert_finite(&build(&mesh, 100).unwrap());
+}
+
+#[test]
+fn links_pass_through_triangles_that_have_no_place_on_the_maps() {
+    // Two patches in a plane, joined by a strip whose UVs are a line.
+    let mut mesh = Mesh::default();
+    patch(
+        &mut mesh,
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        Frame::straight([0.25, 0.5], 0.3),
+        1,
+    );
+    patch(
+        &mut mesh,
+        [[1.0, 0.0, 0.0], [0.001, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        Frame::straight([0.5, 0.1], 0.0),
+        1,
+    );
+    patch(
+        &mut mesh,
+        [[1.001, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        Frame::straight([0.75, 0.5], 0.3),
+        1,
+    );
+    let atlas = build(&mesh, 100).unwrap();
+    assert_eq!(atlas.report.degenerate_uv_triangles, 2);
+    assert_eq!(atlas.report.unlinked_ghosts, 0);
+    let crossing = atlas.ghosts.iter().filter(|ghost| {
+        let target = atlas.triangle_chart[ghost.target_triangle as usize];
+        ghost.chart != target
+    });
+    assert!(crossing.count() > 100);
+}
+
+#[test]
+fn a_fold_of_one_chart_makes_two() {
+    let mut mesh = Mesh::default();
+    mesh.positions
+        .extend([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+    // The second triangle folds back over the first.
+    mesh.uvs.extend([[0.2, 0.2], [0.6, 0.2], [0.6, 0.6], [0.55, 0.3]]);
+    triangle(&mut mesh, [0, 1, 2]);
+    triangle(&mut mesh, [0, 2, 3]);
+    let atlas = build(&mesh, 64).unwrap();
+    assert_eq!(atlas.charts.len(), 2);
+    assert_eq!(atlas.charts.iter().filter(|chart| chart.mirrored).count(), 1);
+    assert_eq!(atlas.report.overlapping_charts.len(), 1);
+}
+
+#[test]
+fn charts_too_small_for_a_texel_are_reported() {
+    let mut mesh = cube(1);
+    patch(
+        &mut mesh,
+        [[9.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0]],
+        Frame::straight([0.9, 0.9], 0.0005),
+        1,
+    );
+    let atlas = build(&mesh, 128).unwrap();
+    assert_eq!(atlas.charts[6].texels, 0);
+    assert_eq!(atlas.charts[6].bounds, [0; 4]);
+    assert_eq!(atlas.report.thin_charts, 1);
+    assert!(
+        atlas.report.warnings.contains(
+            &"1 UV chart is thinner than two texels at size 128; a larger size or fewer, larger charts would help"
+                .to_owned()
+        )
+    );
+    assert!(
+        atlas
+            .owners
+            .iter()
+            .all(|&owner| owner & GHOST_BIT != 0 || atlas.triangle_chart[owner as usize] != 6)
+    );
+}

@@ -1,0 +1,333 @@
+//! Links lead where a straight line over the surface leads.
+
+use super::shapes::*;
+use crate::atlas::fixed::Uvs;
+use crate::atlas::topology::Topology;
+use crate::atlas::walk::Ground;
+use crate::atlas::{Atlas, AtlasOptions, EMPTY, GHOST_BIT, Ghost};
+use crate::model::Mesh;
+
+fn atlas(mesh: &Mesh, size: u32) -> Atlas {
+    Atlas::build(mesh, &AtlasOptions::new(size)).unwrap()
+}
+
+/// The owned texel a ghost hangs on, found by brute force, and its triangle.
+fn anchor(atlas: &Atlas, ghost: &Ghost) -> ([f64; 2], u32) {
+    let [x, y, page] = ghost.texel.map(i64::from);
+    let [width, height] = atlas.page_size.map(i64::from);
+    let mut best: Option<(i64, i64, i64, u32)> = None;
+    for dy in -2..=2 {
+        for dx in -2..=2 {
+            let (ax, ay) = (x + dx, y + dy);
+            if ax < 0 || ay < 0 || ax >= width || ay >= height {
+                continue;
+            }
+            let owner = atlas.owners[((page * height + ay) * width + ax) as usize];
+            if owner == EMPTY || owner & GHOST_BIT != 0 {
+                continue;
+            }
+            let candidate = (dx * dx + dy * dy, ay, ax, owner);
+            if best.is_none_or(|best| candidate < best) {
+                best = Some(candidate);
+            }
+        }
+    }
+    let (_, y, x, owner) = best.unwrap();
+    ([x as f64 + 0.5, y as f64 + 0.5], owner)
+}
+
+fn offset(atlas: &Atlas, triangle: u32) -> [i32; 2] {
+    atlas.charts[atlas.triangle_chart[triangle as usize] as usize].texel_from_uv
+}
+
+struct Case {
+    start: [f64; 3],
+    step: [f64; 3],
+    /// The anchor triangle's texel axes in space.
+    axes: [[f64; 3]; 2],
+    end: [f64; 3],
+    /// The images of those axes after the walk.
+    carried: [[f64; 3]; 2],
+    start_metric: [f64; 3],
+    end_metric: [f64; 3],
+    transport: [[f64; 2]; 2],
+}
+
+fn cases(mesh: &Mesh, atlas: &Atlas) -> Vec<Case> {
+    let case = |ghost: &Ghost| {
+        let (anchor, triangle) = anchor(atlas, ghost);
+        let from = Affine::new(mesh, atlas.size, offset(atlas, triangle), triangle);
+        let to = Affine::new(
+            mesh,
+            atlas.size,
+            offset(atlas, ghost.target_triangle),
+            ghost.target_triangle,
+        );
+        let center = [f64::from(ghost.texel[0]) + 0.5, f64::from(ghost.texel[1]) + 0.5];
+        let transport = ghost.target_from_own.map(|column| column.map(f64::from));
+        Case {
+            start: from.position(anchor),
+            step: from.vector([center[0] - anchor[0], center[1] - anchor[1]]),
+            axes: from.axes,
+            end: to.position(ghost.target_texel.map(f64::from)),
+            carried: transport.map(|column| to.vector(column)),
+            start_metric: from.metric(),
+            end_metric: to.metric(),
+            transport,
+        }
+    };
+    atlas.ghosts.iter().map(case).collect()
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let d = add(a, b, -1.0);
+    dot(d, d).sqrt()
+}
+
+/// A straight line over the cube from −½ to ½, and vectors carried along, by its faces alone.
+fn over_the_cube(mut at: [f64; 3], mut step: [f64; 3], mut vectors: [[f64; 3]; 2]) -> ([f64; 3], [[f64; 3]; 2]) {
+    let mut face = (0..3).max_by(|&a, &b| at[a].abs().total_cmp(&at[b].abs())).unwrap();
+    let mut normal = [0.0; 3];
+    normal[face] = at[face].signum();
+    for _ in 0..8 {
+        let reach = |axis: usize| {
+            if step[axis] == 0.0 {
+                f64::MAX
+            } else {
+                (0.5 - at[axis] * step[axis].signum()) / step[axis].abs()
+            }
+        };
+        let axis = (0..3)
+            .filter(|&axis| axis != face)
+            .min_by(|&a, &b| reach(a).total_cmp(&reach(b)))
+            .unwrap();
+        let time = reach(axis);
+        if time >= 1.0 {
+            return (add(at, step, 1.0), vectors);
+        }
+        at = add(at, step, time);
+        let mut over = [0.0; 3];
+        over[axis] = step[axis].signum();
+        // What went out over the edge goes down the next face.
+        let turn = |v: [f64; 3]| {
+            let out = dot(v, over);
+            add(add(v, over, -out), normal, -out)
+        };
+        let left = [0, 1, 2].map(|k| step[k] * (1.0 - time));
+        let [u, v] = vectors;
+        let [turned, u, v] = [left, u, v].map(turn);
+        (step, vectors) = (turned, [u, v]);
+        (face, normal) = (axis, over);
+    }
+    panic!("a step that never ends");
+}
+
+#[test]
+fn links_over_a_cube_of_turned_and_mirrored_charts_end_where_straight_lines_end() {
+    let mut compared = 0;
+    for (cells, size) in [(1, 400), (3, 256), (7, 512)] {
+        let mesh = cube(cells);
+        let atlas = atlas(&mesh, size);
+        assert_eq!(atlas.charts.len(), 6);
+        assert_eq!(atlas.report.unlinked_ghosts, 0);
+        let mut pulled = 0;
+        for case in cases(&mesh, &atlas) {
+            let (end, carried) = over_the_cube(case.start, case.step, case.axes);
+            if apart(case.end, end) > 1e-5 {
+                // Through a corner of the cube either way is straight.
+                pulled += u32::from(case.start.iter().any(|value| value.abs() < 0.47));
+                continue;
+            }
+            compared += 1;
+            for (found, expected) in case.carried.iter().zip(&carried) {
+                assert!(apart(*found, *expected) < 1e-4 * dot(*expected, *expected).sqrt());
+            }
+        }
+        assert!(
+            pulled <= atlas.report.pulled_ghosts,
+            "{pulled} of {} are elsewhere",
+            atlas.report.pulled_ghosts
+        );
+        assert!(
+            atlas.report.pulled_ghosts as usize * 50 < atlas.ghosts.len(),
+            "{}",
+            atlas.report.pulled_ghosts
+        );
+    }
+    assert!(compared > 10_000);
+}
+
+#[test]
+fn carrying_vectors_keeps_their_lengths_and_angles() {
+    for (mesh, size) in [(cube(4), 300), (ball(12), 256)] {
+        let atlas = atlas(&mesh, size);
+        let (mut linked, mut all) = (0, 0);
+        for case in cases(&mesh, &atlas) {
+            let [u, v] = case.transport;
+            let [e, f, g] = case.end_metric;
+            let product =
+                |a: [f64; 2], b: [f64; 2]| a[0] * b[0] * e + (a[0] * b[1] + a[1] * b[0]) * f + a[1] * b[1] * g;
+            let found = [product(u, u), product(u, v), product(v, v)];
+            let scale = case.start_metric[0].max(case.start_metric[2]);
+            all += 1;
+            linked += usize::from((0..3).all(|k| (found[k] - case.start_metric[k]).abs() <= 1e-4 * scale));
+        }
+        // Those that gave up stay where they are, with a matrix that does nothing.
+        assert!(
+            linked + atlas.report.unlinked_ghosts as usize >= all,
+            "{linked} of {all}"
+        );
+        assert!((atlas.report.unlinked_ghosts as usize) < all / 20);
+    }
+}
+
+#[test]
+fn a_strip_cut_in_two_charts_is_one_plane_to_its_links() {
+    let mut mesh = Mesh::default();
+    let left = Frame {
+        center: [0.25, 0.3],
+        scale: 0.3,
+        turn: 0.5,
+        mirrored: false,
+    };
+    let right = Frame {
+        center: [0.7, 0.6],
+        scale: 0.22,
+        turn: 2.1,
+        mirrored: true,
+    };
+    patch(&mut mesh, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], left, 3);
+    patch(&mut mesh, [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], right, 3);
+    let atlas = atlas(&mesh, 256);
+    // Beyond the strip's border it is mirrored.
+    let fold = |value: f64, high: f64| {
+        if value < 0.0 {
+            -value
+        } else if value > high {
+            2.0 * high - value
+        } else {
+            value
+        }
+    };
+    let mut elsewhere = 0;
+    for case in cases(&mesh, &atlas) {
+        let straight = add(case.start, case.step, 1.0);
+        let expected = [fold(straight[0], 2.0), fold(straight[1], 1.0), 0.0];
+        elsewhere += u32::from(apart(case.end, expected) > 1e-5);
+    }
+    assert!(elsewhere <= atlas.report.pulled_ghosts);
+    assert!(atlas.report.pulled_ghosts < 20);
+}
+
+#[test]
+fn links_fold_over_the_edge_of_two_sheets_at_a_right_angle() {
+    let mut mesh = Mesh::default();
+    patch(
+        &mut mesh,
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        Frame::straight([0.25, 0.25], 0.3),
+        2,
+    );
+    patch(
+        &mut mesh,
+        [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+        Frame::straight([0.7, 0.7], 0.4),
+        2,
+    );
+    let atlas = atlas(&mesh, 200);
+    let mut folded = 0;
+    for case in cases(&mesh, &atlas) {
+        let straight = add(case.start, case.step, 1.0);
+        // From the flat sheet over its right edge, away from the borders.
+        if case.start[2] == 0.0 && straight[0] > 1.0 && (0.0..=1.0).contains(&straight[1]) {
+            assert!(apart(case.end, [1.0, straight[1], 1.0 - straight[0]]) < 1e-5);
+            folded += 1;
+        }
+    }
+    assert!(folded > 100);
+}
+
+#[test]
+fn a_border_turns_links_back() {
+    let mesh = square(
+        Frame {
+            center: [0.5, 0.5],
+            scale: 0.7,
+            turn: 0.3,
+            mirrored: false,
+        },
+        4,
+    );
+    let atlas = atlas(&mesh, 128);
+    let fold = |value: f64| {
+        if value < 0.0 {
+            -value
+        } else if value > 1.0 {
+            2.0 - value
+        } else {
+            value
+        }
+    };
+    let mut elsewhere = 0;
+    for case in cases(&mesh, &atlas) {
+        let straight = add(case.start, case.step, 1.0);
+        elsewhere += u32::from(apart(case.end, [fold(straight[0]), fold(straight[1]), 0.0]) > 1e-5);
+        let [u, v] = case.transport;
+        let turned = u[0] * v[1] - u[1] * v[0];
+        let corner = [0, 1].iter().all(|&axis| !(0.0..=1.0).contains(&straight[axis]));
+        // Once mirrored, or twice at a corner.
+        assert!(
+            (turned - if corner { 1.0 } else { -1.0 }).abs() < 1e-4,
+            "{turned} at {straight:?}"
+        );
+    }
+    assert!(elsewhere <= atlas.report.pulled_ghosts && elsewhere < 10);
+}
+
+#[test]
+fn walking_back_along_a_link_returns_to_its_anchor() {
+    let mesh = cube(5);
+    let atlas = atlas(&mesh, 300);
+    let uvs = Uvs::check(&mesh, atlas.size).unwrap();
+    let topology = Topology::new(&mesh);
+    let usable = vec![true; mesh.triangles.len()];
+    let ground = Ground {
+        mesh: &mesh,
+        topology: &topology,
+        uvs,
+        usable: &usable,
+    };
+    for ghost in &atlas.ghosts {
+        let (anchor, triangle) = anchor(&atlas, ghost);
+        let home = offset(&atlas, triangle).map(f64::from);
+        let start = [anchor[0] - home[0], anchor[1] - home[1]];
+        let step = [0, 1].map(|axis| f64::from(ghost.texel[axis]) + 0.5 - anchor[axis]);
+        let there = ground.walk(triangle, start, step).unwrap();
+        let back = [0, 1].map(|k| -(there.transport[0][k] * step[0] + there.transport[1][k] * step[1]));
+        let again = ground.walk(there.triangle, there.texel, back).unwrap();
+        assert_eq!(atlas.triangle_chart[again.triangle as usize], ghost.chart);
+        let distance = (again.texel[0] - start[0]).hypot(again.texel[1] - start[1]);
+        assert!(distance < 1e-3, "{distance} for {ghost:?}");
+    }
+}
+
+#[test]
+fn every_link_can_be_sampled() {
+    for mesh in [cube(6), ball(16)] {
+        for size in [32, 100, 512] {
+            let atlas = atlas(&mesh, size);
+            let [width, _] = atlas.page_size;
+            for ghost in &atlas.ghosts {
+                let chart = atlas.triangle_chart[ghost.target_triangle as usize];
+                let page = atlas.charts[chart as usize].page;
+                let [x, y] = ghost.target_texel.map(|value| (f64::from(value) - 0.5).floor());
+                let owned = [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().any(|(dx, dy)| {
+                    let (column, row) = (x as u32 + dx, y as u32 + dy + page * atlas.page_size[1]);
+                    let owner = atlas.owners[(row * width + column) as usize];
+                    owner & GHOST_BIT == 0 && atlas.triangle_chart[owner as usize] == chart
+                });
+                assert!(owned, "{ghost:?} at size {size}");
+            }
+        }
+    }
+}

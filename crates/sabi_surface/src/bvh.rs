@@ -1,0 +1,148 @@
+//! Ray casting: an eight-way compressed bounding volume hierarchy over the triangles.
+
+use glam::{DVec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::cwbvh::CwBvh;
+use obvhs::cwbvh::builder::build_cwbvh_from_tris;
+use obvhs::ray::{Ray, RayHit};
+use obvhs::triangle::Triangle;
+
+use crate::model::Mesh;
+
+#[cfg(test)]
+mod tests;
+
+/// Diagonal of the scaled scene: obvhs and its GPU traversal keep rays from starting nearer than 1e-4.
+const SCALED_DIAGONAL: f64 = 4.0;
+
+/// A bounding volume hierarchy of a mesh, scaled to a size that suits single precision.
+pub struct Bvh {
+    tree: CwBvh,
+    triangles: Vec<Triangle>,
+    center: Vec3A,
+    scale: f32,
+}
+
+/// What a ray met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Triangle number in the mesh.
+    pub triangle: u32,
+    /// Distance from the ray's origin, model units.
+    pub distance: f32,
+    /// Shares of the triangle's corners, together 1.
+    pub barycentric: [f32; 3],
+}
+
+impl Bvh {
+    /// Builds the hierarchy; the same one for the same mesh.
+    pub fn build(mesh: &Mesh) -> Bvh {
+        // What is not a number lies in the middle, where a triangle without area is met by no ray.
+        let corner = |vertex: u32| {
+            let position = mesh
+                .positions
+                .get(vertex as usize)
+                .map(|position| DVec3::from(position.map(f64::from)));
+            position.filter(|position| position.is_finite())
+        };
+        let found = mesh.triangles.iter().flatten().filter_map(|&vertex| corner(vertex));
+        let (low, high) = found.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), position| {
+            (low.min(position), high.max(position))
+        });
+        let diagonal = (high - low).length();
+        let (center, scale) = if diagonal.is_finite() && diagonal > 0.0 {
+            ((low + high) * 0.5, SCALED_DIAGONAL / diagonal)
+        } else {
+            (DVec3::ZERO, 1.0)
+        };
+        let scaled = |triangle: &[u32; 3]| {
+            let corners = triangle.map(|vertex| corner(vertex).map(|at| ((at - center) * scale).as_vec3a()));
+            match corners {
+                [Some(v0), Some(v1), Some(v2)] => Triangle { v0, v1, v2 },
+                _ => Triangle::default(),
+            }
+        };
+        let triangles: Vec<Triangle> = mesh.triangles.iter().map(scaled).collect();
+        let tree = if triangles.is_empty() {
+            CwBvh::default()
+        } else {
+            build_cwbvh_from_tris(
+                &triangles,
+                BvhBuildParams::medium_build(),
+                &mut std::time::Duration::default(),
+            )
+        };
+        Bvh {
+            tree,
+            triangles,
+            center: center.as_vec3a(),
+            scale: scale as f32,
+        }
+    }
+
+    /// The nearest triangle that a ray meets within `max` model units. `direction` need not have unit length.
+    pub fn closest(&self, origin: [f32; 3], direction: [f32; 3], max: f32) -> Option<Hit> {
+        let ray = self.scaled(origin, direction, max)?;
+        let mut hit = RayHit::none();
+        let met = self
+            .tree
+            .ray_traverse(ray, &mut hit, |ray, id| self.triangle(id).intersect(ray));
+        if !met {
+            return None;
+        }
+        let triangle = *self.tree.primitive_indices.get(hit.primitive_id as usize)?;
+        let barycentric = barycentric(&self.triangles[triangle as usize], ray.origin + ray.direction * hit.t);
+        Some(Hit {
+            triangle,
+            distance: hit.t / self.scale,
+            barycentric,
+        })
+    }
+
+    /// Whether a ray meets anything within `max` model units. `direction` need not have unit length.
+    pub fn any(&self, origin: [f32; 3], direction: [f32; 3], max: f32) -> bool {
+        self.scaled(origin, direction, max).is_some_and(|ray| {
+            !self
+                .tree
+                .ray_traverse_miss(ray, |ray, id| self.triangle(id).intersect(ray))
+        })
+    }
+
+    /// The hierarchy, in scaled space; `primitive_indices` lead to triangles of the mesh.
+    pub fn tree(&self) -> &CwBvh {
+        &self.tree
+    }
+
+    /// What turns model space into scaled space: `(position − center) × scale`.
+    pub fn scaled_from_model(&self) -> ([f32; 3], f32) {
+        (self.center.to_array(), self.scale)
+    }
+
+    fn triangle(&self, primitive: usize) -> &Triangle {
+        &self.triangles[self.tree.primitive_indices[primitive] as usize]
+    }
+
+    /// The ray in scaled space; `None` when it goes nowhere.
+    fn scaled(&self, origin: [f32; 3], direction: [f32; 3], max: f32) -> Option<Ray> {
+        let direction = Vec3A::from_array(direction).try_normalize()?;
+        let origin = (Vec3A::from_array(origin) - self.center) * self.scale;
+        if self.triangles.is_empty() || !origin.is_finite() || max.is_nan() || max <= 0.0 {
+            return None;
+        }
+        Some(Ray::new(origin, direction, 0.0, max * self.scale))
+    }
+}
+
+/// Shares of a triangle's corners in a point of its plane.
+fn barycentric(triangle: &Triangle, point: Vec3A) -> [f32; 3] {
+    let (u, v) = (triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
+    let normal = u.cross(v);
+    let square = normal.length_squared();
+    if square <= 0.0 {
+        return [1.0, 0.0, 0.0];
+    }
+    let offset = point - triangle.v0;
+    let of_1 = offset.cross(v).dot(normal) / square;
+    let of_2 = u.cross(offset).dot(normal) / square;
+    [1.0 - of_1 - of_2, of_1, of_2]
+}
