@@ -1,0 +1,198 @@
+//! `cargo bench`: the numbers that say whether Sabi is fast. Medians of a few runs; nothing here asserts.
+//!
+//! The model is the 30 000-triangle peer model where the shared data folder is beside the project, else the figure.
+
+#![allow(clippy::print_stdout, reason = "a bench's table is its output")]
+#![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use sabi_engine::{
+    AdapterChoice, BakeRequest, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Prepared, Silent, WorkpieceOptions, bake,
+};
+use serde_json::{Value as Json, json};
+
+/// Simplex noise of eight octaves, cells, levels, two blends and an effect.
+const PEER_NODES: &str = r#"
+    "clouds": { "kind": "noise/simplex", "params": { "size": 0.2, "octaves": 8 } },
+    "cells": { "kind": "noise/cells", "params": { "size": 0.1 } },
+    "levels": { "kind": "adjust/levels", "inputs": { "source": "clouds" }, "params": { "black": 0.2 } },
+    "both": { "kind": "blend/mask", "inputs": { "below": "levels", "above": "cells" } },
+    "all": { "kind": "blend/mask", "inputs": { "below": "both", "above": "clouds" }, "params": { "mode": "screen" } },
+    "base": { "kind": "source/material" },
+    "coat": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "all" } },
+    "out": { "kind": "output/material", "inputs": { "material": "coat" } }"#;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn peer_model() -> PathBuf {
+    let shared = root().join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
+    if shared.is_file() {
+        shared
+    } else {
+        root().join("assets/meshes/figure.glb")
+    }
+}
+
+fn graph(folder: &Path, name: &str, nodes: &str) -> PathBuf {
+    let path = folder.join(name);
+    fs::write(
+        &path,
+        format!(r#"{{ "format": "sabi", "version": 1, "name": "bench", "nodes": {{ {nodes} }} }}"#),
+    )
+    .unwrap();
+    path
+}
+
+fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, cache: Option<PathBuf>) -> Json {
+    let mut model = ModelOptions::new(model, size);
+    model.cache_dir = cache;
+    let request = BakeRequest {
+        graph: graph.to_owned(),
+        workpiece: WorkpieceOptions {
+            model,
+            overrides: Overrides::default(),
+            fit: None,
+            adapter: AdapterChoice::Auto,
+            budget_bytes: DEFAULT_BUDGET_BYTES,
+        },
+        output: folder.join("out"),
+        presets: Vec::new(),
+        material: None,
+        all_maps: false,
+        padding: None,
+        fuse,
+    };
+    let started = Instant::now();
+    let mut json = bake(&request, &Silent).unwrap().json;
+    json["whole_ms"] = json!(started.elapsed().as_secs_f64() * 1000.0);
+    json
+}
+
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
+}
+
+fn seconds(work: impl Fn() -> Duration) -> f64 {
+    median((0..5).map(|_| work().as_secs_f64()).collect())
+}
+
+fn row(what: &str, value: f64, unit: &str, aim: &str) {
+    println!("| {what} | {value:.3} {unit} | {aim} |");
+}
+
+/// A hundred masks in a row.
+fn chain() -> String {
+    let mut nodes = r#""n00": { "kind": "noise/simplex" }"#.to_owned();
+    for node in 1..100 {
+        let before = node - 1;
+        let _ = write!(
+            nodes,
+            r#", "n{node:02}": {{ "kind": "adjust/invert", "inputs": {{ "source": "n{before:02}" }} }}"#
+        );
+    }
+    nodes + r#", "out": { "kind": "output/mask", "inputs": { "source": "n99" } }"#
+}
+
+/// A hundred nodes in which every mask is read by two: material layers over a net of blends.
+fn branches() -> String {
+    let mut nodes =
+        r#""m00": { "kind": "noise/simplex" }, "m01": { "kind": "noise/cells" }, "l00": { "kind": "source/material" }"#
+            .to_owned();
+    for node in 2..50 {
+        let (one, two) = (node - 1, node - 2);
+        let _ = write!(
+            nodes,
+            r#", "m{node:02}": {{ "kind": "blend/mask", "inputs": {{ "below": "m{one:02}", "above": "m{two:02}" }} }}"#
+        );
+    }
+    for node in 1..50 {
+        let before = node - 1;
+        let _ = write!(
+            nodes,
+            r#", "l{node:02}": {{ "kind": "effect/layer", "inputs": {{ "base": "l{before:02}", "mask": "m{node:02}" }} }}"#
+        );
+    }
+    nodes + r#", "out": { "kind": "output/material", "inputs": { "material": "l49" } }"#
+}
+
+fn main() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let model = peer_model();
+    let peer = graph(folder, "peer.sabi", PEER_NODES);
+    println!("| what | measured | aim |\n|---|---|---|");
+
+    let run = |fuse| {
+        let times = (0..5).map(|_| {
+            bake_once(&peer, &model, folder, 2048, fuse, None)["stages_ms"]["run"]
+                .as_f64()
+                .unwrap()
+        });
+        median(times.collect()) / 1000.0
+    };
+    let fused = run(true);
+    row(
+        "run: simplex, cells, levels, 2 blends, effect at 2048²",
+        fused,
+        "s",
+        "≤ 0.45 s",
+    );
+    row("the same without fusion, as a multiple", run(false) / fused, "×", "");
+
+    let options = ModelOptions::new(&model, 2048);
+    let atlas = |cache: Option<PathBuf>| {
+        let loaded = Prepared::load_model(&options).unwrap();
+        let options = ModelOptions {
+            cache_dir: cache,
+            ..options.clone()
+        };
+        let started = Instant::now();
+        Prepared::link(loaded, &options, &Silent).unwrap();
+        started.elapsed()
+    };
+    row("linked atlas at 2048², cold", seconds(|| atlas(None)), "s", "≤ 0.6 s");
+    let cache = folder.join("cache");
+    atlas(Some(cache.clone()));
+    row(
+        "the same from the disk cache",
+        seconds(|| atlas(Some(cache.clone()))),
+        "s",
+        "≤ 0.05 s",
+    );
+
+    let demo = root().join("graphs/weathered-bench.sabi");
+    let bench = root().join("assets/meshes/bench.glb");
+    let whole = (0..3).map(|_| {
+        bake_once(&demo, &bench, folder, 1024, true, None)["whole_ms"]
+            .as_f64()
+            .unwrap()
+    });
+    row(
+        "the demo at 1024², atlas not cached, device opened anew",
+        median(whole.collect()) / 1000.0,
+        "s",
+        "≤ 4 s",
+    );
+
+    for (what, nodes) in [
+        ("a chain of 100 nodes", chain()),
+        ("100 nodes with branches", branches()),
+    ] {
+        let graph = graph(folder, "hundred.sabi", &nodes);
+        let report = bake_once(&graph, &model, folder, 2048, false, None);
+        let mib = report["peak_texture_bytes"].as_f64().unwrap() / f64::from(1 << 20);
+        row(
+            &format!("textures of {what} at 2048², not fused"),
+            mib,
+            "MiB",
+            "≤ 300 MiB",
+        );
+    }
+}
