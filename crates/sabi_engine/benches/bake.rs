@@ -122,20 +122,15 @@ fn branches() -> String {
     nodes + r#", "out": { "kind": "output/material", "inputs": { "material": "l49" } }"#
 }
 
-fn main() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let model = peer_model();
+fn bench_run(folder: &Path, model: &Path) {
     let peer = graph(folder, "peer.sabi", PEER_NODES);
-    println!("| what | measured | aim |\n|---|---|---|");
-
     let run = |fuse| {
-        let times = (0..5).map(|_| {
-            bake_once(&peer, &model, folder, 2048, fuse, None)["stages_ms"]["run"]
+        let once = || {
+            bake_once(&peer, model, folder, 2048, fuse, None)["stages_ms"]["run"]
                 .as_f64()
                 .unwrap()
-        });
-        median(times.collect()) / 1000.0
+        };
+        median((0..5).map(|_| once()).collect()) / 1000.0
     };
     let fused = run(true);
     row(
@@ -145,8 +140,10 @@ fn main() {
         "≤ 0.45 s",
     );
     row("the same without fusion, as a multiple", run(false) / fused, "×", "");
+}
 
-    let options = ModelOptions::new(&model, 2048);
+fn bench_atlas(folder: &Path, model: &Path) {
+    let options = ModelOptions::new(model, 2048);
     let atlas = |cache: Option<PathBuf>| {
         let loaded = Prepared::load_model(&options).unwrap();
         let options = ModelOptions {
@@ -166,27 +163,32 @@ fn main() {
         "s",
         "≤ 0.05 s",
     );
+}
 
+fn bench_demo(folder: &Path) {
     let demo = root().join("graphs/weathered-bench.sabi");
     let bench = root().join("assets/meshes/bench.glb");
-    let whole = (0..3).map(|_| {
+    let once = || {
         bake_once(&demo, &bench, folder, 1024, true, None)["whole_ms"]
             .as_f64()
             .unwrap()
-    });
+    };
+    let whole = median((0..3).map(|_| once()).collect());
     row(
         "the demo at 1024², atlas not cached, device opened anew",
-        median(whole.collect()) / 1000.0,
+        whole / 1000.0,
         "s",
         "≤ 4 s",
     );
+}
 
+fn bench_memory(folder: &Path, model: &Path) {
     for (what, nodes) in [
         ("a chain of 100 nodes", chain()),
         ("100 nodes with branches", branches()),
     ] {
         let graph = graph(folder, "hundred.sabi", &nodes);
-        let report = bake_once(&graph, &model, folder, 2048, false, None);
+        let report = bake_once(&graph, model, folder, 2048, false, None);
         let mib = report["peak_texture_bytes"].as_f64().unwrap() / f64::from(1 << 20);
         row(
             &format!("textures of {what} at 2048², not fused"),
@@ -195,4 +197,14 @@ fn main() {
             "≤ 300 MiB",
         );
     }
+}
+
+fn main() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = peer_model();
+    println!("| what | measured | aim |\n|---|---|---|");
+    bench_run(folder.path(), &model);
+    bench_atlas(folder.path(), &model);
+    bench_demo(folder.path());
+    bench_memory(folder.path(), &model);
 }

@@ -25,7 +25,7 @@ impl OpenGraph {
         let text =
             read_text(path).map_err(|error| EngineError::new(error.kind, format!("{}: {error}", path.display())))?;
         let document = Document::from_json(&text)
-            .map_err(|error| EngineError::new(ErrorKind::BadInput, error.with_name(&path.display().to_string())))?;
+            .map_err(|error| EngineError::new(ErrorKind::BadInput, error.with_name(path.display().to_string())))?;
         Ok(OpenGraph {
             path: path.to_owned(),
             document,
@@ -43,7 +43,7 @@ impl OpenGraph {
         let mut group_file = |name: &str| {
             let path = folder.join(name);
             let text = read_text(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-            Document::from_json(&text).map_err(|error| error.with_name(&path.display().to_string()).to_string())
+            Document::from_json(&text).map_err(|error| error.with_name(path.display().to_string()).to_string())
         };
         flatten(&self.document, overrides, &mut group_file)
             .map_err(|error| EngineError::new(ErrorKind::Usage, format!("{}: {error}", self.path.display())))

@@ -85,7 +85,7 @@ impl Workpiece {
         options: &WorkpieceOptions,
     ) -> Result<Workpiece, EngineError> {
         let mut times = StageTimes::default();
-        let fit = options.fit.clone().unwrap_or_else(|| open.document.fit.clone());
+        let fit = options.fit.unwrap_or(open.document.fit);
         let seed = options.overrides.seed.unwrap_or(open.document.seed);
         let tables = times.load.time(|| prepared.tables(&fit, seed));
         let surface = times.load.time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables))?;

@@ -1,11 +1,13 @@
 //! Fills ghost texels over their links, after a field has written the owned ones.
 
+use std::sync::Arc;
+
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::pipelines::{read_entry, storage_entry, texture_entry, uniform_entry, write_entry};
+use crate::pipelines::{FixedKernel, read_entry, storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::pool::array_view;
 use crate::surface::GpuSurface;
 
@@ -37,20 +39,7 @@ impl Gpu {
         if surface.ghost_count == 0 {
             return Ok(());
         }
-        let gather = self.fixed_kernel(
-            "gather ghosts",
-            None,
-            include_str!("../../../shaders/surface/gather_ghosts.wgsl"),
-            &[uniform_entry(0), texture_entry(1), write_entry(2)],
-        )?;
-        let scatter_text =
-            include_str!("../../../shaders/surface/scatter_ghosts.wgsl").replace("FORMAT", format.wgsl());
-        let scatter = self.fixed_kernel(
-            "scatter ghosts",
-            Some(format),
-            &scatter_text,
-            &[uniform_entry(0), read_entry(1), storage_entry(2, format)],
-        )?;
+        let [gather, scatter] = self.ghost_kernels(format)?;
         let values = self.guarded("the ghost values", |device| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("ghost values"),
@@ -73,15 +62,10 @@ impl Gpu {
             };
             let constants = self.uniform(bytemuck::bytes_of(&constants));
             let view = wgpu::BindingResource::TextureView(&view);
+            let constants = constants.as_entire_binding();
             let steps = [
-                (
-                    &gather,
-                    [constants.as_entire_binding(), view.clone(), values.as_entire_binding()],
-                ),
-                (
-                    &scatter,
-                    [constants.as_entire_binding(), values.as_entire_binding(), view],
-                ),
+                (&gather, [constants.clone(), view.clone(), values.as_entire_binding()]),
+                (&scatter, [constants, values.as_entire_binding(), view]),
             ];
             for (kernel, resources) in steps {
                 let group = self.bind(&kernel.layout, resources);
@@ -94,6 +78,19 @@ impl Gpu {
         }
         self.queue.submit([encoder.finish()]);
         Ok(())
+    }
+
+    /// The kernel that computes ghosts, and the one that writes them to textures of a format.
+    fn ghost_kernels(&self, format: Format) -> Result<[Arc<FixedKernel>; 2], GpuError> {
+        let gather_text = include_str!("../../../shaders/surface/gather_ghosts.wgsl");
+        let gather_entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
+        let scatter_text =
+            include_str!("../../../shaders/surface/scatter_ghosts.wgsl").replace("FORMAT", format.wgsl());
+        let scatter_entries = [uniform_entry(0), read_entry(1), storage_entry(2, format)];
+        Ok([
+            self.fixed_kernel("gather ghosts", None, gather_text, &gather_entries)?,
+            self.fixed_kernel("scatter ghosts", Some(format), &scatter_text, &scatter_entries)?,
+        ])
     }
 
     /// A small buffer of constants.

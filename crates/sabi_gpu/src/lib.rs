@@ -5,6 +5,7 @@ mod device;
 mod error;
 mod finish;
 mod ghosts;
+mod needs;
 mod pipelines;
 mod pool;
 mod readback;

@@ -22,11 +22,14 @@ pub(crate) struct CompiledKernel {
     pub(crate) is_warm: std::sync::atomic::AtomicBool,
 }
 
+/// Name of a kernel of Sabi's own, and the format that its text writes.
+type FixedName = (&'static str, Option<Format>);
+
 /// All pipelines of a device.
 pub(crate) struct Pipelines {
     pub(crate) surface_layout: wgpu::BindGroupLayout,
     kernels: Mutex<BTreeMap<[u8; 32], Arc<CompiledKernel>>>,
-    fixed: Mutex<BTreeMap<(&'static str, Option<Format>), Arc<FixedKernel>>>,
+    fixed: Mutex<BTreeMap<FixedName, Arc<FixedKernel>>>,
 }
 
 /// A kernel that is not made of nodes.

@@ -1,6 +1,6 @@
 //! Runs a plan: step by step, in submissions of a size that can be interrupted.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
@@ -8,9 +8,10 @@ use sabi_nodes::Library;
 use sabi_nodes::link::{Format, Plane};
 use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
 
-use crate::cache::{ResultCache, ResultKey};
+use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::needs::{last_uses, needed_steps, slot_keys};
 use crate::pipelines::CompiledKernel;
 use crate::pool::{PoolReport, TexturePool, array_view, texture, wgpu_format};
 use crate::surface::GpuSurface;
@@ -125,100 +126,6 @@ impl Gpu {
         }
         Ok(Run { textures, report, pool })
     }
-}
-
-/// Names the content of every slot of a plan in which no slot is used twice.
-fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
-    let mut keys = BTreeMap::new();
-    for step in &plan.steps {
-        match step {
-            Step::Source(source) => {
-                for (output, planes) in &source.writes {
-                    keys.extend(planes.iter().map(|(plane, slot)| {
-                        (
-                            *slot,
-                            ResultKey {
-                                content: *blake3::hash(&[&source.key[..], output.as_bytes()].concat()).as_bytes(),
-                                plane: *plane,
-                            },
-                        )
-                    }));
-                }
-            }
-            Step::Kernel(kernel) => {
-                let planes = kernel
-                    .spec
-                    .stores
-                    .iter()
-                    .enumerate()
-                    .flat_map(|(store, spec)| spec.stored.planes().into_iter().map(move |plane| (store, plane)));
-                for ((store, plane), slot) in planes.zip(&kernel.writes) {
-                    if let (Some(slot), Some(content)) = (slot, kernel.keys.get(store)) {
-                        keys.insert(
-                            *slot,
-                            ResultKey {
-                                content: *content,
-                                plane,
-                            },
-                        );
-                    }
-                }
-            }
-        }
-    }
-    keys
-}
-
-fn reads(step: &Step) -> Vec<SlotRef> {
-    match step {
-        Step::Source(_) => Vec::new(),
-        Step::Kernel(kernel) => kernel.reads.iter().flatten().copied().collect(),
-    }
-}
-
-fn writes(step: &Step) -> Vec<SlotRef> {
-    match step {
-        Step::Source(source) => source
-            .writes
-            .iter()
-            .flat_map(|(_, planes)| planes)
-            .map(|(_, slot)| *slot)
-            .collect(),
-        Step::Kernel(kernel) => {
-            let scratch = kernel.feedback.iter().map(|feedback| feedback.scratch);
-            kernel.writes.iter().flatten().copied().chain(scratch).collect()
-        }
-    }
-}
-
-/// Steps that lead to a result that is not known yet.
-fn needed_steps(plan: &Plan, known: &BTreeMap<SlotRef, wgpu::Texture>) -> Vec<usize> {
-    let mut wanted: BTreeSet<SlotRef> = plan.results.iter().flat_map(|result| &result.slots).copied().collect();
-    let mut steps = Vec::new();
-    for (at, step) in plan.steps.iter().enumerate().rev() {
-        let is_missing = |slot: &SlotRef| wanted.contains(slot) && !known.contains_key(slot);
-        if known.is_empty() || writes(step).iter().any(is_missing) {
-            wanted.extend(reads(step));
-            steps.push(at);
-        }
-    }
-    steps.reverse();
-    steps
-}
-
-/// For each slot the steps after which nobody reads what it holds at that time.
-fn last_uses(plan: &Plan) -> BTreeMap<SlotRef, usize> {
-    let mut last = BTreeMap::new();
-    for (at, step) in plan.steps.iter().enumerate() {
-        last.extend(reads(step).into_iter().chain(writes(step)).map(|slot| (slot, at)));
-    }
-    last.extend(
-        plan.results
-            .iter()
-            .flat_map(|result| &result.slots)
-            .map(|slot| (*slot, usize::MAX)),
-    );
-    last
 }
 
 struct Runner<'a> {

@@ -22,7 +22,7 @@ pub struct SurfaceTables {
 impl SurfaceTables {
     /// The tables for a mesh scaled by `working_from_model`.
     pub fn new(mesh: &Mesh, atlas: &Atlas, working_from_model: f64, seed: u32) -> SurfaceTables {
-        let rows: Vec<([[f32; 4]; 6], [[f32; 4]; 4])> = (0..mesh.triangles.len())
+        let rows: Vec<TriangleRows> = (0..mesh.triangles.len())
             .into_par_iter()
             .map(|triangle| triangle_rows(mesh, atlas, triangle, working_from_model, seed))
             .collect();
@@ -36,6 +36,9 @@ impl SurfaceTables {
         tables
     }
 }
+
+/// Rows of one triangle: geometry and frames.
+type TriangleRows = ([[f32; 4]; 6], [[f32; 4]; 4]);
 
 /// A quantity that is linear over a triangle: its value at the first corner, and its change a texel along u and v.
 fn affine(corners: [[f64; 3]; 3], inverse: [[f64; 2]; 2]) -> [[f64; 3]; 3] {
@@ -61,13 +64,7 @@ fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
     [[d / determinant, -c / determinant], [-b / determinant, a / determinant]]
 }
 
-fn triangle_rows(
-    mesh: &Mesh,
-    atlas: &Atlas,
-    triangle: usize,
-    working_from_model: f64,
-    seed: u32,
-) -> ([[f32; 4]; 6], [[f32; 4]; 4]) {
+fn triangle_rows(mesh: &Mesh, atlas: &Atlas, triangle: usize, working_from_model: f64, seed: u32) -> TriangleRows {
     let corners = mesh.triangles[triangle].map(|vertex| vertex as usize);
     let texels = atlas.triangle_texels[triangle];
     let inverse = edge_inverse(texels);
@@ -174,7 +171,7 @@ impl GpuSurface {
                 ],
             })
             .collect();
-        let limit = u64::from(gpu.device.limits().max_storage_buffer_binding_size);
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
         let buffer = |what: &'static str, bytes: &[u8]| storage_buffer(gpu, what, bytes, limit);
         let owners = owners_texture(gpu, atlas, extent)?;
         let surface = GpuSurface {

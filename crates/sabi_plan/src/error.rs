@@ -94,34 +94,45 @@ pub enum Problem {
 impl fmt::Display for PlanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PlanError { node, kind, problem } = self;
+        write!(f, "{}", Sentence { node, kind, problem })?;
         match problem {
-            Problem::UnknownKind { nearest } => {
+            Problem::UnknownKind { nearest }
+            | Problem::UnknownInput { nearest, .. }
+            | Problem::UnknownOutput { nearest, .. }
+            | Problem::UnknownParam { nearest, .. } => did_you_mean(f, nearest),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What is wrong, without the name that was perhaps meant.
+struct Sentence<'a> {
+    node: &'a str,
+    kind: &'a str,
+    problem: &'a Problem,
+}
+
+impl fmt::Display for Sentence<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Sentence { node, kind, problem } = self;
+        match problem {
+            Problem::UnknownKind { .. } => {
                 write!(
                     f,
                     "node '{node}' is of kind '{kind}', which no loaded node file describes"
-                )?;
-                did_you_mean(f, nearest)
+                )
             }
             Problem::NewerKind { wanted, loaded } => write!(
                 f,
                 "node '{node}' was made with version {wanted} of '{kind}', but version {loaded} is loaded; update Sabi \
                  or its node folder"
             ),
-            Problem::UnknownInput { port, nearest } => {
-                write!(f, "node '{node}' ({kind}) has no input '{port}'")?;
-                did_you_mean(f, nearest)
-            }
-            Problem::UnknownOutput {
-                port,
-                from,
-                output,
-                nearest,
-            } => {
+            Problem::UnknownInput { port, .. } => write!(f, "node '{node}' ({kind}) has no input '{port}'"),
+            Problem::UnknownOutput { port, from, output, .. } => {
                 write!(
                     f,
                     "input '{port}' of node '{node}' asks '{from}' for '{output}', which it does not give"
-                )?;
-                did_you_mean(f, nearest)
+                )
             }
             Problem::Mistyped {
                 port,
@@ -138,12 +149,11 @@ impl fmt::Display for PlanError {
                     "input '{port}' of node '{node}' ({kind}) must be connected to a {takes}"
                 )
             }
-            Problem::UnknownParam { param, nearest } => {
+            Problem::UnknownParam { param, .. } => {
                 write!(
                     f,
                     "node '{node}' ({kind}) has no parameter '{param}'; it is kept and ignored"
-                )?;
-                did_you_mean(f, nearest)
+                )
             }
             Problem::BadValue { param, takes, given } => {
                 write!(
@@ -155,11 +165,8 @@ impl fmt::Display for PlanError {
                 output: Some(output),
                 known,
             } if !known.is_empty() => {
-                write!(
-                    f,
-                    "node '{node}' ({kind}) has no result '{output}'; it gives {}",
-                    known.join(", ")
-                )
+                let known = known.join(", ");
+                write!(f, "node '{node}' ({kind}) has no result '{output}'; it gives {known}")
             }
             Problem::NoSuchResult { .. } => write!(f, "node '{node}' ({kind}) gives no result to look at"),
         }

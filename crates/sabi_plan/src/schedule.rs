@@ -23,7 +23,7 @@ impl Planner<'_> {
             match self.wanted_value(&resolved, target) {
                 Ok(Some(value)) => wanted.push((target.clone(), value)),
                 Ok(None) => {}
-                Err(error) => errors.push(error),
+                Err(error) => errors.push(*error),
             }
         }
         let values: Vec<Value> = wanted.iter().filter_map(|(_, value)| *value).collect();
@@ -43,7 +43,7 @@ impl Planner<'_> {
     }
 
     /// The result that a target means; `None` inside when a sink's input is open, outside when it waits for a fault.
-    fn wanted_value(&self, resolved: &Resolved<'_>, target: &Target) -> Result<Option<Option<Value>>, PlanError> {
+    fn wanted_value(&self, resolved: &Resolved<'_>, target: &Target) -> Result<Option<Option<Value>>, Box<PlanError>> {
         let Some(ready) = &resolved.nodes[target.node] else {
             return Ok(None);
         };
@@ -63,11 +63,11 @@ impl Planner<'_> {
                 output: target.port.clone(),
                 known,
             };
-            return Err(PlanError {
+            return Err(Box::new(PlanError {
                 node: node.id.clone(),
                 kind: node.kind.clone(),
                 problem,
-            });
+            }));
         };
         Ok(Some(match ready.behavior {
             Behavior::Sink(_) => ready.inputs[index].map(|input| (input.node, input.output)),

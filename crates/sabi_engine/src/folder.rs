@@ -1,0 +1,56 @@
+//! Whether an output folder is one that a bake may write into without being asked twice.
+
+use std::fs;
+use std::path::Path;
+
+use sabi_export::Channel;
+use sabi_graph::FlatGraph;
+
+use crate::source::{OUTPUT_MASK, mask_name};
+
+/// Whether a folder has files but none that a bake of this graph may have left: then it is somebody else's. A folder that
+/// is not there or is empty is nobody's; hidden files do not count.
+pub fn is_foreign_folder(folder: &Path, graph: &FlatGraph) -> bool {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return false;
+    };
+    let names: Vec<String> = entries
+        .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
+        .filter(|name| !name.starts_with('.'))
+        .collect();
+    let masks = graph.nodes.iter().filter(|node| node.kind == OUTPUT_MASK);
+    let masks = masks.map(|node| Channel::Mask(mask_name(node)));
+    let channels: Vec<Channel> = Channel::ALL.into_iter().chain(masks).collect();
+    !names.is_empty() && !names.iter().any(|name| is_map(name, &channels))
+}
+
+/// Whether a file is called as maps are: `wood_base_color.png`, `wood_height.1001.exr`.
+fn is_map(name: &str, channels: &[Channel]) -> bool {
+    let Some(stem) = name.strip_suffix(".png").or_else(|| name.strip_suffix(".exr")) else {
+        return false;
+    };
+    let stem = match stem.rsplit_once('.') {
+        Some((stem, tile)) if tile.len() == 4 && tile.bytes().all(|byte| byte.is_ascii_digit()) => stem,
+        _ => stem,
+    };
+    let is_of = |channel: &Channel| stem.ends_with(&format!("_{}", channel.name()));
+    channels.iter().any(is_of)
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_export::Channel;
+
+    use super::is_map;
+
+    #[test]
+    fn maps_are_known_by_their_names() {
+        let channels = [Channel::BaseColor, Channel::Height, Channel::Mask("wear".into())];
+        for name in ["wood_base_color.png", "wood_height.1001.exr", "a.b_wear.png"] {
+            assert!(is_map(name, &channels), "{name}");
+        }
+        for name in ["holiday.png", "base_color.png", "wood_base_color.txt", "wood_height.12.exr", "thesis.doc"] {
+            assert!(!is_map(name, &channels), "{name}");
+        }
+    }
+}
