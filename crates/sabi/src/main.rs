@@ -1,3 +1,66 @@
-//! The command line.
+//! The command line: reads arguments, calls the engine, and says what happened.
 
-fn main() {}
+mod arguments;
+mod commands;
+mod exit;
+mod mistake;
+mod progress;
+mod report_file;
+mod terminal;
+
+use std::io;
+use std::process::ExitCode;
+
+use clap::Parser;
+use clap::error::ErrorKind;
+use tracing_subscriber::EnvFilter;
+
+use crate::arguments::Arguments;
+use crate::exit::{Exit, Failure};
+use crate::terminal::Terminal;
+
+fn main() -> ExitCode {
+    ExitCode::from(mistake::caught(start) as u8)
+}
+
+fn start() -> Exit {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(told) => {
+            // Nobody may be listening any more, and then nothing is left to do.
+            let _ = told.print();
+            return match told.kind() {
+                ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Exit::Done,
+                _ => Exit::Usage,
+            };
+        }
+    };
+    let terminal = Terminal::new(&arguments.global);
+    let done = start_log(arguments.global.log.as_deref()).and_then(|()| commands::run(arguments.command, &terminal));
+    match done {
+        Ok(exit) => exit,
+        Err(failure) => {
+            for message in &failure.messages {
+                terminal.error(message);
+            }
+            failure.exit
+        }
+    }
+}
+
+/// Tells what happens inside, for those who look for a mistake in Sabi.
+fn start_log(filter: Option<&str>) -> Result<(), Failure> {
+    let Some(filter) = filter else {
+        return Ok(());
+    };
+    let filter = EnvFilter::try_new(filter).map_err(|error| {
+        let why = format!("--log takes a filter such as 'info' or 'sabi_gpu=debug', not '{filter}': {error}");
+        Failure::new(Exit::Usage, why)
+    })?;
+    tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(io::stderr)
+        .with_ansi(false)
+        .init();
+    Ok(())
+}

@@ -49,7 +49,13 @@ mod tests {
         for name in ["wood_base_color.png", "wood_height.1001.exr", "a.b_wear.png"] {
             assert!(is_map(name, &channels), "{name}");
         }
-        for name in ["holiday.png", "base_color.png", "wood_base_color.txt", "wood_height.12.exr", "thesis.doc"] {
+        for name in [
+            "holiday.png",
+            "base_color.png",
+            "wood_base_color.txt",
+            "wood_height.12.exr",
+            "thesis.doc",
+        ] {
             assert!(!is_map(name, &channels), "{name}");
         }
     }

@@ -1,0 +1,82 @@
+//! What can be said on the command line.
+
+mod bake;
+mod inspect;
+mod preview;
+mod workpiece;
+
+use clap::{Args, Parser, Subcommand};
+
+pub(crate) use bake::BakeArguments;
+pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
+pub(crate) use preview::PreviewArguments;
+pub(crate) use workpiece::{ModelArguments, WorkpieceArguments};
+
+/// Procedural, aging materials on real models: bakes a node graph into the maps of a PBR texture set.
+#[derive(Debug, Parser)]
+#[command(
+    name = "sabi",
+    version,
+    arg_required_else_help = true,
+    before_help = "\
+Examples:
+  sabi bake graph.sabi --mesh model.glb -o out
+  sabi bake graph.sabi --mesh model.glb -o out --size 2048 --variant heavy --set amount=0.8
+  sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
+  sabi check graphs/*.sabi
+  sabi nodes noise/simplex
+  sabi mesh model.glb
+  sabi doctor",
+    after_help = "\
+Exit codes: 0 done, 2 wrong command line, 4 no usable adapter, 65 bad input, 66 input missing,
+70 a mistake in Sabi, 73 cannot write, 130 interrupted"
+)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+    #[command(flatten)]
+    pub(crate) global: Global,
+}
+
+/// What every command takes.
+#[derive(Debug, Args)]
+pub(crate) struct Global {
+    /// Say nothing but errors
+    #[arg(short, long, global = true, help_heading = "Everywhere")]
+    pub(crate) quiet: bool,
+    /// Show no progress bars
+    #[arg(long, global = true, help_heading = "Everywhere")]
+    pub(crate) no_progress: bool,
+    /// Tell what happens inside, as in 'info' or 'sabi=debug'
+    #[arg(long, global = true, value_name = "FILTER", help_heading = "Everywhere")]
+    pub(crate) log: Option<String>,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Bake a graph on a model into a PBR texture set
+    Bake(BakeArguments),
+    /// Write the result of any node, in texture space
+    Preview(PreviewArguments),
+    /// Check graphs without a model
+    Check(CheckArguments),
+    /// List the kinds of nodes, or describe one
+    Nodes(NodesArguments),
+    /// Describe a model and its atlas
+    Mesh(MeshArguments),
+    /// Tell whether this machine can run Sabi
+    Doctor(DoctorArguments),
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::Arguments;
+
+    #[test]
+    fn the_command_line_contradicts_itself_nowhere() {
+        Arguments::command().debug_assert();
+    }
+}

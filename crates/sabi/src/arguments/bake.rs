@@ -1,0 +1,87 @@
+//! `sabi bake`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::WorkpieceArguments;
+
+/// What `bake` takes.
+#[derive(Debug, Args)]
+#[command(
+    before_help = "\
+Examples:
+  sabi bake graph.sabi --mesh model.glb -o out
+  sabi bake graph.sabi --mesh model.glb -o out --size 4096 --adapter gpu
+  sabi bake graph.sabi --mesh model.glb -o out --variant heavy --set amount=0.8 --set paint.color=#6b3a1e
+  sabi bake graph.sabi --mesh model.obj -o out --up z --fit metres --report out/report.json",
+    after_help = "\
+Prints the files it wrote, one a line. They take the place of earlier ones only when all of them are complete.
+A folder that has files but no earlier maps is refused unless --force is given; --force deletes nothing."
+)]
+pub(crate) struct BakeArguments {
+    #[command(flatten)]
+    pub(crate) workpiece: WorkpieceArguments,
+    /// Folder for the maps; it is made if need be
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// Which maps to write; may be repeated. There is: raw (the default)
+    #[arg(long, value_name = "NAME", help_heading = "Maps")]
+    pub(crate) preset: Vec<String>,
+    /// Write maps of channels that are the same all over too, not only their value in the report
+    #[arg(long, help_heading = "Maps")]
+    pub(crate) all_maps: bool,
+    /// How far maps reach over the edges of charts, texels, or 'infinite' [default: 16 at size 2048]
+    #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
+    pub(crate) padding: Option<Padding>,
+    /// What overlapping UVs get: the result of the first chart
+    #[arg(long, value_enum, default_value_t = Overlap::First, help_heading = "Maps")]
+    pub(crate) overlap: Overlap,
+    /// Bake into a folder that has files but no earlier maps
+    #[arg(long, help_heading = "Maps")]
+    pub(crate) force: bool,
+    /// Also write the report to a file; - is standard output
+    #[arg(long, value_name = "FILE", help_heading = "Report")]
+    pub(crate) report: Option<PathBuf>,
+    /// Print the report instead of the list of files
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
+    /// Run every node in a pass of its own, to compare
+    #[arg(long, help_heading = "Machine")]
+    pub(crate) no_fuse: bool,
+}
+
+impl BakeArguments {
+    /// Texels beyond the charts; none for all of the map.
+    pub(crate) fn padding_texels(&self) -> Option<u32> {
+        match self.padding {
+            Some(Padding::Infinite) => None,
+            Some(Padding::Texels(texels)) => Some(texels),
+            // As coarser levels of a map shrink it, the same part of the map stays covered.
+            None => Some((self.workpiece.model.size / 128).max(2)),
+        }
+    }
+}
+
+/// How far maps reach out of charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Padding {
+    Infinite,
+    Texels(u32),
+}
+
+/// What overlapping UVs get.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Overlap {
+    First,
+}
+
+fn padding(text: &str) -> Result<Padding, String> {
+    if text == "infinite" {
+        return Ok(Padding::Infinite);
+    }
+    match text.parse::<u32>() {
+        Ok(texels) if texels <= 8192 => Ok(Padding::Texels(texels)),
+        _ => Err("it takes 0 to 8192 texels, or 'infinite'".to_owned()),
+    }
+}

@@ -1,0 +1,76 @@
+//! The commands that only look: `check`, `nodes`, `mesh`, `doctor`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::ModelArguments;
+
+/// What `check` takes.
+#[derive(Debug, Args)]
+#[command(
+    before_help = "\
+Examples:
+  sabi check graph.sabi
+  sabi check graphs/*.sabi --json",
+    after_help = "Checks all files, then ends with 65 if one of them has an error."
+)]
+pub(crate) struct CheckArguments {
+    /// Graph files (.sabi)
+    #[arg(value_name = "GRAPH", required = true)]
+    pub(crate) graphs: Vec<PathBuf>,
+    /// Print what was found as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What `nodes` takes.
+#[derive(Debug, Args)]
+#[command(before_help = "\
+Examples:
+  sabi nodes
+  sabi nodes noise/simplex
+  sabi nodes --graph graph.sabi --json")]
+pub(crate) struct NodesArguments {
+    /// Describe this kind of node
+    #[arg(value_name = "ID")]
+    pub(crate) id: Option<String>,
+    /// Also take the kinds in the folder 'nodes' beside this graph
+    #[arg(long, value_name = "GRAPH")]
+    pub(crate) graph: Option<PathBuf>,
+    /// Print as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What `mesh` takes.
+#[derive(Debug, Args)]
+#[command(before_help = "\
+Examples:
+  sabi mesh model.glb
+  sabi mesh model.obj --up z --size 2048 --json")]
+pub(crate) struct MeshArguments {
+    /// Model file (.glb, .gltf, .obj)
+    #[arg(value_name = "FILE")]
+    pub(crate) mesh: PathBuf,
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Print as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What `doctor` takes.
+#[derive(Debug, Args)]
+#[command(
+    before_help = "\
+Examples:
+  sabi doctor
+  sabi doctor --json",
+    after_help = "Ends with 4 if no adapter can be used."
+)]
+pub(crate) struct DoctorArguments {
+    /// Print as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,24 @@
+//! The commands, one file each.
+
+mod bake;
+mod check;
+mod doctor;
+mod mesh;
+mod nodes;
+mod preview;
+
+use crate::arguments::Command;
+use crate::exit::{Exit, Failure};
+use crate::terminal::Terminal;
+
+/// Does what was asked.
+pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure> {
+    match command {
+        Command::Bake(arguments) => bake::run(&arguments, terminal),
+        Command::Preview(arguments) => preview::run(&arguments, terminal),
+        Command::Check(arguments) => check::run(&arguments, terminal),
+        Command::Nodes(arguments) => nodes::run(&arguments, terminal),
+        Command::Mesh(arguments) => mesh::run(arguments, terminal),
+        Command::Doctor(arguments) => doctor::run(&arguments, terminal),
+    }
+}

@@ -1,0 +1,116 @@
+//! `sabi bake`: a graph on a model becomes a PBR set.
+
+use std::time::Instant;
+
+use sabi_engine::{BakeReport, BakeRequest, OpenGraph, bake, is_foreign_folder};
+
+use crate::arguments::BakeArguments;
+use crate::exit::{Exit, Failure};
+use crate::progress::Bars;
+use crate::report_file::ReportFile;
+use crate::terminal::Terminal;
+
+pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let started = Instant::now();
+    let request = request(arguments)?;
+    refuse_foreign_folder(arguments, &request)?;
+    let report_file = match &arguments.report {
+        Some(path) => Some(ReportFile::create(path, &arguments.output)?),
+        None => None,
+    };
+    let bars = Bars::new(terminal);
+    let report = bake(&request, &bars)?;
+    drop(bars);
+    for warning in &report.warnings {
+        terminal.warning(warning);
+    }
+    let prints_report = arguments.json || report_file.as_ref().is_some_and(ReportFile::is_stdout);
+    if let Some(file) = report_file.filter(|file| !file.is_stdout()) {
+        file.write(&report.json, terminal)?;
+    }
+    if prints_report {
+        terminal.json(&report.json)?;
+    } else {
+        let paths = report.files.iter().map(|file| arguments.output.join(file));
+        let lines: String = paths.map(|path| format!("{}\n", path.display())).collect();
+        terminal.data(&lines)?;
+    }
+    summarize(arguments, &report, started, terminal);
+    Ok(Exit::Done)
+}
+
+fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
+    Ok(BakeRequest {
+        graph: arguments.workpiece.graph.clone(),
+        workpiece: arguments.workpiece.options()?,
+        output: arguments.output.clone(),
+        presets: arguments.preset.clone(),
+        material: arguments.workpiece.material.clone(),
+        all_maps: arguments.all_maps,
+        padding: arguments.padding_texels(),
+        fuse: !arguments.no_fuse,
+    })
+}
+
+/// A mistyped folder must not fill somebody's pictures with maps.
+fn refuse_foreign_folder(arguments: &BakeArguments, request: &BakeRequest) -> Result<(), Failure> {
+    if arguments.force || !arguments.output.is_dir() {
+        return Ok(());
+    }
+    let open = OpenGraph::open(&request.graph)?;
+    let graph = open.flatten(&request.workpiece.overrides)?;
+    if !is_foreign_folder(&arguments.output, &graph) {
+        return Ok(());
+    }
+    let why = format!(
+        "the folder {} has files but no earlier maps; choose another with -o, or bake into it with --force",
+        arguments.output.display()
+    );
+    Err(Failure::new(Exit::CannotWrite, why))
+}
+
+fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, terminal: &Terminal) {
+    let (json, times) = (&report.json, &report.times);
+    let count = match report.files.len() {
+        1 => "1 map".to_owned(),
+        count => format!("{count} maps"),
+    };
+    let size = arguments.workpiece.model.size;
+    terminal.note(format_args!(
+        "Baked {} on {} at {size} × {size}: {count} in {}, in {:.2} s",
+        arguments.workpiece.graph.display(),
+        arguments.workpiece.mesh.display(),
+        arguments.output.display(),
+        started.elapsed().as_secs_f64(),
+    ));
+    let stages = [
+        ("load", times.load),
+        ("atlas", times.atlas),
+        ("compile", times.compile),
+        ("run", times.run),
+        ("encode", times.encode),
+    ];
+    let stages = stages.map(|(name, time)| format!("{name} {:.2} s", time.total().as_secs_f64()));
+    terminal.note(format_args!("  stages     {}", stages.join(", ")));
+    terminal.note(format_args!(
+        "  graph      {} nodes in {} passes, {} MiB of textures",
+        json["nodes"],
+        json["passes"],
+        json["peak_texture_bytes"].as_u64().unwrap_or(0).div_ceil(1 << 20),
+    ));
+    terminal.note(format_args!(
+        "  adapter    {} ({})",
+        json["adapter"]["name"].as_str().unwrap_or_default(),
+        json["adapter"]["kind"].as_str().unwrap_or_default(),
+    ));
+    for constant in json["constants"].as_array().into_iter().flatten() {
+        terminal.note(format_args!("  constant   {}", in_words(constant)));
+    }
+}
+
+/// A channel that is the same all over.
+fn in_words(constant: &serde_json::Value) -> String {
+    let word = |key: &str| constant[key].as_str().unwrap_or_default();
+    let (material, channel) = (word("material"), word("channel"));
+    format!("{material} {channel} {}", constant["value"]).trim().to_owned()
+}

@@ -1,0 +1,43 @@
+//! `sabi mesh`: a model and its atlas.
+
+use sabi_engine::{Prepared, describe_mesh};
+use serde_json::Value as Json;
+
+use crate::arguments::MeshArguments;
+use crate::exit::{Exit, Failure};
+use crate::progress::Bars;
+use crate::terminal::Terminal;
+
+pub(crate) fn run(arguments: MeshArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let options = arguments.model.options(arguments.mesh);
+    let bars = Bars::new(terminal);
+    let prepared = Prepared::open(&options, &bars)?;
+    drop(bars);
+    let description = describe_mesh(&prepared);
+    for warning in description["warnings"].as_array().into_iter().flatten() {
+        terminal.warning(warning.as_str().unwrap_or_default());
+    }
+    if arguments.json {
+        terminal.json(&description)?;
+    } else {
+        terminal.data(&table(&description))?;
+    }
+    Ok(Exit::Done)
+}
+
+/// One fact a line; warnings were told already.
+fn table(description: &Json) -> String {
+    let facts = description.as_object().into_iter().flatten();
+    facts
+        .filter(|(name, _)| *name != "warnings")
+        .map(|(name, value)| format!("{:24} {}\n", name.replace('_', " "), in_words(value)))
+        .collect()
+}
+
+fn in_words(value: &Json) -> String {
+    match value {
+        Json::String(text) => text.clone(),
+        Json::Array(values) => values.iter().map(in_words).collect::<Vec<_>>().join(", "),
+        other => other.to_string(),
+    }
+}

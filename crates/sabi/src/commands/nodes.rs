@@ -1,0 +1,118 @@
+//! `sabi nodes`: the kinds of nodes.
+
+use std::fmt::Write as _;
+
+use sabi_engine::{Kinds, describe_nodes, nearest};
+use serde_json::Value as Json;
+
+use crate::arguments::NodesArguments;
+use crate::exit::{Exit, Failure};
+use crate::terminal::Terminal;
+
+pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let kinds = Kinds::beside(arguments.graph.as_deref());
+    for fault in &kinds.faults {
+        terminal.warning(fault);
+    }
+    let nodes = describe_nodes(&kinds);
+    match &arguments.id {
+        None if arguments.json => terminal.json(&Json::Array(nodes))?,
+        None => terminal.data(&table(&nodes))?,
+        Some(id) => {
+            let node = find(&nodes, id)?;
+            if arguments.json {
+                terminal.json(node)?;
+            } else {
+                terminal.data(&details(node))?;
+            }
+        }
+    }
+    Ok(Exit::Done)
+}
+
+fn find<'a>(nodes: &'a [Json], id: &str) -> Result<&'a Json, Failure> {
+    if let Some(node) = nodes.iter().find(|node| text(&node["id"]) == id) {
+        return Ok(node);
+    }
+    let advice = match nearest(id, nodes.iter().map(|node| text(&node["id"]))) {
+        Some(near) => format!("did you mean '{near}'?"),
+        None => "'sabi nodes' lists all".to_owned(),
+    };
+    let why = format!("there is no kind of node '{id}'; {advice}");
+    Err(Failure::new(Exit::Usage, why))
+}
+
+fn text(json: &Json) -> &str {
+    json.as_str().unwrap_or_default()
+}
+
+fn list(json: &Json) -> &[Json] {
+    json.as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Ids and what they do, one kind a line.
+fn table(nodes: &[Json]) -> String {
+    let width = nodes.iter().map(|node| text(&node["id"]).len()).max().unwrap_or(0);
+    let lines = nodes.iter().map(|node| {
+        let summary = text(&node["summary"]).replace('\n', " ");
+        format!("{:width$}  {summary}\n", text(&node["id"]))
+    });
+    lines.collect()
+}
+
+/// Everything about one kind.
+fn details(node: &Json) -> String {
+    let mut page = format!("{}\n{}\n", text(&node["id"]), text(&node["summary"]));
+    let aliases: Vec<&str> = list(&node["aliases"]).iter().map(text).collect();
+    if !aliases.is_empty() {
+        let _ = writeln!(page, "Also called {}", aliases.join(", "));
+    }
+    section(&mut page, "Inputs", list(&node["inputs"]), |input| {
+        let must = if input["required"] == true {
+            ", must be connected"
+        } else {
+            ""
+        };
+        format!("{}{must}", text(&input["type"]))
+    });
+    section(&mut page, "Outputs", list(&node["outputs"]), |output| {
+        text(&output["type"]).to_owned()
+    });
+    section(&mut page, "Parameters", list(&node["params"]), takes);
+    page
+}
+
+fn section(page: &mut String, title: &str, entries: &[Json], note: impl Fn(&Json) -> String) {
+    if entries.is_empty() {
+        return;
+    }
+    let _ = writeln!(page, "\n{title}");
+    let width = entries
+        .iter()
+        .map(|entry| text(&entry["name"]).len())
+        .max()
+        .unwrap_or(0);
+    for entry in entries {
+        let doc = text(&entry["doc"]).replace('\n', " ");
+        let _ = writeln!(page, "  {:width$}  {doc} [{}]", text(&entry["name"]), note(entry));
+    }
+}
+
+/// What a parameter takes, in words.
+fn takes(param: &Json) -> String {
+    let mut words = match param["choices"].as_array() {
+        Some(choices) => choices.iter().map(text).collect::<Vec<_>>().join(" | "),
+        None => text(&param["takes"]).to_owned(),
+    };
+    if let [low, high] = list(&param["range"]) {
+        let _ = write!(words, " from {low} to {high}");
+    }
+    let default = match &param["default"] {
+        Json::String(text) => text.clone(),
+        Json::Array(numbers) if numbers.iter().all(Json::is_number) => {
+            numbers.iter().map(Json::to_string).collect::<Vec<_>>().join(",")
+        }
+        other => other.to_string(),
+    };
+    format!("{words}, default {default}")
+}

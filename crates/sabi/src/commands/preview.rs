@@ -1,0 +1,26 @@
+//! `sabi preview`: any node's result.
+
+use sabi_engine::{PreviewRequest, preview};
+
+use crate::arguments::PreviewArguments;
+use crate::exit::{Exit, Failure};
+use crate::progress::Bars;
+use crate::terminal::Terminal;
+
+pub(crate) fn run(arguments: &PreviewArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let request = PreviewRequest {
+        graph: arguments.workpiece.graph.clone(),
+        workpiece: arguments.workpiece.options()?,
+        node: arguments.node.clone(),
+        output: arguments.output.clone(),
+        material: arguments.workpiece.material.clone(),
+    };
+    let bars = Bars::new(terminal);
+    let warnings = preview(&request, &bars)?;
+    drop(bars);
+    for warning in &warnings {
+        terminal.warning(warning);
+    }
+    terminal.data(&format!("{}\n", arguments.output.display()))?;
+    Ok(Exit::Done)
+}
