@@ -153,12 +153,11 @@ impl Workpiece {
         progress: &dyn Progress,
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, EngineError> {
-        let half_masks = self.gpu.limits().half_masks;
         let needs_model = plan.steps.iter().any(|step| matches!(step, sabi_plan::Step::Source(_)));
         let decoding = Instant::now();
         let empty = sabi_surface::model::Model::default();
         let model = if needs_model { &self.prepared.model } else { &empty };
-        let (mut source, warnings) = ModelSource::new(model, &self.prepared.atlas, &self.tables, half_masks);
+        let (mut source, warnings) = ModelSource::new(model, &self.prepared.atlas, &self.tables);
         self.times.load.add(decoding.elapsed());
         self.warnings.extend(warnings);
         let options = RunOptions {

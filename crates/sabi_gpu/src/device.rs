@@ -180,14 +180,6 @@ impl Gpu {
             why,
         };
         let available = adapter.limits();
-        let half_masks = adapter
-            .get_texture_format_features(wgpu::TextureFormat::R16Float)
-            .allowed_usages
-            .contains(wgpu::TextureUsages::STORAGE_BINDING);
-        let mut required_features = wgpu::Features::empty();
-        if half_masks {
-            required_features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
-        }
         if available.max_texture_dimension_2d < 4096 || available.max_storage_buffers_per_shader_stage < 6 {
             return Err(unfit(
                 "it allows no textures of 4096 texels, or fewer than 6 storage buffers".to_owned(),
@@ -195,7 +187,6 @@ impl Gpu {
         }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("sabi"),
-            required_features,
             required_limits: available.clone(),
             ..Default::default()
         };
@@ -215,7 +206,6 @@ impl Gpu {
         let limits = sabi_plan::Limits {
             sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64) - 1,
             storage_textures: (available.max_storage_textures_per_shader_stage as usize).min(16),
-            half_masks,
             ..sabi_plan::Limits::default()
         };
         Ok(Gpu {

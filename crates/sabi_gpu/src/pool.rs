@@ -85,7 +85,6 @@ impl TexturePool {
 /// The driver's name of a format.
 pub(crate) fn wgpu_format(format: Format) -> wgpu::TextureFormat {
     match format {
-        Format::R16Float => wgpu::TextureFormat::R16Float,
         Format::R32Float => wgpu::TextureFormat::R32Float,
         Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,

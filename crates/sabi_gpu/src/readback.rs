@@ -41,7 +41,6 @@ impl PlaneData {
         let full =
             |at: usize| f32::from_le_bytes([bytes[4 * at], bytes[4 * at + 1], bytes[4 * at + 2], bytes[4 * at + 3]]);
         match self.format {
-            Format::R16Float => [half(0), 0.0, 0.0, 0.0],
             Format::R32Float => [full(0), 0.0, 0.0, 0.0],
             Format::Rgba16Float => [half(0), half(1), half(2), half(3)],
             Format::Rgba32Float => [full(0), full(1), full(2), full(3)],

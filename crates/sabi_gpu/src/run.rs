@@ -137,8 +137,9 @@ struct Runner<'a> {
     textures: Vec<Option<wgpu::Texture>>,
     pool: TexturePool,
     report: RunReport,
-    /// One-texel textures for planes that an interactive kernel binds and nobody has.
-    open_planes: BTreeMap<Format, wgpu::Texture>,
+    /// One-texel textures for planes that an interactive kernel binds and nobody has: those that are written apart from
+    /// those that are read, since no texture may be both in one dispatch.
+    open_planes: BTreeMap<(Format, bool), wgpu::Texture>,
 }
 
 impl Runner<'_> {
@@ -187,12 +188,12 @@ impl Runner<'_> {
         }
     }
 
-    fn open_plane(&mut self, format: Format) -> Result<wgpu::Texture, GpuError> {
-        if let Some(texture) = self.open_planes.get(&format) {
+    fn open_plane(&mut self, format: Format, is_written: bool) -> Result<wgpu::Texture, GpuError> {
+        if let Some(texture) = self.open_planes.get(&(format, is_written)) {
             return Ok(texture.clone());
         }
         let made = texture(self.gpu, [1, 1, 1], format)?;
-        self.open_planes.insert(format, made.clone());
+        self.open_planes.insert((format, is_written), made.clone());
         Ok(made)
     }
 
@@ -271,7 +272,7 @@ impl Runner<'_> {
         for slot in reads {
             let texture = match slot {
                 Some(slot) => self.texture(*slot)?,
-                None => self.open_plane(Format::Rgba16Float)?,
+                None => self.open_plane(Format::Rgba16Float, false)?,
             };
             views.push(array_view(&texture));
         }
@@ -279,7 +280,7 @@ impl Runner<'_> {
         for (slot, format) in writes.iter().zip(&compiled.kernel.writes) {
             let texture = match slot {
                 Some(slot) => self.texture(*slot)?,
-                None => self.open_plane(*format)?,
+                None => self.open_plane(*format, true)?,
             };
             views.push(array_view(&texture));
             written.push((slot.is_some(), texture, *format));

@@ -17,7 +17,6 @@ impl Builder<'_, '_> {
     /// Gives every stored plane a slot, and frees it after its last reader.
     pub(crate) fn assign_slots(&self, drafts: Vec<Draft>, wanted: Vec<(Target, Option<Value>)>) -> Plan {
         let keep_all = self.planner.mode == Mode::Interactive;
-        let half_masks = self.planner.limits.half_masks;
         let wanted_values: BTreeSet<Value> = wanted.iter().filter_map(|(_, value)| *value).collect();
         let mut last_use: BTreeMap<(Kept, Plane), usize> = BTreeMap::new();
         for (at, draft) in drafts.iter().enumerate() {
@@ -31,7 +30,7 @@ impl Builder<'_, '_> {
         let mut nodes: Vec<String> = Vec::new();
         for (at, draft) in drafts.into_iter().enumerate() {
             for plane in draft.writes.iter().flatten().chain(&draft.scratch) {
-                slot_of.insert(*plane, pool.take(plane.1.format(half_masks)));
+                slot_of.insert(*plane, pool.take(plane.1.format()));
             }
             let slots = |planes: &[Option<(Kept, Plane)>]| -> Vec<Option<SlotRef>> {
                 planes.iter().map(|plane| plane.map(|plane| slot_of[&plane])).collect()

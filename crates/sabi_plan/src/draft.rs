@@ -150,8 +150,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
     }
 
     pub(crate) fn add_store(&mut self, call: usize, kept: Kept, stored: Stored) {
-        let half_masks = self.builder.planner.limits.half_masks;
-        let formats = stored.planes().iter().map(|plane| plane.format(half_masks)).collect();
+        let formats = stored.planes().iter().map(|plane| plane.format()).collect();
         self.spec.stores.push(Store { call, stored, formats });
         if let Kept::Result((node, output)) = kept {
             let ready = self.builder.node(node);

@@ -77,8 +77,6 @@ pub struct Limits {
     pub sampled_textures: usize,
     /// Textures a pass may write.
     pub storage_textures: usize,
-    /// Whether masks can be stored as half floats.
-    pub half_masks: bool,
     /// naga expressions a fused kernel may hold: about sixteen noises of eight octaves, since compile time grows
     /// faster than the kernel (DESIGN §5).
     pub cost: u32,
@@ -89,7 +87,6 @@ impl Default for Limits {
         Limits {
             sampled_textures: 12,
             storage_textures: 4,
-            half_masks: true,
             cost: 16 * 700,
         }
     }

@@ -1,6 +1,7 @@
-//! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`.
+//! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`, `cargo xtask bless`.
 
 mod assets;
+mod bless;
 mod checks;
 mod demo;
 mod place;
@@ -14,6 +15,7 @@ const HELP: &str = "\
 cargo xtask demo      set up, build in release and bake the example bench into out/weathered-bench
 cargo xtask test      set up, then format check, clippy, tests, doc tests and documentation
 cargo xtask assets    write the project's own models into assets/meshes again
+cargo xtask bless K   write the goldens of node kind K again, or of all
 ";
 
 fn main() -> ExitCode {
@@ -22,6 +24,7 @@ fn main() -> ExitCode {
         Some("demo") => Place::find().and_then(|place| demo::run(&place)),
         Some("test") => Place::find().and_then(|place| checks::run(&place)),
         Some("assets") => Place::find().and_then(|place| assets::write(&place.root)),
+        Some("bless") => Place::find().and_then(|place| bless::run(&place, std::env::args().nth(2).as_deref())),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");
             Ok(())

@@ -104,7 +104,6 @@ impl MaterialSamplers<'_> {
 pub(crate) struct ModelSource<'a> {
     atlas: &'a Atlas,
     tables: &'a SurfaceTables,
-    half_masks: bool,
     materials: Vec<MaterialSamplers<'a>>,
     triangle_material: &'a [u32],
 }
@@ -142,12 +141,7 @@ fn usable(texture: &Option<TextureRef>) -> Option<&TextureRef> {
 
 impl<'a> ModelSource<'a> {
     /// Decodes the pictures that the materials use. What cannot be shown is answered as sentences.
-    pub(crate) fn new(
-        model: &'a Model,
-        atlas: &'a Atlas,
-        tables: &'a SurfaceTables,
-        half_masks: bool,
-    ) -> (ModelSource<'a>, Vec<String>) {
+    pub(crate) fn new(model: &'a Model, atlas: &'a Atlas, tables: &'a SurfaceTables) -> (ModelSource<'a>, Vec<String>) {
         let mut warnings = Vec::new();
         let mut open = |texture: &Option<TextureRef>, what: &str, is_srgb: bool| {
             let texture = texture.as_ref()?;
@@ -183,7 +177,6 @@ impl<'a> ModelSource<'a> {
             ModelSource {
                 atlas,
                 tables,
-                half_masks,
                 materials,
                 triangle_material,
             },
@@ -216,7 +209,7 @@ impl<'a> ModelSource<'a> {
     }
 
     fn plane(&self, output: &str, plane: Plane) -> Vec<u8> {
-        let format = plane.format(self.half_masks);
+        let format = plane.format();
         let size = format.texel_bytes() as usize;
         let mut bytes = vec![0_u8; self.atlas.owners.len() * size];
         let chunk = 4096;
@@ -289,7 +282,7 @@ fn channel_value(output: &str, plane: Plane, look: &Look, slope: [f32; 3]) -> [f
 
 fn put(texel: &mut [u8], format: Format, value: [f32; 4]) {
     match format {
-        Format::R16Float | Format::Rgba16Float => {
+        Format::Rgba16Float => {
             for (bytes, value) in texel.chunks_exact_mut(2).zip(value) {
                 bytes.copy_from_slice(&f16::from_f32(value).to_le_bytes());
             }

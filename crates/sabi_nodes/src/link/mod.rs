@@ -130,8 +130,6 @@ pub enum Plane {
 /// Storage format of a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Format {
-    /// One half float.
-    R16Float,
     /// One float.
     R32Float,
     /// Four half floats.
@@ -144,7 +142,6 @@ impl Format {
     /// Bytes of one texel.
     pub fn texel_bytes(self) -> u64 {
         match self {
-            Format::R16Float => 2,
             Format::R32Float => 4,
             Format::Rgba16Float => 8,
             Format::Rgba32Float => 16,
@@ -154,7 +151,6 @@ impl Format {
     /// Name in WGSL.
     pub fn wgsl(self) -> &'static str {
         match self {
-            Format::R16Float => "r16float",
             Format::R32Float => "r32float",
             Format::Rgba16Float => "rgba16float",
             Format::Rgba32Float => "rgba32float",
@@ -163,10 +159,10 @@ impl Format {
 }
 
 impl Plane {
-    /// The format that DESIGN §7 gives it; masks are half floats where the adapter can store them.
-    pub fn format(self, half_masks: bool) -> Format {
+    /// The format it is stored in. Masks are whole floats: a threshold above a half float would show its steps, and
+    /// fused and single passes would no longer agree.
+    pub fn format(self) -> Format {
         match self {
-            Plane::Mask if half_masks => Format::R16Float,
             Plane::Mask | Plane::Material(Channel::Height) => Format::R32Float,
             Plane::Color | Plane::Material(Channel::Color | Channel::Surface | Channel::Emission) => {
                 Format::Rgba16Float

@@ -42,7 +42,7 @@ fn stores_mask(of: usize) -> Vec<Store> {
     vec![Store {
         call: of,
         stored: mask(),
-        formats: vec![Format::R16Float],
+        formats: vec![Format::R32Float],
     }]
 }
 
@@ -112,7 +112,7 @@ fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
                 },
             };
             let stored = all(output.ty);
-            let formats = stored.planes().iter().map(|plane| plane.format(true)).collect();
+            let formats = stored.planes().iter().map(|plane| plane.format()).collect();
             let spec = KernelSpec {
                 calls: vec![call(
                     &kind.id,

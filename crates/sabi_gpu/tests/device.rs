@@ -1,0 +1,273 @@
+//! What the device layer says when something is not to be had, and how it stops.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+use std::time::Duration;
+
+use sabi_gpu::{
+    AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, ResultCache, Run, RunOptions, SourceFill,
+    SourceTexels, SurfaceTables,
+};
+use sabi_graph::{Document, FlatGraph, Overrides, PortType, Value, flatten};
+use sabi_nodes::Library;
+use sabi_plan::{Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, Target, TextParam};
+use sabi_surface::atlas::{Atlas, AtlasOptions};
+use sabi_surface::model::Mesh;
+
+const INSTALL: &str = "these tests need a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
+
+fn gpu() -> Arc<Gpu> {
+    static SHARED: OnceLock<Arc<Gpu>> = OnceLock::new();
+    SHARED
+        .get_or_init(|| Arc::new(Gpu::open(&AdapterChoice::Cpu).expect(INSTALL)))
+        .clone()
+}
+
+/// A square of side 1 in the plane z = 0, its UVs filling most of the unit square.
+fn square() -> Mesh {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    Mesh {
+        positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(),
+        normals: vec![[0.0, 0.0, 1.0]; 4],
+        tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4],
+        uvs: corners.map(|[x, y]: [f32; 2]| [0.1 + 0.8 * x, 0.9 - 0.8 * y]).to_vec(),
+        colors: Vec::new(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        triangle_material: vec![0; 2],
+        triangle_part: vec![0; 2],
+    }
+}
+
+struct NoSources;
+
+impl SourceFill for NoSources {
+    fn fill(&mut self, step: &SourceStep) -> Result<Vec<SourceTexels>, String> {
+        Err(format!("nobody fills '{}'", step.id))
+    }
+}
+
+struct Bench {
+    gpu: Arc<Gpu>,
+    surface: GpuSurface,
+    library: Library,
+}
+
+impl Bench {
+    fn new(size: u32) -> Bench {
+        let gpu = gpu();
+        let mesh = square();
+        let atlas = Atlas::build(&mesh, &AtlasOptions::new(size)).unwrap();
+        let tables = SurfaceTables::new(&mesh, &atlas, 1.0, 0);
+        let surface = GpuSurface::upload(&gpu, &atlas, &tables).unwrap();
+        Bench {
+            gpu,
+            surface,
+            library: Library::builtin(),
+        }
+    }
+
+    fn plan(&self, nodes: &str, mode: Mode) -> Plan {
+        let graph = graph(nodes);
+        let sinks = sinks();
+        let planner = Planner {
+            graph: &graph,
+            library: &self.library,
+            sources: &BTreeMap::new(),
+            sinks: &sinks,
+            lengths: Lengths {
+                working_from: &|_| 1.0,
+                extent: &|_| [0.0, 1.0],
+            },
+            surface_key: [0; 32],
+            mode,
+            limits: self.gpu.limits(),
+        };
+        let out = graph.find("out").unwrap();
+        let (plan, errors) = planner.plan(&[Target { node: out, port: None }]);
+        assert_eq!(errors, []);
+        plan
+    }
+
+    fn run(&self, plan: &Plan, options: &RunOptions<'_>, cache: Option<&mut ResultCache>) -> Result<Run, GpuError> {
+        self.gpu
+            .run(&self.surface, &self.library, plan, options, &mut NoSources, cache)
+    }
+
+    fn bytes(&self, plan: &Plan, run: &Run) -> Vec<u8> {
+        let slot = plan.results[0].slots[0];
+        self.gpu.read(&self.surface, plan, run, slot).unwrap().bytes().to_vec()
+    }
+}
+
+fn graph(nodes: &str) -> FlatGraph {
+    let text = format!(
+        r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes},
+            "out": {{ "kind": "output/mask", "inputs": {{ "source": "last" }} }} }} }}"#
+    );
+    let document = Document::from_json(&text).unwrap_or_else(|error| panic!("{error}"));
+    flatten(&document, &Overrides::default(), &mut |_| Err(String::new())).unwrap()
+}
+
+fn sinks() -> BTreeMap<String, SourceKind> {
+    let kind = SourceKind {
+        id: "output/mask".into(),
+        label: String::new(),
+        summary: String::new(),
+        params: vec![TextParam {
+            name: "name".into(),
+            doc: String::new(),
+            default: Value::Null,
+        }],
+        inputs: vec![SourcePort {
+            name: "source".into(),
+            ty: PortType::Mask,
+            doc: String::new(),
+            channels: Vec::new(),
+        }],
+        outputs: Vec::new(),
+        content: [0; 32],
+    };
+    BTreeMap::from([(kind.id.clone(), kind)])
+}
+
+fn options<'a>() -> RunOptions<'a> {
+    RunOptions {
+        submission: Duration::from_millis(25),
+        is_canceled: &|| false,
+        progress: &|_, _| {},
+        budget_bytes: DEFAULT_BUDGET_BYTES,
+    }
+}
+
+const FUSED: Mode = Mode::Bake { fuse: true };
+const CHAIN: &str = r#"
+    "clouds": { "kind": "noise/simplex" },
+    "cut": { "kind": "adjust/threshold", "inputs": { "source": "clouds" } },
+    "last": { "kind": "adjust/invert", "inputs": { "source": "cut" } }"#;
+
+#[test]
+fn an_adapter_that_is_not_there_is_named_with_those_that_are() {
+    let own = gpu().summary().name.clone();
+    let error = Gpu::open(&AdapterChoice::Named("Voodoo 2".into()))
+        .err()
+        .unwrap()
+        .to_string();
+    assert!(
+        error.starts_with("no adapter matches 'Voodoo 2'; there are: "),
+        "{error}"
+    );
+    assert!(
+        error.contains(&own) && error.ends_with("or use --adapter auto"),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_same_plan_gives_the_same_bytes_however_it_is_cut() {
+    let bench = Bench::new(128);
+    let plan = bench.plan(CHAIN, FUSED);
+    let whole = bench.run(&plan, &options(), None).unwrap();
+    let tiny = RunOptions {
+        submission: Duration::from_nanos(1),
+        ..options()
+    };
+    let sliced = bench.run(&plan, &tiny, None).unwrap();
+    assert_eq!(bench.bytes(&plan, &whole), bench.bytes(&plan, &sliced));
+}
+
+#[test]
+fn a_budget_that_is_too_small_is_a_sentence() {
+    let bench = Bench::new(128);
+    let plan = bench.plan(CHAIN, Mode::Bake { fuse: false });
+    let small = RunOptions {
+        budget_bytes: 1000,
+        ..options()
+    };
+    let error = bench.run(&plan, &small, None).err().unwrap();
+    assert!(matches!(error, GpuError::OverBudget { .. }));
+    assert!(
+        error
+            .to_string()
+            .ends_with("bake at a smaller size or on an adapter with more memory"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_run_stops_when_it_is_told_to() {
+    let bench = Bench::new(64);
+    let plan = bench.plan(CHAIN, FUSED);
+    let canceled = RunOptions {
+        is_canceled: &|| true,
+        ..options()
+    };
+    assert_eq!(bench.run(&plan, &canceled, None).err(), Some(GpuError::Canceled));
+}
+
+#[test]
+fn a_slider_runs_its_node_and_what_hangs_below_it() {
+    let bench = Bench::new(64);
+    let mut cache = ResultCache::new(DEFAULT_BUDGET_BYTES);
+    let mut names = |nodes: &str| {
+        let plan = bench.plan(nodes, Mode::Interactive);
+        let run = bench.run(&plan, &options(), Some(&mut cache)).unwrap();
+        let names = run
+            .report
+            .steps
+            .iter()
+            .flat_map(|step| step.nodes.iter().map(|(name, _)| name.clone()));
+        names.collect::<Vec<_>>()
+    };
+    assert_eq!(names(CHAIN), ["clouds", "cut", "last"]);
+    assert_eq!(names(CHAIN), [""; 0]);
+    let moved = CHAIN.replace(
+        r#""adjust/threshold","#,
+        r#""adjust/threshold", "params": { "at": 0.3 },"#,
+    );
+    assert_eq!(names(&moved), ["cut", "last"]);
+    assert_eq!(names(CHAIN), [""; 0], "what was made before is still known");
+}
+
+#[test]
+fn a_full_cache_drops_what_was_used_longest_ago() {
+    let bench = Bench::new(64);
+    let one_result = bench.surface.texels() * 4;
+    let mut cache = ResultCache::new(2 * one_result);
+    let plan = bench.plan(CHAIN, Mode::Interactive);
+    bench.run(&plan, &options(), Some(&mut cache)).unwrap();
+    let (held, allowed) = cache.bytes();
+    assert!(held > 0 && held <= allowed);
+}
+
+#[test]
+fn interactive_and_fused_results_agree() {
+    let bench = Bench::new(64);
+    let fused = bench.plan(CHAIN, FUSED);
+    let single = bench.plan(CHAIN, Mode::Interactive);
+    let of_fused = bench.run(&fused, &options(), None).unwrap();
+    let of_single = bench.run(&single, &options(), None).unwrap();
+    let (a, b) = (bench.bytes(&fused, &of_fused), bench.bytes(&single, &of_single));
+    let number = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
+    let worst = a
+        .chunks(4)
+        .zip(b.chunks(4))
+        .map(|(a, b)| (number(a) - number(b)).abs())
+        .fold(0.0, f32::max);
+    assert!(worst <= 1.0 / 1024.0, "{worst}");
+}
+
+#[test]
+fn a_source_that_fails_is_an_error_with_its_own_words() {
+    let bench = Bench::new(64);
+    let mut plan = bench.plan(CHAIN, FUSED);
+    let step = SourceStep {
+        node: 0,
+        id: "lost".into(),
+        kind: "source/image".into(),
+        writes: Vec::new(),
+        key: [0; 32],
+    };
+    plan.steps.insert(0, sabi_plan::Step::Source(step));
+    let error = bench.run(&plan, &options(), None).err().unwrap();
+    assert_eq!(error.to_string(), "nobody fills 'lost'");
+}
