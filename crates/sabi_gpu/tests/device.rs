@@ -1,5 +1,7 @@
 //! What the device layer says when something is not to be had, and how it stops.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on may stop")]
+
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
