@@ -3,10 +3,11 @@
 mod faults;
 mod keys;
 mod passes;
+mod random;
 
 use std::collections::BTreeMap;
 
-use sabi_graph::{Document, FlatGraph, Overrides, PortType, Value, flatten};
+use sabi_graph::{Document, FlatGraph, FlatRef, Overrides, PortType, Value, flatten};
 use sabi_nodes::Library;
 use sabi_nodes::kind::Channel;
 
@@ -67,8 +68,8 @@ impl Bench {
         }
     }
 
-    fn plan(&self, graph: &FlatGraph, mode: Mode) -> (Plan, Vec<PlanError>) {
-        let planner = Planner {
+    fn with_planner<T>(&self, graph: &FlatGraph, mode: Mode, work: impl FnOnce(&Planner<'_>) -> T) -> T {
+        work(&Planner {
             graph,
             library: &self.library,
             sources: &self.sources,
@@ -80,13 +81,23 @@ impl Bench {
             surface_key: [7; 32],
             mode,
             limits: self.limits,
-        };
+        })
+    }
+
+    fn plan(&self, graph: &FlatGraph, mode: Mode) -> (Plan, Vec<PlanError>) {
         let is_sink = |kind: &str| kind.starts_with("output/");
         let targets: Vec<Target> = (0..graph.nodes.len())
             .filter(|node| is_sink(&graph.nodes[*node].kind))
             .map(|node| Target { node, port: None })
             .collect();
-        planner.plan(&targets)
+        self.with_planner(graph, mode, |planner| planner.plan(&targets))
+    }
+
+    /// Index of the result that a link names.
+    fn output_index(&self, graph: &FlatGraph, from: &FlatRef) -> usize {
+        let kind = self.library.kind(&graph.nodes[from.node].kind);
+        let named = |port: &String| kind?.outputs.iter().position(|output| output.name == *port);
+        from.port.as_ref().and_then(named).unwrap_or(0)
     }
 }
 

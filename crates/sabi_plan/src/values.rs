@@ -108,6 +108,7 @@ fn takes(param: &Param) -> String {
         }
         (Role::Extent { .. }, _) => "no value: it is measured on the model".to_owned(),
         (Role::Angle, ParamType::F32) => format!("an angle in degrees{between}"),
+        (_, ParamType::U32) if param.range.is_none() => format!("a whole number from 0 to {}", u32::MAX),
         (_, ParamType::U32 | ParamType::I32) => format!("a whole number{between}"),
         (_, ParamType::F32) => format!("a number{between}"),
         (_, ty) => format!("a list of {} numbers{between}", ty.components()),
