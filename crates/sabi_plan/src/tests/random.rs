@@ -13,8 +13,11 @@ use super::{Bench, FUSED, UNFUSED, graph};
 use crate::resolve::Behavior;
 use crate::{KernelStep, Limits, Mode, Plan, Planner, Step};
 
+/// Ports by name and type.
+type Ports = &'static [(&'static str, char)];
+
 /// Kinds with their inputs (name, accepts) and their results (name, type): m mask, c color, M material.
-const KINDS: &[(&str, &[(&str, char)], &[(&str, char)])] = &[
+const KINDS: &[(&str, Ports, Ports)] = &[
     ("noise/simplex", &[], &[("mask", 'm')]),
     ("noise/cells", &[], &[("mask", 'm'), ("id", 'm')]),
     ("adjust/invert", &[("source", 'm')], &[("mask", 'm')]),
