@@ -13,6 +13,9 @@ use crate::model::Mesh;
 const FORMAT_VERSION: u32 = 1;
 const MAGIC: &[u8; 12] = b"sabi atlas\r\n";
 
+/// The cache folder holds no more than this; the oldest atlases make room.
+const LIMIT_BYTES: u64 = 4 << 30;
+
 /// Tells two processes' temporary files apart, and two threads'.
 static WRITES: AtomicU64 = AtomicU64::new(0);
 
@@ -49,7 +52,8 @@ pub fn cached(cache_dir: Option<&Path>, mesh: &Mesh, options: &AtlasOptions) -> 
         return Ok((atlas, true));
     }
     let mut atlas = Atlas::build(mesh, options)?;
-    if let Err(error) = write(folder, &file, &wrap(&atlas, &key)) {
+    let kept = write(folder, &file, &wrap(&atlas, &key)).and_then(|()| make_room(folder, &file, LIMIT_BYTES));
+    if let Err(error) = kept {
         atlas.report.warnings.push(format!(
             "the atlas could not be kept in {} ({error}), so the next start takes a little longer; free some space \
              there or choose another cache folder",
@@ -93,4 +97,28 @@ fn write(folder: &Path, file: &Path, bytes: &[u8]) -> io::Result<()> {
         let _ = fs::remove_file(&temporary);
     }
     written
+}
+
+/// Removes the oldest atlases, never `newest`, until the others and it take at most `limit_bytes`.
+pub(super) fn make_room(folder: &Path, newest: &Path, limit_bytes: u64) -> io::Result<()> {
+    let mut kept = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let is_atlas = path
+            .file_name()
+            .and_then(|name| name.to_str())
+            .is_some_and(|name| name.starts_with("atlas-"));
+        // Another process may have removed it meanwhile.
+        if let (true, Ok(metadata)) = (is_atlas, fs::metadata(&path)) {
+            kept.push((metadata.modified()?, path, metadata.len()));
+        }
+    }
+    kept.sort();
+    let mut total: u64 = kept.iter().map(|(.., bytes)| bytes).sum();
+    for (_, path, bytes) in kept {
+        if total > limit_bytes && path != newest && fs::remove_file(&path).is_ok() {
+            total -= bytes;
+        }
+    }
+    Ok(())
 }
