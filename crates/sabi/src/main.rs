@@ -2,6 +2,7 @@
 
 mod arguments;
 mod commands;
+mod disk;
 mod exit;
 mod mistake;
 mod progress;

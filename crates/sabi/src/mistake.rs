@@ -20,7 +20,12 @@ pub(crate) fn caught(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
 }
 
 fn sentence(info: &PanicHookInfo<'_>) -> String {
-    let what = info.payload_as_str().unwrap_or("something unknown happened");
+    let payload = info.payload();
+    let what = match (payload.downcast_ref::<&str>(), payload.downcast_ref::<String>()) {
+        (Some(text), _) => text,
+        (_, Some(text)) => text.as_str(),
+        _ => "something unknown happened",
+    };
     let place = info
         .location()
         .map(|at| format!(" ({}, line {})", at.file(), at.line()))

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 
+use crate::disk::reason;
 use crate::exit::{Exit, Failure};
 use crate::terminal::{Terminal, pretty};
 
@@ -112,12 +113,7 @@ fn cannot(path: &Path, error: &io::Error) -> Failure {
             "there is no folder {}; make it, or name another file",
             folder_of(path).display()
         ),
-        io::ErrorKind::NotADirectory => "a part of its path is a file, not a folder; name another file".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder; name a file".to_owned(),
-        io::ErrorKind::PermissionDenied => "you have no permission; name another file".to_owned(),
-        io::ErrorKind::StorageFull => "the disk is full; free some space, or name another file".to_owned(),
-        io::ErrorKind::ReadOnlyFilesystem => "the disk is read-only; name another file".to_owned(),
-        _ => format!("{error}; name another file"),
+        _ => format!("{}; name another file", reason(error)),
     };
     let why = format!("cannot write the report {}: {why}", path.display());
     Failure::new(Exit::CannotWrite, why)

@@ -6,6 +6,7 @@ use std::io::{self, ErrorKind, Write};
 use serde_json::Value as Json;
 
 use crate::arguments::Global;
+use crate::disk::reason;
 use crate::exit::{Exit, Failure};
 
 /// Where words go.
@@ -60,7 +61,7 @@ impl Terminal {
             // Who reads a pipe may stop when it has enough, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             Err(error) => {
-                let why = format!("cannot write to standard output: {error}");
+                let why = format!("cannot write to standard output: {}", reason(&error));
                 Err(Failure::new(Exit::CannotWrite, why))
             }
             Ok(()) => Ok(()),
@@ -76,4 +77,17 @@ impl Terminal {
 /// A JSON document as text, with a line break at its end.
 pub(crate) fn pretty(json: &Json) -> String {
     format!("{json:#}\n")
+}
+
+/// A JSON value as people write it: `1` for `1.0`, `a, b` for a list.
+pub(crate) fn plain(json: &Json) -> String {
+    match json {
+        Json::String(text) => text.clone(),
+        Json::Number(number) => match number.as_f64() {
+            Some(number) => number.to_string(),
+            None => number.to_string(),
+        },
+        Json::Array(values) => values.iter().map(plain).collect::<Vec<_>>().join(", "),
+        other => other.to_string(),
+    }
 }

@@ -11,6 +11,7 @@ mod error;
 mod folder;
 mod kinds;
 mod maps;
+mod overridden;
 mod prepare;
 mod preview;
 mod report;

@@ -10,6 +10,7 @@ use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, Tar
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
+use crate::overridden::refuse_bad_values;
 use crate::prepare::{ModelOptions, Prepared};
 use crate::report::StageTimes;
 use crate::source::{ModelSource, kind_for};
@@ -62,6 +63,7 @@ impl Workpiece {
     ) -> Result<Workpiece, EngineError> {
         let mut times = StageTimes::default();
         let graph = times.load.time(|| open.flatten(&options.overrides))?;
+        refuse_bad_values(open, &graph, &kinds, &options.overrides)?;
         let model = times.load.time(|| Prepared::load_model(&options.model))?;
         progress.advance(Stage::Load, 1, 1);
         stop_if_canceled(progress)?;

@@ -13,11 +13,12 @@ use super::WorkpieceArguments;
 Examples:
   sabi bake graph.sabi --mesh model.glb -o out
   sabi bake graph.sabi --mesh model.glb -o out --size 4096 --adapter gpu
-  sabi bake graph.sabi --mesh model.glb -o out --variant heavy --set amount=0.8 --set paint.color=#6b3a1e
+  sabi bake graph.sabi --mesh model.glb -o out --variant heavy --set paint.color=#6b3a1e
   sabi bake graph.sabi --mesh model.obj -o out --up z --fit metres --report out/report.json",
     after_help = "\
-Prints the files it wrote, one a line. They take the place of earlier ones only when all of them are complete.
-A folder that has files but no earlier maps is refused unless --force is given; --force deletes nothing."
+Prints the files it wrote, one a line. They replace earlier maps of the same names, but only once
+all of them are complete. A folder that has files but no earlier maps is refused without --force;
+nothing is ever deleted."
 )]
 pub(crate) struct BakeArguments {
     #[command(flatten)]

@@ -95,7 +95,7 @@ impl WorkpieceArguments {
                 set: set.map_err(|why| Failure::new(Exit::Usage, format!("--set: {why}")))?,
                 seed: self.seed,
             },
-            fit: self.fit.clone(),
+            fit: self.fit,
             adapter: self.adapter.clone(),
             budget_bytes: self.budget << 20,
         })

@@ -8,7 +8,7 @@ use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::Bars;
 use crate::report_file::ReportFile;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, plain};
 
 pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let started = Instant::now();
@@ -71,10 +71,9 @@ fn refuse_foreign_folder(arguments: &BakeArguments, request: &BakeRequest) -> Re
 
 fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, terminal: &Terminal) {
     let (json, times) = (&report.json, &report.times);
-    let count = match report.files.len() {
-        1 => "1 map".to_owned(),
-        count => format!("{count} maps"),
-    };
+    let counted = |count: u64, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
+    let count = counted(report.files.len() as u64, "map", "maps");
+    let number = |key: &str| json[key].as_u64().unwrap_or(0);
     let size = arguments.workpiece.model.size;
     terminal.note(format_args!(
         "Baked {} on {} at {size} × {size}: {count} in {}, in {:.2} s",
@@ -93,10 +92,10 @@ fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, t
     let stages = stages.map(|(name, time)| format!("{name} {:.2} s", time.total().as_secs_f64()));
     terminal.note(format_args!("  stages     {}", stages.join(", ")));
     terminal.note(format_args!(
-        "  graph      {} nodes in {} passes, {} MiB of textures",
-        json["nodes"],
-        json["passes"],
-        json["peak_texture_bytes"].as_u64().unwrap_or(0).div_ceil(1 << 20),
+        "  graph      {} in {}, {} MiB of textures",
+        counted(number("nodes"), "node", "nodes"),
+        counted(number("passes"), "pass", "passes"),
+        number("peak_texture_bytes").div_ceil(1 << 20),
     ));
     terminal.note(format_args!(
         "  adapter    {} ({})",
@@ -112,5 +111,5 @@ fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, t
 fn in_words(constant: &serde_json::Value) -> String {
     let word = |key: &str| constant[key].as_str().unwrap_or_default();
     let (material, channel) = (word("material"), word("channel"));
-    format!("{material} {channel} {}", constant["value"]).trim().to_owned()
+    format!("{material} {channel} {}", plain(&constant["value"]))
 }

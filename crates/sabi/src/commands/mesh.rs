@@ -6,7 +6,7 @@ use serde_json::Value as Json;
 use crate::arguments::MeshArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::Bars;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, plain};
 
 pub(crate) fn run(arguments: MeshArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let options = arguments.model.options(arguments.mesh);
@@ -30,14 +30,6 @@ fn table(description: &Json) -> String {
     let facts = description.as_object().into_iter().flatten();
     facts
         .filter(|(name, _)| *name != "warnings")
-        .map(|(name, value)| format!("{:24} {}\n", name.replace('_', " "), in_words(value)))
+        .map(|(name, value)| format!("{:24} {}\n", name.replace('_', " "), plain(value)))
         .collect()
-}
-
-fn in_words(value: &Json) -> String {
-    match value {
-        Json::String(text) => text.clone(),
-        Json::Array(values) => values.iter().map(in_words).collect::<Vec<_>>().join(", "),
-        other => other.to_string(),
-    }
 }

@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 
 use crate::arguments::NodesArguments;
 use crate::exit::{Exit, Failure};
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, plain};
 
 pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let kinds = Kinds::beside(arguments.graph.as_deref());
@@ -105,14 +105,7 @@ fn takes(param: &Json) -> String {
         None => text(&param["takes"]).to_owned(),
     };
     if let [low, high] = list(&param["range"]) {
-        let _ = write!(words, " from {low} to {high}");
+        let _ = write!(words, " from {} to {}", plain(low), plain(high));
     }
-    let default = match &param["default"] {
-        Json::String(text) => text.clone(),
-        Json::Array(numbers) if numbers.iter().all(Json::is_number) => {
-            numbers.iter().map(Json::to_string).collect::<Vec<_>>().join(",")
-        }
-        other => other.to_string(),
-    };
-    format!("{words}, default {default}")
+    format!("{words}, default {}", plain(&param["default"]))
 }

@@ -1,0 +1,152 @@
+//! Graph files that are not what they should be: each a sentence that says where and what to do.
+
+use std::fs::File;
+
+use crate::place::{CLOUDS, Place, graph};
+
+const OUT: &str = r#"    "out": { "kind": "output/mask", "inputs": { "source": "clouds" } }"#;
+
+/// `clouds` as written, and an output that reads it.
+fn with(clouds: &str) -> String {
+    graph(&format!("    {clouds},\n{OUT}"))
+}
+
+fn refused(place: &Place, content: impl AsRef<[u8]>, words: &str) {
+    place.write("bad.sabi", content);
+    place.refuses("bad.sabi", "cube.glb", &[], 65, words);
+}
+
+#[test]
+fn links_that_go_wrong_are_shown_in_the_file() {
+    let place = Place::new();
+    refused(
+        &place,
+        with(
+            "\"clouds\": { \"kind\": \"adjust/invert\", \"inputs\": { \"source\": \"turned\" } },\n    \"turned\": { \"kind\": \
+             \"adjust/invert\", \"inputs\": { \"source\": \"clouds\" } }",
+        ),
+        "bad.sabi:8:64: node \"clouds\", input \"source\": the nodes feed each other in a circle: clouds → turned → \
+         clouds; remove one of these links",
+    );
+    refused(
+        &place,
+        with(r#""clouds": { "kind": "adjust/invert", "inputs": { "source": "cluds" } }"#),
+        "bad.sabi:8:64: node \"clouds\", input \"source\": there is no node \"cluds\" (did you mean \"clouds\"?)",
+    );
+    refused(
+        &place,
+        with(r#""clouds": { "kind": "source/material" }"#),
+        "input 'source' of node 'out' takes a mask, but 'clouds' gives a material; connect a mask",
+    );
+    refused(
+        &place,
+        with(r#""clouds": { "kind": "noise/simplex" }"#).replace(r#": "clouds" }"#, r#": "clouds.mesk" }"#),
+        "input 'source' of node 'out' asks 'clouds' for 'mesk', which it does not give; did you mean 'mask'?",
+    );
+    refused(
+        &place,
+        with(r#""clouds": { "kind": "filter/smooth" }"#),
+        "input 'source' of node 'clouds' (filter/smooth) must be connected to a mask",
+    );
+}
+
+#[test]
+fn kinds_and_values_that_nobody_knows_are_named() {
+    let place = Place::new();
+    refused(
+        &place,
+        with(r#""clouds": { "kind": "noise/simplx" }"#),
+        "node 'clouds' is of kind 'noise/simplx', which no loaded node file describes; did you mean 'noise/simplex'?",
+    );
+    refused(
+        &place,
+        with(r#""clouds": { "kind": "noise/simplex", "params": { "octaves": "three" } }"#),
+        "parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not \"three\"",
+    );
+    refused(
+        &place,
+        with(r#""clouds": { "kind": "noise/simplex", "params": { "octaves": 3000 } }"#),
+        "parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not 3000",
+    );
+    refused(
+        &place,
+        graph(r#"    "clouds": { "kind": "noise/simplex" }"#),
+        "bad.sabi: the graph has no output; add a node of kind 'output/material' and connect its material",
+    );
+}
+
+#[test]
+fn an_unknown_parameter_is_kept_and_told() {
+    let place = Place::new();
+    let text = with(r#""clouds": { "kind": "noise/simplex", "params": { "octavs": 3 } }"#);
+    place.write("newer.sabi", &text);
+    let run = place.bake("newer.sabi", "cube.glb", &[]).good();
+    assert!(
+        run.stderr.starts_with(
+            "warning: node 'clouds' (noise/simplex) has no parameter 'octavs'; it is kept and ignored; did you mean \
+             'octaves'?\n"
+        ),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(place.read("newer.sabi"), text.as_bytes());
+}
+
+#[test]
+fn files_that_are_no_graphs_are_refused() {
+    let place = Place::new();
+    let whole = graph(CLOUDS);
+    refused(
+        &place,
+        &whole[..whole.find("clouds.gain").unwrap()],
+        "bad.sabi:5:35: the file ends inside the text that begins here; it may have been cut off",
+    );
+    refused(
+        &place,
+        whole.replace("\"version\": 1", "\"version\": 7"),
+        "bad.sabi:3:14: written by a newer Sabi (version 7; this one reads up to 1); open it with that one, or install \
+         it here",
+    );
+    refused(
+        &place,
+        "",
+        "bad.sabi:1:1: the file ends where a value is expected; it may have been cut off",
+    );
+    refused(
+        &place,
+        b"\xff\xfe\x00",
+        "bad.sabi: the file is not text: byte 0 is not UTF-8; graphs are JSON",
+    );
+    refused(
+        &place,
+        "{\"asset\": {}}",
+        "bad.sabi:1:1: this is not a Sabi graph: it must be an object that begins with \"format\": \"sabi\"",
+    );
+    refused(
+        &place,
+        "[".repeat(200_000),
+        "bad.sabi:1:130: values are nested more than 128 deep here; flatten them",
+    );
+}
+
+#[test]
+fn a_huge_file_is_refused_before_it_is_read() {
+    let place = Place::new();
+    let file = File::create(place.path("huge.sabi")).unwrap();
+    file.set_len(3 << 40).or_else(|_| file.set_len(65 << 20)).unwrap();
+    let run = place.bake("huge.sabi", "cube.glb", &[]).fails(65);
+    assert!(
+        run.stderr.starts_with("error: huge.sabi: the file has "),
+        "{}",
+        run.stderr
+    );
+    assert!(run.stderr.ends_with(" MiB; graphs have at most 64\n"), "{}", run.stderr);
+}
+
+#[test]
+fn a_graph_that_is_not_there_ends_with_66() {
+    let place = Place::new();
+    let words = "none.sabi: there is no such file; check the path";
+    place.refuses("none.sabi", "cube.glb", &[], 66, words);
+    place.refuses(".", "cube.glb", &[], 66, ".: this is a folder; name a .sabi file");
+}

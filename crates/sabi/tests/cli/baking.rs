@@ -1,0 +1,169 @@
+//! What a bake writes and says.
+
+use serde_json::Value as Json;
+
+use crate::place::{Place, graph};
+
+const MAPS: [&str; 5] = [
+    "cube_base_color.png",
+    "cube_height.exr",
+    "cube_height.png",
+    "cube_normal.png",
+    "cube_roughness.png",
+];
+
+fn json(text: &[u8]) -> Json {
+    serde_json::from_slice(text).unwrap()
+}
+
+#[test]
+fn a_bake_writes_the_maps_and_prints_their_paths() {
+    let place = Place::new();
+    let run = place.bake("rust.sabi", "cube.glb", &[]).good();
+    let mut paths: Vec<&str> = run.stdout.lines().collect();
+    paths.sort_unstable();
+    assert_eq!(paths, MAPS.map(|map| format!("out/{map}")));
+    assert_eq!(place.listing("out"), MAPS);
+    assert!(
+        run.stderr
+            .starts_with("Baked rust.sabi on cube.glb at 64 × 64: 5 maps in out, in "),
+        "{}",
+        run.stderr
+    );
+    for stage in ["load ", "atlas ", "compile ", "run ", "encode "] {
+        assert!(run.stderr.contains(stage), "{}", run.stderr);
+    }
+    assert!(
+        !run.stderr.contains('\u{1b}'),
+        "no bars and no colors where nobody sees them"
+    );
+}
+
+#[test]
+fn two_bakes_give_the_same_bytes() {
+    let place = Place::new();
+    place.bake("rust.sabi", "sphere.glb", &["-o", "one"]).good();
+    place
+        .bake("rust.sabi", "sphere.glb", &["-o", "two", "--no-cache"])
+        .good();
+    assert_eq!(place.listing("one"), place.listing("two"));
+    for map in place.listing("one") {
+        assert!(
+            place.read(&format!("one/{map}")) == place.read(&format!("two/{map}")),
+            "{map}"
+        );
+    }
+}
+
+#[test]
+fn the_report_file_and_json_say_the_same() {
+    let place = Place::new();
+    let run = place.bake(
+        "rust.sabi",
+        "cube.glb",
+        &["--json", "--report", "out/report.json", "-q"],
+    );
+    let run = run.good();
+    assert_eq!(run.stderr, "");
+    assert_eq!(run.stdout.as_bytes(), place.read("out/report.json"));
+    let report = json(run.stdout.as_bytes());
+    assert_eq!(report["graph"], "rust.sabi");
+    assert_eq!(report["mesh"]["triangles"], 12);
+    assert_eq!(report["adapter"]["kind"], "cpu");
+    let outputs = report["outputs"].as_array().unwrap();
+    assert_eq!(outputs.len(), MAPS.len());
+    let constants = report["constants"].as_array().unwrap();
+    assert!(
+        constants.iter().any(|constant| constant["channel"] == "metallic"),
+        "{constants:?}"
+    );
+    let printed = place.bake("rust.sabi", "cube.glb", &["--report", "-"]).good();
+    assert_eq!(json(printed.stdout.as_bytes())["outputs"], report["outputs"]);
+    assert_eq!(place.listing("out").len(), MAPS.len() + 1);
+}
+
+#[test]
+fn a_constant_channel_gets_a_map_on_request() {
+    let place = Place::new();
+    place.bake("rust.sabi", "cube.glb", &["--all-maps"]).good();
+    for channel in ["opacity", "metallic", "occlusion", "emission"] {
+        place.read(&format!("out/cube_{channel}.png"));
+    }
+}
+
+#[test]
+fn fused_and_unfused_bakes_write_the_same_files() {
+    let place = Place::new();
+    let report = |more: &[&str]| json(place.bake("rust.sabi", "cube.glb", more).good().stdout.as_bytes());
+    let (fused, apart) = (report(&["--json"]), report(&["--json", "--no-fuse"]));
+    assert!(fused["passes"].as_u64() < apart["passes"].as_u64());
+    let paths = |report: &Json| -> Vec<Json> {
+        let outputs = report["outputs"].as_array().unwrap();
+        outputs.iter().map(|output| output["path"].clone()).collect()
+    };
+    assert_eq!(paths(&fused), paths(&apart));
+}
+
+#[test]
+fn an_earlier_bake_is_replaced_and_what_else_is_there_stays() {
+    let place = Place::new();
+    place.bake("rust.sabi", "cube.glb", &[]).good();
+    let before = place.read("out/cube_base_color.png");
+    place.write("out/notes.txt", "mine");
+    place
+        .bake("rust.sabi", "cube.glb", &["--set", "base.color=#ff0000"])
+        .good();
+    assert_ne!(place.read("out/cube_base_color.png"), before);
+    assert_eq!(place.read("out/notes.txt"), b"mine");
+}
+
+#[test]
+fn how_a_model_is_taken_changes_the_maps() {
+    let place = Place::new();
+    let map = |more: &[&str]| {
+        place.bake("clouds.sabi", "cube.glb", more).good();
+        place.read("out/cube_mask.png")
+    };
+    let plain = map(&[]);
+    for more in [["--up", "z"], ["--fit", "0.3"], ["--padding", "infinite"]] {
+        assert_ne!(map(&more), plain, "{more:?}");
+    }
+    assert_eq!(
+        map(&["--scale", "3"]),
+        plain,
+        "the largest side counts as 1, however large it is"
+    );
+    assert_ne!(map(&["--scale", "3", "--fit", "metres"]), plain);
+}
+
+#[test]
+fn only_the_material_asked_for_is_baked() {
+    let place = Place::new();
+    place.refuses(
+        "clouds.sabi",
+        "cube.glb",
+        &["--material", "wood"],
+        2,
+        "the model has no material 'wood'; it has cube",
+    );
+    place.bake("clouds.sabi", "cube.glb", &["--material", "cube"]).good();
+}
+
+#[test]
+fn a_node_file_beside_the_graph_is_a_kind_of_its_own() {
+    let place = Place::new();
+    std::fs::create_dir_all(place.path("nodes/own")).unwrap();
+    place.write(
+        "nodes/own/half.wgsl",
+        "//! Half\n//! Half of a mask.\n\n/// Half of it.\n/// @input source What to halve.\nfn mask(source: f32) -> f32 \
+         {\n    return 0.5 * source;\n}\n",
+    );
+    let nodes = r#"    "clouds": { "kind": "noise/simplex" },
+    "half": { "kind": "own/half", "inputs": { "source": "clouds" } },
+    "out": { "kind": "output/mask", "inputs": { "source": "half" } }"#;
+    place.write("own.sabi", graph(nodes));
+    let run = place.bake("own.sabi", "cube.glb", &[]).good();
+    assert!(!run.stderr.contains("warning"), "{}", run.stderr);
+    let listed = place.sabi(&["nodes", "--graph", "own.sabi"]).good().stdout;
+    assert!(listed.contains("\nown/half "), "{listed}");
+}

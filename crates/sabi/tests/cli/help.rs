@@ -1,0 +1,73 @@
+//! The help, and command lines that make no sense.
+
+use crate::place::Place;
+
+#[test]
+fn every_help_starts_from_examples() {
+    let place = Place::new();
+    for command in ["", "bake", "preview", "check", "nodes", "mesh", "doctor"] {
+        for flag in ["--help", "-h"] {
+            let arguments: Vec<&str> = [command, flag].into_iter().filter(|word| !word.is_empty()).collect();
+            let help = place.sabi(&arguments).good();
+            assert!(
+                help.stdout.starts_with(&format!("Examples:\n  sabi {command}")),
+                "{command}: {}",
+                help.stdout
+            );
+            assert!(help.stdout.contains("Usage: sabi"), "{command}: {}", help.stdout);
+            assert_eq!(help.stderr, "");
+        }
+    }
+}
+
+#[test]
+fn the_examples_of_the_help_are_command_lines_that_are_understood() {
+    let place = Place::new();
+    for command in ["bake", "preview", "check", "nodes", "mesh", "doctor"] {
+        let help = place.sabi(&[command, "--help"]).good().stdout;
+        let examples = help.lines().skip(1).take_while(|line| line.starts_with("  sabi "));
+        for example in examples {
+            let words: Vec<&str> = example
+                .split("     ")
+                .next()
+                .unwrap()
+                .split_whitespace()
+                .skip(1)
+                .collect();
+            let run = place.sabi(&words);
+            assert!(!run.stderr.contains("Usage:"), "{example}: {}", run.stderr);
+        }
+    }
+}
+
+#[test]
+fn a_command_line_that_makes_no_sense_ends_with_2() {
+    let place = Place::new();
+    let bake = ["bake", "clouds.sabi", "--mesh", "cube.glb", "-o", "out"];
+    let wrong: [&[&str]; 9] = [
+        &["--size", "15"],
+        &["--size", "8193"],
+        &["--fit", "0"],
+        &["--scale", "nan"],
+        &["--padding", "-1"],
+        &["--overlap", "mean"],
+        &["--up", "w"],
+        &["--budget", "0"],
+        &["--colour"],
+    ];
+    for more in wrong {
+        let run = place.sabi(&[&bake, more].concat()).fails(2);
+        assert_eq!(run.stdout, "");
+        assert!(run.stderr.starts_with("error: "), "{}", run.stderr);
+        assert!(!place.path("out").exists());
+    }
+    for nothing in [&[][..], &["bake"], &["paint"], &["check"]] {
+        assert_eq!(place.sabi(nothing).fails(2).stdout, "");
+    }
+}
+
+#[test]
+fn the_version_is_data() {
+    let version = Place::new().sabi(&["--version"]).good();
+    assert_eq!(version.stdout, format!("sabi {}\n", env!("CARGO_PKG_VERSION")));
+}

@@ -1,0 +1,13 @@
+//! The real binary on real files: what it writes, what it says, and how it ends.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+mod bad_graphs;
+mod bad_models;
+mod bad_places;
+mod baking;
+mod help;
+mod interruption;
+mod looking;
+mod place;
+mod settings;

@@ -1,0 +1,75 @@
+//! Values set on the command line.
+
+use crate::place::Place;
+
+#[test]
+fn a_wrong_setting_is_refused_and_the_nearest_name_is_told() {
+    let place = Place::new();
+    let cases = [
+        (
+            "amout=1",
+            "clouds.sabi: nothing is called \"amout\" (did you mean \"amount\"?); set an exposed knob (\"amount\", \
+             \"look\") or a node's parameter as node.param",
+        ),
+        (
+            "cloud.gain=1",
+            "clouds.sabi: nothing is called \"cloud.gain\" (did you mean \"clouds.gain\"?); set an exposed knob \
+             (\"amount\", \"look\") or a node's parameter as node.param",
+        ),
+        (
+            "clouds.gian=1",
+            "node 'clouds' (noise/simplex) has no parameter 'gian'; did you mean 'gain'?",
+        ),
+        (
+            "amount=high",
+            "clouds.sabi: \"amount\" takes a number from 0 to 1, not a text",
+        ),
+        (
+            "amount=2",
+            "clouds.sabi: \"amount\" is 2, but goes from 0 to 1; choose a value in that range",
+        ),
+        (
+            "clouds.octaves=4000000000",
+            "parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not 4000000000",
+        ),
+        (
+            "clouds.size=nan",
+            "parameter 'size' of node 'clouds' (noise/simplex) takes a number from 0.0001 to 100, not \"nan\"",
+        ),
+        (
+            "look=spiky",
+            "parameter 'mode' of node 'clouds' (noise/simplex) takes one of fbm, billow, ridged, not \"spiky\"",
+        ),
+        (
+            "amount",
+            "--set: 'amount' is not of the form NAME=VALUE, as in amount=0.8 or paint.color=#6b3a1e",
+        ),
+    ];
+    for (setting, words) in cases {
+        place.refuses("clouds.sabi", "cube.glb", &["--set", setting], 2, words);
+    }
+    place.refuses(
+        "clouds.sabi",
+        "cube.glb",
+        &["--variant", "heavi"],
+        2,
+        "clouds.sabi: there is no variant \"heavi\" (did you mean \"heavy\"?); this graph has \"heavy\"",
+    );
+}
+
+#[test]
+fn the_last_setting_wins_over_the_variant_and_the_file() {
+    let place = Place::new();
+    let map = |more: &[&str]| {
+        place.bake("clouds.sabi", "cube.glb", more).good();
+        place.read("out/cube_mask.png")
+    };
+    let heavy = map(&["--variant", "heavy"]);
+    assert_ne!(heavy, map(&[]));
+    assert_eq!(heavy, map(&["--set", "amount=0.9"]));
+    assert_eq!(
+        heavy,
+        map(&["--variant", "heavy", "--set", "amount=0.1", "--set", "clouds.gain=0.9"])
+    );
+    assert_ne!(map(&[]), map(&["--seed", "5"]));
+}

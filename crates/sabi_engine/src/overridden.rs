@@ -1,0 +1,69 @@
+//! Values set from outside are held against the nodes: what the file alone gets right and they do not is theirs.
+
+use sabi_graph::{FlatGraph, Overrides};
+use sabi_plan::{Lengths, Limits, Mode, PlanError, Planner, Problem, Target};
+
+use crate::document::OpenGraph;
+use crate::error::{EngineError, ErrorKind};
+use crate::kinds::Kinds;
+
+/// Refuses values that no node takes, and names that no node has: unlike those in a file, which may come from a newer
+/// Sabi, nobody means to keep them. `graph` is the flat graph with the overrides.
+pub(crate) fn refuse_bad_values(
+    open: &OpenGraph,
+    graph: &FlatGraph,
+    kinds: &Kinds,
+    overrides: &Overrides,
+) -> Result<(), EngineError> {
+    if overrides.set.is_empty() {
+        return Ok(());
+    }
+    let without = Overrides {
+        set: Vec::new(),
+        ..overrides.clone()
+    };
+    let known = problems(&open.flatten(&without)?, kinds);
+    let fresh = problems(graph, kinds)
+        .into_iter()
+        .filter(|error| !known.contains(error));
+    let messages: Vec<String> = fresh.map(|error| sentence(&error)).collect();
+    if messages.is_empty() {
+        return Ok(());
+    }
+    Err(EngineError {
+        kind: ErrorKind::Usage,
+        messages,
+    })
+}
+
+fn problems(graph: &FlatGraph, kinds: &Kinds) -> Vec<PlanError> {
+    let planner = Planner {
+        graph,
+        library: &kinds.library,
+        sources: &kinds.sources,
+        sinks: &kinds.sinks,
+        lengths: Lengths {
+            working_from: &|_| 1.0,
+            extent: &|_| [0.0, 1.0],
+        },
+        surface_key: [0; 32],
+        mode: Mode::Bake { fuse: true },
+        limits: Limits::default(),
+    };
+    let all: Vec<Target> = (0..graph.nodes.len()).map(|node| Target { node, port: None }).collect();
+    planner.resolve(&all).errors
+}
+
+fn sentence(error: &PlanError) -> String {
+    let PlanError { node, kind, problem } = error;
+    match problem {
+        Problem::UnknownParam { param, nearest } => {
+            let advice = match nearest {
+                Some(near) => format!("did you mean '{near}'?"),
+                None => format!("'sabi nodes {kind}' lists what it has"),
+            };
+            format!("node '{node}' ({kind}) has no parameter '{param}'; {advice}")
+        }
+        _ => error.to_string(),
+    }
+}
