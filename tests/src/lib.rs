@@ -1,1 +1,38 @@
-//! What the test binaries share.
+//! What the test binaries share: one device, graphs on models, and results that know their place on the surface.
+
+mod device;
+mod meshes;
+mod node_files;
+mod on_mesh;
+mod places;
+mod seams;
+
+use std::path::{Path, PathBuf};
+
+pub use device::device;
+pub use meshes::{MadeMesh, MeshFile, Quad};
+pub use node_files::NodeFolder;
+pub use on_mesh::{Asked, Evaluated, OnMesh, flat_graph};
+pub use places::OnPage;
+pub use seams::Seam;
+
+/// A path from the project's root.
+pub fn project(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+}
+
+/// Lowest and highest of some numbers.
+pub fn extent(values: impl IntoIterator<Item = f32>) -> [f32; 2] {
+    values
+        .into_iter()
+        .fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        })
+}
+
+/// The length of a range, 1 where it has none: what tolerances are a share of.
+pub fn range(values: impl IntoIterator<Item = f32>) -> f64 {
+    let [low, high] = extent(values);
+    let range = f64::from(high) - f64::from(low);
+    if range.is_finite() && range > 1e-6 { range } else { 1.0 }
+}

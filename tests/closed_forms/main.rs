@@ -1,0 +1,1 @@
+//! Closed forms: results whose value is known without a program.

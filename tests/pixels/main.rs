@@ -1,0 +1,13 @@
+//! Pixels: what kernels make of every node, seen on the software adapter. Kinds are found by enumeration: a new node
+//! file is held to everything here without being named.
+
+mod fields;
+mod golden;
+mod groups;
+mod modes;
+mod new_nodes;
+mod promises;
+mod resolution;
+mod seams;
+mod specimens;
+mod unwraps;

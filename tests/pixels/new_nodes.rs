@@ -1,0 +1,103 @@
+//! Adding a node takes one file and nothing else, at run time too.
+
+use std::time::Duration;
+
+use sabi_engine::{Kinds, NodeWatcher};
+use sabi_tests::{NodeFolder, OnMesh, project};
+
+/// The example of the design, under a name of its own.
+const FACING: &str = "\
+//! Facing
+//! Selects the parts of the surface that face one way.
+
+struct Params {
+    /// The way to face, in model space.
+    /// @default 0 1 0
+    toward: vec3f,
+    /// How far from that way the mask still reaches.
+    /// @angle @range 0 180 @default 60
+    reach: f32,
+}
+
+/// How much this place faces that way.
+fn mask(at: Surface, params: Params) -> f32 {
+    let away = acos(clamp(dot(at.normal, normalize(params.toward)), -1.0, 1.0));
+    return 1.0 - smoothstep(0.0, max(params.reach, 1e-4), away);
+}
+";
+
+const GRAPH: &str = r#"{ "format": "sabi", "version": 1, "nodes": {
+    "up": { "kind": "own/facing", "params": { "toward": [0, 1, 0], "reach": 45 } },
+    "down": { "kind": "adjust/invert", "inputs": { "source": "up" } } } }"#;
+
+fn evaluated(kinds: Kinds) -> (OnMesh, Vec<f32>) {
+    let mut on_mesh = OnMesh::with_kinds(GRAPH, kinds, &project("assets/meshes/cube.glb"), 64);
+    let values = on_mesh.evaluate("down").component("mask");
+    (on_mesh, values)
+}
+
+/// Whether exactly the top of the cube is `inside`, and the rest is not.
+fn selects_the_top(on_mesh: &OnMesh, values: &[f32], inside: f32) -> bool {
+    on_mesh.owned().all(|(index, triangle)| {
+        let corner = on_mesh.workpiece.prepared.model.mesh.triangles[triangle as usize][0];
+        let is_top = on_mesh.workpiece.prepared.model.mesh.normals[corner as usize][1] > 0.5;
+        values[index] == if is_top { inside } else { 1.0 - inside }
+    })
+}
+
+#[test]
+fn a_node_added_at_run_time_works_like_any_other() {
+    let (on_mesh, values) = evaluated(NodeFolder::new(&[("own/facing", FACING)]).kinds());
+    assert!(selects_the_top(&on_mesh, &values, 0.0));
+}
+
+#[test]
+fn a_broken_edit_keeps_the_last_good_version() {
+    let folder = NodeFolder::new(&[("own/facing", FACING)]);
+    let mut kinds = folder.kinds();
+    folder.write("own/facing", &FACING.replace("acos(", "acos(("));
+    kinds.add_folder(folder.path());
+    assert_eq!(kinds.faults.len(), 1, "{:?}", kinds.faults);
+    let (on_mesh, values) = evaluated(kinds);
+    assert!(selects_the_top(&on_mesh, &values, 0.0));
+    let told = on_mesh
+        .workpiece
+        .warnings
+        .iter()
+        .any(|warning| warning.contains("facing.wgsl"));
+    assert!(told, "{:?}", on_mesh.workpiece.warnings);
+}
+
+/// Waits for what is on its way; how long that takes is the system's business.
+fn refreshed(watcher: &NodeWatcher, kinds: &mut Kinds) -> bool {
+    watcher.refresh(kinds, Duration::from_secs(20))
+}
+
+#[test]
+fn an_edit_is_seen_and_a_broken_one_is_told() {
+    let folder = NodeFolder::new(&[("own/facing", FACING)]);
+    let mut kinds = folder.kinds();
+    let watcher = NodeWatcher::new(folder.path()).expect("a watcher");
+    assert!(!watcher.refresh(&mut kinds, Duration::ZERO), "nothing has changed");
+
+    folder.write(
+        "own/facing",
+        &FACING.replace("return 1.0 - smoothstep", "return smoothstep"),
+    );
+    assert!(refreshed(&watcher, &mut kinds));
+    assert!(kinds.faults.is_empty(), "{:?}", kinds.faults);
+    let (on_mesh, values) = evaluated(kinds.clone());
+    assert!(selects_the_top(&on_mesh, &values, 1.0));
+
+    folder.write("own/facing", "fn mask() {");
+    assert!(refreshed(&watcher, &mut kinds));
+    assert_eq!(kinds.faults.len(), 1, "{:?}", kinds.faults);
+    let (on_mesh, values) = evaluated(kinds.clone());
+    assert!(selects_the_top(&on_mesh, &values, 1.0));
+
+    folder.write("own/facing", FACING);
+    assert!(refreshed(&watcher, &mut kinds));
+    assert!(kinds.faults.is_empty(), "{:?}", kinds.faults);
+    let (on_mesh, values) = evaluated(kinds);
+    assert!(selects_the_top(&on_mesh, &values, 0.0));
+}

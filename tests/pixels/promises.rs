@@ -1,0 +1,79 @@
+//! What every node promises, whatever it makes: numbers, the same ones each time, in range.
+
+use sabi_graph::PortType;
+use sabi_tests::{Evaluated, OnMesh};
+
+use crate::specimens::{Specimen, for_each, on_own_mesh};
+
+fn numbers(on_mesh: &OnMesh, evaluated: &Evaluated) -> Result<(), String> {
+    for (name, values) in evaluated.components() {
+        if let Some(index) = on_mesh.covered().find(|index| !values[*index].is_finite()) {
+            let texel = on_mesh.texel(index);
+            return Err(format!("{name} is {} at texel {texel:?} (page, x, y)", values[index]));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn every_result_is_a_number_on_charts_and_ghosts() {
+    for_each(|specimen| {
+        for graph in [&specimen.connected, &specimen.alone] {
+            let mut on_mesh = on_own_mesh(graph, "cube", 64);
+            let evaluated = on_mesh.evaluate(&specimen.target());
+            numbers(&on_mesh, &evaluated)?;
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn the_same_graph_gives_the_same_bytes() {
+    for_each(|specimen| {
+        let mut on_mesh = on_own_mesh(&specimen.connected, "cube", 64);
+        let first = on_mesh.evaluate(&specimen.target()).bytes();
+        let again = on_mesh.evaluate(&specimen.target()).bytes();
+        let fresh = on_own_mesh(&specimen.connected, "cube", 64)
+            .evaluate(&specimen.target())
+            .bytes();
+        match (first == again, first == fresh) {
+            (true, true) => Ok(()),
+            (false, _) => Err("a second run gives other bytes".to_owned()),
+            (_, false) => Err("a second session gives other bytes".to_owned()),
+        }
+    });
+}
+
+/// Lowest and highest that a component may be while everything is at its default.
+fn bounds(name: &str) -> [f32; 2] {
+    match name {
+        // A mask, a color and what a material is made of are shares; half floats round up by at most 2⁻¹¹.
+        "height" => [-1.0, 1.0],
+        _ if name.starts_with("vector") || name.starts_with("slope") || name.starts_with("normal") => [-1.001, 1.001],
+        _ => [0.0, 1.0],
+    }
+}
+
+fn in_bounds(specimen: &Specimen) -> Result<(), String> {
+    let mut on_mesh = on_own_mesh(&specimen.alone, "cube", 64);
+    let evaluated = on_mesh.evaluate(&specimen.target());
+    for (name, values) in evaluated.components() {
+        let [low, high] = bounds(&name);
+        if let Some(index) = on_mesh.covered().find(|index| !(low..=high).contains(&values[*index])) {
+            return Err(format!("{name} is {}, outside of {low} to {high}", values[index]));
+        }
+    }
+    let is_material = specimen.ty == PortType::Material;
+    if is_material && evaluated.normals.is_some() {
+        let up = evaluated.component("normal.z");
+        if on_mesh.owned().any(|(index, _)| up[index] <= 0.0) {
+            return Err("a normal points into the surface".to_owned());
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn with_every_knob_at_its_default_results_stay_in_range() {
+    for_each(in_bounds);
+}

@@ -1,0 +1,89 @@
+//! A small map is a large one seen from afar.
+
+use std::collections::BTreeMap;
+
+use sabi_tests::{OnMesh, extent, range};
+
+use crate::specimens::{for_each, on_own_mesh};
+
+/// Results of which only the mean is held, each with its reason.
+const EXEMPT: [(&str, &str); 5] = [
+    ("adjust/threshold", "its border is narrower than a texel"),
+    ("filter/smooth", "its reach is counted in texels, as its text says"),
+    ("noise/cells.id", "a map of steps"),
+    ("noise/white", "a map of steps"),
+    ("noise/white.id", "a map of steps"),
+];
+
+const SMALL: u32 = 64;
+const FACTOR: u32 = 4;
+/// Root mean square of the difference, as a share of the range.
+const TOLERANCE: f64 = 0.02;
+
+/// For each owned texel of the small atlas whose whole footprint is owned in the large one: the texels it covers there.
+fn footprints(small: &OnMesh, large: &OnMesh) -> BTreeMap<usize, Vec<usize>> {
+    let mut found = BTreeMap::new();
+    for (index, triangle) in small.owned() {
+        let chart = small.atlas().triangle_chart[triangle as usize];
+        let [from, to] = [small, large].map(|on_mesh| &on_mesh.atlas().charts[chart as usize]);
+        let [_, x, y] = small.texel(index);
+        let corner = |texel: u32, axis: usize| {
+            (texel as i32 - from.texel_from_uv[axis]) * FACTOR as i32 + to.texel_from_uv[axis]
+        };
+        let (first_x, first_y) = (corner(x, 0) as u32, corner(y, 1) as u32);
+        let covered: Vec<usize> = (0..FACTOR * FACTOR)
+            .map(|tap| large.index([to.page, first_x + tap % FACTOR, first_y + tap / FACTOR]))
+            .collect();
+        let is_owned = |texel: &usize| {
+            matches!(large.owner(*texel), sabi_surface::atlas::Owner::Triangle(_)) && large.chart(*texel) == Some(chart)
+        };
+        if covered.iter().all(is_owned) {
+            found.insert(index, covered);
+        }
+    }
+    found
+}
+
+/// Root mean square of the texels' differences, and difference of the means.
+fn differences(footprints: &BTreeMap<usize, Vec<usize>>, coarse: &[f32], fine: &[f32]) -> [f64; 2] {
+    let count = footprints.len() as f64;
+    let (mut squares, mut sum) = (0.0, 0.0);
+    for (index, covered) in footprints {
+        let mean = covered.iter().map(|texel| f64::from(fine[*texel])).sum::<f64>() / covered.len() as f64;
+        let difference = mean - f64::from(coarse[*index]);
+        squares += difference * difference;
+        sum += difference;
+    }
+    [(squares / count).sqrt(), (sum / count).abs()]
+}
+
+#[test]
+fn a_small_map_is_the_mean_of_a_large_one() {
+    for_each(|specimen| {
+        let is_exempt = EXEMPT.iter().any(|(name, _)| *name == specimen.name());
+        let mut small = on_own_mesh(&specimen.coarse, "cube", SMALL);
+        let mut large = on_own_mesh(&specimen.coarse, "cube", SMALL * FACTOR);
+        let coarse = small.evaluate(&specimen.target()).components();
+        let fine = large.evaluate(&specimen.target()).components();
+        let footprints = footprints(&small, &large);
+        assert!(footprints.len() > 1000, "only {} texels are inside", footprints.len());
+        for ((name, coarse), (_, fine)) in coarse.iter().zip(&fine) {
+            // Normals are derivatives: `closed_forms` holds them.
+            if name.starts_with("normal") {
+                continue;
+            }
+            let [low, high] = extent(large.owned().map(|(index, _)| fine[index]));
+            let whole = range([low, high]);
+            // What half floats round.
+            let rounding = f64::from(low.abs().max(high.abs())) / 2048.0;
+            let difference = differences(&footprints, coarse, fine)[usize::from(is_exempt)];
+            if difference > TOLERANCE * whole + rounding {
+                return Err(format!(
+                    "{name} differs by {:.2} % of its range",
+                    100.0 * difference / whole
+                ));
+            }
+        }
+        Ok(())
+    });
+}

@@ -1,0 +1,77 @@
+//! No node knows about seams, and none shows one: read from both sides, a result agrees along every seam as well as
+//! texels inside a chart do.
+
+use sabi_tests::{OnMesh, range};
+
+use crate::specimens::{for_each, on_own_mesh};
+
+/// Kinds whose result itself jumps at the edges of the cube, each with its reason. The ball holds them.
+const JUMPS_ON_THE_CUBE: [(&str, &str); 1] = [("surface/direction", "the cube's normals turn at its edges")];
+
+/// Places looked at on each seam.
+const SAMPLES: u32 = 16;
+
+/// Largest and root mean square difference.
+fn spread(differences: impl Iterator<Item = f64>) -> [f64; 2] {
+    let (mut largest, mut sum, mut count) = (0.0_f64, 0.0, 0_u32);
+    for difference in differences {
+        largest = largest.max(difference.abs());
+        sum += difference * difference;
+        count += 1;
+    }
+    [largest, (sum / f64::from(count.max(1))).sqrt()]
+}
+
+/// Holds one component: along seams, and between neighbors inside of charts.
+fn hold(on_mesh: &OnMesh, name: &str, values: &[f32]) -> Result<(), String> {
+    let inside = spread(
+        on_mesh
+            .neighbors()
+            .into_iter()
+            .map(|(one, other)| f64::from(values[one]) - f64::from(values[other])),
+    );
+    let seams = on_mesh.seams();
+    assert!(!seams.is_empty(), "the model has no seams");
+    let along = spread(seams.iter().flat_map(|seam| {
+        (0..SAMPLES).map(move |sample| {
+            let along = (f64::from(sample) + 0.5) / f64::from(SAMPLES);
+            let side = |side: usize| on_mesh.bilinear(values, seam.triangles[side], seam.weights(side, along));
+            side(0) - side(1)
+        })
+    }));
+    // What half floats round.
+    let rounding = range(on_mesh.owned().map(|(index, _)| values[index])) / 1024.0;
+    for (what, at) in [("largest", 0), ("root mean square", 1)] {
+        if along[at] > inside[at] + rounding {
+            return Err(format!(
+                "the {what} difference of {name} is {:.5} over seams and {:.5} between neighbors",
+                along[at], inside[at]
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn hold_all(on_mesh: &mut OnMesh, target: &str) -> Result<(), String> {
+    let components = on_mesh.evaluate(target).components();
+    components
+        .iter()
+        // A tangent-space normal is told in the frame of its own chart.
+        .filter(|(name, _)| !name.starts_with("normal"))
+        .try_for_each(|(name, values)| hold(on_mesh, name, values))
+}
+
+#[test]
+fn no_node_shows_the_seams_of_turned_and_mirrored_charts() {
+    for_each(|specimen| {
+        if JUMPS_ON_THE_CUBE.iter().any(|(kind, _)| *kind == specimen.kind) {
+            return Ok(());
+        }
+        hold_all(&mut on_own_mesh(&specimen.coarse, "cube", 64), &specimen.target())
+    });
+}
+
+#[test]
+fn no_node_shows_the_seams_of_a_ball() {
+    for_each(|specimen| hold_all(&mut on_own_mesh(&specimen.coarse, "sphere", 128), &specimen.target()));
+}

@@ -1,0 +1,155 @@
+//! Every built-in kind in a graph of its own, each result of it by itself.
+
+use sabi_graph::PortType;
+use sabi_nodes::Library;
+use sabi_nodes::kind::{Input, InputDefault, Kind, Role};
+use sabi_tests::{OnMesh, project};
+use serde_json::{Map, Value, json};
+
+/// One result of one kind.
+pub(crate) struct Specimen {
+    /// Id of the kind.
+    pub(crate) kind: String,
+    /// The result's port.
+    pub(crate) port: String,
+    /// What it carries.
+    pub(crate) ty: PortType,
+    /// Whether it is the kind's first result.
+    pub(crate) is_first: bool,
+    /// A graph with everything connected that can be; the node is called `node`.
+    pub(crate) connected: String,
+    /// A graph in which only what must be connected is.
+    pub(crate) alone: String,
+    /// As `connected`, with a kind's `size` so large that the coarsest maps here carry it.
+    pub(crate) coarse: String,
+}
+
+impl Specimen {
+    /// The node and its port, as targets are written.
+    pub(crate) fn target(&self) -> String {
+        format!("node.{}", self.port)
+    }
+
+    /// What to call it in messages and files: the kind, and the port where it is not the first.
+    pub(crate) fn name(&self) -> String {
+        if self.is_first {
+            self.kind.clone()
+        } else {
+            format!("{}.{}", self.kind, self.port)
+        }
+    }
+}
+
+/// Every result of every built-in kind.
+pub(crate) fn specimens() -> Vec<Specimen> {
+    let library = Library::builtin();
+    let of_kind = |kind: &Kind| {
+        let graphs = [(true, 1.0), (false, 1.0), (true, 8.0)].map(|(is_full, size)| graph(kind, is_full, size));
+        let [connected, alone, coarse] = graphs;
+        let outputs = kind.outputs.iter().enumerate();
+        outputs
+            .map(|(at, output)| Specimen {
+                kind: kind.id.clone(),
+                port: output.name.clone(),
+                ty: output.ty,
+                is_first: at == 0,
+                connected: connected.clone(),
+                alone: alone.clone(),
+                coarse: coarse.clone(),
+            })
+            .collect::<Vec<_>>()
+    };
+    let all: Vec<Specimen> = library.kinds().flat_map(of_kind).collect();
+    assert!(all.len() >= 15, "only {} results were found", all.len());
+    all
+}
+
+/// A model of the project.
+pub(crate) fn own_mesh(name: &str) -> std::path::PathBuf {
+    project(&format!("assets/meshes/{name}.glb"))
+}
+
+/// The project's own model, at a size, with the graph of a specimen on it.
+pub(crate) fn on_own_mesh(graph: &str, mesh: &str, size: u32) -> OnMesh {
+    OnMesh::new(graph, &own_mesh(mesh), size)
+}
+
+/// Calls `check` for every specimen; all complaints together fail the test.
+pub(crate) fn for_each(mut check: impl FnMut(&Specimen) -> Result<(), String>) {
+    let complaints: Vec<String> = specimens()
+        .iter()
+        .filter_map(|specimen| Some(format!("{}: {}", specimen.name(), check(specimen).err()?)))
+        .collect();
+    assert!(complaints.is_empty(), "\n{}\n", complaints.join("\n"));
+}
+
+fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
+    let mut nodes = Map::new();
+    let mut inputs = Map::new();
+    for (seed, input) in (1..).zip(&kind.inputs) {
+        let must = input.default == InputDefault::Required;
+        // What stands for `at.position` is better than anything a test could connect.
+        let can = !matches!(input.default, InputDefault::Expression(_));
+        if must || (is_full && can) {
+            let id = format!("into_{}", input.name);
+            connect(&mut nodes, &id, input, seed);
+            inputs.insert(input.name.clone(), json!(id));
+        }
+    }
+    let mut params = Map::new();
+    let sized = kind
+        .params
+        .iter()
+        .find(|param| param.name == "size" && param.role == Role::Length);
+    if let Some(sabi_nodes::kind::ParamValue::Floats(default)) = sized.map(|param| &param.default)
+        && size != 1.0
+    {
+        params.insert("size".to_owned(), json!(f64::from(default[0]) * size));
+    }
+    nodes.insert(
+        "node".to_owned(),
+        json!({ "kind": kind.id, "inputs": inputs, "params": params }),
+    );
+    document(nodes)
+}
+
+/// A graph file of these nodes.
+pub(crate) fn document(nodes: Map<String, Value>) -> String {
+    json!({ "format": "sabi", "version": 1, "nodes": nodes }).to_string()
+}
+
+/// A soft noise that every size here carries.
+fn noise(seed: u32) -> Value {
+    json!({ "kind": "noise/simplex", "params": { "size": 0.8, "octaves": 2, "seed": seed } })
+}
+
+fn connect(nodes: &mut Map<String, Value>, id: &str, input: &Input, seed: u32) {
+    let noise_id = format!("{id}_noise");
+    match input.ty {
+        PortType::Mask => {
+            nodes.insert(id.to_owned(), noise(seed));
+        }
+        PortType::Color => {
+            nodes.insert(noise_id.clone(), noise(seed));
+            let stops = json!([[0.1, "#20304a"], [0.9, "#e0b070"]]);
+            nodes.insert(
+                id.to_owned(),
+                json!({ "kind": "color/gradient", "inputs": { "source": noise_id }, "params": { "stops": stops } }),
+            );
+        }
+        PortType::Vector => {
+            nodes.insert(id.to_owned(), json!({ "kind": "surface/position" }));
+        }
+        PortType::Material => {
+            nodes.insert(noise_id.clone(), noise(seed));
+            let params = json!({
+                "color": format!("#{:02x}8040", 60 * seed % 256), "roughness": 0.3, "metallic": 1, "height": 0.04,
+                "emission_on": true, "emission": "#402010",
+            });
+            nodes.insert(
+                id.to_owned(),
+                json!({ "kind": "effect/layer", "inputs": { "mask": noise_id }, "params": params }),
+            );
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! A result belongs to the surface, not to its unwrap: two unwraps of one cube give the same at the same points.
+
+use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad, extent, range};
+
+use crate::specimens::for_each;
+
+/// Right, up and out of each face of the cube.
+const FACES: [[[f32; 3]; 3]; 6] = [
+    [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+    [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]],
+    [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+    [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]],
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
+];
+
+/// Side of a face in UV: the same in both unwraps, since reaches may be counted in texels.
+const SIDE: f32 = 0.2;
+const SIZE: u32 = 320;
+
+/// A cube of one unit, its faces turned by these degrees, some mirrored.
+fn cube(turns: [(f32, bool); 6]) -> MadeMesh {
+    let face = |at: usize| {
+        let [right, up, out] = FACES[at];
+        let (degrees, is_mirrored) = turns[at];
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let center = [0.17 + 0.33 * (at % 3) as f32, 0.25 + 0.5 * (at / 3) as f32];
+        let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+        Quad {
+            corners: corners.map(|[x, y]| std::array::from_fn(|axis| 0.5 * out[axis] + x * right[axis] + y * up[axis])),
+            uvs: corners.map(|[x, y]| {
+                let x = if is_mirrored { -x } else { x };
+                let turned = [cosine * x - sine * y, -(sine * x + cosine * y)];
+                [center[0] + SIDE * turned[0], center[1] + SIDE * turned[1]]
+            }),
+        }
+    };
+    MeshFile::new((0..6).map(face).collect()).write()
+}
+
+/// Weights of points spread over a triangle, from edge to edge.
+fn points() -> Vec<[f64; 3]> {
+    let steps = 24;
+    (0..=steps)
+        .flat_map(|i| {
+            (0..=steps - i).map(move |j| {
+                let [a, b] = [i, j].map(|at| f64::from(at) / f64::from(steps));
+                [a, b, 1.0 - a - b]
+            })
+        })
+        .collect()
+}
+
+/// Results that jump, so that no two grids of texels agree, each with its reason.
+const EXEMPT: [(&str, &str); 5] = [
+    ("adjust/threshold", "its border is narrower than a texel"),
+    ("noise/cells.id", "a map of steps"),
+    ("noise/white", "a map of steps"),
+    ("noise/white.id", "a map of steps"),
+    ("surface/direction", "the cube's normals turn at its edges"),
+];
+
+/// How far inside of its face a point of the cube lies.
+fn depth(on_mesh: &OnMesh, triangle: u32, weights: [f64; 3]) -> f64 {
+    let mesh = &on_mesh.workpiece.prepared.model.mesh;
+    let corners = mesh.triangles[triangle as usize].map(|corner| mesh.positions[corner as usize]);
+    let mut away: [f64; 3] = std::array::from_fn(|axis| {
+        let parts = corners.iter().zip(weights);
+        parts
+            .map(|(corner, weight)| f64::from(corner[axis]) * weight)
+            .sum::<f64>()
+            .abs()
+    });
+    away.sort_by(f64::total_cmp);
+    0.5 - away[1]
+}
+
+/// Differences at equal points: root mean square everywhere, and the largest more than two texels inside of the faces.
+/// Over an edge of the cube a smooth function has a kink, of which no two grids of texels see the same.
+fn differences([one, other]: [&OnMesh; 2], [first, second]: [&[f32]; 2]) -> [f64; 2] {
+    let inside = 2.0 / f64::from(SIDE * SIZE as f32);
+    let (mut squares, mut largest, mut count) = (0.0, 0.0_f64, 0.0);
+    for triangle in 0..12 {
+        for weights in points() {
+            let difference = one.bilinear(first, triangle, weights) - other.bilinear(second, triangle, weights);
+            squares += difference * difference;
+            count += 1.0;
+            if depth(one, triangle, weights) > inside {
+                largest = largest.max(difference.abs());
+            }
+        }
+    }
+    [f64::sqrt(squares / count), largest]
+}
+
+fn two_unwraps() -> [MadeMesh; 2] {
+    let even = [
+        (0.0, false),
+        (90.0, false),
+        (0.0, true),
+        (180.0, false),
+        (0.0, false),
+        (270.0, true),
+    ];
+    let odd = [
+        (23.0, true),
+        (-41.0, false),
+        (77.0, false),
+        (12.0, true),
+        (-65.0, false),
+        (45.0, true),
+    ];
+    [cube(even), cube(odd)]
+}
+
+#[test]
+fn two_unwraps_give_the_same_at_the_same_points() {
+    let meshes = two_unwraps();
+    for_each(|specimen| {
+        if EXEMPT.iter().any(|(name, _)| *name == specimen.name()) {
+            return Ok(());
+        }
+        // A detail of about twenty texels: finer than that, no grid of texels is exact.
+        let graph = specimen.coarse.replace("\"size\":0.8", "\"size\":0.3");
+        let [mut one, mut other] = meshes.each_ref().map(|mesh| OnMesh::new(&graph, mesh.path(), SIZE));
+        let [first, second] = [&mut one, &mut other].map(|on_mesh| on_mesh.evaluate(&specimen.target()).components());
+        for ((name, first), (_, second)) in first.iter().zip(&second) {
+            // A tangent-space normal is told in the frame of its own chart.
+            if name.starts_with("normal") {
+                continue;
+            }
+            let [low, high] = extent(one.owned().map(|(index, _)| first[index]));
+            // What half floats round.
+            let rounding = f64::from(low.abs().max(high.abs())) / 2048.0;
+            let [rms, _] = differences([&one, &other], [first, second]);
+            if rms > 0.01 * range([low, high]) + rounding {
+                return Err(format!("{name} differs by {rms:.5}"));
+            }
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn smoothing_is_the_same_on_two_unwraps() {
+    let graph = r#"{ "format": "sabi", "version": 1, "nodes": {
+        "noise": { "kind": "noise/simplex", "params": { "size": 0.2, "octaves": 1 } },
+        "smooth": { "kind": "filter/smooth", "inputs": { "source": "noise" }, "params": { "steps": 16 } } } }"#;
+    let [mut one, mut other] = two_unwraps().map(|mesh| OnMesh::new(graph, mesh.path(), SIZE));
+    let [first, second] = [&mut one, &mut other].map(|on_mesh| on_mesh.evaluate("smooth").component("mask"));
+    let before = one.evaluate("noise").component("mask");
+    let owned = || one.owned().map(|(index, _)| index);
+    let removed = range(owned().map(|index| before[index] - first[index]));
+    assert!(removed > 0.2, "only {removed} was smoothed away");
+    let whole = range(owned().map(|index| first[index]));
+    let [rms, largest] = differences([&one, &other], [&first, &second]).map(|difference| difference / whole);
+    assert!(rms < 0.01 && largest < 0.01, "rms {rms}, largest {largest}");
+}

@@ -1,0 +1,155 @@
+//! Small models made in code, written as GLB.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// Four corners, counter-clockwise seen from outside, with texture coordinates (v grows downward).
+#[derive(Clone, Copy, Debug)]
+pub struct Quad {
+    /// Positions.
+    pub corners: [[f32; 3]; 4],
+    /// Texture coordinates.
+    pub uvs: [[f32; 2]; 4],
+}
+
+/// A model under construction; every quad is flat and has vertices of its own.
+#[derive(Clone, Debug, Default)]
+pub struct MeshFile {
+    /// Its faces.
+    pub quads: Vec<Quad>,
+    /// An encoded picture of base colors.
+    pub base_color: Option<Vec<u8>>,
+    /// An encoded normal map.
+    pub normal: Option<Vec<u8>>,
+}
+
+/// A model on disk, for as long as this lives.
+pub struct MadeMesh {
+    // Removed when this is dropped.
+    _folder: TempDir,
+    path: PathBuf,
+}
+
+impl MadeMesh {
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// The two chunks of a GLB while they grow.
+struct Chunks {
+    json: Value,
+    bytes: Vec<u8>,
+}
+
+impl Chunks {
+    fn push(&mut self, list: &str, member: Value) -> usize {
+        let list = self.json[list].as_array_mut().expect("a list");
+        list.push(member);
+        list.len() - 1
+    }
+
+    fn view(&mut self, bytes: &[u8]) -> usize {
+        let view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
+        self.bytes.extend(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        self.push("bufferViews", view)
+    }
+
+    fn floats<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
+        let bytes: Vec<u8> = values.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+        let view = self.view(&bytes);
+        let accessor =
+            json!({ "bufferView": view, "componentType": 5126, "count": values.len(), "type": format!("VEC{N}") });
+        self.push("accessors", accessor)
+    }
+
+    fn texture(&mut self, png: &[u8]) -> Value {
+        let view = self.view(png);
+        let image = self.push("images", json!({ "bufferView": view, "mimeType": "image/png" }));
+        json!({ "index": self.push("textures", json!({ "source": image })) })
+    }
+
+    fn glb(mut self) -> Vec<u8> {
+        self.json["buffers"] = json!([{ "byteLength": self.bytes.len() }]);
+        let mut text = self.json.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let mut file = b"glTF".to_vec();
+        for word in [2, 28 + text.len() + self.bytes.len(), text.len()] {
+            file.extend((word as u32).to_le_bytes());
+        }
+        file.extend(b"JSON");
+        file.extend(&text);
+        file.extend((self.bytes.len() as u32).to_le_bytes());
+        file.extend(b"BIN\0");
+        file.extend(&self.bytes);
+        file
+    }
+}
+
+fn normal([a, b, c, _]: [[f32; 3]; 4]) -> [f32; 3] {
+    let [a, b, c] = [a, b, c].map(glam::Vec3::from);
+    (b - a).cross(c - a).normalize().to_array()
+}
+
+impl MeshFile {
+    /// A model of these faces.
+    pub fn new(quads: Vec<Quad>) -> MeshFile {
+        MeshFile {
+            quads,
+            ..MeshFile::default()
+        }
+    }
+
+    /// The file's bytes.
+    pub fn glb(&self) -> Vec<u8> {
+        let mut file = Chunks {
+            json: json!({
+                "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+                "bufferViews": [], "accessors": [], "images": [], "textures": [],
+            }),
+            bytes: Vec::new(),
+        };
+        let positions: Vec<[f32; 3]> = self.quads.iter().flat_map(|quad| quad.corners).collect();
+        let normals: Vec<[f32; 3]> = self.quads.iter().flat_map(|quad| [normal(quad.corners); 4]).collect();
+        let uvs: Vec<[f32; 2]> = self.quads.iter().flat_map(|quad| quad.uvs).collect();
+        let indices: Vec<u16> = (0..self.quads.len() as u16)
+            .flat_map(|quad| [0, 1, 2, 0, 2, 3].map(|corner| 4 * quad + corner))
+            .collect();
+        let attributes = json!({
+            "POSITION": file.floats(&positions), "NORMAL": file.floats(&normals), "TEXCOORD_0": file.floats(&uvs),
+        });
+        let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+        let view = file.view(&bytes);
+        let accessor = json!({ "bufferView": view, "componentType": 5123, "count": indices.len(), "type": "SCALAR" });
+        let indices = file.push("accessors", accessor);
+        let mut material = json!({ "name": "made", "pbrMetallicRoughness": {} });
+        if let Some(png) = &self.base_color {
+            material["pbrMetallicRoughness"]["baseColorTexture"] = file.texture(png);
+        }
+        if let Some(png) = &self.normal {
+            material["normalTexture"] = file.texture(png);
+        }
+        file.json["materials"] = json!([material]);
+        file.json["meshes"] =
+            json!([{ "primitives": [{ "attributes": attributes, "indices": indices, "material": 0 }] }]);
+        for list in ["images", "textures"] {
+            if file.json[list].as_array().is_some_and(Vec::is_empty) {
+                file.json.as_object_mut().expect("an object").remove(list);
+            }
+        }
+        file.glb()
+    }
+
+    /// Writes the file to a folder of its own.
+    pub fn write(&self) -> MadeMesh {
+        let folder = tempfile::tempdir().expect("a folder for a model");
+        let path = folder.path().join("made.glb");
+        fs::write(&path, self.glb()).expect("the model's file");
+        MadeMesh { _folder: folder, path }
+    }
+}

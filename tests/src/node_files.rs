@@ -1,0 +1,49 @@
+//! Nodes that a test writes itself.
+
+use std::fs;
+use std::path::Path;
+
+use sabi_engine::Kinds;
+use tempfile::TempDir;
+
+/// A folder of node files, as an artist has one beside a graph.
+pub struct NodeFolder {
+    folder: TempDir,
+}
+
+impl NodeFolder {
+    /// A folder with these nodes: id and text.
+    pub fn new(nodes: &[(&str, &str)]) -> NodeFolder {
+        let folder = NodeFolder {
+            folder: tempfile::tempdir().expect("a folder for nodes"),
+        };
+        for (id, text) in nodes {
+            folder.write(id, text);
+        }
+        folder
+    }
+
+    /// Writes a node, new or changed.
+    pub fn write(&self, id: &str, text: &str) {
+        let path = self.folder.path().join(format!("{id}.wgsl"));
+        fs::create_dir_all(path.parent().expect("a category")).expect("the folder of the category");
+        fs::write(path, text).expect("the node's file");
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// The built-in kinds and these.
+    ///
+    /// # Panics
+    /// If one of them is faulty.
+    pub fn kinds(&self) -> Kinds {
+        let mut kinds = Kinds::builtin();
+        kinds.add_folder(self.path());
+        let faults: Vec<String> = kinds.faults.iter().map(ToString::to_string).collect();
+        assert!(faults.is_empty(), "{}", faults.join("\n"));
+        kinds
+    }
+}

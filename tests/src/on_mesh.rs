@@ -1,0 +1,219 @@
+//! A graph given as text, on a model, evaluated.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use sabi_engine::{
+    AdapterChoice, DEFAULT_BUDGET_BYTES, Fit, Kinds, ModelOptions, OpenGraph, Overrides, Prepared, Silent, Workpiece,
+    WorkpieceOptions,
+};
+use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
+use sabi_graph::{Document, FlatGraph, PortType};
+use sabi_nodes::kind::Channel;
+use sabi_nodes::link::Plane;
+use sabi_plan::{Mode, Plan, Target};
+
+use crate::device::device;
+
+const SUBMISSION: Duration = Duration::from_millis(200);
+
+/// A graph on a model.
+pub struct OnMesh {
+    /// The two, on the device that all tests share.
+    pub workpiece: Workpiece,
+    /// What kernels know of the surface, to compute places without them.
+    pub tables: SurfaceTables,
+}
+
+/// How something is evaluated.
+pub struct Asked<'c> {
+    /// How passes are cut.
+    pub mode: Mode,
+    /// Results of earlier evaluations.
+    pub cache: Option<&'c mut ResultCache>,
+}
+
+impl Asked<'static> {
+    /// As a bake does it.
+    pub fn baked() -> Asked<'static> {
+        Asked {
+            mode: Mode::Bake { fuse: true },
+            cache: None,
+        }
+    }
+}
+
+/// A node's result, for all texels of the atlas, page by page and row by row.
+pub struct Evaluated {
+    /// What it is.
+    pub ty: PortType,
+    /// Planes as they were stored.
+    pub planes: Vec<(Plane, PlaneData)>,
+    /// For a material with height or slope: tangent-space normals.
+    pub normals: Option<PlaneData>,
+    /// What ran.
+    pub report: RunReport,
+    /// What was planned.
+    pub plan: Plan,
+}
+
+/// Reads and flattens a graph.
+pub fn flat_graph(graph: &str) -> FlatGraph {
+    opened(graph)
+        .flatten(&Overrides::default())
+        .unwrap_or_else(|error| panic!("{error}\n{graph}"))
+}
+
+fn opened(graph: &str) -> OpenGraph {
+    OpenGraph {
+        path: PathBuf::from("test.sabi"),
+        document: Document::from_json(graph).unwrap_or_else(|error| panic!("{error}\n{graph}")),
+    }
+}
+
+impl OnMesh {
+    /// A graph of built-in kinds on a model, with `size` texels for one unit of UV.
+    pub fn new(graph: &str, mesh: &Path, size: u32) -> OnMesh {
+        OnMesh::with_kinds(graph, Kinds::builtin(), mesh, size)
+    }
+
+    /// A graph of these kinds on a model.
+    pub fn with_kinds(graph: &str, kinds: Kinds, mesh: &Path, size: u32) -> OnMesh {
+        let open = opened(graph);
+        let options = WorkpieceOptions {
+            model: ModelOptions::new(mesh, size),
+            overrides: Overrides::default(),
+            fit: None::<Fit>,
+            adapter: AdapterChoice::Cpu,
+            budget_bytes: DEFAULT_BUDGET_BYTES,
+        };
+        let prepared = Prepared::open(&options.model, &Silent).unwrap_or_else(|error| panic!("{error}"));
+        let tables = prepared.tables(&open.document.fit, open.document.seed);
+        let workpiece = Workpiece::assemble(&open, flat_graph(graph), kinds, prepared, device(), &options)
+            .unwrap_or_else(|error| panic!("{error}"));
+        OnMesh { workpiece, tables }
+    }
+
+    /// Puts another graph on the same model; its seed and fit must be those of the first.
+    pub fn set_graph(&mut self, graph: &str) {
+        self.workpiece.graph = flat_graph(graph);
+    }
+
+    /// Evaluates `id` or `id.port` as a bake does.
+    pub fn evaluate(&mut self, node: &str) -> Evaluated {
+        self.evaluate_as(node, Asked::baked())
+    }
+
+    /// Evaluates `id` or `id.port`.
+    pub fn evaluate_as(&mut self, node: &str, asked: Asked<'_>) -> Evaluated {
+        let target = self.target(node);
+        let limits = self.workpiece.gpu.limits();
+        let plan = self.workpiece.plan(&[target], asked.mode, limits);
+        let plan = plan.unwrap_or_else(|error| panic!("{node}: {error}"));
+        let mut run = self
+            .workpiece
+            .run(&plan, SUBMISSION, &Silent, asked.cache)
+            .unwrap_or_else(|error| panic!("{node}: {error}"));
+        let result = &plan.results[0];
+        let gpu = &self.workpiece.gpu;
+        let surface = &self.workpiece.surface;
+        let planes: Vec<(Plane, PlaneData)> = result
+            .stored
+            .planes()
+            .into_iter()
+            .zip(&result.slots)
+            .map(|(plane, slot)| (plane, gpu.read(surface, &plan, &run, *slot).expect("a result")))
+            .collect();
+        let slot = |channel| {
+            let at = planes
+                .iter()
+                .position(|(plane, _)| *plane == Plane::Material(channel))?;
+            Some(result.slots[at])
+        };
+        let (height, slope) = (slot(Channel::Height), slot(Channel::Slope));
+        let options = RunOptions {
+            submission: SUBMISSION,
+            is_canceled: &|| false,
+            progress: &|_, _| {},
+            budget_bytes: DEFAULT_BUDGET_BYTES,
+        };
+        let has_relief = height.is_some() || slope.is_some();
+        let normals = has_relief.then(|| {
+            gpu.normals(surface, &mut run, height, slope, &options)
+                .expect("normals")
+        });
+        Evaluated {
+            ty: result.stored.ty,
+            planes,
+            normals,
+            report: run.report,
+            plan,
+        }
+    }
+
+    fn target(&self, text: &str) -> Target {
+        let (id, port) = match text.split_once('.') {
+            Some((id, port)) => (id, Some(port.to_owned())),
+            None => (text, None),
+        };
+        let node = self.workpiece.graph.find(id);
+        Target {
+            node: node.unwrap_or_else(|| panic!("the graph has no node '{id}'")),
+            port,
+        }
+    }
+}
+
+impl Evaluated {
+    /// Each number of a texel by name, for all texels of the atlas. Texels that nothing covers hold anything.
+    pub fn components(&self) -> Vec<(String, Vec<f32>)> {
+        let mut components = Vec::new();
+        let planes = self.planes.iter().map(|(plane, data)| (names(*plane), data));
+        let normals = self.normals.iter().map(|data| (&NORMAL[..], data));
+        for (names, data) in planes.chain(normals) {
+            for (at, name) in names.iter().enumerate() {
+                let values = (0..data.len()).map(|index| data.texel(index)[at]).collect();
+                components.push(((*name).to_owned(), values));
+            }
+        }
+        components
+    }
+
+    /// One of them.
+    pub fn component(&self, name: &str) -> Vec<f32> {
+        let mut all = self.components().into_iter();
+        let found = all.find(|(own, _)| own == name);
+        found
+            .unwrap_or_else(|| panic!("the result has no component '{name}'"))
+            .1
+    }
+
+    /// The stored bytes of all planes: equal bytes mean equal results.
+    pub fn bytes(&self) -> Vec<u8> {
+        let planes = self.planes.iter().map(|(_, data)| data).chain(&self.normals);
+        planes.flat_map(|data| data.bytes().iter().copied()).collect()
+    }
+
+    /// Ids of the nodes that ran, in order.
+    pub fn ran(&self) -> Vec<String> {
+        let steps = self.report.steps.iter();
+        steps
+            .flat_map(|step| step.nodes.iter().map(|(id, _)| id.clone()))
+            .collect()
+    }
+}
+
+const NORMAL: [&str; 3] = ["normal.x", "normal.y", "normal.z"];
+
+fn names(plane: Plane) -> &'static [&'static str] {
+    match plane {
+        Plane::Mask => &["mask"],
+        Plane::Color => &["color.r", "color.g", "color.b"],
+        Plane::Vector => &["vector.x", "vector.y", "vector.z"],
+        Plane::Material(Channel::Color) => &["base_color.r", "base_color.g", "base_color.b", "alpha"],
+        Plane::Material(Channel::Surface) => &["roughness", "metallic", "occlusion"],
+        Plane::Material(Channel::Height) => &["height"],
+        Plane::Material(Channel::Slope) => &["slope.x", "slope.y", "slope.z"],
+        Plane::Material(Channel::Emission) => &["emission.r", "emission.g", "emission.b"],
+    }
+}
