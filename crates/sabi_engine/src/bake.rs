@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Padding, SetKey, SetLayout, SetOptions, preset, set_keys, set_names};
+use sabi_export::{BakeWriter, Padding, SetKey, SetOptions, preset, set_keys, set_names};
 use sabi_gpu::{Run, RunOptions};
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 use serde_json::{Map, Value as Json, json};
@@ -164,7 +164,7 @@ fn texture_sets<'p>(
             masks: masks
                 .map(|result| (mask_name(&workpiece.graph.nodes[result.target.node]), result))
                 .collect(),
-            layout: SetLayout::new(&workpiece.prepared.atlas, key),
+            key,
             name,
         }
     };

@@ -1,8 +1,8 @@
 //! Results become maps: read back, brought into the model's own layout, and written.
 
-use rayon::prelude::*;
 use sabi_export::{
-    AtlasTexels, BakeWriter, Channel, ConstantRecord, OutputRecord, Padding, PaddingMap, SetLayout, SetOptions,
+    BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, Padding, PaddingMap, SetKey, SetLayout,
+    SetOptions,
 };
 use sabi_gpu::{PlaneData, Run, RunOptions};
 use sabi_graph::PortType;
@@ -16,8 +16,8 @@ use crate::workpiece::{Workpiece, stop_if_canceled};
 
 /// One texture set: which results go into it.
 pub(crate) struct SetWork<'p> {
-    /// Where its pixels come from.
-    pub(crate) layout: SetLayout,
+    /// Which set.
+    pub(crate) key: SetKey,
     /// Stem of its files.
     pub(crate) name: String,
     /// The material, if an output serves it.
@@ -36,7 +36,7 @@ pub(crate) struct WrittenMaps {
     pub(crate) finish_passes: usize,
 }
 
-/// Writes the maps of texture sets, one set and one plane at a time.
+/// Writes the maps of texture sets, one plane at a time.
 pub(crate) struct MapWriter<'a> {
     pub(crate) workpiece: &'a Workpiece,
     pub(crate) plan: &'a Plan,
@@ -45,72 +45,10 @@ pub(crate) struct MapWriter<'a> {
     pub(crate) run_options: RunOptions<'a>,
 }
 
-/// Texels as floats, with the number of values a texel.
-struct Texels {
-    data: Vec<f32>,
-    stride: usize,
-}
-
-impl Texels {
-    fn new(plane: &PlaneData, stride: usize, scale: f32) -> Texels {
-        let mut data = vec![0.0_f32; plane.len() * stride];
-        data.par_chunks_mut(stride)
-            .enumerate()
-            .with_min_len(4096)
-            .for_each(|(index, values)| {
-                for (value, stored) in values.iter_mut().zip(plane.texel(index)) {
-                    *value = stored * scale;
-                }
-            });
-        Texels { data, stride }
-    }
-}
-
-impl MapWriter<'_> {
-    /// Writes all sets under temporary names.
-    pub(crate) fn write(
-        &self,
-        run: &mut Run,
-        sets: &[SetWork<'_>],
-        writer: &mut BakeWriter,
-        progress: &dyn Progress,
-    ) -> Result<WrittenMaps, EngineError> {
-        let mut written = WrittenMaps::default();
-        for (done, set) in sets.iter().enumerate() {
-            progress.advance(Stage::Encode, done, sets.len());
-            let padding = PaddingMap::new(&set.layout, self.padding);
-            let mut maps = SetMaps {
-                from: self,
-                set,
-                padding,
-                writer: &mut *writer,
-                written: &mut written,
-            };
-            if let Some(result) = set.material {
-                maps.material(run, result, progress)?;
-            }
-            for (name, result) in &set.masks {
-                stop_if_canceled(progress)?;
-                maps.mask(run, name, result)?;
-            }
-        }
-        progress.advance(Stage::Encode, sets.len(), sets.len());
-        Ok(written)
-    }
-
-    fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
-        Ok(self.workpiece.gpu.read(&self.workpiece.surface, self.plan, run, slot)?)
-    }
-}
-
-/// One texture set on its way to disk.
-struct SetMaps<'a> {
-    from: &'a MapWriter<'a>,
-    set: &'a SetWork<'a>,
-    padding: PaddingMap,
-    writer: &'a mut BakeWriter,
-    written: &'a mut WrittenMaps,
-}
+/// Layouts and padding of sets that are written together take at most about this much.
+const LAYOUT_BUDGET_BYTES: usize = 1 << 30;
+/// A layout's source and cover, and the padding's source.
+const LAYOUT_PIXEL_BYTES: usize = 9;
 
 /// Stored channels, and for each the exported ones with the first of their values in a texel.
 const MAPS: [(Stored, &[(Channel, usize)]); 4] = [
@@ -123,73 +61,167 @@ const MAPS: [(Stored, &[(Channel, usize)]); 4] = [
     (Stored::Emission, &[(Channel::Emission, 0)]),
 ];
 
-impl SetMaps<'_> {
-    fn material(&mut self, run: &mut Run, result: &PlannedResult, progress: &dyn Progress) -> Result<(), EngineError> {
+impl MapWriter<'_> {
+    /// Writes all sets under temporary names. A plane is read back once for all sets that fit into memory together.
+    pub(crate) fn write(
+        &self,
+        run: &mut Run,
+        sets: &[SetWork<'_>],
+        writer: &mut BakeWriter,
+        progress: &dyn Progress,
+    ) -> Result<WrittenMaps, EngineError> {
+        let atlas = &self.workpiece.prepared.atlas;
+        let set_bytes = (atlas.size as usize).pow(2) * LAYOUT_PIXEL_BYTES;
+        let mut maps = Maps {
+            from: self,
+            writer,
+            written: WrittenMaps::default(),
+            done: 0,
+            of: 0,
+            progress,
+        };
+        maps.of = sets
+            .iter()
+            .map(|set| set.masks.len() + set.material.map_or(0, |_| MAPS.len() + 1))
+            .sum();
+        for together in sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)) {
+            let open: Vec<OpenSet<'_>> = together
+                .iter()
+                .map(|work| {
+                    let layout = SetLayout::new(atlas, work.key);
+                    OpenSet {
+                        work,
+                        padding: PaddingMap::new(&layout, self.padding),
+                        layout,
+                    }
+                })
+                .collect();
+            for result in &self.plan.results {
+                maps.material(run, result, &open)?;
+                maps.masks(run, result, &open)?;
+            }
+        }
+        let mut written = maps.written;
+        // Planes were read one after the other; a reader of the report wants one set after the other.
+        written
+            .outputs
+            .sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
+        written
+            .constants
+            .sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
+        Ok(written)
+    }
+
+    fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
+        Ok(self.workpiece.gpu.read(&self.workpiece.surface, self.plan, run, slot)?)
+    }
+}
+
+/// A texture set with its layout at hand.
+struct OpenSet<'a> {
+    work: &'a SetWork<'a>,
+    layout: SetLayout,
+    padding: PaddingMap,
+}
+
+/// Maps on their way to disk.
+struct Maps<'a> {
+    from: &'a MapWriter<'a>,
+    writer: &'a mut BakeWriter,
+    written: WrittenMaps,
+    done: usize,
+    of: usize,
+    progress: &'a dyn Progress,
+}
+
+impl Maps<'_> {
+    /// The maps of all sets that a material result serves.
+    fn material(&mut self, run: &mut Run, result: &PlannedResult, sets: &[OpenSet<'_>]) -> Result<(), EngineError> {
+        let is_served = |set: &&OpenSet<'_>| set.work.material.is_some_and(|served| std::ptr::eq(served, result));
+        let sets: Vec<&OpenSet<'_>> = sets.iter().filter(is_served).collect();
+        if sets.is_empty() {
+            return Ok(());
+        }
         let workpiece = self.from.workpiece;
         let slot = |channel| slot_of(result, Plane::Material(channel));
         let model_from_working = (1.0 / workpiece.prepared.working_from_model(&workpiece.fit)) as f32;
         for (stored, channels) in MAPS {
-            stop_if_canceled(progress)?;
             let scale = if stored == Stored::Height {
                 model_from_working
             } else {
                 1.0
             };
-            let stride = channels
-                .iter()
-                .map(|(channel, first)| first + channel.components())
-                .max()
-                .unwrap_or(1);
-            let texels = match slot(stored) {
-                Some(slot) => Some(Texels::new(&self.from.read(run, slot)?, stride, scale)),
-                None => None,
-            };
-            for (channel, first) in channels {
-                self.channel(channel, texels.as_ref(), *first)?;
+            let plane = slot(stored).map(|slot| self.from.read(run, slot)).transpose()?;
+            for set in &sets {
+                for (channel, first) in channels {
+                    self.channel(set, channel, plane.as_ref(), *first, |[x, y, z, w]| {
+                        [x * scale, y * scale, z * scale, w * scale]
+                    })?;
+                }
+                self.advance()?;
             }
         }
         let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));
-        let normals = if height.is_some() || slope.is_some() {
+        let mut normals = None;
+        if height.is_some() || slope.is_some() {
             self.written.finish_passes += 1;
-            let plane = workpiece
-                .gpu
-                .normals(&workpiece.surface, run, height, slope, &self.from.run_options)?;
-            Some(Texels::new(&plane, 3, 1.0))
-        } else {
-            None
-        };
-        self.channel(&Channel::Normal, normals.as_ref(), 0)
+            let gpu = &workpiece.gpu;
+            normals = Some(gpu.normals(&workpiece.surface, run, height, slope, &self.from.run_options)?);
+        }
+        for set in &sets {
+            self.channel(set, &Channel::Normal, normals.as_ref(), 0, |normal| normal)?;
+            self.advance()?;
+        }
+        Ok(())
     }
 
-    fn mask(&mut self, run: &Run, name: &str, result: &PlannedResult) -> Result<(), EngineError> {
-        let texels = match result.slots.first() {
-            Some(slot) => Some(gray(&self.from.read(run, *slot)?, result.stored.ty == PortType::Color)),
-            None => None,
-        };
-        self.channel(&Channel::Mask(name.to_owned()), texels.as_ref(), 0)
+    /// The maps that mask outputs add to every set.
+    fn masks(&mut self, run: &Run, result: &PlannedResult, sets: &[OpenSet<'_>]) -> Result<(), EngineError> {
+        let mut plane = None;
+        for set in sets {
+            let named = set.work.masks.iter().filter(|(_, mask)| std::ptr::eq(*mask, result));
+            for (name, _) in named {
+                if let (None, Some(slot)) = (&plane, result.slots.first()) {
+                    plane = Some(self.from.read(run, *slot)?);
+                }
+                let is_color = result.stored.ty == PortType::Color;
+                let gray = |[r, g, b, _]: [f32; 4]| if is_color { [luminance([r, g, b]); 4] } else { [r; 4] };
+                self.channel(set, &Channel::Mask(name.clone()), plane.as_ref(), 0, gray)?;
+                self.advance()?;
+            }
+        }
+        Ok(())
     }
 
-    /// Writes one channel; without texels, what the channel is where nothing sets it.
-    fn channel(&mut self, channel: &Channel, texels: Option<&Texels>, first: usize) -> Result<(), EngineError> {
-        let none = Texels {
-            data: Vec::new(),
-            stride: channel.components(),
+    fn advance(&mut self) -> Result<(), EngineError> {
+        self.done += 1;
+        self.progress.advance(Stage::Encode, self.done, self.of);
+        stop_if_canceled(self.progress)
+    }
+
+    /// Writes one channel; without a plane, what the channel is where nothing sets it.
+    fn channel(
+        &mut self,
+        set: &OpenSet<'_>,
+        channel: &Channel,
+        plane: Option<&PlaneData>,
+        first: usize,
+        value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
+    ) -> Result<(), EngineError> {
+        let pixels = match plane {
+            Some(plane) => set
+                .padding
+                .gather(&set.layout, channel, first, |index| value(plane.texel(index))),
+            None => ChannelPixels::neutral(channel, set.padding.source.len()),
         };
-        let texels = texels.unwrap_or(&none);
-        let from = AtlasTexels {
-            data: &texels.data,
-            stride: texels.stride,
-            first,
-        };
-        let pixels = self.padding.gather(&self.set.layout, channel, from);
-        let mut set = self.writer.set(&self.set.layout, &self.set.name, &self.from.options);
-        let done = set.channel(channel, pixels)?;
+        let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
+        let done = writer.channel(channel, pixels)?;
         if done.not_finite > 0 {
             self.written.warnings.push(format!(
                 "{} values of {} in '{}' were no numbers and were replaced; look for a division by zero in the graph",
                 done.not_finite,
                 channel.name(),
-                self.set.name
+                set.work.name
             ));
         }
         self.written.outputs.extend(done.outputs);
@@ -204,18 +236,7 @@ pub(crate) fn slot_of(result: &PlannedResult, plane: Plane) -> Option<SlotRef> {
     result.slots.get(at).copied()
 }
 
-/// A mask as it is, or the luminance of a color (Rec. 709), as `lib/core.wgsl` has it.
-fn gray(plane: &PlaneData, is_color: bool) -> Texels {
-    let data = (0..plane.len()).into_par_iter().with_min_len(4096).map(|index| {
-        let [r, g, b, _] = plane.texel(index);
-        if is_color {
-            0.2126 * r + 0.7152 * g + 0.0722 * b
-        } else {
-            r
-        }
-    });
-    Texels {
-        data: data.collect(),
-        stride: 1,
-    }
+/// Luminance of a linear color (Rec. 709), as `lib/core.wgsl` has it.
+fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
 }

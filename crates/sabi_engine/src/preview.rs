@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{AtlasTexels, Channel, Padding, PaddingMap, SetLayout, Staging, set_keys};
+use sabi_export::{Channel, Padding, PaddingMap, SetLayout, Staging, set_keys};
 use sabi_graph::{PortType, nearest};
 use sabi_image::{PngData, PngOptions, encode_exr, encode_png, quantize_u8, srgb8_from_linear};
 use sabi_nodes::kind::Channel as Stored;
@@ -67,11 +67,18 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
         return Err(EngineError::new(ErrorKind::Usage, why));
     };
     let layout = SetLayout::new(&workpiece.prepared.atlas, key);
+    let padding = PaddingMap::new(&layout, Padding::Texels(4));
     let planes = shown_planes(result).into_iter().map(|(name, plane, components)| {
         let slot = slot_of(result, plane).ok_or_else(|| EngineError::new(ErrorKind::BadInput, "nothing to see"))?;
         let data = workpiece.gpu.read(&workpiece.surface, &plan, &run, slot)?;
-        let texels: Vec<f32> = (0..data.len()).flat_map(|index| data.texel(index)).collect();
-        Ok((name, gathered(&layout, &texels, components)))
+        let one = |first| {
+            padding
+                .gather(&layout, &Channel::Mask(String::new()), first, |index| data.texel(index))
+                .data
+        };
+        let parts: Vec<Vec<f32>> = (0..components).map(one).collect();
+        let pixels = (0..padding.source.len()).flat_map(|pixel| parts.iter().map(move |part| part[pixel]));
+        Ok((name, pixels.collect()))
     });
     let planes: Vec<(&str, Vec<f32>)> = planes.collect::<Result<_, EngineError>>()?;
     let bytes = if is_exact {
@@ -133,30 +140,6 @@ fn shown_planes(result: &PlannedResult) -> Vec<(&'static str, Plane, usize)> {
             Plane::Material(Stored::Slope) => ("slope.", plane, 3),
             Plane::Material(Stored::Emission) => ("emission.", plane, 3),
         })
-        .collect()
-}
-
-/// A plane in the layout of a texture set, four values a pixel in, `components` out.
-fn gathered(layout: &SetLayout, texels: &[f32], components: usize) -> Vec<f32> {
-    let padding = PaddingMap::new(layout, Padding::Texels(4));
-    let channel = Channel::Mask(String::new());
-    let parts: Vec<Vec<f32>> = (0..components)
-        .map(|first| {
-            padding
-                .gather(
-                    layout,
-                    &channel,
-                    AtlasTexels {
-                        data: texels,
-                        stride: 4,
-                        first,
-                    },
-                )
-                .data
-        })
-        .collect();
-    (0..padding.source.len())
-        .flat_map(|pixel| parts.iter().map(move |part| part[pixel]))
         .collect()
 }
 

@@ -107,6 +107,17 @@ pub struct ChannelPixels {
     pub data: Vec<f32>,
 }
 
+impl ChannelPixels {
+    /// So many pixels of what the channel is where nothing sets it.
+    pub fn neutral(channel: &Channel, pixels: usize) -> ChannelPixels {
+        let components = channel.components();
+        ChannelPixels {
+            components,
+            data: channel.neutral().repeat(pixels),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

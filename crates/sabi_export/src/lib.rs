@@ -21,7 +21,7 @@ pub use constant::{Value, constant_value};
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use names::{file_stem, set_names};
-pub use padding::{AtlasTexels, Padding, PaddingMap};
+pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, OutputRecord};
 pub use staging::Staging;
 pub use write::{BakeWriter, Committed, SetOptions, SetWriter, Written};

@@ -23,17 +23,6 @@ pub struct PaddingMap {
     pub source: Vec<u32>,
 }
 
-/// A channel as it lies on the atlas: some of the values of each texel.
-#[derive(Clone, Copy, Debug)]
-pub struct AtlasTexels<'a> {
-    /// Values of all texels, page by page and row by row.
-    pub data: &'a [f32],
-    /// Values from one texel to the next.
-    pub stride: usize,
-    /// Which of a texel's values is the first of the channel.
-    pub first: usize,
-}
-
 impl PaddingMap {
     /// The exact nearest covered pixel by Euclidean distance, in two passes of whole numbers (Meijster 2000). Of pixels
     /// equally near, the left column is taken, and in a column the upper one, whatever the number of threads.
@@ -66,25 +55,32 @@ impl PaddingMap {
     }
 
     /// A channel of the set, taken from the atlas: covered pixels are exact copies of their texels, padding repeats them.
-    pub fn gather(&self, layout: &SetLayout, channel: &Channel, texels: AtlasTexels<'_>) -> ChannelPixels {
-        let components = channel.components();
-        let neutral = channel.neutral();
-        let mut data = vec![0.0; self.source.len() * components];
-        data.par_chunks_mut(components)
+    ///
+    /// `texel` gives the values of an atlas texel, of which the channel's begin at `first`; those that a texel does not
+    /// have are the channel's neutral ones.
+    pub fn gather(
+        &self,
+        layout: &SetLayout,
+        channel: &Channel,
+        first: usize,
+        texel: impl Fn(usize) -> [f32; 4] + Sync,
+    ) -> ChannelPixels {
+        let mut pixels = ChannelPixels::neutral(channel, self.source.len());
+        let components = pixels.components;
+        pixels
+            .data
+            .par_chunks_mut(components)
             .zip(&self.source)
             .with_min_len(4096)
             .for_each(|(values, &pixel)| {
-                let texel = layout
-                    .source
-                    .get(pixel as usize)
-                    .map_or(usize::MAX, |&texel| texel as usize);
-                let start = texel
-                    .checked_mul(texels.stride)
-                    .and_then(|start| start.checked_add(texels.first));
-                let found = start.and_then(|start| texels.data.get(start..start.checked_add(components)?));
-                values.copy_from_slice(found.unwrap_or(neutral));
+                let from = layout.source.get(pixel as usize).filter(|&&from| from != NONE);
+                if let Some(&from) = from {
+                    for (value, stored) in values.iter_mut().zip(texel(from as usize).into_iter().skip(first)) {
+                        *value = stored;
+                    }
+                }
             });
-        ChannelPixels { components, data }
+        pixels
     }
 
     /// Fills what no chart covers of a channel that is already laid out as the set is.
@@ -258,13 +254,8 @@ mod tests {
         let covered: Vec<bool> = (0..64).map(|i| i == 9).collect();
         let layout = layout(8, &covered);
         let map = PaddingMap::new(&layout, Padding::Texels(1));
-        let texels: Vec<f32> = (0..64 * 4).map(|i| i as f32).collect();
-        let texels = AtlasTexels {
-            data: &texels,
-            stride: 4,
-            first: 1,
-        };
-        let normal = map.gather(&layout, &Channel::Normal, texels);
+        let texel = |at: usize| std::array::from_fn(|value| (4 * at + value) as f32);
+        let normal = map.gather(&layout, &Channel::Normal, 1, texel);
         assert_eq!(normal.data[27..30], [37.0, 38.0, 39.0]);
         assert_eq!(normal.data[30..33], [37.0, 38.0, 39.0]);
         assert_eq!(normal.data[33..36], [0.0, 0.0, 1.0]);

@@ -4,7 +4,7 @@ use sabi_image::{Declared, Pixels, decode};
 
 use super::*;
 use crate::layout::{layouts, tests::atlas};
-use crate::{AtlasTexels, Padding, PaddingMap, Value};
+use crate::{Padding, PaddingMap, Value};
 
 const SIZE: u32 = 32;
 
@@ -21,12 +21,12 @@ fn pixels(channel: &Channel, value: impl Fn(usize) -> f32) -> ChannelPixels {
     let components = channel.components();
     let texels: Vec<f32> = (0..(SIZE * SIZE) as usize * components).map(value).collect();
     let layout = layout();
-    let texels = AtlasTexels {
-        data: &texels,
-        stride: components,
-        first: 0,
+    let texel = |at: usize| {
+        let mut values = [0.0; 4];
+        values[..components].copy_from_slice(&texels[at * components..][..components]);
+        values
     };
-    PaddingMap::new(&layout, Padding::Infinite).gather(&layout, channel, texels)
+    PaddingMap::new(&layout, Padding::Infinite).gather(&layout, channel, 0, texel)
 }
 
 fn wavy(index: usize) -> f32 {
