@@ -96,7 +96,8 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         ) / volume;
     }
     encoded = unit_or(encoded, vec3f(0.0, 0.0, 1.0));
-    // Rounding noise must not tilt a flat map.
+    // Rounding noise must not tilt a flat map, nor shorten its normals.
     encoded = select(encoded, vec3f(0.0), abs(encoded) < vec3f(2e-6));
+    encoded = select(encoded, vec3f(0.0, 0.0, 1.0), all(encoded.xy == vec2f(0.0)) && encoded.z > 0.0);
     textureStore(normals, texel.xy, texel.z, vec4f(encoded, 1.0));
 }
