@@ -1,1 +1,8 @@
-//! Closed forms: results whose value is known without a program.
+//! Closed forms: results whose value is known without running a kernel.
+
+mod cells;
+mod noise;
+mod reexport;
+mod relief;
+mod relief_seams;
+mod waves;

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-use sabi_export::{AtlasTexels, Channel, Padding, PaddingMap, SetLayout, set_keys};
+use sabi_export::{Cover, SetLayout, set_keys};
 use sabi_graph::PortType;
 use sabi_image::{PngData, PngOptions, decode, encode_png, quantize_u8, srgb8_from_linear};
 use sabi_tests::{Evaluated, OnMesh, project};
@@ -63,16 +63,18 @@ impl Sheet {
     }
 }
 
-/// A result in the model's own layout, as maps are exported.
+/// A result in the model's own layout; 0 where no chart lies.
 fn in_layout(on_mesh: &OnMesh, values: &[f32]) -> Vec<f32> {
     let layout = SetLayout::new(on_mesh.atlas(), set_keys(on_mesh.atlas())[0]);
-    let padding = PaddingMap::new(&layout, Padding::Texels(0));
-    let texels = AtlasTexels {
-        data: values,
-        stride: 1,
-        first: 0,
+    let pixels = layout.source.iter().zip(&layout.cover);
+    let value = |(source, cover): (&u32, &Cover)| {
+        if *cover == Cover::Owned {
+            values[*source as usize]
+        } else {
+            0.0
+        }
     };
-    padding.gather(&layout, &Channel::Mask(String::new()), texels).data
+    pixels.map(value).collect()
 }
 
 /// Three components of a result as 8-bit samples, each passed through `code`.

@@ -1,9 +1,11 @@
 //! No node knows about seams, and none shows one: read from both sides, a result agrees along every seam as well as
 //! texels inside a chart do.
 
+use sabi_engine::Kinds;
+use sabi_surface::atlas::Ghost;
 use sabi_tests::{OnMesh, range};
 
-use crate::specimens::{for_each, on_own_mesh};
+use crate::specimens::{for_each, on_own_mesh, own_mesh, specimens};
 
 /// Kinds whose result itself jumps at the edges of the cube, each with its reason. The ball holds them.
 const JUMPS_ON_THE_CUBE: [(&str, &str); 1] = [("surface/direction", "the cube's normals turn at its edges")];
@@ -74,4 +76,30 @@ fn no_node_shows_the_seams_of_turned_and_mirrored_charts() {
 #[test]
 fn no_node_shows_the_seams_of_a_ball() {
     for_each(|specimen| hold_all(&mut on_own_mesh(&specimen.coarse, "sphere", 128), &specimen.target()));
+}
+
+/// The cube with links that lead to the wrong places: each ghost has that of another one.
+fn torn(graph: &str) -> OnMesh {
+    OnMesh::on(graph, Kinds::builtin(), &own_mesh("cube"), 64, |prepared| {
+        let ghosts = &mut prepared.atlas.ghosts;
+        let links: Vec<Ghost> = ghosts.clone();
+        for (ghost, link) in ghosts.iter_mut().zip(links.iter().cycle().skip(101)) {
+            ghost.target_triangle = link.target_triangle;
+            ghost.target_texel = link.target_texel;
+        }
+    })
+}
+
+#[test]
+fn links_that_lead_to_the_wrong_places_are_seen() {
+    let seen = ["noise/simplex", "filter/smooth", "surface/position", "effect/layer"];
+    let all = specimens();
+    for specimen in all.iter().filter(|specimen| seen.contains(&specimen.kind.as_str())) {
+        let held = hold_all(&mut torn(&specimen.coarse), &specimen.target());
+        assert!(
+            held.is_err(),
+            "{} shows no seam where every one is torn",
+            specimen.name()
+        );
+    }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sabi_engine::{
-    AdapterChoice, DEFAULT_BUDGET_BYTES, Fit, Kinds, ModelOptions, OpenGraph, Overrides, Prepared, Silent, Workpiece,
+    AdapterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Prepared, Silent, Workpiece,
     WorkpieceOptions,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
@@ -79,15 +79,21 @@ impl OnMesh {
 
     /// A graph of these kinds on a model.
     pub fn with_kinds(graph: &str, kinds: Kinds, mesh: &Path, size: u32) -> OnMesh {
+        OnMesh::on(graph, kinds, mesh, size, |_| {})
+    }
+
+    /// A graph of these kinds on a model whose atlas was tampered with.
+    pub fn on(graph: &str, kinds: Kinds, mesh: &Path, size: u32, tamper: impl FnOnce(&mut Prepared)) -> OnMesh {
         let open = opened(graph);
         let options = WorkpieceOptions {
             model: ModelOptions::new(mesh, size),
             overrides: Overrides::default(),
-            fit: None::<Fit>,
+            fit: None,
             adapter: AdapterChoice::Cpu,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         };
-        let prepared = Prepared::open(&options.model, &Silent).unwrap_or_else(|error| panic!("{error}"));
+        let mut prepared = Prepared::open(&options.model, &Silent).unwrap_or_else(|error| panic!("{error}"));
+        tamper(&mut prepared);
         let tables = prepared.tables(&open.document.fit, open.document.seed);
         let workpiece = Workpiece::assemble(&open, flat_graph(graph), kinds, prepared, device(), &options)
             .unwrap_or_else(|error| panic!("{error}"));
