@@ -6,6 +6,7 @@ mod disk;
 mod exit;
 mod mistake;
 mod progress;
+mod quiet_driver;
 mod report_file;
 mod terminal;
 
@@ -21,6 +22,7 @@ use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
 fn main() -> ExitCode {
+    quiet_driver::start_again_if_needed();
     ExitCode::from(mistake::caught(start) as u8)
 }
 

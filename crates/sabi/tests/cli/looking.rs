@@ -157,3 +157,13 @@ fn any_result_can_be_looked_at() {
         assert_eq!((run.stdout.as_str(), run.stderr), ("", format!("error: {words}\n")));
     }
 }
+
+#[test]
+fn a_machine_without_a_desktop_hears_no_error_of_the_driver() {
+    let place = Place::new();
+    let mut command = place.command(&["doctor"]);
+    command.env_remove("XDG_RUNTIME_DIR").env_remove("NODEVICE_SELECT");
+    let output = command.output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert!(output.status.success());
+}
