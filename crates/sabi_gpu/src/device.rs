@@ -124,15 +124,23 @@ pub(crate) struct Complaints {
 impl Complaints {
     fn put(&self, error: GpuError) {
         if let Ok(mut first) = self.first.lock() {
-            first.get_or_insert(error);
+            // A loss is the cause of what else is said.
+            if first.is_none() || matches!(error, GpuError::Lost(_)) {
+                *first = Some(error);
+            }
         }
     }
 
+    /// The first complaint since the last call; a loss is told at every call, since nothing heals it.
     fn take(&self) -> Result<(), GpuError> {
-        match self.first.lock().ok().and_then(|mut first| first.take()) {
-            Some(error) => Err(error),
-            None => Ok(()),
-        }
+        let Ok(mut first) = self.first.lock() else {
+            return Ok(());
+        };
+        let error = match &*first {
+            Some(GpuError::Lost(message)) => Some(GpuError::Lost(message.clone())),
+            _ => first.take(),
+        };
+        error.map_or(Ok(()), Err)
     }
 }
 
@@ -194,11 +202,7 @@ impl Gpu {
         let (device, queue) = opened.map_err(|error| unfit(error.to_string()))?;
         let complaints = Arc::new(Complaints::default());
         let lost = complaints.clone();
-        device.set_device_lost_callback(move |reason, message| {
-            if reason != wgpu::DeviceLostReason::Destroyed {
-                lost.put(GpuError::Lost(message));
-            }
-        });
+        device.set_device_lost_callback(move |_, message| lost.put(GpuError::Lost(message)));
         let uncaptured = complaints.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             uncaptured.put(driver_error(error, "a result"))
@@ -241,10 +245,12 @@ impl Gpu {
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let made = make(&self.device);
         let errors = [pollster::block_on(validation.pop()), pollster::block_on(memory.pop())];
-        match errors.into_iter().flatten().next() {
-            Some(error) => Err(driver_error(error, what)),
-            None => Ok(made),
+        if let Some(error) = errors.into_iter().flatten().next() {
+            return Err(driver_error(error, what));
         }
+        // A device that is lost takes everything without a word; only its own report tells.
+        self.complaints.take()?;
+        Ok(made)
     }
 }
 
@@ -252,5 +258,34 @@ fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
     match error {
         wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory { what: what.to_owned() },
         other => GpuError::Driver(other.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AdapterChoice, Gpu, GpuError};
+    use crate::pool::texture;
+    use sabi_nodes::link::Format;
+
+    #[test]
+    fn a_device_that_is_gone_is_an_error_and_no_panic() {
+        let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
+        let gpu = Gpu::open(&AdapterChoice::Cpu).expect(install);
+        assert!(texture(&gpu, [8, 8, 1], Format::R32Float).is_ok());
+        gpu.device.destroy();
+        let made = texture(&gpu, [8, 8, 1], Format::R32Float);
+        let error = made
+            .err()
+            .or(gpu.wait().err())
+            .expect("the loss is told at the next wait, if not before");
+        assert!(matches!(error, GpuError::Lost(_)), "{error}");
+        assert!(error.to_string().ends_with("or choose --adapter cpu"), "{error}");
+    }
+
+    #[test]
+    fn a_texture_beyond_the_adapter_is_an_error_and_no_panic() {
+        let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
+        let gpu = Gpu::open(&AdapterChoice::Cpu).expect(install);
+        assert!(texture(&gpu, [1 << 20, 8, 1], Format::R32Float).is_err());
     }
 }
