@@ -56,7 +56,7 @@ fn a_broken_edit_keeps_the_last_good_version() {
     let folder = NodeFolder::new(&[("own/facing", FACING)]);
     let mut kinds = folder.kinds();
     folder.write("own/facing", &FACING.replace("acos(", "acos(("));
-    kinds.add_folder(folder.path());
+    kinds.add_folder(&folder.path());
     assert_eq!(kinds.faults.len(), 1, "{:?}", kinds.faults);
     let (on_mesh, values) = evaluated(kinds);
     assert!(selects_the_top(&on_mesh, &values, 0.0));
@@ -77,7 +77,7 @@ fn refreshed(watcher: &NodeWatcher, kinds: &mut Kinds) -> bool {
 fn an_edit_is_seen_and_a_broken_one_is_told() {
     let folder = NodeFolder::new(&[("own/facing", FACING)]);
     let mut kinds = folder.kinds();
-    let watcher = NodeWatcher::new(folder.path()).expect("a watcher");
+    let watcher = NodeWatcher::new(&folder.path()).expect("a watcher");
     assert!(!watcher.refresh(&mut kinds, Duration::ZERO), "nothing has changed");
 
     folder.write(
@@ -100,4 +100,32 @@ fn an_edit_is_seen_and_a_broken_one_is_told() {
     assert!(kinds.faults.is_empty(), "{:?}", kinds.faults);
     let (on_mesh, values) = evaluated(kinds);
     assert!(selects_the_top(&on_mesh, &values, 0.0));
+}
+
+#[test]
+fn an_edit_of_a_library_reaches_the_nodes_that_use_it() {
+    let node = FACING.replace("face one way.\n", "face one way.\n//!\n//! @use own\n");
+    let node = node.replace("return 1.0 - smoothstep", "return turned_over * smoothstep");
+    let library = |factor: &str| format!("/// Which way it is.\nconst turned_over: f32 = {factor};\n");
+    let folder = NodeFolder::new(&[("lib/own", &library("1.0")), ("own/facing", &node)]);
+    let mut kinds = folder.kinds();
+    let watcher = NodeWatcher::new(&folder.path()).expect("a watcher");
+    let (on_mesh, values) = evaluated(kinds.clone());
+    assert!(selects_the_top(&on_mesh, &values, 1.0));
+
+    folder.write("lib/own", "const turned_over: f32 = ;");
+    assert!(refreshed(&watcher, &mut kinds));
+    assert_eq!(kinds.faults.len(), 1, "{:?}", kinds.faults);
+    let (on_mesh, values) = evaluated(kinds.clone());
+    assert!(selects_the_top(&on_mesh, &values, 1.0));
+
+    folder.write("lib/own", &library("0.0"));
+    assert!(refreshed(&watcher, &mut kinds));
+    assert!(kinds.faults.is_empty(), "{:?}", kinds.faults);
+    let (on_mesh, values) = evaluated(kinds.clone());
+    assert!(on_mesh.owned().all(|(index, _)| values[index] == 1.0));
+
+    folder.remove("own/facing");
+    assert!(refreshed(&watcher, &mut kinds));
+    assert!(kinds.library.kind("own/facing").is_none());
 }

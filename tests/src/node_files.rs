@@ -1,7 +1,7 @@
 //! Nodes that a test writes itself.
 
 use std::fs;
-use std::path::Path;
+use std::path::PathBuf;
 
 use sabi_engine::Kinds;
 use tempfile::TempDir;
@@ -23,16 +23,27 @@ impl NodeFolder {
         folder
     }
 
-    /// Writes a node, new or changed.
+    /// Writes a node, new or changed; in one step, as careful editors save, so that nobody reads half of it.
     pub fn write(&self, id: &str, text: &str) {
-        let path = self.folder.path().join(format!("{id}.wgsl"));
+        let path = self.file(id);
         fs::create_dir_all(path.parent().expect("a category")).expect("the folder of the category");
-        fs::write(path, text).expect("the node's file");
+        let draft = self.folder.path().join("draft");
+        fs::write(&draft, text).expect("the node's text");
+        fs::rename(draft, path).expect("the node's file");
+    }
+
+    /// Removes a node.
+    pub fn remove(&self, id: &str) {
+        fs::remove_file(self.file(id)).expect("the node's file");
     }
 
     /// Where it is.
-    pub fn path(&self) -> &Path {
-        self.folder.path()
+    pub fn path(&self) -> PathBuf {
+        self.folder.path().join("nodes")
+    }
+
+    fn file(&self, id: &str) -> PathBuf {
+        self.path().join(format!("{id}.wgsl"))
     }
 
     /// The built-in kinds and these.
@@ -41,7 +52,7 @@ impl NodeFolder {
     /// If one of them is faulty.
     pub fn kinds(&self) -> Kinds {
         let mut kinds = Kinds::builtin();
-        kinds.add_folder(self.path());
+        kinds.add_folder(&self.path());
         let faults: Vec<String> = kinds.faults.iter().map(ToString::to_string).collect();
         assert!(faults.is_empty(), "{}", faults.join("\n"));
         kinds

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::{Library, SourceFile};
-use crate::compile::check_library;
+use crate::compile::{check_library, library_path};
 use crate::fault::Fault;
 use crate::reader::FILE_LIMIT_BYTES;
 
@@ -13,11 +13,14 @@ use crate::reader::FILE_LIMIT_BYTES;
 const FOLDER_LIMIT: usize = 4096;
 
 impl Library {
-    /// Reads a user's node folder, in sorted order. What is faulty is left out and told; the rest works.
+    /// Reads a user's node folder, in sorted order. What is faulty is left out and told; the rest works. Read again, it
+    /// takes what changed, keeps the last good version of what became faulty, and drops nodes whose files are gone.
     ///
     /// A node of the folder never takes the place of one that came from another file.
     pub fn load_folder(&mut self, folder: &Path) -> Vec<Fault> {
         let mut faults = Vec::new();
+        self.kinds
+            .retain(|_, kind| !kind.path.starts_with(folder) || kind.path.exists());
         for file in wgsl_files(&folder.join("lib"), true, &mut faults) {
             if let Some((name, text)) = read(&file, &mut faults) {
                 self.add_library(&file, name, text, &mut faults);
@@ -39,12 +42,22 @@ impl Library {
 
     fn add_library(&mut self, path: &Path, name: String, text: String, faults: &mut Vec<Fault>) {
         if let Some(known) = self.libraries.text(&name) {
-            if known != text {
+            if known == text {
+                return;
+            }
+            if self.library_paths.get(&name).is_none_or(|known| known != path) {
                 faults.push(Fault::of_file(
                     path,
                     format!("There is a library `{name}` already, and this one is not read."),
                     "Give the file another name.",
                 ));
+            } else if let Err(found) = self.replace_library(&name, text) {
+                faults.extend(found.into_iter().map(|mut fault| {
+                    if fault.path == library_path(&name) {
+                        fault.path = path.to_path_buf();
+                    }
+                    fault
+                }));
             }
             return;
         }
@@ -53,6 +66,8 @@ impl Library {
             fault.path = path.to_path_buf();
             faults.push(fault);
             self.libraries.0.remove(&name);
+        } else {
+            self.library_paths.insert(name, path.to_path_buf());
         }
     }
 

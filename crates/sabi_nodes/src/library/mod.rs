@@ -49,6 +49,8 @@ impl Libraries {
 pub struct Library {
     kinds: BTreeMap<String, Kind>,
     libraries: Libraries,
+    /// Where the libraries of folders are, so that a changed file is told from a second one of the same name.
+    library_paths: BTreeMap<String, PathBuf>,
 }
 
 impl Library {
@@ -58,6 +60,7 @@ impl Library {
         let mut library = Library {
             kinds: BTreeMap::new(),
             libraries,
+            library_paths: BTreeMap::new(),
         };
         library.drop_faulty_libraries(&mut faults);
         for file in files {
