@@ -49,7 +49,7 @@ impl NodeWatcher {
         }
         // An editor saves in several steps; they arrive together.
         while self.changes.recv_timeout(Duration::from_millis(30)).is_ok() {}
-        kinds.faults.clear();
+        kinds.faults.retain(|fault| !fault.path.starts_with(&self.folder));
         kinds.add_folder(&self.folder);
         true
     }

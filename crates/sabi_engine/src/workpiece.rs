@@ -1,7 +1,7 @@
 //! A graph and a model brought together on a device.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables};
 use sabi_graph::{Fit, FlatGraph, Overrides};
@@ -117,7 +117,7 @@ impl Workpiece {
     pub fn plan(&mut self, targets: &[Target], mode: Mode, limits: Limits) -> Result<Plan, EngineError> {
         let (plan, errors) = self.try_plan(targets, mode, limits);
         let (warnings, errors): (Vec<PlanError>, Vec<PlanError>) = errors.into_iter().partition(PlanError::is_warning);
-        self.warnings.extend(warnings.iter().map(ToString::to_string));
+        self.warn(warnings.iter().map(ToString::to_string));
         if errors.is_empty() {
             return Ok(plan);
         }
@@ -126,6 +126,15 @@ impl Workpiece {
             kind: ErrorKind::BadInput,
             messages,
         })
+    }
+
+    /// Keeps sentences for the artist, each once however often it comes.
+    fn warn(&mut self, sentences: impl IntoIterator<Item = String>) {
+        for sentence in sentences {
+            if !self.warnings.contains(&sentence) {
+                self.warnings.push(sentence);
+            }
+        }
     }
 
     /// Plans what of the targets can be planned, and says what is at fault.
@@ -155,13 +164,7 @@ impl Workpiece {
         progress: &dyn Progress,
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, EngineError> {
-        let needs_model = plan.steps.iter().any(|step| matches!(step, sabi_plan::Step::Source(_)));
-        let decoding = Instant::now();
-        let empty = sabi_surface::model::Model::default();
-        let model = if needs_model { &self.prepared.model } else { &empty };
-        let (mut source, warnings) = ModelSource::new(model, &self.prepared.atlas, &self.tables);
-        self.times.load.add(decoding.elapsed());
-        self.warnings.extend(warnings);
+        let mut source = ModelSource::new(&self.prepared.model, &self.prepared.atlas, &self.tables);
         let options = RunOptions {
             submission,
             is_canceled: &|| progress.is_canceled(),
@@ -170,7 +173,10 @@ impl Workpiece {
         };
         let run = self
             .gpu
-            .run(&self.surface, &self.kinds.library, plan, &options, &mut source, cache)?;
+            .run(&self.surface, &self.kinds.library, plan, &options, &mut source, cache);
+        let told = source.warnings;
+        self.warn(told);
+        let run = run?;
         self.times.compile.add(run.report.compile);
         self.times.run.add(run.report.run);
         Ok(run)

@@ -54,18 +54,7 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// What a material of the model's looks like at a place.
-struct Look {
-    base_color: [f32; 4],
-    roughness: f32,
-    metallic: f32,
-    occlusion: f32,
-    emission: [f32; 3],
-    /// Tangent space, not normalized.
-    normal: [f32; 3],
-}
-
-/// The samplers of one material.
+/// The samplers of one material; a picture is decoded when it is first asked for.
 struct MaterialSamplers<'a> {
     material: &'a ModelMaterial,
     base_color: Option<Sampler>,
@@ -75,37 +64,53 @@ struct MaterialSamplers<'a> {
     emission: Option<Sampler>,
 }
 
+/// Linear RGBA of a picture; white where there is none.
+fn sample(sampler: &Option<Sampler>, uv: [f64; 2]) -> [f32; 4] {
+    sampler.as_ref().map_or([1.0; 4], |sampler| sampler.sample(uv))
+}
+
 impl MaterialSamplers<'_> {
-    fn look(&self, uv: [f64; 2]) -> Look {
-        let sample = |sampler: &Option<Sampler>| sampler.as_ref().map_or([1.0; 4], |sampler| sampler.sample(uv));
-        let color = sample(&self.base_color);
-        let surface = sample(&self.metallic_roughness);
-        let emission = sample(&self.emission);
+    fn base_color(&self, uv: [f64; 2]) -> [f32; 4] {
+        let color = sample(&self.base_color, uv);
+        std::array::from_fn(|at| color[at] * self.material.base_color_factor[at])
+    }
+
+    /// Roughness, metallic, occlusion.
+    fn surface(&self, uv: [f64; 2]) -> [f32; 3] {
+        let [_, rough, metal, _] = sample(&self.metallic_roughness, uv);
+        let [open, ..] = sample(&self.occlusion, uv);
         let material = self.material;
-        let normal = match &self.normal {
-            None => [0.0, 0.0, 1.0],
-            Some(sampler) => {
-                let [x, y, z, _] = sampler.sample(uv).map(|code| 2.0 * code - 1.0);
-                [x * material.normal_scale, y * material.normal_scale, z]
-            }
+        [
+            rough * material.roughness_factor,
+            metal * material.metallic_factor,
+            1.0 + material.occlusion_strength * (open - 1.0),
+        ]
+    }
+
+    fn emission(&self, uv: [f64; 2]) -> [f32; 3] {
+        let emission = sample(&self.emission, uv);
+        std::array::from_fn(|at| emission[at] * self.material.emission_factor[at])
+    }
+
+    /// The normal in tangent space, not of unit length.
+    fn normal(&self, uv: [f64; 2]) -> [f32; 3] {
+        let Some(sampler) = &self.normal else {
+            return [0.0, 0.0, 1.0];
         };
-        Look {
-            base_color: std::array::from_fn(|at| color[at] * material.base_color_factor[at]),
-            roughness: surface[1] * material.roughness_factor,
-            metallic: surface[2] * material.metallic_factor,
-            occlusion: 1.0 + material.occlusion_strength * (sample(&self.occlusion)[0] - 1.0),
-            emission: std::array::from_fn(|at| emission[at] * material.emission_factor[at]),
-            normal,
-        }
+        let [x, y, z, _] = sampler.sample(uv).map(|code| 2.0 * code - 1.0);
+        [x * self.material.normal_scale, y * self.material.normal_scale, z]
     }
 }
 
 /// The model's textures on the atlas.
 pub(crate) struct ModelSource<'a> {
+    model: &'a Model,
     atlas: &'a Atlas,
     tables: &'a SurfaceTables,
-    materials: Vec<MaterialSamplers<'a>>,
-    triangle_material: &'a [u32],
+    /// Decoded at the first use: a run whose results are cached needs none of it.
+    materials: Option<Vec<MaterialSamplers<'a>>>,
+    /// What cannot be shown, as sentences.
+    pub(crate) warnings: Vec<String>,
 }
 
 /// The kind for a model: which channels its material sets, and a hash of all that it shows.
@@ -139,53 +144,55 @@ fn usable(texture: &Option<TextureRef>) -> Option<&TextureRef> {
     texture.as_ref().filter(|texture| texture.on_loaded_uv_set)
 }
 
+/// Decodes the pictures that the materials use. What cannot be shown is added to `warnings`.
+fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -> Vec<MaterialSamplers<'a>> {
+    let mut open = |texture: &Option<TextureRef>, what: &str, is_srgb: bool| {
+        let texture = texture.as_ref()?;
+        let image = model.images.get(texture.image)?;
+        if !texture.on_loaded_uv_set {
+            let name = &image.name;
+            warnings.push(format!(
+                "the {what} picture {name} uses another UV set and is left out; see --uv"
+            ));
+            return None;
+        }
+        let bytes = image.bytes.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
+        let decoded = sabi_image::decode(&image.name, bytes);
+        let told = decoded.map_err(|why| warnings.push(format!("{why}; the factor is used alone")));
+        Some(Sampler::new(told.ok()?, texture, is_srgb, size))
+    };
+    let open_material = |material: &'a ModelMaterial| MaterialSamplers {
+        material,
+        base_color: open(&material.base_color, "base color", true),
+        metallic_roughness: open(&material.metallic_roughness, "roughness", false),
+        normal: open(&material.normal, "normal", false),
+        occlusion: open(&material.occlusion, "occlusion", false),
+        emission: open(&material.emission, "emission", true),
+    };
+    model.materials.iter().map(open_material).collect()
+}
+
+/// A point of the surface: its triangle, and where it lies on its chart's page.
+struct Spot {
+    triangle: usize,
+    texel: [f64; 2],
+    uv: [f64; 2],
+}
+
 impl<'a> ModelSource<'a> {
-    /// Decodes the pictures that the materials use. What cannot be shown is answered as sentences.
-    pub(crate) fn new(model: &'a Model, atlas: &'a Atlas, tables: &'a SurfaceTables) -> (ModelSource<'a>, Vec<String>) {
-        let mut warnings = Vec::new();
-        let mut open = |texture: &Option<TextureRef>, what: &str, is_srgb: bool| {
-            let texture = texture.as_ref()?;
-            let image = model.images.get(texture.image)?;
-            if !texture.on_loaded_uv_set {
-                warnings.push(format!(
-                    "the {what} picture {} uses another UV set and is left out; see --uv",
-                    image.name
-                ));
-                return None;
-            }
-            let bytes = image.bytes.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
-            let decoded = sabi_image::decode(&image.name, bytes);
-            let picture = decoded
-                .map_err(|why| warnings.push(format!("{why}; the factor is used alone")))
-                .ok()?;
-            Some(Sampler::new(picture, texture, is_srgb, atlas.size))
-        };
-        let materials = model
-            .materials
-            .iter()
-            .map(|material| MaterialSamplers {
-                material,
-                base_color: open(&material.base_color, "base color", true),
-                metallic_roughness: open(&material.metallic_roughness, "roughness", false),
-                normal: open(&material.normal, "normal", false),
-                occlusion: open(&material.occlusion, "occlusion", false),
-                emission: open(&material.emission, "emission", true),
-            })
-            .collect();
-        let triangle_material = &model.mesh.triangle_material;
-        (
-            ModelSource {
-                atlas,
-                tables,
-                materials,
-                triangle_material,
-            },
-            warnings,
-        )
+    /// A source that has not decoded anything yet.
+    pub(crate) fn new(model: &'a Model, atlas: &'a Atlas, tables: &'a SurfaceTables) -> ModelSource<'a> {
+        ModelSource {
+            model,
+            atlas,
+            tables,
+            materials: None,
+            warnings: Vec::new(),
+        }
     }
 
-    /// The look of the surface point under a texel, and its slope in model space.
-    fn at(&self, index: usize) -> Option<(Look, [f32; 3])> {
+    /// The surface point under a texel; over the seam for a ghost.
+    fn spot(&self, index: usize) -> Option<Spot> {
         let owner = self.atlas.owners[index];
         if owner == EMPTY {
             return None;
@@ -203,9 +210,32 @@ impl<'a> ModelSource<'a> {
         let chart = &self.atlas.charts[self.atlas.triangle_chart[triangle] as usize];
         let size = f64::from(self.atlas.size);
         let uv = std::array::from_fn(|axis| (texel[axis] - f64::from(chart.texel_from_uv[axis])) / size);
-        let look = self.materials.get(self.triangle_material[triangle] as usize)?.look(uv);
-        let slope = slope(self.tables, triangle, texel, look.normal);
-        Some((look, slope))
+        Some(Spot { triangle, texel, uv })
+    }
+
+    /// What a plane of a result holds at a point.
+    fn value(&self, output: &str, plane: Plane, spot: &Spot) -> Option<[f32; 4]> {
+        let material = self.model.mesh.triangle_material[spot.triangle] as usize;
+        let look = self.materials.as_ref()?.get(material)?;
+        let uv = spot.uv;
+        let triple = |[x, y, z]: [f32; 3]| [x, y, z, 1.0];
+        Some(match (plane, output) {
+            (Plane::Material(Channel::Color), _) => look.base_color(uv),
+            (Plane::Material(Channel::Surface), _) => triple(look.surface(uv)),
+            (Plane::Material(Channel::Height), _) => [0.0; 4],
+            (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => {
+                triple(slope(self.tables, spot.triangle, spot.texel, look.normal(uv)))
+            }
+            (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => triple(look.emission(uv)),
+            (Plane::Color, _) => {
+                let [r, g, b, _] = look.base_color(uv);
+                [r, g, b, 1.0]
+            }
+            (Plane::Mask, "alpha") => [look.base_color(uv)[3], 0.0, 0.0, 1.0],
+            (Plane::Mask, "roughness") => [look.surface(uv)[0], 0.0, 0.0, 1.0],
+            (Plane::Mask, "metallic") => [look.surface(uv)[1], 0.0, 0.0, 1.0],
+            (Plane::Mask, _) => [look.surface(uv)[2], 0.0, 0.0, 1.0],
+        })
     }
 
     fn plane(&self, output: &str, plane: Plane) -> Vec<u8> {
@@ -215,8 +245,9 @@ impl<'a> ModelSource<'a> {
         let chunk = 4096;
         bytes.par_chunks_mut(chunk * size).enumerate().for_each(|(at, texels)| {
             for (offset, texel) in texels.chunks_exact_mut(size).enumerate() {
-                if let Some((look, slope)) = self.at(at * chunk + offset) {
-                    put(texel, format, channel_value(output, plane, &look, slope));
+                let spot = self.spot(at * chunk + offset);
+                if let Some(value) = spot.and_then(|spot| self.value(output, plane, &spot)) {
+                    put(texel, format, value);
                 }
             }
         });
@@ -262,24 +293,6 @@ fn slope(tables: &SurfaceTables, triangle: usize, texel: [f64; 2], normal: [f32;
     std::array::from_fn(|axis| (up[axis] - tilted[axis] / along) as f32)
 }
 
-fn channel_value(output: &str, plane: Plane, look: &Look, slope: [f32; 3]) -> [f32; 4] {
-    let [r, g, b, a] = look.base_color;
-    let [ex, ey, ez] = look.emission;
-    let [sx, sy, sz] = slope;
-    match (plane, output) {
-        (Plane::Material(Channel::Color), _) => [r, g, b, a],
-        (Plane::Material(Channel::Surface), _) => [look.roughness, look.metallic, look.occlusion, 1.0],
-        (Plane::Material(Channel::Height), _) => [0.0; 4],
-        (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => [sx, sy, sz, 1.0],
-        (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => [ex, ey, ez, 1.0],
-        (Plane::Color, _) => [r, g, b, 1.0],
-        (Plane::Mask, "alpha") => [a, 0.0, 0.0, 1.0],
-        (Plane::Mask, "roughness") => [look.roughness, 0.0, 0.0, 1.0],
-        (Plane::Mask, "metallic") => [look.metallic, 0.0, 0.0, 1.0],
-        (Plane::Mask, _) => [look.occlusion, 0.0, 0.0, 1.0],
-    }
-}
-
 fn put(texel: &mut [u8], format: Format, value: [f32; 4]) {
     match format {
         Format::Rgba16Float => {
@@ -302,6 +315,9 @@ impl SourceFill for ModelSource<'_> {
                 "node '{}' is of kind '{}', which nobody fills; this is a mistake in Sabi",
                 step.id, step.kind
             ));
+        }
+        if self.materials.is_none() {
+            self.materials = Some(open_materials(self.model, self.atlas.size, &mut self.warnings));
         }
         let planes = step
             .writes
