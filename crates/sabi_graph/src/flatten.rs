@@ -63,6 +63,9 @@ pub struct Overrides {
     pub set: Vec<(String, Value)>,
     /// Seed in place of the document's.
     pub seed: Option<u32>,
+    /// Fit in place of the document's, for its own nodes and the groups in it that have none of their own; groups made
+    /// for another fit keep theirs, and so do group files.
+    pub fit: Option<Fit>,
 }
 
 impl FlatGraph {
@@ -101,7 +104,7 @@ pub fn flatten(
     overrides: &Overrides,
     group_file: &mut dyn FnMut(&str) -> Result<Document, String>,
 ) -> Result<FlatGraph, FlattenError> {
-    let all = definitions::Definitions::collect(document, group_file)?;
+    let all = definitions::Definitions::collect(document, overrides.fit, group_file)?;
     let mut expansion = expand::expand(&all, document.seed, overrides)?;
     let mut nodes = std::mem::take(&mut expansion.nodes);
     let mut tracer = trace::Tracer::new(&all, &expansion);

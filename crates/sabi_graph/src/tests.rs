@@ -2,6 +2,7 @@
 
 mod edits;
 mod errors;
+mod fits;
 mod flat;
 mod group_files;
 mod random;

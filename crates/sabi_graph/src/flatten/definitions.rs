@@ -24,6 +24,8 @@ struct Address {
 /// The graphs in use; number 0 is the document's own.
 pub(super) struct Definitions<'a> {
     document: &'a Document,
+    /// The document's fit, or what takes its place.
+    fit: Fit,
     /// Group files with their paths; file `n` of an address is number `n - 1` here.
     files: Vec<(String, Document)>,
     addresses: Vec<Address>,
@@ -44,9 +46,10 @@ pub(super) struct Definition<'a> {
 
 impl<'a> Definitions<'a> {
     /// Collects all graphs that the document reaches.
-    pub(super) fn collect(document: &'a Document, read: ReadFile<'_>) -> Result<Self, FlattenError> {
+    pub(super) fn collect(document: &'a Document, fit: Option<Fit>, read: ReadFile<'_>) -> Result<Self, FlattenError> {
         let mut all = Definitions {
             document,
+            fit: fit.unwrap_or(document.fit),
             files: Vec::new(),
             addresses: vec![Address { file: 0, group: None }],
             instances: BTreeMap::new(),
@@ -77,19 +80,20 @@ impl<'a> Definitions<'a> {
         let address = &self.addresses[number];
         let document = self.file(address.file);
         let file = address.file.checked_sub(1).map(|index| self.files[index].0.as_str());
+        let fit = if address.file == 0 { self.fit } else { document.fit };
         match address.group.as_ref().and_then(|name| document.groups.get(name)) {
             Some(group) => Definition {
                 graph: &group.graph,
                 inputs: &group.inputs,
                 outputs: &group.outputs,
-                fit: group.fit.unwrap_or(document.fit),
+                fit: group.fit.unwrap_or(fit),
                 file,
             },
             None => Definition {
                 graph: &document.graph,
                 inputs: &document.inputs,
                 outputs: &document.outputs,
-                fit: document.fit,
+                fit,
                 file,
             },
         }

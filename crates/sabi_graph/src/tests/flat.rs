@@ -126,6 +126,7 @@ fn later_settings_win_over_earlier_ones() {
                 .map(|(name, value)| ((*name).to_owned(), Value::Number(*value)))
                 .collect(),
             seed: Some(77),
+            fit: None,
         };
         let graph = flat(&document, &overrides).unwrap();
         assert_eq!(graph.nodes[0].seeds, [77]);
