@@ -10,4 +10,5 @@ mod promises;
 mod resolution;
 mod seams;
 mod specimens;
+mod units;
 mod unwraps;

@@ -41,8 +41,8 @@ struct Params {
     /// Height of the layer; Height map is multiplied by it. Below 0 it is sunk in.
     /// @length @range -100 100 @soft -0.05 0.05 @default 0
     height: f32,
-    /// How the height goes over what is below.
-    /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
+    /// How the height goes over what is below, by modes that give the same in any unit of length.
+    /// @choice normal add subtract min max difference
     /// @default add
     height_mode: u32,
     /// Whether the layer changes the height.
@@ -79,6 +79,13 @@ struct Params {
     opacity: f32,
 }
 
+// The mode of the library that a choice of Height mode stands for. The other modes multiply heights by each other or
+// by 1, and a length times a length is none.
+fn height_blend_mode(choice: u32) -> u32 {
+    // The first three are the same in both lists; in the library five others come before min.
+    return select(choice, choice + 5u, choice > 2u);
+}
+
 /// The material with the layer on it.
 /// @input base The material underneath. @optional
 /// @input mask Where the layer lies. @optional @default 1
@@ -110,7 +117,8 @@ fn material(
         result.metallic = clamp(blended, 0.0, 1.0);
     }
     if params.height_on != 0u {
-        result.height = blend_value(base.height, params.height * height_map, params.height_mode, weight);
+        let mode = height_blend_mode(params.height_mode);
+        result.height = blend_value(base.height, params.height * height_map, mode, weight);
     }
     if params.alpha_on != 0u {
         result.alpha = clamp(blend_value(base.alpha, params.alpha, params.alpha_mode, weight), 0.0, 1.0);

@@ -1,0 +1,85 @@
+//! A length is a length, whatever unit a graph is written in.
+
+use sabi_engine::Kinds;
+use sabi_graph::Fit;
+use sabi_nodes::kind::Role;
+use sabi_tests::{OnMesh, project, range};
+use serde_json::json;
+
+/// Two layers with relief; `unit` is how many of the graph's units the length 1 of `"fit": "unit"` is.
+fn graph(fit: &str, mode: &str, unit: f64) -> String {
+    let base = json!({ "color": "#808080", "height": 0.03 * unit });
+    let upper = json!({ "height": 0.02 * unit, "height_mode": mode });
+    let clouds = json!({ "size": 0.4 * unit, "octaves": 2 });
+    json!({ "format": "sabi", "version": 1, "fit": fit, "nodes": {
+        "clouds": { "kind": "noise/simplex", "params": clouds },
+        "base": { "kind": "effect/layer", "params": base, "inputs": { "height_map": "clouds" } },
+        "upper": { "kind": "effect/layer", "params": upper, "inputs": { "base": "base", "mask": "clouds" } },
+    } })
+    .to_string()
+}
+
+/// Heights in the model's own unit.
+fn heights(fit: (&str, Fit), mode: &str, unit: f64) -> (OnMesh, Vec<f32>) {
+    let mut on_mesh = OnMesh::new(&graph(fit.0, mode, unit), &project("assets/meshes/bench.glb"), 128);
+    let scale = on_mesh.workpiece.prepared.working_from_model(&fit.1) as f32;
+    let heights = on_mesh.evaluate("upper").component("height");
+    let heights = heights.into_iter().map(|height| height / scale).collect();
+    (on_mesh, heights)
+}
+
+#[test]
+fn a_relief_is_the_same_whatever_unit_it_is_given_in() {
+    let kinds = Kinds::builtin();
+    let layer = kinds.library.kind("effect/layer").expect("the layer");
+    let mode = layer.params.iter().find(|param| param.name == "height_mode");
+    let Some(Role::Choice(modes)) = mode.map(|param| &param.role) else {
+        panic!("the layer offers no modes for the height");
+    };
+    assert!(modes.len() > 3, "{modes:?}");
+    for mode in modes {
+        let (on_mesh, by_unit) = heights(("unit", Fit::Unit), mode, 1.0);
+        let side = 1.0 / on_mesh.workpiece.prepared.working_from_model(&Fit::Unit);
+        assert!((side - 1.0).abs() > 0.1, "a model of side {side} shows nothing");
+        let (_, by_metres) = heights(("metres", Fit::Metres), mode, side);
+        let whole = range(on_mesh.owned().map(|(index, _)| by_unit[index]));
+        assert!(whole > 1e-3 && whole < side, "{mode}: the heights range over {whole}");
+        for (index, _) in on_mesh.owned() {
+            let difference = f64::from((by_unit[index] - by_metres[index]).abs());
+            assert!(
+                difference <= 1e-3 * whole,
+                "{mode}: {} differs from {}",
+                by_unit[index],
+                by_metres[index]
+            );
+        }
+    }
+}
+
+#[test]
+fn each_height_mode_does_what_its_name_says() {
+    let expected = [
+        ("normal", 0.02),
+        ("add", 0.05),
+        ("subtract", 0.01),
+        ("min", 0.02),
+        ("max", 0.03),
+        ("difference", 0.01),
+    ];
+    for (mode, height) in expected {
+        let text = json!({ "format": "sabi", "version": 1, "nodes": {
+            "base": { "kind": "effect/layer", "params": { "height": 0.03 } },
+            "upper": { "kind": "effect/layer", "inputs": { "base": "base" },
+                       "params": { "height": 0.02, "height_mode": mode } },
+        } });
+        let mut on_mesh = OnMesh::new(&text.to_string(), &project("assets/meshes/cube.glb"), 32);
+        let heights = on_mesh.evaluate("upper").component("height");
+        for (index, _) in on_mesh.owned() {
+            assert!(
+                (heights[index] - height).abs() < 1e-6,
+                "{mode} gives {}, not {height}",
+                heights[index]
+            );
+        }
+    }
+}
