@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use crate::error::GpuError;
 use crate::pipelines::Pipelines;
 
-/// Which adapter to use.
+/// Which adapter to use; of several that are meant, the first that can run Sabi.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum AdapterChoice {
     /// A discrete card before an integrated one before a software driver.
@@ -172,14 +172,14 @@ impl Gpu {
             AdapterChoice::Gpu => summary.kind != AdapterKind::Cpu,
             AdapterChoice::Named(name) => summary.name.to_lowercase().contains(&name.to_lowercase()),
         };
-        let chosen = found.into_iter().find(|(summary, _)| fits(summary));
-        let Some((summary, adapter)) = chosen else {
-            return Err(GpuError::NoSuchAdapter {
+        let meant = found.into_iter().filter(|(summary, _)| fits(summary));
+        let opened = first_that_opens(meant, |(summary, adapter)| Gpu::adopt(summary, &adapter));
+        opened.unwrap_or_else(|| {
+            Err(GpuError::NoSuchAdapter {
                 wanted: choice.to_string(),
                 known,
-            });
-        };
-        Gpu::adopt(summary, &adapter)
+            })
+        })
     }
 
     fn adopt(summary: AdapterSummary, adapter: &wgpu::Adapter) -> Result<Gpu, GpuError> {
@@ -188,10 +188,8 @@ impl Gpu {
             why,
         };
         let available = adapter.limits();
-        if available.max_texture_dimension_2d < 4096 || available.max_storage_buffers_per_shader_stage < 6 {
-            return Err(unfit(
-                "it allows no textures of 4096 texels, or fewer than 6 storage buffers".to_owned(),
-            ));
+        if let Some(why) = shortage(&available) {
+            return Err(unfit(why));
         }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("sabi"),
@@ -208,6 +206,7 @@ impl Gpu {
             uncaptured.put(driver_error(error, "a result"))
         }));
         let limits = sabi_plan::Limits {
+            // One is taken by the owner map.
             sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64) - 1,
             storage_textures: (available.max_storage_textures_per_shader_stage as usize).min(16),
             ..sabi_plan::Limits::default()
@@ -254,6 +253,47 @@ impl Gpu {
     }
 }
 
+/// The first candidate that opens, or why the last one does not; nothing without candidates.
+fn first_that_opens<C, T>(
+    candidates: impl Iterator<Item = C>,
+    open: impl Fn(C) -> Result<T, GpuError>,
+) -> Option<Result<T, GpuError>> {
+    let mut last = None;
+    for candidate in candidates {
+        match open(candidate) {
+            Ok(opened) => return Some(Ok(opened)),
+            Err(error) => last = Some(Err(error)),
+        }
+    }
+    last
+}
+
+/// What an adapter has too little of, as a sentence without its end.
+fn shortage(limits: &wgpu::Limits) -> Option<String> {
+    let needs = [
+        // A page of the atlas has up to 8192 texels a side.
+        (limits.max_texture_dimension_2d, 8192, "texels along a texture's side"),
+        (
+            limits.max_storage_buffers_per_shader_stage,
+            6,
+            "storage buffers in a kernel",
+        ),
+        // A whole material is written by one kernel.
+        (
+            limits.max_storage_textures_per_shader_stage,
+            5,
+            "written textures in a kernel",
+        ),
+        (
+            limits.max_sampled_textures_per_shader_stage,
+            16,
+            "read textures in a kernel",
+        ),
+    ];
+    let (has, needed, what) = needs.into_iter().find(|(has, needed, _)| has < needed)?;
+    Some(format!("it allows {has} {what}, and Sabi needs {needed}"))
+}
+
 fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
     match error {
         wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory { what: what.to_owned() },
@@ -263,7 +303,7 @@ fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
 
 #[cfg(test)]
 mod tests {
-    use super::{AdapterChoice, Gpu, GpuError};
+    use super::{AdapterChoice, Gpu, GpuError, first_that_opens, shortage};
     use crate::pool::texture;
     use sabi_nodes::link::Format;
 
@@ -280,6 +320,43 @@ mod tests {
             .expect("the loss is told at the next wait, if not before");
         assert!(matches!(error, GpuError::Lost(_)), "{error}");
         assert!(error.to_string().ends_with("or choose --adapter cpu"), "{error}");
+    }
+
+    #[test]
+    fn an_unfit_adapter_makes_way_for_the_next() {
+        let unfit = |name: &str| GpuError::Unfit {
+            adapter: name.to_owned(),
+            why: "it is too small".to_owned(),
+        };
+        let open = |(name, opens): (&'static str, bool)| if opens { Ok(name) } else { Err(unfit(name)) };
+        let chosen = |all: &[(&'static str, bool)]| first_that_opens(all.iter().copied(), open);
+        assert_eq!(
+            chosen(&[("old", false), ("good", true), ("late", true)]),
+            Some(Ok("good"))
+        );
+        assert_eq!(chosen(&[("old", false), ("older", false)]), Some(Err(unfit("older"))));
+        assert_eq!(chosen(&[]), None);
+    }
+
+    #[test]
+    fn an_adapter_is_told_what_it_lacks() {
+        let enough = wgpu::Limits {
+            max_storage_textures_per_shader_stage: 5,
+            ..wgpu::Limits::default()
+        };
+        assert_eq!(shortage(&enough), None);
+        let few = wgpu::Limits {
+            max_storage_textures_per_shader_stage: 4,
+            ..wgpu::Limits::default()
+        };
+        let told = "it allows 4 written textures in a kernel, and Sabi needs 5";
+        assert_eq!(shortage(&few).as_deref(), Some(told));
+        let small = wgpu::Limits {
+            max_texture_dimension_2d: 4096,
+            ..enough
+        };
+        let told = "it allows 4096 texels along a texture's side, and Sabi needs 8192";
+        assert_eq!(shortage(&small).as_deref(), Some(told));
     }
 
     #[test]
