@@ -1,5 +1,7 @@
 //! From the device back into memory.
 
+use std::sync::mpsc::{TryRecvError, channel};
+
 use half::f16;
 use sabi_nodes::link::Format;
 use sabi_plan::{Plan, SlotRef};
@@ -45,6 +47,17 @@ impl PlaneData {
             Format::Rgba16Float => [half(0), half(1), half(2), half(3)],
             Format::Rgba32Float => [full(0), full(1), full(2), full(3)],
         }
+    }
+}
+
+/// What became of a request to map a buffer, once the device is done.
+fn mapping(answer: Result<Result<(), wgpu::BufferAsyncError>, TryRecvError>) -> Result<(), GpuError> {
+    match answer {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(error)) => Err(GpuError::Driver(format!("a result cannot be read back: {error}"))),
+        Err(_) => Err(GpuError::Driver(
+            "a result cannot be read back: no answer came".to_owned(),
+        )),
     }
 }
 
@@ -98,8 +111,11 @@ impl Gpu {
                 },
             );
             self.queue.submit([encoder.finish()]);
-            buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+            let (sender, answer) = channel();
+            // The receiver is gone only if the wait has failed already.
+            buffer.map_async(wgpu::MapMode::Read, .., move |mapped| drop(sender.send(mapped)));
             self.wait()?;
+            mapping(answer.try_recv())?;
             let mapped = buffer.get_mapped_range(..);
             if padded == row {
                 bytes.extend_from_slice(&mapped);
@@ -112,5 +128,20 @@ impl Gpu {
             buffer.unmap();
         }
         Ok(PlaneData { format, bytes })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TryRecvError, mapping};
+
+    #[test]
+    fn a_buffer_that_cannot_be_mapped_is_an_error_and_no_panic() {
+        assert_eq!(mapping(Ok(Ok(()))), Ok(()));
+        let told = "a result cannot be read back";
+        for answer in [Ok(Err(wgpu::BufferAsyncError)), Err(TryRecvError::Empty)] {
+            let error = mapping(answer).expect_err("nothing is mapped").to_string();
+            assert!(error.contains(told), "{error}");
+        }
     }
 }
