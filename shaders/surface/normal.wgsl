@@ -31,13 +31,15 @@ fn height_steps(texel: vec3i) -> vec2f {
 
 // The nearest owned texel within two steps; the texel itself if it is owned. w is 0 if there is none.
 fn anchor_of(texel: vec3i) -> vec4i {
+    let size = vec2i(textureDimensions(owners));
     var best = 1000;
     var anchor = vec4i(texel, 0);
     for (var index = 0; index < 25; index++) {
         let step = vec2i(index % 5 - 2, index / 5 - 2);
         let near = texel + vec3i(step, 0);
         let distance = dot(step, step);
-        if near.x >= 0 && near.y >= 0 && distance < best && (owner_of(near) & GHOST_BIT) == 0u {
+        let is_inside = all(near.xy >= vec2i(0)) && all(near.xy < size);
+        if is_inside && distance < best && (owner_of(near) & GHOST_BIT) == 0u {
             best = distance;
             anchor = vec4i(near, 1);
         }

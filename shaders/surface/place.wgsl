@@ -90,7 +90,6 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
     let tangent_v = frames[f + 2u];
     let chart = frames[f + 3u];
     let step = spot.point - vec2f(origin.w, along_u.w);
-    let ids = bitcast<u32>(normal.w);
     // The sign bit of the texel width says that the chart is mirrored, which turns the cross product over.
     let turned = select(1.0, -1.0, along_v.w < 0.0);
     let face = unit_or(cross(along_v.xyz, along_u.xyz) * turned, vec3f(0.0, 1.0, 0.0));
@@ -102,11 +101,11 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
         shading,
         bitcast<u32>(chart.z),
         face,
-        ids & 0xffffu,
+        bitcast<u32>(normal.w),
         vec4f(unit_or(direction, vec3f(1.0, 0.0, 0.0)), tangent.w),
         (spot.point - chart.xy) / dispatch.size,
         bitcast<u32>(normal_u.w),
-        ids >> 16u,
+        bitcast<u32>(normal_v.w),
         texel,
     );
 }

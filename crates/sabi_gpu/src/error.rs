@@ -30,8 +30,8 @@ pub enum GpuError {
     Lost(String),
     /// Textures would take more than the budget.
     #[error(
-        "the textures need {needed_mib} MiB, more than the budget of {budget_mib} MiB; bake at a smaller size or on an \
-         adapter with more memory"
+        "the textures need {needed_mib} MiB, more than the budget of {budget_mib} MiB; raise it with --budget, or bake \
+         at a smaller size"
     )]
     OverBudget {
         /// Needed at once.
@@ -58,12 +58,15 @@ pub enum GpuError {
         /// The adapter's limit.
         limit_mib: u64,
     },
-    /// A kernel was refused: a mistake in Sabi or the driver, not in the graph.
-    #[error("a kernel for {nodes} was refused by the driver: {why}. Bake with --no-fuse, or choose another --adapter")]
+    /// A kernel could not be made: a mistake in a node's text, in Sabi or in the driver.
+    #[error(
+        "the kernel of {nodes} cannot be compiled: {why}. If one of these nodes is your own, look there first; otherwise \
+         bake with --no-fuse, or choose another --adapter"
+    )]
     Kernel {
         /// The nodes in it.
         nodes: String,
-        /// The driver's words.
+        /// What was said against it, by Sabi or the driver.
         why: String,
     },
     /// Anything else the driver said.

@@ -40,14 +40,8 @@ impl Gpu {
             return Ok(());
         }
         let [gather, scatter] = self.ghost_kernels(format)?;
-        let values = self.guarded("the ghost values", |device| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("ghost values"),
-                size: 16 * u64::from(surface.ghost_count),
-                usage: wgpu::BufferUsages::STORAGE,
-                mapped_at_creation: false,
-            })
-        })?;
+        // All rounds of all fields take turns with it: what one submission gathers, the same one writes.
+        let values = &surface.ghost_values;
         let view = array_view(texture);
         let groups = surface.ghost_count.div_ceil(GROUP);
         let mut encoder = self

@@ -18,5 +18,5 @@ pub use device::{AdapterChoice, AdapterKind, AdapterSummary, Gpu, adapters};
 pub use error::GpuError;
 pub use pool::{DEFAULT_BUDGET_BYTES, PoolReport};
 pub use readback::PlaneData;
-pub use run::{Run, RunOptions, RunReport, SourceFill, SourceTexels, StepTime};
+pub use run::{Run, RunOptions, RunReport, SourceFill, StepTime};
 pub use surface::{GpuSurface, SurfaceTables};

@@ -7,13 +7,14 @@ use sabi_nodes::link::Format;
 use crate::device::Gpu;
 use crate::error::GpuError;
 
-/// Bytes of textures that a run may hold unless told otherwise.
+/// Bytes of textures that may be held unless told otherwise, those of the surface included.
 pub const DEFAULT_BUDGET_BYTES: u64 = 4 << 30;
 
 /// Width, height, pages.
 pub(crate) type Extent = [u32; 3];
 
-/// What a pool holds and held.
+/// What a run holds and held in textures: its own, and the owner map of the surface. What a cache keeps from earlier
+/// runs is not among it and has a budget of its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PoolReport {
     /// Bytes of textures now.
@@ -32,12 +33,16 @@ pub(crate) struct TexturePool {
 }
 
 impl TexturePool {
-    pub(crate) fn new(extent: Extent, budget_bytes: u64) -> TexturePool {
+    /// An empty pool for so many bytes, of which some are in use already.
+    pub(crate) fn new(extent: Extent, budget_bytes: u64, used_bytes: u64) -> TexturePool {
         TexturePool {
             extent,
             budget_bytes,
             free: BTreeMap::new(),
-            report: PoolReport::default(),
+            report: PoolReport {
+                bytes: used_bytes,
+                peak_bytes: used_bytes,
+            },
         }
     }
 
@@ -58,7 +63,7 @@ impl TexturePool {
         let needed = self.report.bytes + bytes;
         if needed > self.budget_bytes {
             return Err(GpuError::OverBudget {
-                needed_mib: needed >> 20,
+                needed_mib: needed.div_ceil(1 << 20),
                 budget_mib: self.budget_bytes >> 20,
             });
         }

@@ -25,24 +25,15 @@ pub struct RunOptions<'a> {
     pub is_canceled: &'a dyn Fn() -> bool,
     /// Told after each step: steps done, steps in all.
     pub progress: &'a dyn Fn(usize, usize),
-    /// Bytes of textures that may be held.
+    /// Bytes of textures that may be held, the surface's owner map included; a cache has its own.
     pub budget_bytes: u64,
-}
-
-/// Texels of one plane, in its storage format, page by page and row by row without padding.
-pub struct SourceTexels {
-    /// Name of the result.
-    pub output: String,
-    /// Which of its planes.
-    pub plane: Plane,
-    /// The bytes.
-    pub bytes: Vec<u8>,
 }
 
 /// Makes the results that no kernel makes.
 pub trait SourceFill {
-    /// All planes of the results that the step names, ghosts included.
-    fn fill(&mut self, step: &SourceStep) -> Result<Vec<SourceTexels>, String>;
+    /// One plane of the result `output` of a step, ghosts included: texels in the plane's storage format, page by page
+    /// and row by row without padding. Asked for one plane after the other, each dropped before the next.
+    fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String>;
 }
 
 /// How long a step took.
@@ -50,7 +41,7 @@ pub trait SourceFill {
 pub struct StepTime {
     /// Nodes in it, each with its share of the cost.
     pub nodes: Vec<(String, f32)>,
-    /// Time between the first submission and the end of the last.
+    /// From its start until the device is done with it, without compiling.
     pub run: Duration,
 }
 
@@ -63,7 +54,7 @@ pub struct RunReport {
     pub run: Duration,
     /// Steps that ran; those whose results were cached are not among them.
     pub steps: Vec<StepTime>,
-    /// Textures held.
+    /// Bytes of textures held, the surface's included.
     pub pool: PoolReport,
 }
 
@@ -94,7 +85,7 @@ impl Gpu {
             plan,
             options,
             textures: plan.slots.iter().map(|_| None).collect(),
-            pool: TexturePool::new(surface.extent, options.budget_bytes),
+            pool: TexturePool::new(surface.extent, options.budget_bytes, surface.texture_bytes()),
             report: RunReport::default(),
             open_planes: BTreeMap::new(),
         };
@@ -164,6 +155,8 @@ impl Runner<'_> {
                     .collect()
             }
         };
+        // Ghosts are still being filled; their time is this step's.
+        self.gpu.wait()?;
         let run = started.elapsed().saturating_sub(self.report.compile - compile_before);
         self.report.steps.push(StepTime { nodes, run });
         Ok(())
@@ -198,18 +191,27 @@ impl Runner<'_> {
     }
 
     fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
-        let filled = sources.fill(step).map_err(GpuError::Source)?;
         for (output, planes) in &step.writes {
             for (plane, slot) in planes {
-                let texels = filled
-                    .iter()
-                    .find(|texels| texels.output == *output && texels.plane == *plane);
-                let Some(texels) = texels else {
-                    let message = format!("node '{}' did not give '{output}'; this is a mistake in Sabi", step.id);
-                    return Err(GpuError::Source(message));
-                };
+                if (self.options.is_canceled)() {
+                    return Err(GpuError::Canceled);
+                }
                 let texture = self.texture(*slot)?;
-                self.upload(&texture, self.plan.slots[*slot].format, &texels.bytes);
+                let format = self.plan.slots[*slot].format;
+                let bytes = sources.plane(step, output, *plane).map_err(GpuError::Source)?;
+                if bytes.len() as u64 != self.surface.texels() * format.texel_bytes() {
+                    let given = bytes.len();
+                    let message = format!(
+                        "node '{}' gave {given} bytes for '{output}', too few or too many; this is a mistake in Sabi",
+                        step.id
+                    );
+                    return Err(GpuError::Source(message));
+                }
+                self.upload(&texture, format, &bytes);
+                drop(bytes);
+                // The driver holds a copy until it is on the device: let it go before the next plane is made.
+                self.gpu.queue.submit([]);
+                self.gpu.wait()?;
             }
         }
         Ok(())

@@ -13,9 +13,11 @@ use crate::pool::{Extent, array_view};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceTables {
     /// Six rows a triangle: origin, its two steps a texel, and the same of the normal. The fourth column holds the
-    /// reference texel (x, y), the texel's width (negative on mirrored charts), ids, and the part's seed.
+    /// reference texel (x, y), the texel's width (negative on mirrored charts), the part's number, its seed, and the
+    /// material's number; numbers and seed are bit patterns.
     pub geometry: Vec<[f32; 4]>,
-    /// Four rows a triangle: tangent and its two steps a texel, then the chart's place and number.
+    /// Four rows a triangle: tangent and its two steps a texel, then the chart's place and, as a bit pattern, its number.
+    /// The fourth column of the first row holds the sign of the bitangent.
     pub frames: Vec<[f32; 4]>,
 }
 
@@ -83,15 +85,14 @@ fn triangle_rows(mesh: &Mesh, atlas: &Atlas, triangle: usize, working_from_model
     let chart = &atlas.charts[atlas.triangle_chart[triangle] as usize];
     let signed_width = if chart.mirrored { -width.max(1e-30) } else { width };
     let part = mesh.triangle_part[triangle];
-    let ids = (part & 0xffff) | (mesh.triangle_material[triangle] << 16);
     let row = |v: [f64; 3], w: f32| [v[0] as f32, v[1] as f32, v[2] as f32, w];
     let geometry = [
         row(position[0], texels[0][0]),
         row(position[1], texels[0][1]),
         row(position[2], signed_width as f32),
-        row(normal[0], f32::from_bits(ids)),
+        row(normal[0], f32::from_bits(part)),
         row(normal[1], f32::from_bits(sabi_plan::pcg(seed ^ sabi_plan::pcg(part)))),
-        row(normal[2], 0.0),
+        row(normal[2], f32::from_bits(mesh.triangle_material[triangle])),
     ];
     let [offset_u, offset_v] = chart.texel_from_uv;
     let frames = [
@@ -136,6 +137,8 @@ pub struct GpuSurface {
     pub(crate) frames: wgpu::Buffer,
     pub(crate) ghosts: wgpu::Buffer,
     pub(crate) ghost_count: u32,
+    /// Room for one value a ghost, on its way from where it is gathered to where it is written.
+    pub(crate) ghost_values: wgpu::Buffer,
     /// Texels for one unit of UV.
     pub(crate) size: u32,
     bytes: u64,
@@ -172,7 +175,13 @@ impl GpuSurface {
             })
             .collect();
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        let buffer = |what: &'static str, bytes: &[u8]| storage_buffer(gpu, what, bytes, limit);
+        let buffer = |what: &'static str, bytes: &[u8]| {
+            let buffer = storage_buffer(gpu, what, bytes.len() as u64, limit)?;
+            if !bytes.is_empty() {
+                gpu.queue.write_buffer(&buffer, 0, bytes);
+            }
+            Ok::<_, GpuError>(buffer)
+        };
         let owners = owners_texture(gpu, atlas, extent)?;
         let surface = GpuSurface {
             extent,
@@ -183,6 +192,7 @@ impl GpuSurface {
             frames: buffer("the tangent frames", bytemuck::cast_slice(&tables.frames))?,
             ghost_count: ghosts.len() as u32,
             ghosts: buffer("the links over seams", bytemuck::cast_slice(&ghosts))?,
+            ghost_values: storage_buffer(gpu, "the values over seams", 16 * ghosts.len() as u64, limit)?,
             size: atlas.size,
             bytes: atlas.owners.len() as u64 * 4,
         };
@@ -190,7 +200,7 @@ impl GpuSurface {
         Ok(surface)
     }
 
-    /// Bytes of textures that the surface itself takes.
+    /// Bytes of textures that the surface itself takes; every run counts them in its budget and its peak.
     pub fn texture_bytes(&self) -> u64 {
         self.bytes
     }
@@ -206,27 +216,23 @@ impl GpuSurface {
     }
 }
 
-fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: &[u8], limit: u64) -> Result<wgpu::Buffer, GpuError> {
-    let size = (bytes.len() as u64).max(64).next_multiple_of(16);
+fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u64) -> Result<wgpu::Buffer, GpuError> {
+    let size = bytes.max(64).next_multiple_of(16);
     if size > limit {
         return Err(GpuError::TooLarge {
             what,
-            needed_mib: size >> 20,
+            needed_mib: size.div_ceil(1 << 20),
             limit_mib: limit >> 20,
         });
     }
-    let buffer = gpu.guarded(what, |device| {
+    gpu.guarded(what, |device| {
         device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(what),
             size,
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })
-    })?;
-    if !bytes.is_empty() {
-        gpu.queue.write_buffer(&buffer, 0, bytes);
-    }
-    Ok(buffer)
+    })
 }
 
 fn owners_texture(gpu: &Gpu, atlas: &Atlas, extent: Extent) -> Result<wgpu::TextureView, GpuError> {

@@ -2,16 +2,19 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on may stop")]
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
     AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, ResultCache, Run, RunOptions, SourceFill,
-    SourceTexels, SurfaceTables,
+    SurfaceTables,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, Value, flatten};
 use sabi_nodes::Library;
+use sabi_nodes::link::Plane;
 use sabi_plan::{Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, Target, TextParam};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
@@ -43,7 +46,7 @@ fn square() -> Mesh {
 struct NoSources;
 
 impl SourceFill for NoSources {
-    fn fill(&mut self, step: &SourceStep) -> Result<Vec<SourceTexels>, String> {
+    fn plane(&mut self, step: &SourceStep, _output: &str, _plane: Plane) -> Result<Vec<u8>, String> {
         Err(format!("nobody fills '{}'", step.id))
     }
 }
@@ -87,6 +90,21 @@ impl Bench {
         let out = graph.find("out").unwrap();
         let (plan, errors) = planner.plan(&[Target { node: out, port: None }]);
         assert_eq!(errors, []);
+        plan
+    }
+
+    /// The chain, and before it a source of so many masks.
+    fn plan_with_source(&self, masks: usize) -> Plan {
+        let mut plan = self.plan(CHAIN, FUSED);
+        let slot = plan.results[0].slots[0];
+        let step = SourceStep {
+            node: 0,
+            id: "lost".into(),
+            kind: "source/image".into(),
+            writes: vec![("mask".into(), vec![(Plane::Mask, slot); masks])],
+            key: [0; 32],
+        };
+        plan.steps.insert(0, sabi_plan::Step::Source(step));
         plan
     }
 
@@ -190,8 +208,40 @@ fn a_budget_that_is_too_small_is_a_sentence() {
     assert!(
         error
             .to_string()
-            .ends_with("bake at a smaller size or on an adapter with more memory"),
+            .ends_with("raise it with --budget, or bake at a smaller size"),
         "{error}"
+    );
+}
+
+#[test]
+fn the_owner_map_counts_in_the_budget_and_in_the_peak() {
+    let bench = Bench::new(128);
+    let plan = bench.plan(CHAIN, FUSED);
+    let all = bench.run(&plan, &options(), None).unwrap().report.pool.peak_bytes;
+    let planes = all - bench.surface.texture_bytes();
+    assert_eq!(bench.surface.texture_bytes(), 4 * bench.surface.texels());
+    assert!(planes > 0 && planes.is_multiple_of(4 * bench.surface.texels()));
+    let limited = |budget_bytes| {
+        let limited = RunOptions {
+            budget_bytes,
+            ..options()
+        };
+        bench.run(&plan, &limited, None).err()
+    };
+    assert_eq!(limited(all), None);
+    assert!(matches!(limited(all - 1), Some(GpuError::OverBudget { .. })));
+}
+
+#[test]
+fn a_kernel_that_cannot_be_compiled_blames_no_one_alone() {
+    let error = GpuError::Kernel {
+        nodes: "rust, own".into(),
+        why: "expected ';'".into(),
+    };
+    assert_eq!(
+        error.to_string(),
+        "the kernel of rust, own cannot be compiled: expected ';'. If one of these nodes is your own, look there first; \
+         otherwise bake with --no-fuse, or choose another --adapter"
     );
 }
 
@@ -261,15 +311,61 @@ fn interactive_and_fused_results_agree() {
 #[test]
 fn a_source_that_fails_is_an_error_with_its_own_words() {
     let bench = Bench::new(64);
-    let mut plan = bench.plan(CHAIN, FUSED);
-    let step = SourceStep {
-        node: 0,
-        id: "lost".into(),
-        kind: "source/image".into(),
-        writes: Vec::new(),
-        key: [0; 32],
-    };
-    plan.steps.insert(0, sabi_plan::Step::Source(step));
+    let plan = bench.plan_with_source(1);
     let error = bench.run(&plan, &options(), None).err().unwrap();
     assert_eq!(error.to_string(), "nobody fills 'lost'");
+}
+
+/// Gives so many bytes for every plane, and counts the planes.
+struct Counted {
+    bytes: usize,
+    asked: Rc<Cell<usize>>,
+}
+
+impl SourceFill for Counted {
+    fn plane(&mut self, _step: &SourceStep, _output: &str, _plane: Plane) -> Result<Vec<u8>, String> {
+        self.asked.set(self.asked.get() + 1);
+        Ok(vec![0; self.bytes])
+    }
+}
+
+#[test]
+fn a_source_of_many_planes_stops_between_two_of_them() {
+    let bench = Bench::new(64);
+    let plan = bench.plan_with_source(5);
+    let asked = Rc::new(Cell::new(0));
+    let mut source = Counted {
+        bytes: 4 * bench.surface.texels() as usize,
+        asked: asked.clone(),
+    };
+    let after_two = RunOptions {
+        is_canceled: &|| asked.get() == 2,
+        ..options()
+    };
+    let run = |options: &RunOptions<'_>, source: &mut Counted| {
+        let run = bench
+            .gpu
+            .run(&bench.surface, &bench.library, &plan, options, source, None);
+        run.err()
+    };
+    assert_eq!(run(&after_two, &mut source), Some(GpuError::Canceled));
+    assert_eq!(asked.get(), 2);
+    asked.set(0);
+    assert_eq!(run(&options(), &mut source), None);
+    assert_eq!(asked.get(), 5);
+}
+
+#[test]
+fn a_source_that_gives_too_little_is_an_error_and_no_panic() {
+    let bench = Bench::new(64);
+    let plan = bench.plan_with_source(1);
+    let mut source = Counted {
+        bytes: 12,
+        asked: Rc::default(),
+    };
+    let run = bench
+        .gpu
+        .run(&bench.surface, &bench.library, &plan, &options(), &mut source, None);
+    let error = run.err().unwrap().to_string();
+    assert!(error.starts_with("node 'lost' gave 12 bytes for 'mask'"), "{error}");
 }

@@ -9,7 +9,7 @@ use sabi_plan::{SourceKind, SourcePort, SourceStep};
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 use sabi_surface::model::{Model, ModelMaterial, TextureRef};
 
-use sabi_gpu::{SourceFill, SourceTexels, SurfaceTables};
+use sabi_gpu::{SourceFill, SurfaceTables};
 
 use super::sampler::Sampler;
 
@@ -238,7 +238,7 @@ impl<'a> ModelSource<'a> {
         })
     }
 
-    fn plane(&self, output: &str, plane: Plane) -> Vec<u8> {
+    fn texels(&self, output: &str, plane: Plane) -> Vec<u8> {
         let format = plane.format();
         let size = format.texel_bytes() as usize;
         let mut bytes = vec![0_u8; self.atlas.owners.len() * size];
@@ -309,7 +309,7 @@ fn put(texel: &mut [u8], format: Format, value: [f32; 4]) {
 }
 
 impl SourceFill for ModelSource<'_> {
-    fn fill(&mut self, step: &SourceStep) -> Result<Vec<SourceTexels>, String> {
+    fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String> {
         if step.kind != NAME {
             return Err(format!(
                 "node '{}' is of kind '{}', which nobody fills; this is a mistake in Sabi",
@@ -319,15 +319,6 @@ impl SourceFill for ModelSource<'_> {
         if self.materials.is_none() {
             self.materials = Some(open_materials(self.model, self.atlas.size, &mut self.warnings));
         }
-        let planes = step
-            .writes
-            .iter()
-            .flat_map(|(output, planes)| planes.iter().map(move |(plane, _)| (output, *plane)));
-        let texels = planes.map(|(output, plane)| SourceTexels {
-            output: output.clone(),
-            plane,
-            bytes: self.plane(output, plane),
-        });
-        Ok(texels.collect())
+        Ok(self.texels(output, plane))
     }
 }
