@@ -1,5 +1,6 @@
 //! Adding a node takes one file and nothing else, at run time too.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use sabi_engine::{Kinds, NodeWatcher};
@@ -128,4 +129,55 @@ fn an_edit_of_a_library_reaches_the_nodes_that_use_it() {
     folder.remove("own/facing");
     assert!(refreshed(&watcher, &mut kinds));
     assert!(kinds.library.kind("own/facing").is_none());
+}
+
+#[test]
+fn a_folder_that_is_never_at_rest_is_read_all_the_same() {
+    let folder = NodeFolder::new(&[("own/facing", FACING)]);
+    let mut kinds = folder.kinds();
+    let watcher = NodeWatcher::new(&folder.path()).expect("a watcher");
+    let (is_read, is_over) = (AtomicBool::new(false), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            // Far longer than any wait for rest may take, so that a wait without an end is seen.
+            for round in 0..4000 {
+                if is_read.load(Ordering::Relaxed) {
+                    return;
+                }
+                std::fs::write(folder.path().join("own/log.txt"), round.to_string()).expect("a file");
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            is_over.store(true, Ordering::Relaxed);
+        });
+        let has_read = refreshed(&watcher, &mut kinds);
+        is_read.store(true, Ordering::Relaxed);
+        assert!(has_read);
+        assert!(
+            !is_over.load(Ordering::Relaxed),
+            "the folder was read only when it came to rest"
+        );
+    });
+}
+
+const NUMBERED: &str = "\
+//! Numbered
+//! Selects one part of one material.
+
+/// Whether this place is it.
+fn mask(at: Surface) -> f32 {
+    return select(0.0, 1.0, at.part == 70000u && at.material == 66001u);
+}
+";
+
+#[test]
+fn a_model_may_have_more_parts_and_materials_than_sixteen_bits_count() {
+    let graph = r#"{ "format": "sabi", "version": 1, "nodes": { "one": { "kind": "own/numbered" } } }"#;
+    let kinds = NodeFolder::new(&[("own/numbered", NUMBERED)]).kinds();
+    let mut on_mesh = OnMesh::on(graph, kinds, &project("assets/meshes/cube.glb"), 64, |prepared| {
+        let mesh = &mut prepared.model.mesh;
+        mesh.triangle_part.fill(70_000);
+        mesh.triangle_material.fill(66_001);
+    });
+    let values = on_mesh.evaluate("one").component("mask");
+    assert!(on_mesh.owned().all(|(index, _)| values[index] == 1.0));
 }

@@ -2,12 +2,17 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use notify::{RecursiveMode, Watcher};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
+
+/// Nothing has changed for so long: the folder is at rest.
+const SETTLE_PAUSE: Duration = Duration::from_millis(30);
+/// After so long the folder is read, at rest or not.
+const SETTLE_LIMIT: Duration = Duration::from_millis(300);
 
 /// Watches a folder of nodes.
 pub struct NodeWatcher {
@@ -47,10 +52,18 @@ impl NodeWatcher {
         if self.changes.recv_timeout(patience).is_err() {
             return false;
         }
-        // An editor saves in several steps; they arrive together.
-        while self.changes.recv_timeout(Duration::from_millis(30)).is_ok() {}
+        self.settle();
         kinds.faults.retain(|fault| !fault.path.starts_with(&self.folder));
         kinds.add_folder(&self.folder);
         true
+    }
+
+    /// Waits until nothing changes any more: an editor saves in several steps, which arrive together. A folder that
+    /// something writes to all the time never comes to rest, so the wait has an end; what comes later is told later.
+    fn settle(&self) {
+        let started = Instant::now();
+        while started.elapsed() < SETTLE_LIMIT && self.changes.recv_timeout(SETTLE_PAUSE).is_ok() {}
+        // What piled up by now is answered by what is read next.
+        while self.changes.try_recv().is_ok() {}
     }
 }
