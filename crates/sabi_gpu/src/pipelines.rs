@@ -1,4 +1,4 @@
-//! Pipelines, compiled once for each kernel text.
+//! Pipelines: a kernel is linked at every use, and compiled once for each text that comes of it.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
