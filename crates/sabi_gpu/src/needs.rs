@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, SlotRef, Step};
 
 use crate::cache::ResultKey;
@@ -12,16 +13,15 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
     for step in &plan.steps {
         match step {
             Step::Source(source) => {
-                for (output, planes) in &source.writes {
-                    keys.extend(planes.iter().map(|(plane, slot)| {
-                        (
-                            *slot,
-                            ResultKey {
-                                content: *blake3::hash(&[&source.key[..], output.as_bytes()].concat()).as_bytes(),
-                                plane: *plane,
-                            },
-                        )
-                    }));
+                for ((_, planes), content) in source.writes.iter().zip(&source.keys) {
+                    let named = |(plane, slot): &(Plane, SlotRef)| {
+                        let key = ResultKey {
+                            content: *content,
+                            plane: *plane,
+                        };
+                        (*slot, key)
+                    };
+                    keys.extend(planes.iter().map(named));
                 }
             }
             Step::Kernel(kernel) => {

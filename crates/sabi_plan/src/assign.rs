@@ -2,8 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_graph::PortType;
-use sabi_nodes::link::{Plane, Stored};
+use sabi_nodes::link::Plane;
 
 use crate::draft::{Draft, Kept};
 use crate::fuse::Value;
@@ -15,19 +14,26 @@ use crate::slots::SlotPool;
 
 impl Builder<'_, '_> {
     /// Gives every stored plane a slot, and frees it after its last reader.
-    pub(crate) fn assign_slots(&self, drafts: Vec<Draft>, wanted: Vec<(Target, Option<Value>)>) -> Plan {
+    pub(crate) fn assign_slots(&self, drafts: Vec<Draft>, wanted: Vec<(Target, Value)>) -> Plan {
         let keep_all = self.planner.mode == Mode::Interactive;
-        let wanted_values: BTreeSet<Value> = wanted.iter().filter_map(|(_, value)| *value).collect();
+        let wanted_values: BTreeSet<Value> = wanted.iter().map(|(_, value)| *value).collect();
         let mut last_use: BTreeMap<(Kept, Plane), usize> = BTreeMap::new();
         for (at, draft) in drafts.iter().enumerate() {
             for plane in draft.reads.iter().chain(&draft.writes).flatten().chain(&draft.scratch) {
                 last_use.insert(*plane, at);
             }
         }
+        let is_wanted = |kept: &Kept| matches!(kept, Kept::Result(value) if wanted_values.contains(value));
+        let mut dead_after: Vec<Vec<(Kept, Plane)>> = drafts.iter().map(|_| Vec::new()).collect();
+        for (plane, at) in last_use {
+            if !keep_all && !is_wanted(&plane.0) {
+                dead_after[at].push(plane);
+            }
+        }
         let mut pool = SlotPool::default();
         let mut slot_of: BTreeMap<(Kept, Plane), SlotRef> = BTreeMap::new();
         let mut steps = Vec::new();
-        let mut nodes: Vec<String> = Vec::new();
+        let mut nodes = Names::default();
         for (at, draft) in drafts.into_iter().enumerate() {
             for plane in draft.writes.iter().flatten().chain(&draft.scratch) {
                 slot_of.insert(*plane, pool.take(plane.1.format()));
@@ -42,14 +48,8 @@ impl Builder<'_, '_> {
                 writes,
                 draft.scratch.map(|plane| slot_of[&plane]),
             ));
-            add_names(&mut nodes, &steps[at]);
-            let dead: Vec<(Kept, Plane)> = slot_of
-                .keys()
-                .filter(|plane| last_use[*plane] == at && !keep_all)
-                .filter(|(kept, _)| !matches!(kept, Kept::Result(value) if wanted_values.contains(value)))
-                .copied()
-                .collect();
-            for plane in dead {
+            nodes.add(&steps[at]);
+            for plane in std::mem::take(&mut dead_after[at]) {
                 if let Some(slot) = slot_of.remove(&plane) {
                     pool.release(slot);
                 }
@@ -63,29 +63,16 @@ impl Builder<'_, '_> {
             slots: pool.into_slots(),
             steps,
             results,
-            nodes,
+            nodes: nodes.in_order,
         }
     }
 
     fn result(
         &self,
         target: Target,
-        value: Option<Value>,
+        (node, output): Value,
         slot_of: &BTreeMap<(Kept, Plane), SlotRef>,
     ) -> PlannedResult {
-        let Some((node, output)) = value else {
-            let stored = Stored {
-                ty: PortType::Material,
-                channels: Vec::new(),
-            };
-            return PlannedResult {
-                target,
-                from: None,
-                stored,
-                slots: Vec::new(),
-                key: [0; 32],
-            };
-        };
         let stored = self.stored((node, output));
         let slots = stored
             .planes()
@@ -96,7 +83,7 @@ impl Builder<'_, '_> {
         let key = result_key(self.node(node), name);
         PlannedResult {
             target,
-            from: Some((self.id(node), name.to_owned())),
+            from: (self.id(node), name.to_owned()),
             stored,
             slots,
             key,
@@ -126,14 +113,23 @@ fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRe
     }
 }
 
-fn add_names(nodes: &mut Vec<String>, step: &Step) {
-    let names = match step {
-        Step::Source(source) => std::slice::from_ref(&source.id),
-        Step::Kernel(kernel) => &kernel.nodes,
-    };
-    for name in names {
-        if !nodes.contains(name) {
-            nodes.push(name.clone());
+/// Ids of nodes, each once, in the order in which they come.
+#[derive(Default)]
+struct Names {
+    seen: BTreeSet<String>,
+    in_order: Vec<String>,
+}
+
+impl Names {
+    fn add(&mut self, step: &Step) {
+        let names = match step {
+            Step::Source(source) => std::slice::from_ref(&source.id),
+            Step::Kernel(kernel) => &kernel.nodes,
+        };
+        for name in names {
+            if self.seen.insert(name.clone()) {
+                self.in_order.push(name.clone());
+            }
         }
     }
 }

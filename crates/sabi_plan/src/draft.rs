@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
-use sabi_nodes::link::{Binding, Call, KernelSpec, Plane, Store, Stored};
+use sabi_nodes::link::{Binding, Call, Convert, KernelSpec, Plane, Store, Stored};
 
 use crate::fuse::{self, Value};
 use crate::keys::result_key;
@@ -16,6 +16,8 @@ pub(crate) enum Kept {
     Result(Value),
     Pass(usize, usize),
     Scratch(usize),
+    /// What a field's input reads, converted: node and index of the input.
+    Converted(usize, usize),
 }
 
 /// A step before its slots are known.
@@ -82,12 +84,12 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
         self.add_load(Some(kept), stored, planes)
     }
 
-    pub(crate) fn load_pass(&mut self, node: usize, pass: usize, ty: PortType) -> usize {
+    /// The load of something that is no result, of one plane.
+    pub(crate) fn load_kept(&mut self, kept: Kept, ty: PortType) -> usize {
         let stored = Stored {
             ty,
             channels: Vec::new(),
         };
-        let kept = Kept::Pass(node, pass);
         let planes = stored.planes().into_iter().map(|plane| Some((kept, plane))).collect();
         self.add_load(Some(kept), stored, planes)
     }
@@ -125,13 +127,14 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
     }
 
     pub(crate) fn store(&mut self, call: usize, value: Value) {
-        self.store_kept(call, Kept::Result(value), self.builder.stored(value));
+        let made = Binding::Call(call, Convert::None);
+        self.store_kept(made, Kept::Result(value), self.builder.stored(value));
     }
 
-    pub(crate) fn store_kept(&mut self, call: usize, kept: Kept, stored: Stored) {
+    pub(crate) fn store_kept(&mut self, value: Binding, kept: Kept, stored: Stored) {
         self.writes
             .extend(stored.planes().into_iter().map(|plane| Some((kept, plane))));
-        self.add_store(call, kept, stored);
+        self.add_store(value, kept, stored);
     }
 
     /// Stores all planes the result could have; those that are not set stay open.
@@ -146,12 +149,12 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
         let stored = Stored { ty: set.ty, channels };
         let is_set = |plane: Plane| set.planes().contains(&plane).then_some((kept, plane));
         self.writes.extend(stored.planes().into_iter().map(is_set));
-        self.add_store(call, kept, stored);
+        self.add_store(Binding::Call(call, Convert::None), kept, stored);
     }
 
-    pub(crate) fn add_store(&mut self, call: usize, kept: Kept, stored: Stored) {
+    pub(crate) fn add_store(&mut self, value: Binding, kept: Kept, stored: Stored) {
         let formats = stored.planes().iter().map(|plane| plane.format()).collect();
-        self.spec.stores.push(Store { call, stored, formats });
+        self.spec.stores.push(Store { value, stored, formats });
         if let Kept::Result((node, output)) = kept {
             let ready = self.builder.node(node);
             self.keys

@@ -84,8 +84,9 @@ pub(crate) fn groups(
         }
         Mode::Bake { fuse: false } => groups.extend(points.into_iter().map(|point| Group::Points(vec![point]))),
         Mode::Bake { fuse: true } => {
+            let uses = uses(resolved);
             for region in regions(resolved, points) {
-                cut(resolved, region, wanted, limits, &mut groups);
+                cut(resolved, &uses, region, wanted, limits, &mut groups);
             }
         }
     }
@@ -145,53 +146,102 @@ fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec
 /// Cuts a region where it costs or binds more than a kernel may: the longest beginning that fits, then the rest.
 fn cut(
     resolved: &Resolved<'_>,
+    uses: &BTreeMap<Value, usize>,
     mut region: Vec<(usize, Vec<usize>)>,
     wanted: &[Value],
     limits: &Limits,
     groups: &mut Vec<Group>,
 ) {
     while !region.is_empty() {
-        let longest = (1..=region.len())
-            .rev()
-            .find(|count| fits(resolved, &region[..*count], wanted, limits));
-        let rest = region.split_off(longest.unwrap_or(1));
+        let mut kernel = Beginning::new(resolved, uses, wanted);
+        let mut longest = 1;
+        for (count, (node, _)) in region.iter().enumerate() {
+            kernel.add(*node);
+            // Cost and loads only grow; stores may shrink again once a result's last reader is inside.
+            if kernel.cost > u64::from(limits.cost) || kernel.loads > limits.sampled_textures {
+                break;
+            }
+            if kernel.stores <= limits.storage_textures {
+                longest = count + 1;
+            }
+        }
+        let rest = region.split_off(longest);
         groups.push(Group::Points(std::mem::replace(&mut region, rest)));
     }
 }
 
-fn fits(resolved: &Resolved<'_>, members: &[(usize, Vec<usize>)], wanted: &[Value], limits: &Limits) -> bool {
-    let cost: u64 = members
-        .iter()
-        .map(|(node, _)| u64::from(node_cost(resolved, *node)))
-        .sum();
-    if cost > u64::from(limits.cost) {
-        return false;
-    }
-    let inside: BTreeSet<usize> = members.iter().map(|(node, _)| *node).collect();
-    let mut loads: BTreeSet<Value> = BTreeSet::new();
-    for (node, _) in members {
-        let Some(ready) = &resolved.nodes[*node] else { continue };
-        let from_outside = ready
-            .inputs
+/// How often each value is read, counted by inputs.
+fn uses(resolved: &Resolved<'_>) -> BTreeMap<Value, usize> {
+    let mut uses = BTreeMap::new();
+    for node in &resolved.order {
+        let inputs = resolved.nodes[*node]
             .iter()
-            .flatten()
-            .filter(|input| !inside.contains(&input.node));
-        loads.extend(from_outside.map(|input| (input.node, input.output)));
+            .flat_map(|ready| ready.inputs.iter().flatten());
+        for input in inputs {
+            *uses.entry((input.node, input.output)).or_insert(0) += 1;
+        }
     }
-    let mut stores: BTreeSet<Value> = wanted
-        .iter()
-        .copied()
-        .filter(|(node, _)| inside.contains(node))
-        .collect();
-    for reader in resolved.order.iter().filter(|reader| !inside.contains(reader)) {
-        let Some(ready) = &resolved.nodes[*reader] else {
-            continue;
+    uses
+}
+
+/// The beginning of a region, and what a kernel of it costs and binds.
+struct Beginning<'a, 'k> {
+    resolved: &'a Resolved<'k>,
+    uses: &'a BTreeMap<Value, usize>,
+    wanted: &'a [Value],
+    inside: BTreeSet<usize>,
+    loaded: BTreeSet<Value>,
+    /// Uses of each result that are not inside yet.
+    outside: BTreeMap<Value, usize>,
+    cost: u64,
+    loads: usize,
+    stores: usize,
+}
+
+impl<'a, 'k> Beginning<'a, 'k> {
+    fn new(resolved: &'a Resolved<'k>, uses: &'a BTreeMap<Value, usize>, wanted: &'a [Value]) -> Self {
+        Beginning {
+            resolved,
+            uses,
+            wanted,
+            inside: BTreeSet::new(),
+            loaded: BTreeSet::new(),
+            outside: BTreeMap::new(),
+            cost: 0,
+            loads: 0,
+            stores: 0,
+        }
+    }
+
+    fn add(&mut self, node: usize) {
+        let Some(ready) = &self.resolved.nodes[node] else {
+            return;
         };
-        let read = ready.inputs.iter().flatten().map(|input| (input.node, input.output));
-        stores.extend(read.filter(|(node, _)| inside.contains(node)));
+        self.cost += u64::from(node_cost(self.resolved, node));
+        for input in ready.inputs.iter().flatten() {
+            let value = (input.node, input.output);
+            if !self.inside.contains(&input.node) {
+                if self.loaded.insert(value) {
+                    self.loads += planes(self.resolved, value);
+                }
+            } else if let Some(left) = self.outside.get_mut(&value) {
+                *left -= 1;
+                if *left == 0 && !self.wanted.contains(&value) {
+                    self.stores -= planes(self.resolved, value);
+                }
+            }
+        }
+        self.inside.insert(node);
+        for (value, count) in self.uses.range((node, 0)..(node + 1, 0)) {
+            self.outside.insert(*value, *count);
+            self.stores += planes(self.resolved, *value);
+        }
+        let unread = self
+            .wanted
+            .iter()
+            .filter(|value| value.0 == node && !self.uses.contains_key(value));
+        self.stores += unread.map(|value| planes(self.resolved, *value)).sum::<usize>();
     }
-    let planes = |values: &BTreeSet<Value>| values.iter().map(|value| planes(resolved, *value)).sum::<usize>();
-    planes(&loads) <= limits.sampled_textures && planes(&stores) <= limits.storage_textures
 }
 
 /// Expressions of a node, for the cost limit.

@@ -4,6 +4,7 @@ use sabi_graph::{FlatNode, PortType, Value};
 use sabi_nodes::kind::{InputDefault, Kind, Param, ParamType, ParamValue, Role};
 
 use crate::error::Problem;
+use crate::request::SourceKind;
 use crate::values::read_param;
 
 /// Parameter values and knobs of a node: what the file says, else the defaults.
@@ -61,5 +62,22 @@ fn knob_param(name: &str, ty: PortType, start: &[f32]) -> Param {
         soft: None,
         bounds_a_loop: false,
         formerly: Vec::new(),
+    }
+}
+
+/// Parameters of a kind that is no shader are texts.
+pub(crate) fn check_texts(kind: &SourceKind, node: &FlatNode, problems: &mut Vec<Problem>) {
+    for param in kind
+        .params
+        .iter()
+        .filter(|param| matches!(param.default, Value::Text(_)))
+    {
+        if let Some(value) = node.params.get(&param.name).filter(|value| value.as_text().is_none()) {
+            problems.push(Problem::BadValue {
+                param: param.name.clone(),
+                takes: format!("a text such as {}", param.default),
+                given: value.to_string(),
+            });
+        }
     }
 }

@@ -34,7 +34,8 @@ impl Planner<'_> {
         for (index, input) in ready.inputs.iter().enumerate() {
             match input {
                 Some(input) => {
-                    part(&[1, input.output as u8]);
+                    part(&[1]);
+                    part(&(input.output as u64).to_le_bytes());
                     part(&resolved.nodes[input.node].as_ref().map_or([0; 32], |from| from.key));
                 }
                 None => {

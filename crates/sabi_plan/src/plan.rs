@@ -48,8 +48,8 @@ pub struct SourceStep {
     pub kind: String,
     /// Results that are read: name, planes and slots.
     pub writes: Vec<(String, Vec<(Plane, SlotRef)>)>,
-    /// Key of the node's content.
-    pub key: [u8; 32],
+    /// Names the content of each of `writes`.
+    pub keys: Vec<[u8; 32]>,
 }
 
 /// A kernel over all covered tiles.
@@ -69,7 +69,7 @@ pub struct KernelStep {
     pub fills_ghosts: bool,
     /// How often it runs, each time reading its own last result.
     pub feedback: Option<Feedback>,
-    /// Ids of the nodes in it, in order.
+    /// Ids of the nodes in it, in order; none where it only converts.
     pub nodes: Vec<String>,
     /// Share of the kernel's cost for each of `nodes`; they add up to 1.
     pub shares: Vec<f32>,
@@ -102,8 +102,8 @@ pub struct BlockValues {
 pub struct PlannedResult {
     /// The target as asked.
     pub target: crate::Target,
-    /// Where it comes from: node id and result; none when a sink's input is not connected.
-    pub from: Option<(String, String)>,
+    /// Where it comes from: node id and result.
+    pub from: (String, String),
     /// How it is stored.
     pub stored: Stored,
     /// Slots, one a plane.
@@ -169,7 +169,10 @@ impl fmt::Display for Plan {
 }
 
 fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result {
-    write!(f, "pass {}", kernel.nodes.join(" "))?;
+    match kernel.nodes.as_slice() {
+        [] => f.write_str("convert")?,
+        nodes => write!(f, "pass {}", nodes.join(" "))?,
+    }
     write_slots(f, " <-", kernel.reads.iter().copied())?;
     write_slots(f, " ->", kernel.writes.iter().copied())?;
     if let Some(feedback) = &kernel.feedback {

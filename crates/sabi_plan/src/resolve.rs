@@ -6,10 +6,13 @@ use sabi_nodes::link::Convert;
 
 use crate::channels::channels;
 use crate::error::{PlanError, Problem};
-use crate::inputs::read_values;
+use crate::inputs::{check_texts, read_values};
 use crate::muted::{Ports, behind_muted};
 use crate::request::{Planner, SourceKind, SourcePort, Target};
 use crate::values::{Packing, pack_params};
+
+/// Version of all kinds that the engine makes itself.
+const OWN_VERSION: u32 = 1;
 
 /// How a node is evaluated.
 #[derive(Clone, Copy, Debug)]
@@ -102,35 +105,68 @@ impl<'a> Planner<'a> {
         resolved
     }
 
-    /// Nodes that the targets need, inputs before readers, by depth first so that chains stay together.
+    /// What a target means: the node itself, or what it passes on while it is muted.
+    pub(crate) fn behind(&self, target: &Target) -> Option<FlatRef> {
+        let from = FlatRef {
+            node: target.node,
+            port: target.port.clone(),
+        };
+        behind_muted(self.graph, self, &from).0
+    }
+
+    /// Nodes that the targets need, inputs before readers, by depth first so that chains stay together. Muted nodes on
+    /// the way are among them, so that what is wrong with them is told.
     fn evaluation_order(&self, targets: &[Target]) -> Vec<usize> {
         let mut seen = vec![false; self.graph.nodes.len()];
         let mut order = Vec::new();
         for target in targets {
+            let from = FlatRef {
+                node: target.node,
+                port: target.port.clone(),
+            };
             // An explicit stack: graphs may be deeper than a thread's.
-            let mut stack = vec![(target.node, false)];
+            let mut stack = Vec::new();
+            self.follow(&from, &mut seen, &mut order, &mut stack);
             while let Some((node, inputs_done)) = stack.pop() {
                 if inputs_done {
                     order.push(node);
                 } else if !std::mem::replace(&mut seen[node], true) {
                     stack.push((node, true));
-                    let wires = self.graph.nodes[node].inputs.values();
-                    let behind = wires.filter_map(|from| behind_muted(self.graph, self, from));
-                    let fresh: Vec<usize> = behind.map(|from| from.node).filter(|from| !seen[*from]).collect();
-                    stack.extend(fresh.into_iter().rev().map(|from| (from, false)));
+                    let mut fresh = Vec::new();
+                    for from in self.graph.nodes[node].inputs.values() {
+                        self.follow(from, &mut seen, &mut order, &mut fresh);
+                    }
+                    stack.extend(fresh.into_iter().rev());
                 }
             }
         }
         order
     }
 
+    /// Adds what a wire leads to, and puts muted nodes on the way in the order at once: they need nothing.
+    fn follow(&self, from: &FlatRef, seen: &mut [bool], order: &mut Vec<usize>, next: &mut Vec<(usize, bool)>) {
+        let (behind, muted) = behind_muted(self.graph, self, from);
+        for node in muted {
+            if !std::mem::replace(&mut seen[node], true) {
+                order.push(node);
+            }
+        }
+        if let Some(from) = behind.filter(|from| !seen[from.node]) {
+            next.push((from.node, false));
+        }
+    }
+
     /// The behavior of a node's kind.
     pub fn behavior(&self, node: &FlatNode) -> Result<Behavior<'a>, Problem> {
-        if let Some(kind) = self.sources.get(&node.kind) {
-            return Ok(Behavior::Source(kind));
-        }
-        if let Some(kind) = self.sinks.get(&node.kind) {
-            return Ok(Behavior::Sink(kind));
+        let own = self.sources.get(&node.kind).map(Behavior::Source);
+        if let Some(own) = own.or_else(|| self.sinks.get(&node.kind).map(Behavior::Sink)) {
+            return match node.version {
+                0..=OWN_VERSION => Ok(own),
+                wanted => Err(Problem::NewerKind {
+                    wanted,
+                    loaded: OWN_VERSION,
+                }),
+            };
         }
         let Some(kind) = self.library.kind(&node.kind) else {
             let own = self.sources.keys().chain(self.sinks.keys()).map(String::as_str);
@@ -157,6 +193,9 @@ impl<'a> Planner<'a> {
             problem,
         };
         let behavior = self.behavior(node).map_err(|problem| vec![at_fault(problem)])?;
+        if node.muted {
+            return Ok(None);
+        }
         let mut problems = Vec::new();
         let mut waits = false;
         let ports = ports(behavior);
@@ -181,7 +220,10 @@ impl<'a> Planner<'a> {
         }
         let (values, knobs) = match behavior {
             Behavior::Shader(kind) => read_values(kind, node, &mut problems),
-            _ => (Vec::new(), Vec::new()),
+            Behavior::Source(kind) | Behavior::Sink(kind) => {
+                check_texts(kind, node, &mut problems);
+                (Vec::new(), Vec::new())
+            }
         };
         if !problems.is_empty() {
             return Err(problems.into_iter().map(at_fault).collect());
@@ -216,11 +258,13 @@ impl<'a> Planner<'a> {
     }
 
     fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<Wire, Problem> {
-        let wire = node
-            .inputs
-            .get(port.name)
-            .and_then(|from| behind_muted(self.graph, self, from));
-        let Some(from) = wire else {
+        let wire = node.inputs.get(port.name);
+        let behind = wire.and_then(|from| match self.find_output(from) {
+            // A result that is not there is told even where the node is muted.
+            None => Some(from.clone()),
+            Some(_) => behind_muted(self.graph, self, from).0,
+        });
+        let Some(from) = behind else {
             return if port.required {
                 Err(Problem::MissingInput {
                     port: port.name.to_owned(),
@@ -267,7 +311,7 @@ impl<'a> Planner<'a> {
         }))
     }
 
-    fn find_output(&self, from: &FlatRef) -> Option<(usize, PortType)> {
+    pub(crate) fn find_output(&self, from: &FlatRef) -> Option<(usize, PortType)> {
         let find = |names: &[(&str, PortType)]| {
             let index = match &from.port {
                 None => 0,

@@ -4,11 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Argument, Channel, Kind, Output, ParamValue, Reads};
-use sabi_nodes::link::{Binding, Call, INPUTS_A_WORD, Stored};
+use sabi_nodes::link::{Binding, Call, Convert, INPUTS_A_WORD, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft};
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Value};
+use crate::keys::result_key;
 use crate::plan::{Plan, SourceStep, Step, times};
 use crate::request::{Mode, Planner, Target};
 use crate::resolve::{Behavior, Resolved, ResolvedNode};
@@ -18,7 +19,7 @@ impl Planner<'_> {
     pub fn plan(&self, targets: &[Target]) -> (Plan, Vec<PlanError>) {
         let mut resolved = self.resolve(targets);
         let mut errors = std::mem::take(&mut resolved.errors);
-        let mut wanted: Vec<(Target, Option<Value>)> = Vec::new();
+        let mut wanted: Vec<(Target, Value)> = Vec::new();
         for target in targets {
             match self.wanted_value(&resolved, target) {
                 Ok(Some(value)) => wanted.push((target.clone(), value)),
@@ -26,13 +27,14 @@ impl Planner<'_> {
                 Err(error) => errors.push(*error),
             }
         }
-        let values: Vec<Value> = wanted.iter().filter_map(|(_, value)| *value).collect();
+        let values: Vec<Value> = wanted.iter().map(|(_, value)| *value).collect();
         let needed = fuse::needed(&resolved, &values);
         let groups = fuse::groups(&resolved, &needed, &values, self.mode, &self.limits);
         let builder = Builder {
             planner: self,
             resolved: &resolved,
             producer: producers(&groups),
+            readers: readers(&resolved),
         };
         let order = builder.order(&groups, &values);
         let drafts: Vec<Draft> = order
@@ -42,12 +44,13 @@ impl Planner<'_> {
         (builder.assign_slots(drafts, wanted), errors)
     }
 
-    /// The result that a target means; `None` inside when a sink's input is open, outside when it waits for a fault.
-    fn wanted_value(&self, resolved: &Resolved<'_>, target: &Target) -> Result<Option<Option<Value>>, Box<PlanError>> {
-        let Some(ready) = &resolved.nodes[target.node] else {
+    /// The result that a target means; none when it waits for a fault, or is muted and passes nothing on.
+    fn wanted_value(&self, resolved: &Resolved<'_>, target: &Target) -> Result<Option<Value>, Box<PlanError>> {
+        let node = &self.graph.nodes[target.node];
+        let Ok(behavior) = self.behavior(node) else {
             return Ok(None);
         };
-        let names: Vec<&str> = match ready.behavior {
+        let names: Vec<&str> = match behavior {
             Behavior::Sink(kind) => kind.inputs.iter().map(|input| input.name.as_str()).collect(),
             Behavior::Source(kind) => kind.outputs.iter().map(|output| output.name.as_str()).collect(),
             Behavior::Shader(kind) => kind.outputs.iter().map(|output| output.name.as_str()).collect(),
@@ -57,7 +60,6 @@ impl Planner<'_> {
             Some(port) => names.iter().position(|name| name == port),
         };
         let Some(index) = found else {
-            let node = &self.graph.nodes[target.node];
             let known = names.iter().map(|name| (*name).to_owned()).collect();
             let problem = Problem::NoSuchResult {
                 output: target.port.clone(),
@@ -69,11 +71,30 @@ impl Planner<'_> {
                 problem,
             }));
         };
-        Ok(Some(match ready.behavior {
-            Behavior::Sink(_) => ready.inputs[index].map(|input| (input.node, input.output)),
-            _ => Some((target.node, index)),
-        }))
+        if let Behavior::Sink(_) = behavior {
+            let ready = resolved.nodes[target.node].as_ref();
+            return Ok(ready.and_then(|ready| ready.inputs[index].map(|input| (input.node, input.output))));
+        }
+        let behind = self.behind(target).and_then(|from| {
+            let (output, _) = self.find_output(&from)?;
+            resolved.nodes[from.node].as_ref().map(|_| (from.node, output))
+        });
+        Ok(behind)
     }
+}
+
+/// Nodes that read a value, once for each input.
+fn readers(resolved: &Resolved<'_>) -> BTreeMap<Value, Vec<usize>> {
+    let mut readers: BTreeMap<Value, Vec<usize>> = BTreeMap::new();
+    for node in &resolved.order {
+        let inputs = resolved.nodes[*node]
+            .iter()
+            .flat_map(|ready| ready.inputs.iter().flatten());
+        for input in inputs {
+            readers.entry((input.node, input.output)).or_default().push(*node);
+        }
+    }
+    readers
 }
 
 fn producers(groups: &[Group]) -> BTreeMap<Value, usize> {
@@ -88,6 +109,7 @@ pub(crate) struct Builder<'p, 'a> {
     pub(crate) planner: &'p Planner<'a>,
     pub(crate) resolved: &'p Resolved<'a>,
     producer: BTreeMap<Value, usize>,
+    readers: BTreeMap<Value, Vec<usize>>,
 }
 
 impl Builder<'_, '_> {
@@ -150,9 +172,11 @@ impl Builder<'_, '_> {
         let ready = self.node(node);
         let mut writes = Vec::new();
         let mut names = Vec::new();
+        let mut keys = Vec::new();
         for output in outputs {
             let planes = self.stored((node, *output)).planes();
             let name = ready.output(*output).map_or(String::new(), |(name, _)| name.to_owned());
+            keys.push(result_key(ready, &name));
             names.push((name, planes.iter().map(|plane| (*plane, 0)).collect()));
             writes.extend(
                 planes
@@ -165,7 +189,7 @@ impl Builder<'_, '_> {
             id: self.id(node),
             kind: self.planner.graph.nodes[node].kind.clone(),
             writes: names,
-            key: ready.key,
+            keys,
         };
         Draft {
             step: Step::Source(step),
@@ -204,16 +228,9 @@ impl Builder<'_, '_> {
     }
 
     fn is_read_outside(&self, value: Value, group: usize) -> bool {
-        self.resolved.order.iter().any(|reader| {
-            let reads = self
-                .node(*reader)
-                .inputs
-                .iter()
-                .flatten()
-                .any(|input| (input.node, input.output) == value);
-            let outputs = self.producer.range((*reader, 0)..(*reader + 1, 0));
-            reads && outputs.into_iter().any(|(_, producer)| *producer != group)
-        })
+        let readers = self.readers.get(&value).into_iter().flatten();
+        let groups = |reader: &usize| self.producer.range((*reader, 0)..(*reader + 1, 0));
+        readers.flat_map(groups).any(|(_, producer)| *producer != group)
     }
 
     /// One result of one point node, as a kernel that stays the same however the node is wired.
@@ -266,7 +283,32 @@ impl Builder<'_, '_> {
         let results = outputs
             .iter()
             .map(|output| self.field_step(node, kind, &kind.outputs[*output], Kept::Result((node, *output))));
-        passes.chain(results).collect()
+        self.conversions(node)
+            .into_iter()
+            .chain(passes)
+            .chain(results)
+            .collect()
+    }
+
+    /// Inputs of a field that carry another type are stored once more, converted: a texture converts nothing when read.
+    fn conversions(&self, node: usize) -> Vec<Draft> {
+        let inputs = self.node(node).inputs.iter().enumerate();
+        let converted = inputs.filter_map(|(index, input)| {
+            let input = input.filter(|input| input.reads == Reads::Field && input.convert != Convert::None)?;
+            let mut kernel = KernelDraft::new(self, true);
+            let load = kernel.load((input.node, input.output));
+            let stored = Stored {
+                ty: if input.ty == PortType::Mask {
+                    PortType::Color
+                } else {
+                    PortType::Mask
+                },
+                channels: Vec::new(),
+            };
+            kernel.store_kept(Binding::Load(load, input.convert), Kept::Converted(node, index), stored);
+            Some(kernel.finish())
+        });
+        converted.collect()
     }
 
     fn field_step(&self, node: usize, kind: &Kind, function: &Output, kept: Kept) -> Draft {
@@ -277,19 +319,21 @@ impl Builder<'_, '_> {
         for (index, input) in ready.inputs.iter().enumerate() {
             let is_read = function.arguments.contains(&Argument::Input(index));
             inputs.push(match input {
-                Some(input) if is_read => {
-                    let load = kernel.load((input.node, input.output));
-                    match input.reads {
-                        Reads::Field => Binding::Field(load),
-                        Reads::Value => Binding::Load(load, input.convert),
-                    }
+                Some(input) if is_read && input.reads == Reads::Value => {
+                    Binding::Load(kernel.load((input.node, input.output)), input.convert)
                 }
+                Some(input) if is_read && input.convert != Convert::None => {
+                    Binding::Field(kernel.load_kept(Kept::Converted(node, index), kind.inputs[index].ty))
+                }
+                Some(input) if is_read => Binding::Field(kernel.load((input.node, input.output))),
                 _ => Binding::Default,
             });
         }
         let pass_is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
         let passes: Vec<Option<usize>> = (0..kind.passes.len())
-            .map(|pass| pass_is_read(pass).then(|| kernel.load_pass(node, pass, kind.passes[pass].function.ty)))
+            .map(|pass| {
+                pass_is_read(pass).then(|| kernel.load_kept(Kept::Pass(node, pass), kind.passes[pass].function.ty))
+            })
             .collect();
         let first_field = function.arguments.iter().find_map(|argument| match argument {
             Argument::Pass(pass) => passes[*pass],
@@ -307,7 +351,7 @@ impl Builder<'_, '_> {
             block,
         });
         kernel.store_kept(
-            0,
+            Binding::Call(0, Convert::None),
             kept,
             Stored {
                 ty: function.ty,

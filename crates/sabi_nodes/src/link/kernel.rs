@@ -7,8 +7,8 @@ use sabi_graph::PortType;
 
 use super::block::{BlockLayout, knob_members};
 use super::rename::with_prefix;
-use super::{Binding, Call, Convert, INPUTS_A_WORD, KernelSpec, Plane, Store, Stored, prefix};
-use crate::kind::{Argument, Channel, InputDefault, Kind, Output};
+use super::{Binding, Call, Convert, INPUTS_A_WORD, KernelSpec, Plane, Store, Stored};
+use crate::kind::{Argument, Channel, InputDefault, Kind, Output, ParamType};
 
 /// A kernel's text and what the host needs to feed it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,8 +25,8 @@ pub struct Kernel {
 
 /// Turns a spec into WGSL.
 ///
-/// `kind` finds a kind by id, `library` the text of a shared file; `surface` is the text that reconstructs a
-/// [`Surface`](https://www.w3.org/TR/WGSL/) from the atlas. The spec must name only kinds and functions that exist.
+/// `kind` finds a kind by id, `library` the text of a shared file; `surface` is the text that reconstructs a place on the
+/// surface from the atlas. The spec must name only kinds and functions that exist.
 pub fn link<'a>(
     spec: &KernelSpec,
     kind: impl Fn(&str) -> Option<&'a Kind>,
@@ -47,12 +47,13 @@ pub fn link<'a>(
         .iter()
         .any(|call| call.inputs.iter().any(|b| matches!(b, Binding::Switch(_))));
     let layout = BlockLayout::new(blocks.values().copied(), switches);
+    let names = Names::of(&kinds);
 
     let mut out = String::new();
-    write_sources(&mut out, &blocks);
-    write_block(&mut out, &blocks, switches);
+    write_sources(&mut out, &blocks, &names);
+    write_block(&mut out, &blocks, &names, switches);
     let (reads, writes) = write_bindings(&mut out, spec);
-    write_main(&mut out, spec, &kinds)?;
+    write_main(&mut out, spec, &kinds, &names)?;
     out.push_str(surface);
     for name in libraries(&kinds) {
         out.push('\n');
@@ -66,7 +67,7 @@ pub fn link<'a>(
     })
 }
 
-/// Why a kernel could not be put together; both point to a mistake in the planner, not in a graph.
+/// Why a kernel could not be put together: the nodes changed between planning and linking, or a mistake in the planner.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
     /// A call names a kind that does not exist.
@@ -80,6 +81,47 @@ pub enum LinkError {
     UnknownFunction(String, String),
 }
 
+/// Names that keep kinds apart in one module.
+///
+/// A kind's own names get a prefix that begins with its number, generated ones begin with `gen_`, so neither two kinds
+/// nor a kind and the generated code can mean the same name.
+struct Names<'a> {
+    ids: Vec<&'a str>,
+}
+
+impl<'a> Names<'a> {
+    fn of(kinds: &[&'a Kind]) -> Names<'a> {
+        let ids: BTreeSet<&str> = kinds.iter().map(|kind| kind.id.as_str()).collect();
+        Names {
+            ids: ids.into_iter().collect(),
+        }
+    }
+
+    fn number(&self, kind: &Kind) -> usize {
+        self.ids.iter().position(|id| *id == kind.id).unwrap_or_default()
+    }
+
+    /// What stands before every name of the kind's own.
+    fn prefix(&self, kind: &Kind) -> String {
+        let readable: String = kind
+            .id
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+            .collect();
+        format!("n{}_{readable}__", self.number(kind))
+    }
+
+    /// The generated function that keeps parameters inside their loops' ranges.
+    fn bounded(&self, kind: &Kind) -> String {
+        format!("gen_bounded_{}", self.number(kind))
+    }
+
+    /// The generated struct of knobs.
+    fn knobs(&self, kind: &Kind) -> String {
+        format!("gen_knobs_{}", self.number(kind))
+    }
+}
+
 fn libraries(kinds: &[&Kind]) -> Vec<String> {
     let mut names = vec!["core".to_owned()];
     for name in kinds.iter().flat_map(|kind| &kind.libraries) {
@@ -90,42 +132,38 @@ fn libraries(kinds: &[&Kind]) -> Vec<String> {
     names
 }
 
-fn write_sources(out: &mut String, blocks: &BTreeMap<usize, &Kind>) {
+fn write_sources(out: &mut String, blocks: &BTreeMap<usize, &Kind>, names: &Names<'_>) {
     let mut written = BTreeSet::new();
     for kind in blocks.values() {
         if !written.insert(&kind.id) {
             continue;
         }
-        let prefix = prefix(kind);
-        out.push_str(&with_prefix(&kind.source, &prefix));
+        out.push_str(&with_prefix(&kind.source, &names.prefix(kind)));
         let knobs = knob_members(kind);
         if !knobs.is_empty() {
-            let _ = writeln!(out, "struct {prefix}Knobs {{");
+            let _ = writeln!(out, "struct {} {{", names.knobs(kind));
             for (name, ty) in knobs {
                 let _ = writeln!(out, "    {name}: {ty},");
             }
             out.push_str("}\n");
         }
-        write_bounded(out, kind, &prefix);
+        write_bounded(out, kind, names);
     }
 }
 
 /// A function that keeps loop-bounding parameters inside their range, whatever the buffer holds.
-fn write_bounded(out: &mut String, kind: &Kind, prefix: &str) {
+fn write_bounded(out: &mut String, kind: &Kind, names: &Names<'_>) {
     if kind.params_size == 0 {
         return;
     }
+    let (prefix, name) = (names.prefix(kind), names.bounded(kind));
     let _ = writeln!(
         out,
-        "fn {prefix}bounded(params: {prefix}Params) -> {prefix}Params {{\n    var bounded = params;"
+        "fn {name}(params: {prefix}Params) -> {prefix}Params {{\n    var bounded = params;"
     );
     for param in kind.params.iter().filter(|param| param.bounds_a_loop) {
         if let Some([low, high]) = param.range {
-            let suffix = if param.ty == crate::kind::ParamType::U32 {
-                "u"
-            } else {
-                "i"
-            };
+            let suffix = if param.ty == ParamType::U32 { "u" } else { "i" };
             let (name, low, high) = (&param.name, low as i64, high as i64);
             let _ = writeln!(
                 out,
@@ -136,19 +174,18 @@ fn write_bounded(out: &mut String, kind: &Kind, prefix: &str) {
     out.push_str("    return bounded;\n}\n");
 }
 
-fn write_block(out: &mut String, blocks: &BTreeMap<usize, &Kind>, switches: bool) {
+fn write_block(out: &mut String, blocks: &BTreeMap<usize, &Kind>, names: &Names<'_>, switches: bool) {
     out.push_str("struct Block {\n");
     let empty = out.len();
     if switches {
         out.push_str("    flags: vec4u,\n");
     }
     for (index, kind) in blocks {
-        let prefix = prefix(kind);
         if kind.params_size > 0 {
-            let _ = writeln!(out, "    params_{index}: {prefix}Params,");
+            let _ = writeln!(out, "    params_{index}: {}Params,", names.prefix(kind));
         }
         if !knob_members(kind).is_empty() {
-            let _ = writeln!(out, "    knobs_{index}: {prefix}Knobs,");
+            let _ = writeln!(out, "    knobs_{index}: {},", names.knobs(kind));
         }
     }
     if out.len() == empty {
@@ -199,7 +236,7 @@ fn write_bindings(out: &mut String, spec: &KernelSpec) -> (usize, Vec<super::For
     (reads, writes)
 }
 
-fn write_main(out: &mut String, spec: &KernelSpec, kinds: &[&Kind]) -> Result<(), LinkError> {
+fn write_main(out: &mut String, spec: &KernelSpec, kinds: &[&Kind], names: &Names<'_>) -> Result<(), LinkError> {
     out.push_str(
         "@compute @workgroup_size(8, 8)\n\
          fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {\n    \
@@ -214,19 +251,26 @@ fn write_main(out: &mut String, spec: &KernelSpec, kinds: &[&Kind]) -> Result<()
     let mut bounded = BTreeSet::new();
     for (index, (call, kind)) in spec.calls.iter().zip(kinds).enumerate() {
         if kind.params_size > 0 && bounded.insert(call.block) {
-            let (block, prefix) = (call.block, prefix(kind));
-            let _ = writeln!(out, "    let bounded_{block} = {prefix}bounded(block.params_{block});");
+            let (block, name) = (call.block, names.bounded(kind));
+            let _ = writeln!(out, "    let bounded_{block} = {name}(block.params_{block});");
         }
-        write_call(out, index, call, kind, spec)?;
+        write_call(out, index, call, kind, names, spec)?;
     }
     for (index, store) in spec.stores.iter().enumerate() {
-        write_store(out, index, store);
+        write_store(out, index, store, spec);
     }
     out.push_str("}\n");
     Ok(())
 }
 
-fn write_call(out: &mut String, index: usize, call: &Call, kind: &Kind, spec: &KernelSpec) -> Result<(), LinkError> {
+fn write_call(
+    out: &mut String,
+    index: usize,
+    call: &Call,
+    kind: &Kind,
+    names: &Names<'_>,
+    spec: &KernelSpec,
+) -> Result<(), LinkError> {
     let function = function(kind, &call.function)
         .ok_or_else(|| LinkError::UnknownFunction(kind.id.clone(), call.function.clone()))?;
     let mut arguments = Vec::new();
@@ -244,7 +288,7 @@ fn write_call(out: &mut String, index: usize, call: &Call, kind: &Kind, spec: &K
             },
         });
     }
-    let (prefix, name) = (prefix(kind), &call.function);
+    let (prefix, name) = (names.prefix(kind), &call.function);
     let _ = writeln!(out, "    let v{index} = {prefix}{name}({});", arguments.join(", "));
     Ok(())
 }
@@ -366,19 +410,24 @@ fn write_switch(
     name
 }
 
-fn write_store(out: &mut String, index: usize, store: &Store) {
-    let call = store.call;
+fn write_store(out: &mut String, index: usize, store: &Store, spec: &KernelSpec) {
+    let value = match store.value {
+        Binding::Call(call, convert) => converted(&format!("v{call}"), convert),
+        Binding::Load(load, convert) => converted(&load_expression(load, &spec.loads[load]), convert),
+        Binding::Default | Binding::Field(_) | Binding::Switch(_) => "plain_material()".to_owned(),
+    };
+    let _ = writeln!(out, "    let s{index} = {value};");
     for plane in store.stored.planes() {
         let value = match plane {
-            Plane::Mask => format!("vec4f(v{call}, 0.0, 0.0, 1.0)"),
-            Plane::Color | Plane::Vector => format!("vec4f(v{call}, 1.0)"),
-            Plane::Material(Channel::Color) => format!("vec4f(v{call}.base_color, v{call}.alpha)"),
+            Plane::Mask => format!("vec4f(s{index}, 0.0, 0.0, 1.0)"),
+            Plane::Color | Plane::Vector => format!("vec4f(s{index}, 1.0)"),
+            Plane::Material(Channel::Color) => format!("vec4f(s{index}.base_color, s{index}.alpha)"),
             Plane::Material(Channel::Surface) => {
-                format!("vec4f(v{call}.roughness, v{call}.metallic, v{call}.occlusion, 1.0)")
+                format!("vec4f(s{index}.roughness, s{index}.metallic, s{index}.occlusion, 1.0)")
             }
-            Plane::Material(Channel::Height) => format!("vec4f(v{call}.height, 0.0, 0.0, 1.0)"),
-            Plane::Material(Channel::Slope) => format!("vec4f(v{call}.slope, 1.0)"),
-            Plane::Material(Channel::Emission) => format!("vec4f(v{call}.emission, 1.0)"),
+            Plane::Material(Channel::Height) => format!("vec4f(s{index}.height, 0.0, 0.0, 1.0)"),
+            Plane::Material(Channel::Slope) => format!("vec4f(s{index}.slope, 1.0)"),
+            Plane::Material(Channel::Emission) => format!("vec4f(s{index}.emission, 1.0)"),
         };
         let name = plane_name(plane);
         let _ = writeln!(

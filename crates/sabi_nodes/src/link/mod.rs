@@ -9,7 +9,7 @@ mod rename;
 
 use sabi_graph::PortType;
 
-use crate::kind::{Channel, Kind};
+use crate::kind::Channel;
 
 pub use block::{BlockLayout, CallLayout};
 pub use kernel::{Kernel, LinkError, link};
@@ -106,8 +106,8 @@ impl Stored {
 /// One stored result of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Store {
-    /// The call whose result it is.
-    pub call: usize,
+    /// What is stored: the result of a call, or a load on its way to another type.
+    pub value: Binding,
     /// How it is stored.
     pub stored: Stored,
     /// Texture formats, one for each plane.
@@ -170,20 +170,6 @@ impl Plane {
             Plane::Vector | Plane::Material(Channel::Slope) => Format::Rgba32Float,
         }
     }
-}
-
-/// The prefix that keeps a kind's names apart from those of other kinds in one module.
-fn prefix(kind: &Kind) -> String {
-    let mut prefix: String = kind
-        .id
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-        .collect();
-    if !prefix.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        prefix.insert(0, 'n');
-    }
-    prefix.push_str("__");
-    prefix
 }
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ fn mask() -> Stored {
 
 fn stores_mask(of: usize) -> Vec<Store> {
     vec![Store {
-        call: of,
+        value: Binding::Call(of, Convert::None),
         stored: mask(),
         formats: vec![Format::R32Float],
     }]
@@ -61,8 +61,8 @@ fn two_calls_of_one_kind_share_its_source() {
         on_ghosts: true,
     };
     let kernel = linked(&spec);
-    assert_eq!(kernel.wgsl.matches("fn noise_simplex__mask(").count(), 1);
-    assert_eq!(kernel.wgsl.matches("= noise_simplex__mask(").count(), 2);
+    assert_eq!(kernel.wgsl.matches("fn n1_noise_simplex__mask(").count(), 1);
+    assert_eq!(kernel.wgsl.matches("= n1_noise_simplex__mask(").count(), 2);
     assert_eq!(kernel.layout.calls.len(), 3);
 }
 
@@ -122,7 +122,7 @@ fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
                 )],
                 loads: kind.inputs.iter().map(|input| all(input.ty)).collect(),
                 stores: vec![Store {
-                    call: 0,
+                    value: Binding::Call(0, Convert::None),
                     stored,
                     formats,
                 }],
@@ -178,4 +178,60 @@ fn the_block_lies_where_naga_puts_it() {
         );
         assert_eq!(*span, kernel.layout.size, "{}", kind.id);
     }
+}
+
+#[test]
+fn names_of_an_artist_never_meet_those_of_another_file_or_generated_ones() {
+    let text = |label: &str| {
+        format!(
+            "//! {label}\n//! Returns its size.\n\nstruct Knobs {{ x: f32 }}\nstruct Params {{\n    /// How much.\n    /// \
+             @default 1\n    size: f32,\n}}\nfn bounded(x: f32) -> f32 {{ return Knobs(x).x; }}\nfn gen_bounded_0() -> f32 \
+             {{ return 1.0; }}\n/// The size.\nfn mask(params: Params) -> f32 {{ return bounded(params.size) * \
+             gen_bounded_0(); }}\n"
+        )
+    };
+    let file = |id: &str| crate::SourceFile {
+        path: format!("{id}.wgsl").into(),
+        id: id.to_owned(),
+        text: text(id),
+    };
+    let libraries = Library::builtin().libraries().clone();
+    let (library, faults) = Library::load(vec![file("a/b_c"), file("a_b/c")], libraries);
+    assert!(faults.is_empty(), "{faults:?}");
+    let spec = KernelSpec {
+        calls: vec![
+            call("a/b_c", "mask", Vec::new(), 0),
+            call("a_b/c", "mask", Vec::new(), 1),
+        ],
+        loads: Vec::new(),
+        stores: stores_mask(1),
+        on_ghosts: true,
+    };
+    let kernel = link(
+        &spec,
+        |id| library.kind(id),
+        |name| library.libraries().text(name),
+        PLACE,
+    );
+    let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
+    validate_wgsl(&kernel.wgsl).unwrap_or_else(|fault| panic!("{fault}"));
+}
+
+#[test]
+fn a_load_can_be_stored_as_another_type() {
+    let color = Stored {
+        ty: PortType::Color,
+        channels: Vec::new(),
+    };
+    let spec = KernelSpec {
+        calls: Vec::new(),
+        loads: vec![color],
+        stores: vec![Store {
+            value: Binding::Load(0, Convert::Luminance),
+            stored: mask(),
+            formats: vec![Format::R32Float],
+        }],
+        on_ghosts: true,
+    };
+    assert!(linked(&spec).wgsl.contains("let s0 = luminance("));
 }

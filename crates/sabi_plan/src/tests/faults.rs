@@ -72,3 +72,24 @@ fn a_fault_leaves_the_rest_of_the_graph_alone() {
     assert_eq!(errors.len(), 1);
     assert_eq!(plan.to_string(), "pass a -> s0\nresult mask s0\n");
 }
+
+#[test]
+fn what_is_wrong_with_a_muted_node_is_told_all_the_same() {
+    let cases = [
+        (
+            "a noise/simplx muted\n b adjust/invert source=a\n out output/mask source=b",
+            "node 'a' is of kind 'noise/simplx', which no loaded node file describes; did you mean 'noise/simplex'?",
+        ),
+        (
+            "a noise/cells muted\n b adjust/invert source=a.idd\n out output/mask source=b",
+            "input 'source' of node 'b' asks 'a' for 'idd', which it does not give; did you mean 'id'?",
+        ),
+        (
+            "a output/mask@7 source=b\n b noise/simplex\n out output/mask source=b",
+            "node 'a' was made with version 7 of 'output/mask', but version 1 is loaded; update Sabi or its node folder",
+        ),
+    ];
+    for (lines, expected) in cases {
+        assert_eq!(said(lines), [expected], "{lines}");
+    }
+}

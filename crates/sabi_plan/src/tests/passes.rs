@@ -255,3 +255,50 @@ fn a_graph_in_groups_six_deep_has_the_passes_of_its_flat_form() {
         "the same content has the same name"
     );
 }
+
+#[test]
+fn a_muted_node_follows_the_first_input_that_leads_somewhere() {
+    let lines = "
+        dead source/material muted
+        base source/material
+        mix material/blend below=dead above=base muted
+        out output/material material=mix";
+    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(errors, []);
+    assert_eq!(plan.nodes, ["base"]);
+}
+
+#[test]
+fn a_color_is_stored_once_more_as_a_mask_before_a_field_reads_it() {
+    let lines = "
+        a color/constant
+        b filter/smooth source=a
+        out output/mask source=b";
+    for mode in [FUSED, Mode::Interactive] {
+        let (plan, errors) = Bench::new().plan(&graph(lines), mode);
+        assert_eq!(errors, []);
+        let steps: Vec<String> = plan.to_string().lines().map(str::to_owned).collect();
+        assert!(steps[1].starts_with("convert <- s0 -> s1"), "{plan}");
+        assert!(steps[2].starts_with("pass b <- s1"), "{plan}");
+    }
+}
+
+#[test]
+fn a_ladder_of_thousands_of_nodes_is_cut_into_few_kernels() {
+    let rungs = 3000;
+    let mut lines = "m0 noise/simplex\nm1 noise/cells\n".to_owned();
+    for rung in 2..rungs {
+        lines += &format!("m{rung} blend/mask below=m{} above=m{}\n", rung - 1, rung - 2);
+    }
+    let graph = graph(&(lines + &format!("out output/mask source=m{}", rungs - 1)));
+    let bench = Bench::new();
+    let (plan, errors) = bench.plan(&graph, FUSED);
+    assert_eq!(errors, []);
+    assert_eq!(plan.nodes.len(), rungs);
+    let cost = (rungs as u32) * bench.library.kind("blend/mask").unwrap().cost;
+    assert!(
+        plan.passes() as u32 <= 2 + cost / (bench.limits.cost / 2),
+        "{}",
+        plan.passes()
+    );
+}

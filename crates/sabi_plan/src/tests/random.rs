@@ -52,10 +52,7 @@ fn lines(numbers: &[(usize, [usize; 4])]) -> String {
         for ((input, takes), pick) in inputs.iter().zip(picks) {
             let fits = |ty: char| ty == *takes || (ty != 'M' && *takes != 'M');
             let field = id == "filter/smooth";
-            let fitting: Vec<&(String, char)> = made
-                .iter()
-                .filter(|(_, ty)| if field { *ty == 'm' } else { fits(*ty) })
-                .collect();
+            let fitting: Vec<&(String, char)> = made.iter().filter(|(_, ty)| fits(*ty)).collect();
             // A field's source must be connected; other inputs stay open now and then.
             let open = !field && pick % 5 == 0;
             match fitting.get(pick % fitting.len().max(1)) {
@@ -123,7 +120,14 @@ fn from_graph(planner: &Planner<'_>, graph: &FlatGraph) -> BTreeMap<(usize, usiz
         let mut inputs: Vec<(u64, Convert)> = ready
             .inputs
             .iter()
-            .map(|input| input.map_or(OPEN, |input| (symbols[&(input.node, input.output)], input.convert)))
+            .map(|input| {
+                let Some(input) = input else { return OPEN };
+                let symbol = symbols[&(input.node, input.output)];
+                match input.reads {
+                    sabi_nodes::kind::Reads::Value => (symbol, input.convert),
+                    sabi_nodes::kind::Reads::Field => (converted(symbol, input.convert), Convert::None),
+                }
+            })
             .collect();
         match ready.behavior {
             Behavior::Sink(_) => {}
@@ -211,12 +215,47 @@ fn run(kernel: &KernelStep, slots: &mut Slots) {
             for plane in store.stored.planes() {
                 if let Some(slot) = writes[at] {
                     assert!(!reads.contains(&Some(slot)), "a kernel reads what it writes");
-                    slots[slot] = Some((symbols[store.call], plane));
+                    slots[slot] = Some((stored_symbol(kernel, store.value, &symbols, &reads, slots), plane));
                 }
                 at += 1;
             }
         }
     }
+}
+
+/// What a store holds: a call's result, or a load that is converted.
+fn stored_symbol(kernel: &KernelStep, value: Binding, symbols: &[u64], reads: &[Option<usize>], slots: &Slots) -> u64 {
+    match value {
+        Binding::Call(call, Convert::None) => symbols[call],
+        Binding::Load(load, convert) => converted(held(kernel, load, reads, slots), convert),
+        other => panic!("{other:?} is never stored"),
+    }
+}
+
+fn converted(symbol: u64, convert: Convert) -> u64 {
+    match convert {
+        Convert::None => symbol,
+        _ => hash(&[b"converted", &symbol.to_le_bytes(), &[convert as u8]]),
+    }
+}
+
+/// What all planes of a load hold.
+fn held(kernel: &KernelStep, load: usize, reads: &[Option<usize>], slots: &Slots) -> u64 {
+    let first: usize = kernel.spec.loads[..load]
+        .iter()
+        .map(|stored| stored.planes().len())
+        .sum();
+    let planes = kernel.spec.loads[load].planes().len();
+    let symbols = reads[first..first + planes]
+        .iter()
+        .flatten()
+        .map(|slot| slots[*slot].unwrap().0);
+    let symbols: Vec<u64> = symbols.collect();
+    assert!(
+        symbols.windows(2).all(|pair| pair[0] == pair[1]),
+        "planes of different results"
+    );
+    symbols.first().copied().unwrap_or(0)
 }
 
 fn input_symbol(
@@ -227,23 +266,7 @@ fn input_symbol(
     reads: &[Option<usize>],
     slots: &Slots,
 ) -> (u64, Convert) {
-    let held = |load: usize| {
-        let first: usize = kernel.spec.loads[..load]
-            .iter()
-            .map(|stored| stored.planes().len())
-            .sum();
-        let planes = kernel.spec.loads[load].planes().len();
-        let symbols = reads[first..first + planes]
-            .iter()
-            .flatten()
-            .map(|slot| slots[*slot].unwrap().0);
-        let symbols: Vec<u64> = symbols.collect();
-        assert!(
-            symbols.windows(2).all(|pair| pair[0] == pair[1]),
-            "planes of different results"
-        );
-        symbols.first().copied().unwrap_or(0)
-    };
+    let held = |load| held(kernel, load, reads, slots);
     match call.inputs[input] {
         Binding::Default => OPEN,
         Binding::Call(from, convert) => (symbols[from], convert),
