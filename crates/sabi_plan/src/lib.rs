@@ -11,6 +11,7 @@ mod fuse;
 mod inputs;
 mod keys;
 mod muted;
+mod order;
 mod plan;
 mod request;
 mod resolve;

@@ -6,6 +6,7 @@
 mod block;
 mod kernel;
 mod rename;
+mod sources;
 
 use sabi_graph::PortType;
 

@@ -1,0 +1,59 @@
+//! Which nodes the targets need, and in which order they are looked at.
+
+use sabi_graph::FlatRef;
+
+use crate::muted::behind_muted;
+use crate::request::{Planner, Target};
+
+impl Planner<'_> {
+    /// What a target means: the node itself, or what it passes on while it is muted.
+    pub(crate) fn behind(&self, target: &Target) -> Option<FlatRef> {
+        let from = FlatRef {
+            node: target.node,
+            port: target.port.clone(),
+        };
+        behind_muted(self.graph, self, &from).0
+    }
+
+    /// Nodes that the targets need, inputs before readers, by depth first so that chains stay together. Muted nodes on
+    /// the way are among them, so that what is wrong with them is told.
+    pub(crate) fn evaluation_order(&self, targets: &[Target]) -> Vec<usize> {
+        let mut seen = vec![false; self.graph.nodes.len()];
+        let mut order = Vec::new();
+        for target in targets {
+            let from = FlatRef {
+                node: target.node,
+                port: target.port.clone(),
+            };
+            // An explicit stack: graphs may be deeper than a thread's.
+            let mut stack = Vec::new();
+            self.follow(&from, &mut seen, &mut order, &mut stack);
+            while let Some((node, inputs_done)) = stack.pop() {
+                if inputs_done {
+                    order.push(node);
+                } else if !std::mem::replace(&mut seen[node], true) {
+                    stack.push((node, true));
+                    let mut fresh = Vec::new();
+                    for from in self.graph.nodes[node].inputs.values() {
+                        self.follow(from, &mut seen, &mut order, &mut fresh);
+                    }
+                    stack.extend(fresh.into_iter().rev());
+                }
+            }
+        }
+        order
+    }
+
+    /// Adds what a wire leads to, and puts muted nodes on the way in the order at once: they need nothing.
+    fn follow(&self, from: &FlatRef, seen: &mut [bool], order: &mut Vec<usize>, next: &mut Vec<(usize, bool)>) {
+        let (behind, muted) = behind_muted(self.graph, self, from);
+        for node in muted {
+            if !std::mem::replace(&mut seen[node], true) {
+                order.push(node);
+            }
+        }
+        if let Some(from) = behind.filter(|from| !seen[from.node]) {
+            next.push((from.node, false));
+        }
+    }
+}
