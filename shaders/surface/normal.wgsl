@@ -86,20 +86,15 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
             slope += (r1 * change.x + r2 * change.y) / determinant;
         }
     }
-    let tilted = up - slope;
-    // Cramer's rule for (t b n) x = tilted; the frame need not be orthonormal.
+    // Cramer's rule for (t b n) x = up - slope; the frame need not be orthonormal. `up` lies along n, so its share is
+    // (0, 0, 1 / |n|) without any rounding, and where the slope is none the normal is exactly flat, however skewed the
+    // frame. A frame without volume cannot tilt anything.
     let volume = dot(t, cross(b, n));
+    let lengths = length(t) * length(b) * length(n);
     var encoded = vec3f(0.0, 0.0, 1.0);
-    if abs(volume) > 1e-20 {
-        encoded = vec3f(
-            dot(tilted, cross(b, n)),
-            dot(tilted, cross(n, t)),
-            dot(tilted, cross(t, b)),
-        ) / volume;
+    if any(slope != vec3f(0.0)) && abs(volume) > 1e-6 * lengths {
+        let across = vec3f(dot(slope, cross(b, n)), dot(slope, cross(n, t)), dot(slope, cross(t, b))) / volume;
+        encoded = unit_or(vec3f(0.0, 0.0, 1.0 / length(n)) - across, encoded);
     }
-    encoded = unit_or(encoded, vec3f(0.0, 0.0, 1.0));
-    // Rounding noise must not tilt a flat map, nor shorten its normals.
-    encoded = select(encoded, vec3f(0.0), abs(encoded) < vec3f(2e-6));
-    encoded = select(encoded, vec3f(0.0, 0.0, 1.0), all(encoded.xy == vec2f(0.0)) && encoded.z > 0.0);
     textureStore(normals, texel.xy, texel.z, vec4f(encoded, 1.0));
 }
