@@ -67,6 +67,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         all_maps: false,
         padding: None,
         fuse,
+        force: false,
     };
     let started = Instant::now();
     let mut json = bake(&request, &Silent).unwrap().json;
@@ -199,6 +200,26 @@ fn bench_memory(folder: &Path, model: &Path) {
     }
 }
 
+/// Four thousand masks, each read by two: planning must grow with their number, not with its square.
+fn bench_planning(folder: &Path) {
+    let mut nodes = r#""m0": { "kind": "noise/simplex" }, "m1": { "kind": "noise/cells" }"#.to_owned();
+    for node in 2..4000 {
+        let (one, two) = (node - 1, node - 2);
+        let _ = write!(
+            nodes,
+            r#", "m{node}": {{ "kind": "blend/mask", "inputs": {{ "below": "m{one}", "above": "m{two}" }} }}"#
+        );
+    }
+    let nodes = nodes + r#", "out": { "kind": "output/mask", "inputs": { "source": "m3999" } }"#;
+    let graph = graph(folder, "ladder.sabi", &nodes);
+    let check = || {
+        let started = Instant::now();
+        assert!(sabi_engine::check(&graph).unwrap().errors.is_empty());
+        started.elapsed()
+    };
+    row("reading, checking and planning 4 000 nodes", seconds(check), "s", "");
+}
+
 fn main() {
     let folder = tempfile::tempdir().unwrap();
     let model = peer_model();
@@ -206,5 +227,6 @@ fn main() {
     bench_run(folder.path(), &model);
     bench_atlas(folder.path(), &model);
     bench_demo(folder.path());
+    bench_planning(folder.path());
     bench_memory(folder.path(), &model);
 }

@@ -1,19 +1,24 @@
 //! The main job: a graph on a model becomes a PBR set.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Padding, SetKey, SetOptions, preset, set_keys, set_names};
+use sabi_export::{BakeWriter, Padding, SetOptions, preset};
 use sabi_gpu::{Run, RunOptions};
-use sabi_plan::{Mode, Plan, PlannedResult, Target};
+use sabi_graph::FlatGraph;
+use sabi_plan::{Mode, Plan, PlannedResult};
 use serde_json::{Map, Value as Json, json};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
+use crate::folder::is_foreign_folder;
 use crate::kinds::Kinds;
 use crate::maps::{MapWriter, SetWork, WrittenMaps};
-use crate::report::{BakeReport, StageTimes};
-use crate::source::{OUTPUT_MASK, OUTPUT_MATERIAL, mask_name, serves};
+use crate::modelless::{refuse_faults, targets};
+use crate::outputs::{clashes, nothing_comes_out, outputs};
+use crate::report::{BakeReport, StageTime, StageTimes};
+use crate::sets::{TextureSet, serve, texture_sets};
+use crate::source::{OUTPUT_MASK, mask_name};
 use crate::stages::Progress;
 use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
 
@@ -38,22 +43,35 @@ pub struct BakeRequest {
     pub padding: Option<u32>,
     /// Whether point nodes are fused.
     pub fuse: bool,
+    /// Whether a folder that has files but no earlier maps is taken all the same.
+    pub force: bool,
 }
 
-/// Bakes; nothing is replaced before everything is complete.
+/// Bakes; nothing is replaced before everything is complete, and no model is loaded for a graph with a fault.
 pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
     let options = set_options(request)?;
-    let open = OpenGraph::open(&request.graph)?;
+    let mut reading = StageTime::default();
+    let open = reading.time(|| OpenGraph::open(&request.graph))?;
+    let kinds = reading.time(|| Kinds::beside(Some(&request.graph)));
+    let graph = reading.time(|| Workpiece::flat_graph(&open, &kinds, &request.workpiece))?;
+    let outputs = reading.time(|| sound_outputs(&open, &graph, &kinds))?;
     // A folder that cannot be written to is found before the work, not after it.
+    refuse_foreign_folder(request, &graph)?;
     let mut writer = BakeWriter::create(&request.output)?;
-    let kinds = Kinds::beside(Some(&request.graph));
-    let mut workpiece = Workpiece::open(&open, kinds, &request.workpiece, progress)?;
-    let outputs = outputs(&workpiece, &request.graph)?;
+    let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
+    workpiece.times.load.add(reading.total());
+    let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
+    let sets = texture_sets(model, atlas, request.material.as_deref())?;
+    let serving = serve(&open, &workpiece.graph, &outputs, model, atlas, &sets)?;
+    workpiece.warn(serving.warnings);
+    let is_used =
+        |node: &usize| workpiece.graph.nodes[*node].kind == OUTPUT_MASK || serving.outputs.contains(&Some(*node));
+    let wanted = targets(outputs.iter().copied().filter(is_used));
     let mut limits = workpiece.gpu.limits();
     limits.storage_textures = limits.storage_textures.max(1);
-    let plan = workpiece.plan(&outputs, Mode::Bake { fuse: request.fuse }, limits)?;
+    let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, limits)?;
     let mut run = workpiece.run(&plan, SUBMISSION, progress, None)?;
-    let sets = texture_sets(&workpiece, &plan, request)?;
+    let sets = set_works(&workpiece.graph, &plan, sets, &serving.outputs);
     let mut encode = workpiece.times.encode;
     let map_writer = MapWriter {
         workpiece: &workpiece,
@@ -108,67 +126,55 @@ fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineError> {
     })
 }
 
-/// The graph's outputs, in the order in which they serve.
-fn outputs(workpiece: &Workpiece, path: &Path) -> Result<Vec<Target>, EngineError> {
-    let is_output = |kind: &str| kind == OUTPUT_MATERIAL || kind == OUTPUT_MASK;
-    let nodes = workpiece.graph.nodes.iter().enumerate();
-    let mut found: Vec<(usize, &str)> = nodes
-        .filter(|(_, node)| is_output(&node.kind) && !node.muted)
-        .map(|(index, node)| (index, node.id.as_str()))
-        .collect();
-    found.sort_by_key(|(_, id)| *id);
-    if found.is_empty() {
-        let why = format!(
-            "{}: the graph has no output; add a node of kind '{OUTPUT_MATERIAL}' and connect its material",
-            path.display()
-        );
-        return Err(EngineError::new(ErrorKind::BadInput, why));
+/// The graph's outputs, by id; refuses a graph that has none, or in which something that they need is at fault.
+fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<Vec<usize>, EngineError> {
+    let found = outputs(graph);
+    let mut messages: Vec<String> = nothing_comes_out(graph).into_iter().chain(clashes(graph)).collect();
+    for message in &mut messages {
+        *message = open.said(&message);
     }
-    Ok(found.into_iter().map(|(node, _)| Target { node, port: None }).collect())
+    if let Err(faults) = refuse_faults(open, graph, kinds, &targets(found.iter().copied())) {
+        messages.extend(faults.messages);
+    }
+    if messages.is_empty() {
+        return Ok(found);
+    }
+    Err(EngineError {
+        kind: ErrorKind::BadInput,
+        messages,
+    })
 }
 
-fn texture_sets<'p>(
-    workpiece: &Workpiece,
-    plan: &'p Plan,
-    request: &BakeRequest,
-) -> Result<Vec<SetWork<'p>>, EngineError> {
-    let model = &workpiece.prepared.model;
-    let names = set_names(model);
-    let kind = |result: &PlannedResult| workpiece.graph.nodes[result.target.node].kind.as_str();
-    let keys: Vec<SetKey> = set_keys(&workpiece.prepared.atlas)
-        .into_iter()
-        .filter(|key| match &request.material {
-            Some(wanted) => {
-                let index = key.material as usize;
-                names.get(index) == Some(wanted) || model.materials.get(index).is_some_and(|m| m.name == *wanted)
-            }
-            None => true,
-        })
-        .collect();
-    if keys.is_empty() {
-        let wanted = request.material.clone().unwrap_or_default();
-        let why = format!("the model has no material '{wanted}'; it has {}", names.join(", "));
-        return Err(EngineError::new(ErrorKind::Usage, why));
+/// A mistyped folder must not fill somebody's pictures with maps.
+fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(), EngineError> {
+    if request.force || !is_foreign_folder(&request.output, graph) {
+        return Ok(());
     }
-    let set = |key: SetKey| {
-        let index = key.material as usize;
-        let own_name = model.materials.get(index).map_or("", |material| material.name.as_str());
-        let name = names.get(index).cloned().unwrap_or_else(|| model.stem.clone());
-        let serves = |result: &&PlannedResult| {
-            let node = &workpiece.graph.nodes[result.target.node];
-            kind(result) == OUTPUT_MATERIAL && (serves(node, own_name) || serves(node, &name))
-        };
-        let masks = plan.results.iter().filter(|result| kind(result) == OUTPUT_MASK);
-        SetWork {
-            material: plan.results.iter().find(serves),
-            masks: masks
-                .map(|result| (mask_name(&workpiece.graph.nodes[result.target.node]), result))
-                .collect(),
-            key,
-            name,
-        }
+    let why = format!(
+        "the folder {} has files but no earlier maps; choose another with -o, or bake into it with --force",
+        request.output.display()
+    );
+    Err(EngineError::new(ErrorKind::CannotWrite, why))
+}
+
+/// Which planned results go into which set.
+fn set_works<'p>(
+    graph: &FlatGraph,
+    plan: &'p Plan,
+    sets: Vec<TextureSet>,
+    serving: &[Option<usize>],
+) -> Vec<SetWork<'p>> {
+    let is_mask = |result: &&PlannedResult| graph.nodes[result.target.node].kind == OUTPUT_MASK;
+    let masks = || plan.results.iter().filter(is_mask);
+    let work = |(set, output): (TextureSet, &Option<usize>)| SetWork {
+        key: set.key,
+        name: set.name,
+        material: output.and_then(|node| plan.results.iter().find(|result| result.target.node == node)),
+        masks: masks()
+            .map(|result| (mask_name(&graph.nodes[result.target.node]), result))
+            .collect(),
     };
-    Ok(keys.into_iter().map(set).collect())
+    sets.into_iter().zip(serving).map(work).collect()
 }
 
 fn report(
@@ -207,7 +213,7 @@ fn report(
         "passes": plan.passes(),
         "finish_passes": written.finish_passes,
         "fused": plan.fused(),
-        "peak_texture_bytes": run.report.pool.peak_bytes + workpiece.surface.texture_bytes(),
+        "peak_texture_bytes": run.report.pool.peak_bytes,
         "atlas_cached": workpiece.prepared.atlas_was_cached,
         "stages_ms": times.json(),
         "nodes_ms": nodes_ms,

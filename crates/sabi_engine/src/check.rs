@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use sabi_graph::{FlatGraph, Overrides};
-use sabi_plan::{Lengths, Limits, Mode, Planner, Target};
 
 use crate::document::OpenGraph;
 use crate::error::EngineError;
 use crate::kinds::Kinds;
-use crate::source::{OUTPUT_MASK, OUTPUT_MATERIAL};
+use crate::modelless::{all_nodes, planner, targets};
+use crate::outputs::{clashes, nothing_comes_out, outputs};
 
 /// What was found in one graph.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -33,28 +33,28 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
         ..CheckReport::default()
     };
     let graph = open.flatten(&Overrides::default())?;
-    let planner = planner(&graph, &kinds);
-    for error in planner.resolve(&all_nodes(&graph)).errors {
-        let found = if error.is_warning() {
-            &mut report.warnings
-        } else {
-            &mut report.errors
-        };
-        found.push(error.to_string());
-    }
-    let is_output = |target: &Target| [OUTPUT_MATERIAL, OUTPUT_MASK].contains(&graph.nodes[target.node].kind.as_str());
-    let outputs: Vec<Target> = all_nodes(&graph).into_iter().filter(is_output).collect();
-    if outputs.is_empty() {
-        report.warnings.push(format!(
-            "the graph has no output; add a node of kind '{OUTPUT_MATERIAL}'"
-        ));
-    }
+    let (errors, warnings) = faults(&graph, &kinds);
+    report.errors.extend(errors);
+    report.warnings.extend(warnings);
+    report.warnings.extend(nothing_comes_out(&graph));
     report.nodes = graph.nodes.len();
-    report.passes = planner.plan(&outputs).0.passes();
+    let wanted = targets(outputs(&graph));
+    report.passes = planner(&graph, &kinds).plan(&wanted).0.passes();
     for variant in open.document.graph.variants().keys() {
         check_variant(&open, &kinds, variant, &mut report);
     }
     Ok(report)
+}
+
+/// What is wrong, and what has no effect.
+fn faults(graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, Vec<String>) {
+    let (mut errors, mut warnings) = (Vec::new(), Vec::new());
+    for error in planner(graph, kinds).resolve(&all_nodes(graph)).errors {
+        let found = if error.is_warning() { &mut warnings } else { &mut errors };
+        found.push(error.to_string());
+    }
+    errors.extend(clashes(graph));
+    (errors, warnings)
 }
 
 /// What a variant makes wrong that is right without it.
@@ -66,40 +66,10 @@ fn check_variant(open: &OpenGraph, kinds: &Kinds, variant: &str, report: &mut Ch
     match open.flatten(&overrides) {
         Err(error) => report.errors.extend(error.messages),
         Ok(graph) => {
-            let errors = planner(&graph, kinds).resolve(&all_nodes(&graph)).errors.into_iter();
-            let known = report.errors.clone();
-            let sentences = errors
-                .filter(|error| !error.is_warning())
-                .map(|error| error.to_string());
-            let fresh = sentences.filter(|sentence| !known.contains(sentence));
-            report
-                .errors
-                .extend(fresh.map(|sentence| format!("variant '{variant}': {sentence}")));
+            let mut fresh = faults(&graph, kinds).0;
+            fresh.retain(|sentence| !report.errors.contains(sentence));
+            let said = fresh.iter().map(|sentence| format!("variant '{variant}': {sentence}"));
+            report.errors.extend(said);
         }
-    }
-}
-
-fn all_nodes(graph: &FlatGraph) -> Vec<Target> {
-    (0..graph.nodes.len()).map(|node| Target { node, port: None }).collect()
-}
-
-/// A planner for a model that is not there: lengths are as written, and the adapter is a common one.
-fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds) -> Planner<'a> {
-    Planner {
-        graph,
-        library: &kinds.library,
-        sources: &kinds.sources,
-        sinks: &kinds.sinks,
-        lengths: Lengths {
-            working_from: &|_| 1.0,
-            extent: &|_| [0.0, 1.0],
-        },
-        surface_key: [0; 32],
-        mode: Mode::Bake { fuse: true },
-        limits: Limits {
-            sampled_textures: 16,
-            storage_textures: 8,
-            ..Limits::default()
-        },
     }
 }

@@ -1,9 +1,10 @@
 //! A graph file and the files it stands among.
 
+use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_graph::{Document, FlatGraph, Overrides, flatten};
+use sabi_graph::{Document, FlatGraph, FlattenError, Overrides, flatten};
 
 use crate::error::{EngineError, ErrorKind};
 
@@ -37,16 +38,51 @@ impl OpenGraph {
         self.path.parent().unwrap_or(Path::new(""))
     }
 
+    /// A sentence about the graph, with the file's path before it.
+    pub(crate) fn said(&self, sentence: impl fmt::Display) -> String {
+        format!("{}: {sentence}", self.path.display())
+    }
+
     /// The graph without groups and reroutes, with overrides applied.
     pub fn flatten(&self, overrides: &Overrides) -> Result<FlatGraph, EngineError> {
+        self.try_flatten(overrides).map_err(|(error, of_file)| {
+            let kind = if self.is_asked_for(&error, overrides) {
+                ErrorKind::Usage
+            } else {
+                of_file
+            };
+            EngineError::new(kind, self.said(error))
+        })
+    }
+
+    /// Flattens; an error comes with its kind if the files are to blame.
+    fn try_flatten(&self, overrides: &Overrides) -> Result<FlatGraph, (FlattenError, ErrorKind)> {
         let folder = self.folder().to_owned();
+        let mut kind = ErrorKind::BadInput;
         let mut group_file = |name: &str| {
             let path = folder.join(name);
-            let text = read_text(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+            let text = read_text(&path).map_err(|error| {
+                kind = error.kind;
+                format!("{}: {error}", path.display())
+            })?;
             Document::from_json(&text).map_err(|error| error.with_name(path.display().to_string()).to_string())
         };
-        flatten(&self.document, overrides, &mut group_file)
-            .map_err(|error| EngineError::new(ErrorKind::Usage, format!("{}: {error}", self.path.display())))
+        flatten(&self.document, overrides, &mut group_file).map_err(|error| (error, kind))
+    }
+
+    /// Whether an error comes from what was set on top of the files, which are without it otherwise.
+    fn is_asked_for(&self, error: &FlattenError, overrides: &Overrides) -> bool {
+        let is_gone_without = |less: &Overrides| match self.try_flatten(less) {
+            Ok(_) => true,
+            Err((other, _)) => other != *error,
+        };
+        let without_values = Overrides {
+            set: Vec::new(),
+            ..overrides.clone()
+        };
+        // What a variant of the file sets is the file's; that there is such a variant is not.
+        is_gone_without(&without_values)
+            || matches!(error, FlattenError::NoSuchVariant { .. }) && is_gone_without(&Overrides::default())
     }
 }
 

@@ -51,13 +51,14 @@ impl From<sabi_gpu::GpuError> for EngineError {
         use sabi_gpu::GpuError;
         let kind = match error {
             GpuError::Canceled => ErrorKind::Interrupted,
-            GpuError::Source(_) | GpuError::TooLarge { .. } => ErrorKind::BadInput,
+            GpuError::Source(_)
+            | GpuError::TooLarge { .. }
+            | GpuError::OverBudget { .. }
+            | GpuError::OutOfMemory { .. } => ErrorKind::BadInput,
             GpuError::NoAdapter
             | GpuError::NoSuchAdapter { .. }
             | GpuError::Unfit { .. }
             | GpuError::Lost(_)
-            | GpuError::OverBudget { .. }
-            | GpuError::OutOfMemory { .. }
             | GpuError::Kernel { .. }
             | GpuError::Driver(_) => ErrorKind::NoAdapter,
         };
@@ -67,7 +68,12 @@ impl From<sabi_gpu::GpuError> for EngineError {
 
 impl From<sabi_export::ExportError> for EngineError {
     fn from(error: sabi_export::ExportError) -> Self {
-        EngineError::new(ErrorKind::CannotWrite, error)
+        let kind = if error.is_cannot_write() {
+            ErrorKind::CannotWrite
+        } else {
+            ErrorKind::BadInput
+        };
+        EngineError::new(kind, error)
     }
 }
 
@@ -79,5 +85,24 @@ impl From<sabi_surface::load::LoadError> for EngineError {
             ErrorKind::BadInput
         };
         EngineError::new(kind, error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_gpu::GpuError;
+
+    use super::{EngineError, ErrorKind};
+
+    #[test]
+    fn what_a_smaller_bake_would_mend_is_not_the_adapters_fault() {
+        let of = |error: GpuError| EngineError::from(error).kind;
+        let (needed_mib, budget_mib) = (9, 4);
+        let over = GpuError::OverBudget { needed_mib, budget_mib };
+        assert_eq!(of(over), ErrorKind::BadInput);
+        let what = "a texture".to_owned();
+        assert_eq!(of(GpuError::OutOfMemory { what }), ErrorKind::BadInput);
+        assert_eq!(of(GpuError::NoAdapter), ErrorKind::NoAdapter);
+        assert_eq!(of(GpuError::Canceled), ErrorKind::Interrupted);
     }
 }

@@ -10,7 +10,7 @@ use crate::source::{OUTPUT_MASK, mask_name};
 
 /// Whether a folder has files but none that a bake of this graph may have left: then it is somebody else's. A folder that
 /// is not there or is empty is nobody's; hidden files do not count.
-pub fn is_foreign_folder(folder: &Path, graph: &FlatGraph) -> bool {
+pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph) -> bool {
     let Ok(entries) = fs::read_dir(folder) else {
         return false;
     };

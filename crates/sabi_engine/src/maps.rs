@@ -144,10 +144,10 @@ impl Maps<'_> {
         }
         let workpiece = self.from.workpiece;
         let slot = |channel| slot_of(result, Plane::Material(channel));
-        let model_from_working = (1.0 / workpiece.prepared.working_from_model(&workpiece.fit)) as f32;
+        let file_from_working = workpiece.prepared.file_from_working(&workpiece.fit) as f32;
         for (stored, channels) in MAPS {
             let scale = if stored == Stored::Height {
-                model_from_working
+                file_from_working
             } else {
                 1.0
             };

@@ -1,11 +1,12 @@
 //! Values set from outside are held against the nodes: what the file alone gets right and they do not is theirs.
 
 use sabi_graph::{FlatGraph, Overrides};
-use sabi_plan::{Lengths, Limits, Mode, PlanError, Planner, Problem, Target};
+use sabi_plan::{PlanError, Problem};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
+use crate::modelless::{all_nodes, planner};
 
 /// Refuses values that no node takes, and names that no node has: unlike those in a file, which may come from a newer
 /// Sabi, nobody means to keep them. `graph` is the flat graph with the overrides.
@@ -26,7 +27,7 @@ pub(crate) fn refuse_bad_values(
     let fresh = problems(graph, kinds)
         .into_iter()
         .filter(|error| !known.contains(error));
-    let messages: Vec<String> = fresh.map(|error| sentence(&error)).collect();
+    let messages: Vec<String> = fresh.map(|error| open.said(sentence(&error))).collect();
     if messages.is_empty() {
         return Ok(());
     }
@@ -37,21 +38,7 @@ pub(crate) fn refuse_bad_values(
 }
 
 fn problems(graph: &FlatGraph, kinds: &Kinds) -> Vec<PlanError> {
-    let planner = Planner {
-        graph,
-        library: &kinds.library,
-        sources: &kinds.sources,
-        sinks: &kinds.sinks,
-        lengths: Lengths {
-            working_from: &|_| 1.0,
-            extent: &|_| [0.0, 1.0],
-        },
-        surface_key: [0; 32],
-        mode: Mode::Bake { fuse: true },
-        limits: Limits::default(),
-    };
-    let all: Vec<Target> = (0..graph.nodes.len()).map(|node| Target { node, port: None }).collect();
-    planner.resolve(&all).errors
+    planner(graph, kinds).resolve(&all_nodes(graph)).errors
 }
 
 fn sentence(error: &PlanError) -> String {

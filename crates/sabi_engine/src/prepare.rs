@@ -52,6 +52,8 @@ pub struct Prepared {
     pub atlas_was_cached: bool,
     /// The largest side of the box around it, model units.
     pub largest_side: f64,
+    /// Model units in one unit of the file: what all lengths of it were multiplied by.
+    pub scale: f64,
 }
 
 impl Prepared {
@@ -90,6 +92,7 @@ impl Prepared {
             atlas,
             atlas_was_cached,
             largest_side,
+            scale: f64::from(options.scale),
         })
     }
 
@@ -100,6 +103,11 @@ impl Prepared {
             Fit::Metres => 1.0,
             Fit::Length(length) => 1.0 / length,
         }
+    }
+
+    /// Factor from working units under a fit to the units of the model's file, in which heights are exported.
+    pub fn file_from_working(&self, fit: &Fit) -> f64 {
+        1.0 / (self.working_from_model(fit) * self.scale)
     }
 
     /// The tables that kernels read, in working units.

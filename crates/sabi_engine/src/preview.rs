@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{Channel, Padding, PaddingMap, SetLayout, Staging, set_keys};
-use sabi_graph::{PortType, nearest};
+use sabi_export::{Channel, Padding, PaddingMap, SetLayout, Staging};
+use sabi_graph::{FlatGraph, PortType, nearest};
 use sabi_image::{PngData, PngOptions, encode_exr, encode_png, quantize_u8, srgb8_from_linear};
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
@@ -14,6 +14,8 @@ use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
 use crate::maps::slot_of;
+use crate::modelless::refuse_faults;
+use crate::sets::{texture_sets, which_is_shown};
 use crate::stages::Progress;
 use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
 
@@ -46,25 +48,19 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     };
     let open = OpenGraph::open(&request.graph)?;
     let kinds = Kinds::beside(Some(&request.graph));
-    let mut workpiece = Workpiece::open(&open, kinds, &request.workpiece, progress)?;
-    let target = target(&workpiece, &request.node)?;
+    let graph = Workpiece::flat_graph(&open, &kinds, &request.workpiece)?;
+    let target = target(&graph, &request.node)?;
+    refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
+    let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
+    let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
+    let sets = texture_sets(model, atlas, request.material.as_deref())?;
+    workpiece.warn(which_is_shown(&sets));
+    let key = sets[0].key;
     let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, workpiece.gpu.limits())?;
     let run = workpiece.run(&plan, Duration::from_millis(200), progress, None)?;
     let Some(result) = plan.results.first().filter(|result| !result.slots.is_empty()) else {
         let why = format!("nothing is connected to '{}', so there is nothing to see", request.node);
         return Err(EngineError::new(ErrorKind::BadInput, why));
-    };
-    let names = sabi_export::set_names(&workpiece.prepared.model);
-    let key = set_keys(&workpiece.prepared.atlas)
-        .into_iter()
-        .find(|key| match &request.material {
-            Some(wanted) => names.get(key.material as usize) == Some(wanted),
-            None => true,
-        });
-    let Some(key) = key else {
-        let wanted = request.material.clone().unwrap_or_default();
-        let why = format!("the model has no material '{wanted}'; it has {}", names.join(", "));
-        return Err(EngineError::new(ErrorKind::Usage, why));
     };
     let layout = SetLayout::new(&workpiece.prepared.atlas, key);
     let padding = PaddingMap::new(&layout, Padding::Texels(4));
@@ -101,8 +97,7 @@ fn write(request: &PreviewRequest, bytes: &[u8]) -> Result<(), EngineError> {
 }
 
 /// The target that `id` or `id.port` names.
-fn target(workpiece: &Workpiece, text: &str) -> Result<Target, EngineError> {
-    let graph = &workpiece.graph;
+fn target(graph: &FlatGraph, text: &str) -> Result<Target, EngineError> {
     if let Some(node) = graph.find(text) {
         return Ok(Target { node, port: None });
     }

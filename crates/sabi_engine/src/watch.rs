@@ -52,18 +52,47 @@ impl NodeWatcher {
         if self.changes.recv_timeout(patience).is_err() {
             return false;
         }
-        self.settle();
+        settle(&self.changes, SETTLE_PAUSE, SETTLE_LIMIT);
         kinds.faults.retain(|fault| !fault.path.starts_with(&self.folder));
         kinds.add_folder(&self.folder);
         true
     }
+}
 
-    /// Waits until nothing changes any more: an editor saves in several steps, which arrive together. A folder that
-    /// something writes to all the time never comes to rest, so the wait has an end; what comes later is told later.
-    fn settle(&self) {
-        let started = Instant::now();
-        while started.elapsed() < SETTLE_LIMIT && self.changes.recv_timeout(SETTLE_PAUSE).is_ok() {}
-        // What piled up by now is answered by what is read next.
-        while self.changes.try_recv().is_ok() {}
+/// Waits until nothing has changed for the time of a `pause`: an editor saves in several steps, which arrive together. A
+/// folder that something writes to all the time never comes to rest, so the wait has a limit; what comes later is told
+/// at the next refresh.
+fn settle(changes: &Receiver<()>, pause: Duration, limit: Duration) {
+    let started = Instant::now();
+    while let Some(left) = limit.checked_sub(started.elapsed())
+        && changes.recv_timeout(pause.min(left)).is_ok()
+    {}
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    use super::settle;
+
+    #[test]
+    fn a_folder_that_never_rests_is_not_waited_for() {
+        let (sender, changes) = channel();
+        let has_settled = &AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            let writer = scope.spawn(move || {
+                for _ in (0..5000).take_while(|_| !has_settled.load(Ordering::Relaxed)) {
+                    sender.send(()).expect("somebody listens");
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+                has_settled.load(Ordering::Relaxed)
+            });
+            // A pause that never comes: only the limit ends the wait before the writer does.
+            settle(&changes, Duration::from_secs(3600), Duration::from_millis(20));
+            has_settled.store(true, Ordering::Relaxed);
+            assert!(writer.join().expect("the writer"), "the wait ended with the writing");
+        });
     }
 }

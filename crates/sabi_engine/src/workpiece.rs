@@ -1,5 +1,6 @@
 //! A graph and a model brought together on a device.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -32,6 +33,8 @@ pub struct WorkpieceOptions {
 
 /// A graph on a model, ready to be evaluated.
 pub struct Workpiece {
+    /// The graph file, as it was named.
+    pub path: PathBuf,
     /// The flat graph.
     pub graph: FlatGraph,
     /// All node kinds, with `source/model` as this model has it.
@@ -54,16 +57,26 @@ pub struct Workpiece {
 }
 
 impl Workpiece {
-    /// Opens everything on the adapter of choice; a fault in the graph is found before the model is loaded.
+    /// The graph as these options want it, without groups; values that no node takes are refused.
+    pub fn flat_graph(open: &OpenGraph, kinds: &Kinds, options: &WorkpieceOptions) -> Result<FlatGraph, EngineError> {
+        let overrides = Overrides {
+            fit: options.fit.or(options.overrides.fit),
+            ..options.overrides.clone()
+        };
+        let graph = open.flatten(&overrides)?;
+        refuse_bad_values(open, &graph, kinds, &overrides)?;
+        Ok(graph)
+    }
+
+    /// Opens everything on the adapter of choice; `graph` is from [`Workpiece::flat_graph`].
     pub fn open(
         open: &OpenGraph,
+        graph: FlatGraph,
         kinds: Kinds,
         options: &WorkpieceOptions,
         progress: &dyn Progress,
     ) -> Result<Workpiece, EngineError> {
         let mut times = StageTimes::default();
-        let graph = times.load.time(|| open.flatten(&options.overrides))?;
-        refuse_bad_values(open, &graph, &kinds, &options.overrides)?;
         let model = times.load.time(|| Prepared::load_model(&options.model))?;
         progress.advance(Stage::Load, 1, 1);
         stop_if_canceled(progress)?;
@@ -87,7 +100,7 @@ impl Workpiece {
         options: &WorkpieceOptions,
     ) -> Result<Workpiece, EngineError> {
         let mut times = StageTimes::default();
-        let fit = options.fit.unwrap_or(open.document.fit);
+        let fit = options.fit.or(options.overrides.fit).unwrap_or(open.document.fit);
         let seed = options.overrides.seed.unwrap_or(open.document.seed);
         let tables = times.load.time(|| prepared.tables(&fit, seed));
         let surface = times.load.time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables))?;
@@ -99,6 +112,7 @@ impl Workpiece {
         let surface_key = surface_key(&prepared, &tables);
         let budget_bytes = options.budget_bytes;
         Ok(Workpiece {
+            path: open.path.clone(),
             graph,
             kinds,
             prepared,
@@ -117,19 +131,20 @@ impl Workpiece {
     pub fn plan(&mut self, targets: &[Target], mode: Mode, limits: Limits) -> Result<Plan, EngineError> {
         let (plan, errors) = self.try_plan(targets, mode, limits);
         let (warnings, errors): (Vec<PlanError>, Vec<PlanError>) = errors.into_iter().partition(PlanError::is_warning);
-        self.warn(warnings.iter().map(ToString::to_string));
+        let path = self.path.display().to_string();
+        let said = |error: &PlanError| format!("{path}: {error}");
+        self.warn(warnings.iter().map(said));
         if errors.is_empty() {
             return Ok(plan);
         }
-        let messages = errors.iter().map(ToString::to_string).collect();
         Err(EngineError {
             kind: ErrorKind::BadInput,
-            messages,
+            messages: errors.iter().map(said).collect(),
         })
     }
 
     /// Keeps sentences for the artist, each once however often it comes.
-    fn warn(&mut self, sentences: impl IntoIterator<Item = String>) {
+    pub(crate) fn warn(&mut self, sentences: impl IntoIterator<Item = String>) {
         for sentence in sentences {
             if !self.warnings.contains(&sentence) {
                 self.warnings.push(sentence);

@@ -94,6 +94,7 @@ impl WorkpieceArguments {
                 variant: self.variant.clone(),
                 set: set.map_err(|why| Failure::new(Exit::Usage, format!("--set: {why}")))?,
                 seed: self.seed,
+                fit: self.fit,
             },
             fit: self.fit,
             adapter: self.adapter.clone(),

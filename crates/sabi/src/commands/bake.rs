@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakeReport, BakeRequest, OpenGraph, bake, is_foreign_folder};
+use sabi_engine::{BakeReport, BakeRequest, bake};
 
 use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};
@@ -13,7 +13,6 @@ use crate::terminal::{Terminal, plain};
 pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let started = Instant::now();
     let request = request(arguments)?;
-    refuse_foreign_folder(arguments, &request)?;
     let report_file = match &arguments.report {
         Some(path) => Some(ReportFile::create(path, &arguments.output)?),
         None => None,
@@ -49,24 +48,8 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
         all_maps: arguments.all_maps,
         padding: arguments.padding_texels(),
         fuse: !arguments.no_fuse,
+        force: arguments.force,
     })
-}
-
-/// A mistyped folder must not fill somebody's pictures with maps.
-fn refuse_foreign_folder(arguments: &BakeArguments, request: &BakeRequest) -> Result<(), Failure> {
-    if arguments.force || !arguments.output.is_dir() {
-        return Ok(());
-    }
-    let open = OpenGraph::open(&request.graph)?;
-    let graph = open.flatten(&request.workpiece.overrides)?;
-    if !is_foreign_folder(&arguments.output, &graph) {
-        return Ok(());
-    }
-    let why = format!(
-        "the folder {} has files but no earlier maps; choose another with -o, or bake into it with --force",
-        arguments.output.display()
-    );
-    Err(Failure::new(Exit::CannotWrite, why))
 }
 
 fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, terminal: &Terminal) {

@@ -12,8 +12,12 @@ fn with(clouds: &str) -> String {
 }
 
 fn refused(place: &Place, content: impl AsRef<[u8]>, words: &str) {
+    refused_with(place, content, &[], words);
+}
+
+fn refused_with(place: &Place, content: impl AsRef<[u8]>, more: &[&str], words: &str) {
     place.write("bad.sabi", content);
-    place.refuses("bad.sabi", "cube.glb", &[], 65, words);
+    place.refuses("bad.sabi", "cube.glb", more, 65, words);
 }
 
 #[test]
@@ -36,17 +40,17 @@ fn links_that_go_wrong_are_shown_in_the_file() {
     refused(
         &place,
         with(r#""clouds": { "kind": "source/material" }"#),
-        "input 'source' of node 'out' takes a mask, but 'clouds' gives a material; connect a mask",
+        "bad.sabi: input 'source' of node 'out' takes a mask, but 'clouds' gives a material; connect a mask",
     );
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplex" }"#).replace(r#": "clouds" }"#, r#": "clouds.mesk" }"#),
-        "input 'source' of node 'out' asks 'clouds' for 'mesk', which it does not give; did you mean 'mask'?",
+        "bad.sabi: input 'source' of node 'out' asks 'clouds' for 'mesk', which it does not give; did you mean 'mask'?",
     );
     refused(
         &place,
         with(r#""clouds": { "kind": "filter/smooth" }"#),
-        "input 'source' of node 'clouds' (filter/smooth) must be connected to a mask",
+        "bad.sabi: input 'source' of node 'clouds' (filter/smooth) must be connected to a mask",
     );
 }
 
@@ -56,23 +60,90 @@ fn kinds_and_values_that_nobody_knows_are_named() {
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplx" }"#),
-        "node 'clouds' is of kind 'noise/simplx', which no loaded node file describes; did you mean 'noise/simplex'?",
+        "bad.sabi: node 'clouds' is of kind 'noise/simplx', which no loaded node file describes; did you mean 'noise/simplex'?",
     );
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplex", "params": { "octaves": "three" } }"#),
-        "parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not \"three\"",
+        "bad.sabi: parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not \"three\"",
     );
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplex", "params": { "octaves": 3000 } }"#),
-        "parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not 3000",
+        "bad.sabi: parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not 3000",
     );
     refused(
         &place,
         graph(r#"    "clouds": { "kind": "noise/simplex" }"#),
         "bad.sabi: the graph has no output; add a node of kind 'output/material' and connect its material",
     );
+}
+
+#[test]
+fn all_faults_are_told_before_the_model_is_looked_at() {
+    let place = Place::new();
+    place.write(
+        "bad.sabi",
+        graph(
+            r#"    "a": { "kind": "noise/simplx" },
+    "b": { "kind": "noise/simplex", "params": { "octaves": 3000 } },
+    "clouds": { "kind": "blend/mask", "inputs": { "below": "a", "above": "b" } },
+    "one": { "kind": "output/mask", "inputs": { "source": "clouds" } },
+    "two": { "kind": "output/mask", "inputs": { "source": "clouds" } }"#,
+        ),
+    );
+    let words = "bad.sabi: nodes 'one' and 'two' (output/mask) both export a map named 'mask'; give one of them another \
+                 name\nerror: bad.sabi: parameter 'octaves' of node 'b' (noise/simplex) takes a whole number from 1 to 16, \
+                 not 3000\nerror: bad.sabi: node 'a' is of kind 'noise/simplx', which no loaded node file describes; did you \
+                 mean 'noise/simplex'?";
+    place.refuses("bad.sabi", "none.glb", &[], 65, words);
+    let checked = place.sabi(&["check", "bad.sabi"]).fails(65);
+    assert_eq!(checked.stdout, "bad.sabi: 3 errors\n");
+    let clash = words.lines().next().unwrap();
+    assert!(checked.stderr.contains(clash), "{}", checked.stderr);
+}
+
+#[test]
+fn a_group_file_that_is_not_there_ends_with_66_and_a_damaged_one_with_65() {
+    let place = Place::new();
+    let text = with(r#""clouds": { "kind": "graph/group", "group": "group.sabi" }"#)
+        .replace(r#": "clouds" }"#, r#": "clouds.mask" }"#);
+    place.write("bad.sabi", text);
+    let words = |why: &str| {
+        format!("bad.sabi: node \"clouds\" needs the group file \"group.sabi\", which cannot be read: group.sabi{why}")
+    };
+    let missing = words(": there is no such file; check the path");
+    place.refuses("bad.sabi", "cube.glb", &[], 66, &missing);
+    let checked = place.sabi(&["check", "bad.sabi"]).fails(66);
+    assert_eq!(checked.stderr, format!("{missing}\n"));
+    place.write("group.sabi", "");
+    let damaged = words(":1:1: the file ends where a value is expected; it may have been cut off");
+    place.refuses("bad.sabi", "cube.glb", &[], 65, &damaged);
+    // The file's own variant is the file's fault, whoever asks for it.
+    let text = graph(CLOUDS).replace(r#""amount": 0.9"#, r#""amount": 7"#);
+    refused_with(
+        &place,
+        text,
+        &["--variant", "heavy"],
+        "bad.sabi: \"amount\" is 7, but goes from 0 to 1; choose a value in that range",
+    );
+}
+
+#[test]
+fn a_graph_whose_outputs_are_muted_says_so() {
+    let place = Place::new();
+    let text = graph(CLOUDS).replace(r#""kind": "output/mask","#, r#""kind": "output/mask", "muted": true,"#);
+    refused(
+        &place,
+        text,
+        "bad.sabi: the graph's only output 'out' is muted; unmute it",
+    );
+    let checked = place.sabi(&["check", "bad.sabi"]).good();
+    assert_eq!(
+        checked.stderr,
+        "bad.sabi: warning: the graph's only output 'out' is muted; unmute it\n"
+    );
+    assert_eq!(checked.stdout, "bad.sabi: good, 2 nodes in 0 passes, 1 warning\n");
 }
 
 #[test]
@@ -83,7 +154,7 @@ fn an_unknown_parameter_is_kept_and_told() {
     let run = place.bake("newer.sabi", "cube.glb", &[]).good();
     assert!(
         run.stderr.starts_with(
-            "warning: node 'clouds' (noise/simplex) has no parameter 'octavs'; it is kept and ignored; did you mean \
+            "warning: newer.sabi: node 'clouds' (noise/simplex) has no parameter 'octavs'; it is kept and ignored; did you mean \
              'octaves'?\n"
         ),
         "{}",

@@ -122,18 +122,64 @@ fn how_a_model_is_taken_changes_the_maps() {
     let place = Place::new();
     let map = |more: &[&str]| {
         place.bake("clouds.sabi", "cube.glb", more).good();
-        place.read("out/cube_mask.png")
+        let map = place.read("out/cube_mask.png");
+        // A constant mask has no map, and must not be taken for the one before.
+        std::fs::remove_file(place.path("out/cube_mask.png")).unwrap();
+        map
     };
     let plain = map(&[]);
-    for more in [["--up", "z"], ["--fit", "0.3"], ["--padding", "infinite"]] {
-        assert_ne!(map(&more), plain, "{more:?}");
+    for more in [["--up", "z"], ["--padding", "infinite"]] {
+        assert!(map(&more) != plain, "{more:?}");
     }
-    assert_eq!(
-        map(&["--scale", "3"]),
-        plain,
+    assert!(
+        map(&["--scale", "3"]) == plain,
         "the largest side counts as 1, however large it is"
     );
-    assert_ne!(map(&["--scale", "3", "--fit", "metres"]), plain);
+    // The cube's side is 1: under a fit of 2 it counts as 0.5, and clouds are twice as large on it.
+    let larger = map(&["--set", "clouds.size=0.5"]);
+    assert!(larger != plain);
+    assert!(map(&["--fit", "2"]) == larger);
+    assert!(map(&["--fit", "metres", "--scale", "0.5"]) == larger);
+    assert!(map(&["--fit", "metres"]) == plain);
+}
+
+/// Raised from 0 to 0.01 along the cube.
+const RAMP: &str = r##"    "base": { "kind": "source/material" },
+    "clouds": { "kind": "surface/position", "params": { "along": [0, 1, 0] } },
+    "out": { "kind": "output/material", "inputs": { "material": "raised" } },
+    "raised": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "clouds" }, "params": { "height": 0.01 } }"##;
+
+#[test]
+fn heights_are_in_the_units_of_the_models_file_under_the_fit() {
+    let place = Place::new();
+    place.write("ramp.sabi", graph(RAMP));
+    let span = |more: &[&str]| {
+        let run = place
+            .bake("ramp.sabi", "cube.glb", &[more, &["--json"]].concat())
+            .good();
+        let report = json(run.stdout.as_bytes());
+        let outputs = report["outputs"].as_array().unwrap();
+        let range = outputs.iter().find_map(|output| output["range"].as_array()).unwrap();
+        range[1].as_f64().unwrap() - range[0].as_f64().unwrap()
+    };
+    let one = span(&["--fit", "1"]);
+    assert!((0.009..=0.01).contains(&one), "{one}");
+    let cases: [(&[&str], f64); 6] = [
+        (&["--fit", "2"], 2.0),
+        (&["--fit", "0.25"], 0.25),
+        (&["--fit", "metres"], 1.0),
+        // A model taken twice as large: a length of it is half as long in the file.
+        (&["--fit", "1", "--scale", "2"], 0.5),
+        (&["--fit", "metres", "--scale", "4"], 0.25),
+        (&["--fit", "unit", "--scale", "3"], span(&["--fit", "unit"]) / one),
+    ];
+    for (more, factor) in cases {
+        let ratio = span(more) / one;
+        assert!(
+            (ratio / factor - 1.0).abs() < 1e-4,
+            "{more:?}: {ratio} instead of {factor}"
+        );
+    }
 }
 
 #[test]

@@ -35,6 +35,13 @@ fn a_model_is_described() {
     let run = place.sabi(&["mesh", "cube.glb", "--size", "64", "--json"]).good();
     let mesh = json(&run.stdout);
     assert_eq!((&mesh["triangles"], &mesh["charts"]), (&Json::from(12), &Json::from(6)));
+    let coverage = mesh["coverage"].as_f64().unwrap();
+    assert!(coverage > 0.0);
+    assert_eq!(
+        mesh["coverage"].to_string(),
+        (coverage as f32).to_string(),
+        "no digits that a 32-bit float has not"
+    );
     let table = place.sabi(&["mesh", "cube.glb", "--size", "64"]).good().stdout;
     assert!(table.starts_with("triangles                12\n"), "{table}");
     let missing = place.sabi(&["mesh", "none.glb"]).fails(66);
@@ -138,6 +145,12 @@ fn any_result_can_be_looked_at() {
             "a.png",
             2,
             "the graph has no node 'cluds'; did you mean 'clouds'?",
+        ),
+        (
+            "clouds.mesk",
+            "a.png",
+            2,
+            "rust.sabi: node 'clouds' (noise/simplex) has no result 'mesk'; it gives mask",
         ),
         (
             "clouds",

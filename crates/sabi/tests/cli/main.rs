@@ -9,5 +9,6 @@ mod baking;
 mod help;
 mod interruption;
 mod looking;
+mod outputs;
 mod place;
 mod settings;

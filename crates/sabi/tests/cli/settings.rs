@@ -18,7 +18,7 @@ fn a_wrong_setting_is_refused_and_the_nearest_name_is_told() {
         ),
         (
             "clouds.gian=1",
-            "node 'clouds' (noise/simplex) has no parameter 'gian'; did you mean 'gain'?",
+            "clouds.sabi: node 'clouds' (noise/simplex) has no parameter 'gian'; did you mean 'gain'?",
         ),
         (
             "amount=high",
@@ -30,15 +30,15 @@ fn a_wrong_setting_is_refused_and_the_nearest_name_is_told() {
         ),
         (
             "clouds.octaves=4000000000",
-            "parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not 4000000000",
+            "clouds.sabi: parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not 4000000000",
         ),
         (
             "clouds.size=nan",
-            "parameter 'size' of node 'clouds' (noise/simplex) takes a number from 0.0001 to 100, not \"nan\"",
+            "clouds.sabi: parameter 'size' of node 'clouds' (noise/simplex) takes a number from 0.0001 to 100, not \"nan\"",
         ),
         (
             "look=spiky",
-            "parameter 'mode' of node 'clouds' (noise/simplex) takes one of fbm, billow, ridged, not \"spiky\"",
+            "clouds.sabi: parameter 'mode' of node 'clouds' (noise/simplex) takes one of fbm, billow, ridged, not \"spiky\"",
         ),
         (
             "amount",

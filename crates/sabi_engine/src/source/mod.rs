@@ -11,7 +11,7 @@ use sabi_plan::SourceKind;
 
 pub(crate) use model::{ModelSource, kind_for};
 pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
-pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, serves};
+pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 
 /// Kinds that give, by id. `source/model` learns its content once a model is loaded.
 pub(crate) fn kinds() -> BTreeMap<String, SourceKind> {

@@ -14,10 +14,9 @@ pub(crate) fn kind() -> SourceKind {
         summary: "What is exported and shown.".to_owned(),
         params: vec![TextParam {
             name: "materials".to_owned(),
-            doc:
-                "Names of the model's materials that this output serves, separated by commas; * serves all. Of several \
-                  outputs the first one that matches serves a material."
-                    .to_owned(),
+            doc: "Names of the model's materials that this output serves, separated by commas; * serves all. Of \
+                  several outputs, one that lists a material wins over one that serves all; else the first by id."
+                .to_owned(),
             default: Value::Text("*".to_owned()),
         }],
         inputs: vec![SourcePort {
@@ -31,13 +30,24 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// Whether an output node serves the model's material of that name.
-pub(crate) fn serves(node: &FlatNode, material: &str) -> bool {
-    match node.params.get("materials") {
-        Some(Value::Text(names)) => names
-            .split(',')
-            .map(str::trim)
-            .any(|name| name == "*" || name == material),
-        _ => true,
+/// How an output node comes to serve a material; the lesser wins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Claim {
+    /// It lists the material.
+    Listed,
+    /// It takes all.
+    All,
+}
+
+/// Whether and how an output node serves the model's material that goes by these names.
+pub(crate) fn claim(node: &FlatNode, names: &[&str]) -> Option<Claim> {
+    let Some(Value::Text(text)) = node.params.get("materials") else {
+        return Some(Claim::All);
+    };
+    let listed = || text.split(',').map(str::trim);
+    // A material's own name may hold a comma.
+    if names.contains(&text.trim()) || listed().any(|name| names.contains(&name)) {
+        return Some(Claim::Listed);
     }
+    listed().any(|name| name == "*").then_some(Claim::All)
 }

@@ -1,0 +1,65 @@
+//! What can be known of a graph before there is a model.
+
+use sabi_graph::FlatGraph;
+use sabi_plan::{Lengths, Limits, Mode, Planner, Problem, Target};
+
+use crate::document::OpenGraph;
+use crate::error::{EngineError, ErrorKind};
+use crate::kinds::Kinds;
+
+/// A planner for a model that is not there: lengths are as written, and the adapter is a common one.
+pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds) -> Planner<'a> {
+    Planner {
+        graph,
+        library: &kinds.library,
+        sources: &kinds.sources,
+        sinks: &kinds.sinks,
+        lengths: Lengths {
+            working_from: &|_| 1.0,
+            extent: &|_| [0.0, 1.0],
+        },
+        surface_key: [0; 32],
+        mode: Mode::Bake { fuse: true },
+        limits: Limits {
+            sampled_textures: 16,
+            storage_textures: 8,
+            ..Limits::default()
+        },
+    }
+}
+
+/// Every node's first result.
+pub(crate) fn all_nodes(graph: &FlatGraph) -> Vec<Target> {
+    targets(0..graph.nodes.len())
+}
+
+/// The first results of nodes.
+pub(crate) fn targets(nodes: impl IntoIterator<Item = usize>) -> Vec<Target> {
+    nodes.into_iter().map(|node| Target { node, port: None }).collect()
+}
+
+/// Refuses a graph in which something that the targets need is at fault, with a sentence for each fault.
+pub(crate) fn refuse_faults(
+    open: &OpenGraph,
+    graph: &FlatGraph,
+    kinds: &Kinds,
+    targets: &[Target],
+) -> Result<(), EngineError> {
+    let (_, mut errors) = planner(graph, kinds).plan(targets);
+    errors.retain(|error| !error.is_warning());
+    if errors.is_empty() {
+        return Ok(());
+    }
+    // A result that is not there was asked for by name; the file is not to blame.
+    let is_asked = errors
+        .iter()
+        .all(|error| matches!(error.problem, Problem::NoSuchResult { .. }));
+    Err(EngineError {
+        kind: if is_asked {
+            ErrorKind::Usage
+        } else {
+            ErrorKind::BadInput
+        },
+        messages: errors.iter().map(|error| open.said(error)).collect(),
+    })
+}

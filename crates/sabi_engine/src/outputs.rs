@@ -1,0 +1,211 @@
+//! The outputs of a graph: what is exported, and which of them serves which material.
+
+use std::collections::BTreeMap;
+
+use sabi_export::Channel;
+use sabi_graph::FlatGraph;
+
+use crate::source::{OUTPUT_MASK, OUTPUT_MATERIAL, claim, mask_name};
+
+/// The outputs that are not muted, in the order of their ids.
+pub(crate) fn outputs(graph: &FlatGraph) -> Vec<usize> {
+    let mut found: Vec<usize> = all_outputs(graph).filter(|&node| !graph.nodes[node].muted).collect();
+    found.sort_by_key(|&node| &graph.nodes[node].id);
+    found
+}
+
+/// Those of the outputs that give materials.
+pub(crate) fn materials(graph: &FlatGraph, outputs: &[usize]) -> Vec<usize> {
+    of_kind(graph, outputs, OUTPUT_MATERIAL)
+}
+
+/// Those of the outputs that give one more map.
+pub(crate) fn masks(graph: &FlatGraph, outputs: &[usize]) -> Vec<usize> {
+    of_kind(graph, outputs, OUTPUT_MASK)
+}
+
+fn of_kind(graph: &FlatGraph, outputs: &[usize], kind: &str) -> Vec<usize> {
+    let nodes = outputs.iter().copied();
+    nodes.filter(|&node| graph.nodes[node].kind == kind).collect()
+}
+
+fn all_outputs(graph: &FlatGraph) -> impl Iterator<Item = usize> {
+    let is_output = |node: &usize| [OUTPUT_MATERIAL, OUTPUT_MASK].contains(&graph.nodes[*node].kind.as_str());
+    (0..graph.nodes.len()).filter(is_output)
+}
+
+/// Why nothing comes out of a graph, if nothing does.
+pub(crate) fn nothing_comes_out(graph: &FlatGraph) -> Option<String> {
+    if !outputs(graph).is_empty() {
+        return None;
+    }
+    let muted = quoted(all_outputs(graph).map(|node| graph.nodes[node].id.as_str()));
+    Some(match all_outputs(graph).count() {
+        0 => format!("the graph has no output; add a node of kind '{OUTPUT_MATERIAL}' and connect its material"),
+        1 => format!("the graph's only output {muted} is muted; unmute it"),
+        _ => format!("all outputs of the graph are muted ({muted}); unmute one"),
+    })
+}
+
+/// Mask outputs whose maps would have the same file: a sentence for each that comes too late.
+pub(crate) fn clashes(graph: &FlatGraph) -> Vec<String> {
+    let mut taken: BTreeMap<String, usize> = BTreeMap::new();
+    let mut sentences = Vec::new();
+    for node in masks(graph, &outputs(graph)) {
+        let name = Channel::Mask(mask_name(&graph.nodes[node])).name().into_owned();
+        // Many file systems take upper and lower case for the same.
+        match taken.get(&name.to_lowercase()) {
+            Some(&first) => sentences.push(format!(
+                "nodes '{}' and '{}' ({OUTPUT_MASK}) both export a map named '{name}'; give one of them another name",
+                graph.nodes[first].id, graph.nodes[node].id
+            )),
+            None => {
+                taken.insert(name.to_lowercase(), node);
+            }
+        }
+    }
+    sentences
+}
+
+/// Which output serves each of the model's materials, told by the names it goes by: one that lists it before one that
+/// takes all, and among equals the first by id.
+pub(crate) fn served(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<Option<usize>> {
+    let nodes = materials(graph, outputs);
+    let of = |names: &[&str; 2]| {
+        let claims = nodes
+            .iter()
+            .filter_map(|&node| Some((claim(&graph.nodes[node], names)?, node)));
+        // The first of equals stays.
+        claims.min_by_key(|(claim, _)| *claim).map(|(_, node)| node)
+    };
+    names.iter().map(of).collect()
+}
+
+/// Outputs that serve no material of the model: a sentence for each.
+pub(crate) fn idle(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<String> {
+    let served = served(graph, outputs, names);
+    let nodes = materials(graph, outputs).into_iter();
+    let idle = nodes.filter(|&node| !served.contains(&Some(node)));
+    let sentence = |node: usize| {
+        let id = &graph.nodes[node].id;
+        if names.iter().any(|names| claim(&graph.nodes[node], names).is_some()) {
+            return format!("output '{id}' serves no material: other outputs serve all that it could");
+        }
+        let has = quoted(names.iter().map(|[name, _]| *name));
+        format!("output '{id}' serves no material: its 'materials' lists none of the model's, which are {has}")
+    };
+    idle.map(sentence).collect()
+}
+
+/// Names in quotes with commas between them.
+pub(crate) fn quoted<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    names.map(|name| format!("'{name}'")).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_graph::{Document, FlatGraph, Overrides, flatten};
+
+    use super::*;
+
+    fn flat(nodes: &str) -> FlatGraph {
+        let text = format!(r#"{{ "format": "sabi", "version": 1, "name": "t", "nodes": {{ {nodes} }} }}"#);
+        let document = Document::from_json(&text).unwrap();
+        flatten(&document, &Overrides::default(), &mut |_| Err(String::new())).unwrap()
+    }
+
+    fn output(id: &str, materials: &str) -> String {
+        format!(r#""{id}": {{ "kind": "output/material", "params": {{ "materials": "{materials}" }} }}"#)
+    }
+
+    /// Ids of the outputs that serve wood, steel and glass.
+    fn serving(graph: &FlatGraph) -> Vec<Option<&str>> {
+        let names = [["wood", "wood"], ["steel, raw", "steel, raw"], ["gl/ass", "gl_ass"]];
+        let served = served(graph, &outputs(graph), &names).into_iter();
+        served
+            .map(|node| node.map(|node| graph.nodes[node].id.as_str()))
+            .collect()
+    }
+
+    #[test]
+    fn an_output_that_lists_a_material_wins_over_one_that_takes_all() {
+        let cases = [
+            (
+                vec![output("a", "*"), output("b", "wood")],
+                [Some("b"), Some("a"), Some("a")],
+            ),
+            (vec![output("b", "*"), output("a", "*")], [Some("a"); 3]),
+            (
+                vec![output("b", "wood"), output("a", "x, wood")],
+                [Some("a"), None, None],
+            ),
+            (
+                vec![output("b", "wood, *"), output("a", "*")],
+                [Some("b"), Some("a"), Some("a")],
+            ),
+            (vec![output("a", "steel, raw")], [None, Some("a"), None]),
+            (
+                vec![output("a", "gl_ass"), output("b", "gl/ass")],
+                [None, None, Some("a")],
+            ),
+            (vec![output("a", "")], [None; 3]),
+        ];
+        for (nodes, expected) in cases {
+            assert_eq!(serving(&flat(&nodes.join(","))), expected, "{nodes:?}");
+        }
+    }
+
+    #[test]
+    fn an_output_that_serves_nothing_is_told() {
+        let names = [["wood", "wood"], ["steel", "steel"]];
+        let graph = flat(&[output("a", "*"), output("b", "*"), output("c", "wod")].join(","));
+        assert_eq!(
+            idle(&graph, &outputs(&graph), &names),
+            [
+                "output 'b' serves no material: other outputs serve all that it could",
+                "output 'c' serves no material: its 'materials' lists none of the model's, which are 'wood', 'steel'",
+            ]
+        );
+    }
+
+    #[test]
+    fn masks_that_would_share_a_file_are_named() {
+        let mask =
+            |id: &str, name: &str| format!(r#""{id}": {{ "kind": "output/mask", "params": {{ "name": "{name}" }} }}"#);
+        let graph = flat(
+            &[
+                mask("a", "Wear"),
+                mask("b", "wear"),
+                mask("c", "rust"),
+                mask("d", "height"),
+            ]
+            .join(","),
+        );
+        assert_eq!(
+            clashes(&graph),
+            ["nodes 'a' and 'b' (output/mask) both export a map named 'wear'; give one of them another name"]
+        );
+        let muted = mask("b", "Wear").replace("\"params\"", "\"muted\": true, \"params\"");
+        assert!(clashes(&flat(&[mask("a", "Wear"), muted].join(","))).is_empty());
+    }
+
+    #[test]
+    fn a_graph_from_which_nothing_comes_says_why() {
+        let muted = |id: &str| format!(r#""{id}": {{ "kind": "output/mask", "muted": true }}"#);
+        let cases = [
+            (
+                String::new(),
+                Some("the graph has no output; add a node of kind 'output/material' and connect its material"),
+            ),
+            (muted("a"), Some("the graph's only output 'a' is muted; unmute it")),
+            (
+                [muted("a"), muted("b")].join(","),
+                Some("all outputs of the graph are muted ('a', 'b'); unmute one"),
+            ),
+            ([muted("a"), output("b", "*")].join(","), None),
+        ];
+        for (nodes, words) in cases {
+            assert_eq!(nothing_comes_out(&flat(&nodes)).as_deref(), words, "{nodes}");
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! The texture sets of a model, and what of the graph goes into them.
+
+use sabi_export::{SetKey, set_keys, set_names};
+use sabi_graph::FlatGraph;
+use sabi_surface::atlas::Atlas;
+use sabi_surface::model::Model;
+
+use crate::document::OpenGraph;
+use crate::error::{EngineError, ErrorKind};
+use crate::outputs::{idle, masks, materials, quoted, served};
+
+/// One texture set.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct TextureSet {
+    /// Which set.
+    pub(crate) key: SetKey,
+    /// Stem of its files.
+    pub(crate) name: String,
+}
+
+/// The sets of the model's materials, or of those that go by the wanted name: their own, or the stem of their files.
+/// Never empty.
+pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -> Result<Vec<TextureSet>, EngineError> {
+    let stems = set_names(model);
+    let keys = set_keys(atlas);
+    let names = |key: &SetKey| names_of(model, &stems, key.material);
+    let chosen = keys
+        .iter()
+        .filter(|key| wanted.is_none_or(|wanted| names(key).contains(&wanted)));
+    let sets: Vec<TextureSet> = chosen
+        .map(|key| TextureSet {
+            key: *key,
+            name: names(key)[1].to_owned(),
+        })
+        .collect();
+    match wanted {
+        _ if !sets.is_empty() => Ok(sets),
+        Some(wanted) => {
+            let mut known: Vec<&str> = keys.iter().map(|key| names(key)[1]).collect();
+            known.dedup();
+            let why = format!("the model has no material '{wanted}'; it has {}", known.join(", "));
+            Err(EngineError::new(ErrorKind::Usage, why))
+        }
+        None => Err(EngineError::new(
+            ErrorKind::BadInput,
+            "the model has no surface that maps could be made for",
+        )),
+    }
+}
+
+/// A material's own name, or where it has none the stem of its files; and that stem.
+fn names_of<'m>(model: &'m Model, stems: &'m [String], material: u32) -> [&'m str; 2] {
+    let index = material as usize;
+    let stem = stems.get(index).map_or(model.stem.as_str(), String::as_str);
+    let own = model.materials.get(index).map_or("", |material| material.name.as_str());
+    [if own.is_empty() { stem } else { own }, stem]
+}
+
+/// Which of several sets a preview shows, in a sentence; nothing where there is no choice.
+pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<String> {
+    let first = sets.first().filter(|_| sets.len() > 1)?;
+    let tile = first
+        .key
+        .udim
+        .map_or(String::new(), |number| format!("tile {number} of "));
+    let name = &first.name;
+    Some(if sets.iter().all(|set| set.key.material == first.key.material) {
+        format!("this shows {tile}'{name}', the first of its {} tiles", sets.len())
+    } else {
+        format!(
+            "this shows {tile}'{name}', the first of {} texture sets; choose another with --material",
+            sets.len()
+        )
+    })
+}
+
+/// Which output each set's maps of a material come from.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Serving {
+    /// By set, the output node; none for a material that no output serves.
+    pub(crate) outputs: Vec<Option<usize>>,
+    /// What is probably not meant.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// Finds the outputs that serve the sets; `outputs` are those of the graph.
+pub(crate) fn serve(
+    open: &OpenGraph,
+    graph: &FlatGraph,
+    outputs: &[usize],
+    model: &Model,
+    atlas: &Atlas,
+    sets: &[TextureSet],
+) -> Result<Serving, EngineError> {
+    let stems = set_names(model);
+    let mut used: Vec<u32> = set_keys(atlas).iter().map(|key| key.material).collect();
+    used.dedup();
+    let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
+    let by_material = served(graph, outputs, &names);
+    let output_of = |material: u32| {
+        let at = used.iter().position(|&index| index == material)?;
+        by_material[at]
+    };
+    let found: Vec<Option<usize>> = sets.iter().map(|set| output_of(set.key.material)).collect();
+    let mut left: Vec<u32> = sets.iter().map(|set| set.key.material).collect();
+    left.dedup();
+    left.retain(|&material| output_of(material).is_none());
+    let gives = materials(graph, outputs);
+    let has = quoted(names.iter().map(|[name, _]| *name));
+    let advice = "list it in 'materials' of an output";
+    if found.iter().all(Option::is_none) && masks(graph, outputs).is_empty() {
+        let left = quoted(left.iter().map(|&material| names_of(model, &stems, material)[0]));
+        let why = format!(
+            "no output serves {left}, so there is nothing to bake; the model has {has}: list one of them in 'materials' of an output"
+        );
+        return Err(EngineError::new(ErrorKind::BadInput, open.said(why)));
+    }
+    let mut warnings = idle(graph, outputs, &names);
+    if !gives.is_empty() {
+        let without = left.iter().map(|&material| names_of(model, &stems, material)[0]);
+        warnings.extend(without.map(|name| format!("no output serves the model's material '{name}'; {advice}")));
+    }
+    Ok(Serving {
+        outputs: found,
+        warnings,
+    })
+}
