@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::process::Stdio;
 
 use serde_json::Value;
 
@@ -26,11 +27,12 @@ pub(crate) fn run(place: &Place) -> Result<(), Stop> {
         .join("release")
         .join(format!("sabi{}", std::env::consts::EXE_SUFFIX));
     let arguments = [
-        "bake", GRAPH, "--mesh", MODEL, "--size", "2048", "-o", FOLDER, "--report", REPORT,
+        "bake", GRAPH, "--mesh", MODEL, "--size", "2048", "-o", FOLDER, "--report", REPORT, "--quiet",
     ];
     eprintln!("$ sabi {}", arguments.join(" "));
     let mut bake = place.command(&sabi)?;
-    bake.args(arguments);
+    // What it would say and list is in the summary.
+    bake.args(arguments).stdout(Stdio::null());
     finish(bake, "The bake")?;
     let text = fs::read_to_string(place.root.join(REPORT))
         .map_err(|error| Stop::new(1, format!("The bake's report {REPORT} cannot be read: {error}.")))?;
@@ -49,14 +51,18 @@ fn size_of(root: &Path, path: &str) -> Option<u64> {
         .map(|metadata| metadata.len())
 }
 
+fn counted(count: &Value, one: &str, many: &str) -> String {
+    format!("{count} {}", if count.as_u64() == Some(1) { one } else { many })
+}
+
 /// The report in a few lines.
 fn summary(report: &Value, bytes_of: impl Fn(&str) -> Option<u64>) -> String {
     let text = |value: &Value| value.as_str().unwrap_or("?").to_owned();
     let mut lines = vec![format!(
-        "Baked {} nodes in {} passes onto {} triangles, {} texels square, on {} ({}).",
-        report["nodes"],
-        report["passes"],
-        report["mesh"]["triangles"],
+        "Baked {} in {} onto {}, {} texels square, on {} ({}).",
+        counted(&report["nodes"], "node", "nodes"),
+        counted(&report["passes"], "pass", "passes"),
+        counted(&report["mesh"]["triangles"], "triangle", "triangles"),
         report["size"],
         text(&report["adapter"]["name"]),
         text(&report["adapter"]["kind"]),
@@ -97,6 +103,16 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+
+    #[test]
+    fn one_of_a_thing_is_not_many() {
+        let report = json!({ "mesh": { "triangles": 1 }, "size": 64, "nodes": 1, "passes": 1 });
+        let summary = summary(&report, |_| None);
+        assert!(
+            summary.starts_with("Baked 1 node in 1 pass onto 1 triangle, 64 texels square"),
+            "{summary}"
+        );
+    }
 
     #[test]
     fn the_summary_says_what_was_written_where_and_how_long_each_stage_took() {
