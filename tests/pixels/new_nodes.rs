@@ -1,6 +1,5 @@
 //! Adding a node takes one file and nothing else, at run time too.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use sabi_engine::{Kinds, NodeWatcher};
@@ -129,34 +128,6 @@ fn an_edit_of_a_library_reaches_the_nodes_that_use_it() {
     folder.remove("own/facing");
     assert!(refreshed(&watcher, &mut kinds));
     assert!(kinds.library.kind("own/facing").is_none());
-}
-
-#[test]
-fn a_folder_that_is_never_at_rest_is_read_all_the_same() {
-    let folder = NodeFolder::new(&[("own/facing", FACING)]);
-    let mut kinds = folder.kinds();
-    let watcher = NodeWatcher::new(&folder.path()).expect("a watcher");
-    let (is_read, is_over) = (AtomicBool::new(false), AtomicBool::new(false));
-    std::thread::scope(|scope| {
-        scope.spawn(|| {
-            // Far longer than any wait for rest may take, so that a wait without an end is seen.
-            for round in 0..4000 {
-                if is_read.load(Ordering::Relaxed) {
-                    return;
-                }
-                std::fs::write(folder.path().join("own/log.txt"), round.to_string()).expect("a file");
-                std::thread::sleep(Duration::from_millis(5));
-            }
-            is_over.store(true, Ordering::Relaxed);
-        });
-        let has_read = refreshed(&watcher, &mut kinds);
-        is_read.store(true, Ordering::Relaxed);
-        assert!(has_read);
-        assert!(
-            !is_over.load(Ordering::Relaxed),
-            "the folder was read only when it came to rest"
-        );
-    });
 }
 
 const NUMBERED: &str = "\

@@ -102,7 +102,7 @@ impl Bench {
             id: "lost".into(),
             kind: "source/image".into(),
             writes: vec![("mask".into(), vec![(Plane::Mask, slot); masks])],
-            key: [0; 32],
+            keys: vec![[0; 32]],
         };
         plan.steps.insert(0, sabi_plan::Step::Source(step));
         plan
