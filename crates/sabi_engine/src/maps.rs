@@ -181,8 +181,9 @@ impl Maps<'_> {
         for set in sets {
             let named = set.work.masks.iter().filter(|(_, mask)| std::ptr::eq(*mask, result));
             for (name, _) in named {
-                if let (None, Some(slot)) = (&plane, result.slots.first()) {
-                    plane = Some(self.from.read(run, *slot)?);
+                if plane.is_none() {
+                    // A mask or color has one plane.
+                    plane = Some(self.from.read(run, result.slots[0])?);
                 }
                 let is_color = result.stored.ty == PortType::Color;
                 let gray = |[r, g, b, _]: [f32; 4]| if is_color { [luminance([r, g, b]); 4] } else { [r; 4] };
@@ -231,7 +232,7 @@ impl Maps<'_> {
 }
 
 /// The slot of a plane of a result.
-pub(crate) fn slot_of(result: &PlannedResult, plane: Plane) -> Option<SlotRef> {
+fn slot_of(result: &PlannedResult, plane: Plane) -> Option<SlotRef> {
     let at = result.stored.planes().iter().position(|stored| *stored == plane)?;
     result.slots.get(at).copied()
 }

@@ -1,7 +1,7 @@
 //! What can be known of a graph before there is a model.
 
 use sabi_graph::FlatGraph;
-use sabi_plan::{Lengths, Limits, Mode, Planner, Problem, Target};
+use sabi_plan::{Lengths, Limits, Mode, Plan, Planner, Problem, Target};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
@@ -38,17 +38,18 @@ pub(crate) fn targets(nodes: impl IntoIterator<Item = usize>) -> Vec<Target> {
     nodes.into_iter().map(|node| Target { node, port: None }).collect()
 }
 
-/// Refuses a graph in which something that the targets need is at fault, with a sentence for each fault.
+/// Refuses a graph in which something that the targets need is at fault, with a sentence for each fault. Gives the plan
+/// as it would be without a model.
 pub(crate) fn refuse_faults(
     open: &OpenGraph,
     graph: &FlatGraph,
     kinds: &Kinds,
     targets: &[Target],
-) -> Result<(), EngineError> {
-    let (_, mut errors) = planner(graph, kinds).plan(targets);
+) -> Result<Plan, EngineError> {
+    let (plan, mut errors) = planner(graph, kinds).plan(targets);
     errors.retain(|error| !error.is_warning());
     if errors.is_empty() {
-        return Ok(());
+        return Ok(plan);
     }
     // A result that is not there was asked for by name; the file is not to blame.
     let is_asked = errors

@@ -13,7 +13,6 @@ use sabi_plan::{Mode, PlannedResult, Target};
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
-use crate::maps::slot_of;
 use crate::modelless::refuse_faults;
 use crate::sets::{texture_sets, which_is_shown};
 use crate::stages::Progress;
@@ -50,7 +49,15 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let kinds = Kinds::beside(Some(&request.graph));
     let graph = Workpiece::flat_graph(&open, &kinds, &request.workpiece)?;
     let target = target(&graph, &request.node)?;
-    refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
+    let nothing = || {
+        let why = format!(
+            "node '{}' is muted and passes nothing on, so there is nothing to see; unmute it",
+            request.node
+        );
+        EngineError::new(ErrorKind::BadInput, open.said(why))
+    };
+    let rehearsed = refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
+    rehearsed.results.first().ok_or_else(nothing)?;
     let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
     let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
@@ -58,14 +65,11 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let key = sets[0].key;
     let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, workpiece.gpu.limits())?;
     let run = workpiece.run(&plan, Duration::from_millis(200), progress, None)?;
-    let Some(result) = plan.results.first().filter(|result| !result.slots.is_empty()) else {
-        let why = format!("nothing is connected to '{}', so there is nothing to see", request.node);
-        return Err(EngineError::new(ErrorKind::BadInput, why));
-    };
+    let result = plan.results.first().ok_or_else(nothing)?;
     let layout = SetLayout::new(&workpiece.prepared.atlas, key);
     let padding = PaddingMap::new(&layout, Padding::Texels(4));
-    let planes = shown_planes(result).into_iter().map(|(name, plane, components)| {
-        let slot = slot_of(result, plane).ok_or_else(|| EngineError::new(ErrorKind::BadInput, "nothing to see"))?;
+    let shown = shown_planes(result).into_iter().zip(&result.slots);
+    let planes = shown.map(|((name, components), &slot)| {
         let data = workpiece.gpu.read(&workpiece.surface, &plan, &run, slot)?;
         let one = |first| {
             padding
@@ -120,20 +124,20 @@ fn target(graph: &FlatGraph, text: &str) -> Result<Target, EngineError> {
     ))
 }
 
-/// Planes to show: name in an EXR, plane, values a texel. A material shows its base color, and in an EXR all of it.
-fn shown_planes(result: &PlannedResult) -> Vec<(&'static str, Plane, usize)> {
+/// Planes to show, one a slot: name in an EXR, values a texel. A material shows its base color, and in an EXR all of it.
+fn shown_planes(result: &PlannedResult) -> Vec<(&'static str, usize)> {
     result
         .stored
         .planes()
         .into_iter()
         .map(|plane| match plane {
-            Plane::Mask => ("", plane, 1),
-            Plane::Color | Plane::Vector => ("", plane, 3),
-            Plane::Material(Stored::Color) => ("", plane, 4),
-            Plane::Material(Stored::Surface) => ("surface.", plane, 3),
-            Plane::Material(Stored::Height) => ("height.", plane, 1),
-            Plane::Material(Stored::Slope) => ("slope.", plane, 3),
-            Plane::Material(Stored::Emission) => ("emission.", plane, 3),
+            Plane::Mask => ("", 1),
+            Plane::Color | Plane::Vector => ("", 3),
+            Plane::Material(Stored::Color) => ("", 4),
+            Plane::Material(Stored::Surface) => ("surface.", 3),
+            Plane::Material(Stored::Height) => ("height.", 1),
+            Plane::Material(Stored::Slope) => ("slope.", 3),
+            Plane::Material(Stored::Emission) => ("emission.", 3),
         })
         .collect()
 }

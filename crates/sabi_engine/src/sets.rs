@@ -125,3 +125,37 @@ pub(crate) fn serve(
         warnings,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use sabi_export::SetKey;
+
+    use super::{TextureSet, which_is_shown};
+
+    #[test]
+    fn a_preview_of_one_of_several_sets_says_which() {
+        let set = |material: u32, name: &str, udim: Option<u32>| TextureSet {
+            key: SetKey {
+                material,
+                uv_tile: [0, 0],
+                udim,
+            },
+            name: name.to_owned(),
+        };
+        let wood = [set(0, "wood", Some(1001)), set(0, "wood", Some(1002))];
+        let cases = [
+            (vec![set(0, "wood", None)], None),
+            (
+                wood.to_vec(),
+                Some("this shows tile 1001 of 'wood', the first of its 2 tiles"),
+            ),
+            (
+                [wood.to_vec(), vec![set(1, "steel", None)]].concat(),
+                Some("this shows tile 1001 of 'wood', the first of 3 texture sets; choose another with --material"),
+            ),
+        ];
+        for (sets, words) in cases {
+            assert_eq!(which_is_shown(&sets).as_deref(), words);
+        }
+    }
+}

@@ -172,6 +172,27 @@ fn any_result_can_be_looked_at() {
 }
 
 #[test]
+fn a_muted_node_that_passes_nothing_on_is_told_before_the_model_is_looked_at() {
+    let place = Place::new();
+    let muted = graph(CLOUDS).replace(r#""noise/simplex""#, r#""noise/simplex", "muted": true"#);
+    place.write("muted.sabi", muted);
+    let run = place.sabi(&[
+        "preview",
+        "muted.sabi",
+        "--mesh",
+        "none.glb",
+        "--node",
+        "clouds",
+        "-o",
+        "a.png",
+    ]);
+    assert_eq!(
+        run.fails(65).stderr,
+        "error: muted.sabi: node 'clouds' is muted and passes nothing on, so there is nothing to see; unmute it\n"
+    );
+}
+
+#[test]
 fn a_machine_without_a_desktop_hears_no_error_of_the_driver() {
     let place = Place::new();
     let mut command = place.command(&["doctor"]);
