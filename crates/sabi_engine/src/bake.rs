@@ -17,7 +17,7 @@ use crate::maps::{MapWriter, SetWork, WrittenMaps};
 use crate::modelless::{refuse_faults, targets};
 use crate::outputs::{clashes, nothing_comes_out, outputs};
 use crate::report::{BakeReport, StageTime, StageTimes};
-use crate::sets::{TextureSet, serve, texture_sets};
+use crate::sets::{TextureSet, bare_materials, serve, texture_sets};
 use crate::source::{OUTPUT_MASK, mask_name};
 use crate::stages::Progress;
 use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
@@ -60,6 +60,8 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     let mut writer = BakeWriter::create(&request.output)?;
     let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
     workpiece.times.load.add(reading.total());
+    writer.protect(workpiece.read_files(&open));
+    workpiece.warn(bare_materials(&workpiece.prepared.model, &workpiece.prepared.atlas));
     let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
     let serving = serve(&open, &workpiece.graph, &outputs, model, atlas, &sets)?;
@@ -67,9 +69,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     let is_used =
         |node: &usize| workpiece.graph.nodes[*node].kind == OUTPUT_MASK || serving.outputs.contains(&Some(*node));
     let wanted = targets(outputs.iter().copied().filter(is_used));
-    let mut limits = workpiece.gpu.limits();
-    limits.storage_textures = limits.storage_textures.max(1);
-    let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, limits)?;
+    let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, workpiece.gpu.limits())?;
     let mut run = workpiece.run(&plan, SUBMISSION, progress, None)?;
     let sets = set_works(&workpiece.graph, &plan, sets, &serving.outputs);
     let mut encode = workpiece.times.encode;
@@ -88,14 +88,10 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     let written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
     let committed = encode.time(|| writer.commit())?;
-    let mut warnings = workpiece.warnings.clone();
-    warnings.extend(written.warnings.iter().cloned());
-    for left_over in &committed.left_over {
-        warnings.push(format!(
-            "{} is from an earlier bake; its channel is constant now",
-            left_over.display()
-        ));
-    }
+    let left_over = committed.left_over.iter().map(|path| path.display());
+    let left_over = left_over.map(|path| format!("{path} is from an earlier bake; its channel is constant now"));
+    let told = workpiece.warnings.iter().chain(&written.warnings).cloned();
+    let warnings: Vec<String> = told.chain(left_over).collect();
     let times = StageTimes {
         encode,
         ..workpiece.times
