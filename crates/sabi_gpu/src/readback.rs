@@ -1,6 +1,7 @@
 //! From the device back into memory.
 
-use std::sync::mpsc::{TryRecvError, channel};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
 
 use half::f16;
 use sabi_nodes::link::Format;
@@ -11,6 +12,9 @@ use crate::error::GpuError;
 use crate::pool::Extent;
 use crate::run::Run;
 use crate::surface::GpuSurface;
+
+/// The device is done by then, and only its answer is on its way: what takes longer never comes.
+const ANSWER_LIMIT: Duration = Duration::from_secs(30);
 
 /// Texels of one plane as they were stored, page by page and row by row.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +55,7 @@ impl PlaneData {
 }
 
 /// What became of a request to map a buffer, once the device is done.
-fn mapping(answer: Result<Result<(), wgpu::BufferAsyncError>, TryRecvError>) -> Result<(), GpuError> {
+fn mapping(answer: Result<Result<(), wgpu::BufferAsyncError>, RecvTimeoutError>) -> Result<(), GpuError> {
     match answer {
         Ok(Ok(())) => Ok(()),
         Ok(Err(error)) => Err(GpuError::Driver(format!("a result cannot be read back: {error}"))),
@@ -115,7 +119,8 @@ impl Gpu {
             // The receiver is gone only if the wait has failed already.
             buffer.map_async(wgpu::MapMode::Read, .., move |mapped| drop(sender.send(mapped)));
             self.wait()?;
-            mapping(answer.try_recv())?;
+            // Where several threads wait for one device, another one of them may be about to pass on the answer.
+            mapping(answer.recv_timeout(ANSWER_LIMIT))?;
             let mapped = buffer.get_mapped_range(..);
             if padded == row {
                 bytes.extend_from_slice(&mapped);
@@ -133,13 +138,13 @@ impl Gpu {
 
 #[cfg(test)]
 mod tests {
-    use super::{TryRecvError, mapping};
+    use super::{RecvTimeoutError, mapping};
 
     #[test]
     fn a_buffer_that_cannot_be_mapped_is_an_error_and_no_panic() {
         assert_eq!(mapping(Ok(Ok(()))), Ok(()));
         let told = "a result cannot be read back";
-        for answer in [Ok(Err(wgpu::BufferAsyncError)), Err(TryRecvError::Empty)] {
+        for answer in [Ok(Err(wgpu::BufferAsyncError)), Err(RecvTimeoutError::Timeout)] {
             let error = mapping(answer).expect_err("nothing is mapped").to_string();
             assert!(error.contains(told), "{error}");
         }
