@@ -24,14 +24,25 @@ pub(crate) enum ReportFile {
 }
 
 impl ReportFile {
-    /// Finds out early whether the report can be written. `output` is the folder of the maps, which may come into being
+    /// Finds out early whether the report can be written; it never replaces one of `inputs`. `output` is the folder of the maps, which may come into being
     /// with them.
-    pub(crate) fn create(path: &Path, output: &Path) -> Result<ReportFile, Failure> {
+    pub(crate) fn create(path: &Path, output: &Path, inputs: &[&Path]) -> Result<ReportFile, Failure> {
         if path == Path::new("-") {
             return Ok(ReportFile::Stdout);
         }
         if path.is_dir() {
             return Err(cannot(path, &io::ErrorKind::IsADirectory.into()));
+        }
+        let refused = |why: &str| {
+            let why = format!("cannot write the report {}: {why}", path.display());
+            Err(Failure::new(Exit::CannotWrite, why))
+        };
+        if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+            return refused("it is no ordinary file; use - for standard output");
+        }
+        let real = path.canonicalize().ok();
+        if real.is_some() && inputs.iter().any(|input| input.canonicalize().ok() == real) {
+            return refused("this very bake reads it; name another file");
         }
         let folder = folder_of(path);
         let made_by_the_bake = !folder.exists() && folder.components().eq(output.components());

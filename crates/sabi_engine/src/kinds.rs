@@ -44,6 +44,32 @@ impl Kinds {
         kinds
     }
 
+    /// One sentence about node files that have faults, for work that does not need them.
+    pub fn left_out(&self) -> Option<String> {
+        let mut names: Vec<String> = self
+            .faults
+            .iter()
+            .map(|fault| fault.path.display().to_string())
+            .collect();
+        names.dedup();
+        match names.as_slice() {
+            [] => None,
+            [one] => Some(format!("{one} has a fault and is left out; 'sabi check' says which")),
+            [one, ..] => {
+                let count = names.len();
+                Some(format!(
+                    "{count} node files, {one} among them, have faults and are left out; 'sabi check' says which"
+                ))
+            }
+        }
+    }
+
+    /// What is wrong with the file of a kind, if there is one that was refused.
+    pub(crate) fn faults_of<'k>(&'k self, kind: &'k str) -> impl Iterator<Item = &'k Fault> {
+        let is_of = move |fault: &&Fault| fault.path.with_extension("").ends_with(kind);
+        self.faults.iter().filter(is_of)
+    }
+
     /// Adds the nodes of a folder; faults are collected.
     pub fn add_folder(&mut self, folder: &Path) {
         let faults = self.library.load_folder(folder);

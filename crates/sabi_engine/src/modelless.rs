@@ -1,7 +1,7 @@
 //! What can be known of a graph before there is a model.
 
 use sabi_graph::FlatGraph;
-use sabi_plan::{Lengths, Limits, Mode, Plan, Planner, Problem, Target};
+use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Problem, Target};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
@@ -38,6 +38,22 @@ pub(crate) fn targets(nodes: impl IntoIterator<Item = usize>) -> Vec<Target> {
     nodes.into_iter().map(|node| Target { node, port: None }).collect()
 }
 
+/// An error as sentences: where a kind is unknown because its file has faults, those too.
+pub(crate) fn explained(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> Vec<String> {
+    let faults: Vec<String> = match error.problem {
+        Problem::UnknownKind { .. } => kinds.faults_of(&error.kind).map(ToString::to_string).collect(),
+        _ => Vec::new(),
+    };
+    if faults.is_empty() {
+        return vec![open.said(error)];
+    }
+    let sentence = format!(
+        "node '{}' is of kind '{}', whose file has a fault:",
+        error.node, error.kind
+    );
+    std::iter::once(open.said(sentence)).chain(faults).collect()
+}
+
 /// Refuses a graph in which something that the targets need is at fault, with a sentence for each fault. Gives the plan
 /// as it would be without a model.
 pub(crate) fn refuse_faults(
@@ -61,6 +77,6 @@ pub(crate) fn refuse_faults(
         } else {
             ErrorKind::BadInput
         },
-        messages: errors.iter().map(|error| open.said(error)).collect(),
+        messages: errors.iter().flat_map(|error| explained(open, kinds, error)).collect(),
     })
 }

@@ -22,7 +22,10 @@ pub(crate) struct TextureSet {
 /// Never empty.
 pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -> Result<Vec<TextureSet>, EngineError> {
     let stems = set_names(model);
-    let keys = set_keys(atlas);
+    let keys: Vec<SetKey> = set_keys(atlas)
+        .into_iter()
+        .filter(|key| is_covered(atlas, key.material))
+        .collect();
     let names = |key: &SetKey| names_of(model, &stems, key.material);
     let chosen = keys
         .iter()
@@ -46,6 +49,27 @@ pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -
             "the model has no surface that maps could be made for",
         )),
     }
+}
+
+/// Whether a material owns any texel.
+fn is_covered(atlas: &Atlas, material: u32) -> bool {
+    atlas
+        .charts
+        .iter()
+        .any(|chart| chart.material == material && chart.texels > 0)
+}
+
+/// A sentence for each material that gets no maps, because none of its surface reaches a texel.
+pub(crate) fn bare_materials(model: &Model, atlas: &Atlas) -> Vec<String> {
+    let stems = set_names(model);
+    let mut bare: Vec<u32> = set_keys(atlas).iter().map(|key| key.material).collect();
+    bare.dedup();
+    bare.retain(|&material| !is_covered(atlas, material));
+    let sentence = |material: u32| {
+        let [name, _] = names_of(model, &stems, material);
+        format!("the material '{name}' gets no maps: its UVs cover no texel; unwrap it, or bake at a larger size")
+    };
+    bare.into_iter().map(sentence).collect()
 }
 
 /// A material's own name, or where it has none the stem of its files; and that stem.

@@ -108,7 +108,7 @@ impl Workpiece {
         kinds.sources.insert(model_kind.id.clone(), model_kind);
         let mut warnings = prepared.model.warnings.clone();
         warnings.extend(prepared.atlas.report.warnings.iter().cloned());
-        warnings.extend(kinds.faults.iter().map(ToString::to_string));
+        warnings.extend(kinds.left_out());
         let surface_key = surface_key(&prepared, &tables);
         let budget_bytes = options.budget_bytes;
         Ok(Workpiece {
@@ -150,6 +150,14 @@ impl Workpiece {
                 self.warnings.push(sentence);
             }
         }
+    }
+
+    /// Files that this work was read from: they must not be written over.
+    pub(crate) fn read_files(&self, open: &OpenGraph) -> Vec<PathBuf> {
+        let groups = self.graph.nodes.iter().filter_map(|node| node.file.as_ref());
+        let groups = groups.map(|file| open.folder().join(file));
+        let model = self.prepared.model.files.iter().cloned();
+        std::iter::once(open.path.clone()).chain(groups).chain(model).collect()
     }
 
     /// Plans what of the targets can be planned, and says what is at fault.

@@ -38,6 +38,18 @@ pub enum ExportError {
         /// Files of the bake.
         total: usize,
     },
+    /// A file that is read would be replaced.
+    #[error("{} is read by this very bake and would be replaced by its own result; choose another folder with -o", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A device, pipe or socket stands where the file would be.
+    #[error("{} is no ordinary file; choose another name or folder with -o", path.display())]
+    NotAFile {
+        /// What stands there.
+        path: PathBuf,
+    },
     /// Two maps of a bake would have the same file.
     #[error(
         "two maps would be written to {file_name}; rename the material or the mask output that one of them belongs to"
@@ -71,7 +83,11 @@ impl ExportError {
     pub fn is_cannot_write(&self) -> bool {
         matches!(
             self,
-            ExportError::CreateFolder { .. } | ExportError::Write { .. } | ExportError::Replace { .. }
+            ExportError::CreateFolder { .. }
+                | ExportError::Write { .. }
+                | ExportError::Replace { .. }
+                | ExportError::Input { .. }
+                | ExportError::NotAFile { .. }
         )
     }
 

@@ -19,6 +19,8 @@ pub struct Staging {
     files: Vec<(PathBuf, PathBuf)>,
     /// File names in use, lower case, as some file systems compare them.
     names: BTreeSet<String>,
+    /// Files that must stay as they are, by their real paths.
+    inputs: BTreeSet<PathBuf>,
     /// Folders made here, outermost first; removed again if they stay empty.
     created: Vec<PathBuf>,
 }
@@ -37,6 +39,7 @@ impl Staging {
             folder: folder.to_owned(),
             files: Vec::new(),
             names: BTreeSet::new(),
+            inputs: BTreeSet::new(),
             created,
         };
         // An empty path means the current folder.
@@ -58,11 +61,24 @@ impl Staging {
         &self.folder
     }
 
+    /// Names files that this work reads: to write over one of them is refused.
+    pub fn protect(&mut self, inputs: impl IntoIterator<Item = PathBuf>) {
+        // A file that is not there cannot be written over.
+        self.inputs
+            .extend(inputs.into_iter().filter_map(|path| path.canonicalize().ok()));
+    }
+
     /// Writes a file completely, under a temporary name for now. `file_name` is a plain name without a folder.
     pub fn stage(&mut self, file_name: &str, bytes: &[u8]) -> Result<(), ExportError> {
         let target = self.folder.join(file_name);
         if Path::new(file_name).file_name().is_none_or(|name| name != file_name) {
             return Err(ExportError::write(&target, io::ErrorKind::InvalidFilename.into()));
+        }
+        if target.canonicalize().is_ok_and(|real| self.inputs.contains(&real)) {
+            return Err(ExportError::Input { path: target });
+        }
+        if fs::metadata(&target).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+            return Err(ExportError::NotAFile { path: target });
         }
         if !self.names.insert(file_name.to_lowercase()) {
             return Err(ExportError::SameName {
@@ -146,6 +162,46 @@ fn write_through(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_that_is_read_is_never_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let texture = folder.path().join("bottle_normal.png");
+        fs::write(&texture, b"the artist's own").unwrap();
+        let mut staging = Staging::create(folder.path()).unwrap();
+        staging.protect([
+            folder.path().join(".").join("bottle_normal.png"),
+            folder.path().join("missing.png"),
+        ]);
+        let error = staging.stage("bottle_normal.png", b"baked").unwrap_err();
+        assert!(error.is_cannot_write());
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "{} is read by this very bake and would be replaced by its own result; choose another folder with -o",
+                texture.display()
+            )
+        );
+        staging.stage("bottle_height.png", b"baked").unwrap();
+        staging.commit().unwrap();
+        assert_eq!(fs::read(&texture).unwrap(), b"the artist's own");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_not_replaced_by_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let socket = folder.path().join("map.png");
+        let _listening = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        let mut staging = Staging::create(folder.path()).unwrap();
+        let error = staging.stage("map.png", b"baked").unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .ends_with("is no ordinary file; choose another name or folder with -o"),
+            "{error}"
+        );
+    }
 
     fn listing(folder: &Path) -> Vec<String> {
         let mut names: Vec<String> = fs::read_dir(folder)

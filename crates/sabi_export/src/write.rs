@@ -65,6 +65,11 @@ impl BakeWriter {
         })
     }
 
+    /// Names files that this bake reads: to write over one of them is refused.
+    pub fn protect(&mut self, inputs: impl IntoIterator<Item = PathBuf>) {
+        self.staging.protect(inputs);
+    }
+
     /// Begins a texture set. `name` is the stem of its files, from [`crate::set_names`].
     pub fn set<'a>(&'a mut self, layout: &'a SetLayout, name: &str, options: &SetOptions) -> SetWriter<'a> {
         SetWriter {

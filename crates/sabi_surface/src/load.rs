@@ -12,7 +12,7 @@ mod tangents;
 mod uri;
 mod warnings;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::{DMat3, DMat4, DVec3};
 
@@ -83,8 +83,16 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
         Unread::Other(reason) => fault(Fault::Unreadable(reason)),
     })?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut resolve = |uri: &str| beside(folder, uri);
-    load_bytes(&name, &bytes, &mut resolve, options).map_err(|error| fault(error.fault))
+    let mut files = vec![path.to_owned()];
+    let mut resolve = |uri: &str| {
+        let (bytes, file) = beside(folder, uri)?;
+        files.push(file);
+        Ok(bytes)
+    };
+    let loaded = load_bytes(&name, &bytes, &mut resolve, options);
+    let mut model = loaded.map_err(|error| fault(error.fault))?;
+    model.files = files;
+    Ok(model)
 }
 
 /// Reads a model from bytes. `name` is its file name, ending included; `resolve` gives the bytes of a file beside it or
@@ -182,12 +190,13 @@ fn read_file(path: &Path) -> Result<Vec<u8>, Unread> {
 
 /// A file that a model names: as named, with the other system's separators, or by its bare name in the model's folder,
 /// since artists' files carry the paths of another machine.
-fn beside(folder: &Path, uri: &str) -> Result<Vec<u8>, String> {
+fn beside(folder: &Path, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
     let slashed = uri.replace('\\', "/");
     let bare = slashed.rsplit('/').next().unwrap_or_default().to_string();
     for candidate in [uri, &slashed, &bare] {
-        match read_file(&folder.join(candidate)) {
-            Ok(bytes) => return Ok(bytes),
+        let file = folder.join(candidate);
+        match read_file(&file) {
+            Ok(bytes) => return Ok((bytes, file)),
             Err(Unread::Missing) => {}
             Err(Unread::Other(reason)) => return Err(reason),
         }

@@ -1,5 +1,6 @@
 //! A loaded model: plain data, checked once at the door.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A model as read from its file, every mesh of it in one world space.
@@ -15,6 +16,8 @@ pub struct Model {
     pub images: Vec<ModelImage>,
     /// Names of the parts (mesh instances), indexed by [`Mesh::triangle_part`].
     pub parts: Vec<String>,
+    /// Files that it was read from: the model's own, buffers, pictures, material libraries. Empty when read from memory.
+    pub files: Vec<PathBuf>,
     /// What was repaired, reduced or left out, as sentences for the artist.
     pub warnings: Vec<String>,
 }

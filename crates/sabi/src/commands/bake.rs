@@ -14,7 +14,11 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
     let started = Instant::now();
     let request = request(arguments)?;
     let report_file = match &arguments.report {
-        Some(path) => Some(ReportFile::create(path, &arguments.output)?),
+        Some(path) => Some(ReportFile::create(
+            path,
+            &arguments.output,
+            &[&arguments.workpiece.graph, &arguments.workpiece.mesh],
+        )?),
         None => None,
     };
     let bars = Bars::new(terminal);

@@ -9,6 +9,7 @@ mod baking;
 mod help;
 mod interruption;
 mod looking;
+mod nothing_lost;
 mod outputs;
 mod place;
 mod settings;
