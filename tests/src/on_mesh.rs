@@ -67,6 +67,7 @@ pub fn flat_graph(graph: &str) -> FlatGraph {
 fn opened(graph: &str) -> OpenGraph {
     OpenGraph {
         path: PathBuf::from("test.sabi"),
+        text: graph.into(),
         document: Document::from_json(graph).unwrap_or_else(|error| panic!("{error}\n{graph}")),
     }
 }

@@ -7,7 +7,7 @@ use sabi_graph::{FlatGraph, Overrides};
 use crate::document::OpenGraph;
 use crate::error::EngineError;
 use crate::kinds::Kinds;
-use crate::modelless::{all_nodes, planner, targets};
+use crate::modelless::{all_nodes, explained, planner, targets};
 use crate::outputs::{clashes, nothing_comes_out, outputs};
 
 /// What was found in one graph.
@@ -33,7 +33,7 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
         ..CheckReport::default()
     };
     let graph = open.flatten(&Overrides::default())?;
-    let (errors, warnings) = faults(&graph, &kinds);
+    let (errors, warnings) = faults(&open, &graph, &kinds);
     report.errors.extend(errors);
     report.warnings.extend(warnings);
     report.warnings.extend(nothing_comes_out(&graph));
@@ -47,11 +47,11 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
 }
 
 /// What is wrong, and what has no effect.
-fn faults(graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, Vec<String>) {
+fn faults(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, Vec<String>) {
     let (mut errors, mut warnings) = (Vec::new(), Vec::new());
     for error in planner(graph, kinds).resolve(&all_nodes(graph)).errors {
         let found = if error.is_warning() { &mut warnings } else { &mut errors };
-        found.push(error.to_string());
+        found.extend(explained(open, kinds, &error));
     }
     errors.extend(clashes(graph));
     (errors, warnings)
@@ -66,7 +66,7 @@ fn check_variant(open: &OpenGraph, kinds: &Kinds, variant: &str, report: &mut Ch
     match open.flatten(&overrides) {
         Err(error) => report.errors.extend(error.messages),
         Ok(graph) => {
-            let mut fresh = faults(&graph, kinds).0;
+            let mut fresh = faults(open, &graph, kinds).0;
             fresh.retain(|sentence| !report.errors.contains(sentence));
             let said = fresh.iter().map(|sentence| format!("variant '{variant}': {sentence}"));
             report.errors.extend(said);

@@ -3,8 +3,10 @@
 use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use sabi_graph::{Document, FlatGraph, FlattenError, Overrides, flatten};
+use sabi_graph::{Document, FlatGraph, FlattenError, Overrides, flatten, locate};
+use sabi_plan::PlanError;
 
 use crate::error::{EngineError, ErrorKind};
 
@@ -18,6 +20,8 @@ pub struct OpenGraph {
     pub path: PathBuf,
     /// What it says.
     pub document: Document,
+    /// The file's text, to point into.
+    pub text: Arc<str>,
 }
 
 impl OpenGraph {
@@ -30,6 +34,7 @@ impl OpenGraph {
         Ok(OpenGraph {
             path: path.to_owned(),
             document,
+            text: text.into(),
         })
     }
 
@@ -41,6 +46,14 @@ impl OpenGraph {
     /// A sentence about the graph, with the file's path before it.
     pub(crate) fn said(&self, sentence: impl fmt::Display) -> String {
         format!("{}: {sentence}", self.path.display())
+    }
+
+    /// What is wrong with a node, with the file's path, line and column before it.
+    pub(crate) fn pointed(&self, error: &PlanError, sentence: impl fmt::Display) -> String {
+        match locate(&self.text, &error.node, error.problem.member()) {
+            Some((line, column)) => format!("{}:{line}:{column}: {sentence}", self.path.display()),
+            None => self.said(sentence),
+        }
     }
 
     /// The graph without groups and reroutes, with overrides applied.

@@ -45,13 +45,13 @@ pub(crate) fn explained(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> V
         _ => Vec::new(),
     };
     if faults.is_empty() {
-        return vec![open.said(error)];
+        return vec![open.pointed(error, error)];
     }
     let sentence = format!(
         "node '{}' is of kind '{}', whose file has a fault:",
         error.node, error.kind
     );
-    std::iter::once(open.said(sentence)).chain(faults).collect()
+    std::iter::once(open.pointed(error, sentence)).chain(faults).collect()
 }
 
 /// Refuses a graph in which something that the targets need is at fault, with a sentence for each fault. Gives the plan

@@ -23,6 +23,7 @@ mod history;
 mod id;
 mod json;
 mod layout;
+mod locate;
 mod migrate;
 mod name;
 mod nearest;
@@ -43,6 +44,7 @@ pub use flatten::{FlatGraph, FlatNode, FlatRef, FlattenError, Overrides, flatten
 pub use graph::{Graph, Node};
 pub use history::History;
 pub use id::{NodeId, OutputRef, SlotRef};
+pub use locate::locate;
 pub use nearest::nearest;
 pub use port::PortType;
 pub use problem::Problem;

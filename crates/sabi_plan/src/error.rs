@@ -173,6 +173,20 @@ impl fmt::Display for Sentence<'_> {
     }
 }
 
+impl Problem {
+    /// The input or parameter that it is about.
+    pub fn member(&self) -> Option<&str> {
+        match self {
+            Problem::UnknownInput { port, .. }
+            | Problem::UnknownOutput { port, .. }
+            | Problem::Mistyped { port, .. }
+            | Problem::MissingInput { port, .. } => Some(port),
+            Problem::UnknownParam { param, .. } | Problem::BadValue { param, .. } => Some(param),
+            Problem::UnknownKind { .. } | Problem::NewerKind { .. } | Problem::NoSuchResult { .. } => None,
+        }
+    }
+}
+
 impl std::error::Error for PlanError {}
 
 impl PlanError {

@@ -40,17 +40,17 @@ fn links_that_go_wrong_are_shown_in_the_file() {
     refused(
         &place,
         with(r#""clouds": { "kind": "source/material" }"#),
-        "bad.sabi: input 'source' of node 'out' takes a mask, but 'clouds' gives a material; connect a mask",
+        "bad.sabi:9:49: input 'source' of node 'out' takes a mask, but 'clouds' gives a material; connect a mask",
     );
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplex" }"#).replace(r#": "clouds" }"#, r#": "clouds.mesk" }"#),
-        "bad.sabi: input 'source' of node 'out' asks 'clouds' for 'mesk', which it does not give; did you mean 'mask'?",
+        "bad.sabi:9:49: input 'source' of node 'out' asks 'clouds' for 'mesk', which it does not give; did you mean 'mask'?",
     );
     refused(
         &place,
         with(r#""clouds": { "kind": "filter/smooth" }"#),
-        "bad.sabi: input 'source' of node 'clouds' (filter/smooth) must be connected to a mask",
+        "bad.sabi:8:5: input 'source' of node 'clouds' (filter/smooth) must be connected to a mask",
     );
 }
 
@@ -60,17 +60,17 @@ fn kinds_and_values_that_nobody_knows_are_named() {
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplx" }"#),
-        "bad.sabi: node 'clouds' is of kind 'noise/simplx', which no loaded node file describes; did you mean 'noise/simplex'?",
+        "bad.sabi:8:5: node 'clouds' is of kind 'noise/simplx', which no loaded node file describes; did you mean 'noise/simplex'?",
     );
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplex", "params": { "octaves": "three" } }"#),
-        "bad.sabi: parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not \"three\"",
+        "bad.sabi:8:54: parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not \"three\"",
     );
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplex", "params": { "octaves": 3000 } }"#),
-        "bad.sabi: parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not 3000",
+        "bad.sabi:8:54: parameter 'octaves' of node 'clouds' (noise/simplex) takes a whole number from 1 to 16, not 3000",
     );
     refused(
         &place,
@@ -93,8 +93,8 @@ fn all_faults_are_told_before_the_model_is_looked_at() {
         ),
     );
     let words = "bad.sabi: nodes 'one' and 'two' (output/mask) both export a map named 'mask'; give one of them another \
-                 name\nerror: bad.sabi: parameter 'octaves' of node 'b' (noise/simplex) takes a whole number from 1 to 16, \
-                 not 3000\nerror: bad.sabi: node 'a' is of kind 'noise/simplx', which no loaded node file describes; did you \
+                 name\nerror: bad.sabi:9:49: parameter 'octaves' of node 'b' (noise/simplex) takes a whole number from 1 to 16, \
+                 not 3000\nerror: bad.sabi:8:5: node 'a' is of kind 'noise/simplx', which no loaded node file describes; did you \
                  mean 'noise/simplex'?";
     place.refuses("bad.sabi", "none.glb", &[], 65, words);
     let checked = place.sabi(&["check", "bad.sabi"]).fails(65);

@@ -66,7 +66,7 @@ fn all_graphs_are_checked_whatever_is_wrong_with_the_first() {
     );
     let problems: Vec<&str> = run.stderr.lines().collect();
     assert_eq!(problems.len(), 2, "{}", run.stderr);
-    assert!(problems[0].starts_with("faulty.sabi: node 'clouds' is of kind 'noise/simplx'"));
+    assert!(problems[0].starts_with("faulty.sabi:8:5: node 'clouds' is of kind 'noise/simplx'"));
     assert!(problems[1].starts_with("cut.sabi:5:"), "{}", problems[1]);
     let run = place.sabi(&["check", "faulty.sabi", "clouds.sabi", "--json"]).fails(65);
     let found = json(&run.stdout);
@@ -150,7 +150,7 @@ fn any_result_can_be_looked_at() {
             "clouds.mesk",
             "a.png",
             2,
-            "rust.sabi: node 'clouds' (noise/simplex) has no result 'mesk'; it gives mask",
+            "rust.sabi:9:5: node 'clouds' (noise/simplex) has no result 'mesk'; it gives mask",
         ),
         (
             "clouds",

@@ -1,0 +1,82 @@
+//! Where in a file's text a node stands, for what is found wrong with it later.
+
+use crate::json::{Json, Member, Tree, parse};
+
+/// Line and column (both from 1, the column in characters) of a node in a graph file's text, or of one of its inputs or
+/// parameters where it is written. `node` is its id in a flat graph: of a node in a group (`instance/inner`) the place is
+/// that in the group, or that of the instance where the group is a file of its own.
+pub fn locate(text: &str, node: &str, member: Option<&str>) -> Option<(usize, usize)> {
+    let root = parse(text).ok()?;
+    let mut body = &root;
+    let mut found: Option<&Member> = None;
+    for id in node.split('/') {
+        let Some(here) = child(body, "nodes").and_then(|nodes| child(&nodes.value, id)) else {
+            break;
+        };
+        found = Some(here);
+        let name = child(&here.value, "group").map(|group| &group.value.tree);
+        let Some(Tree::Text(name)) = name else { break };
+        let Some(group) = child(&root, "groups").and_then(|groups| child(&groups.value, name)) else {
+            break;
+        };
+        body = &group.value;
+    }
+    let here = found?;
+    let written = member.and_then(|member| {
+        let sections = ["inputs", "params"].into_iter();
+        sections
+            .filter_map(|section| child(&child(&here.value, section)?.value, member))
+            .next()
+    });
+    Some(line_and_column(text, written.unwrap_or(here).key_at))
+}
+
+fn child<'a>(json: &'a Json, key: &str) -> Option<&'a Member> {
+    match &json.tree {
+        Tree::Object(members) => members.iter().find(|member| member.key == key),
+        _ => None,
+    }
+}
+
+fn line_and_column(text: &str, at: usize) -> (usize, usize) {
+    let before = text.get(..at).unwrap_or(text);
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    (before.matches('\n').count() + 1, line.chars().count() + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::locate;
+
+    const TEXT: &str = r#"{
+  "format": "sabi",
+  "groups": {
+    "g": { "nodes": {
+        "inner": { "kind": "x", "inputs": { "source": "other" } } } }
+  },
+  "nodes": {
+    "a": { "kind": "x", "params": { "size": 3 },
+      "inputs": { "mask": "b" } },
+    "look": { "kind": "graph/group", "group": "g" },
+    "far": { "kind": "graph/group", "group": "other.sabi" }
+  }
+}"#;
+
+    #[test]
+    fn a_node_and_what_is_written_in_it_are_found() {
+        let cases = [
+            ("a", None, Some((8, 5))),
+            ("a", Some("size"), Some((8, 37))),
+            ("a", Some("mask"), Some((9, 19))),
+            ("a", Some("not_written"), Some((8, 5))),
+            ("look", None, Some((10, 5))),
+            ("look/inner", Some("source"), Some((5, 45))),
+            ("far/inner", None, Some((11, 5))),
+            ("nobody", None, None),
+        ];
+        for (node, member, place) in cases {
+            assert_eq!(locate(TEXT, node, member), place, "{node} {member:?}");
+        }
+        assert_eq!(locate("no graph", "a", None), None);
+    }
+}
