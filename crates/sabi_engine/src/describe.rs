@@ -42,8 +42,43 @@ pub fn describe_mesh(prepared: &Prepared) -> Json {
 pub fn describe_nodes(kinds: &Kinds) -> Vec<Json> {
     let mut nodes: Vec<Json> = kinds.library.kinds().map(describe_kind).collect();
     nodes.extend(kinds.sources.values().chain(kinds.sinks.values()).map(describe_source));
+    nodes.extend(describe_structure());
     nodes.sort_by(|a, b| a["id"].as_str().cmp(&b["id"].as_str()));
     nodes
+}
+
+/// Kinds that give a graph its structure and are gone before it is planned.
+fn describe_structure() -> [Json; 2] {
+    let port = |name: &str, doc: &str| json!([{ "name": name, "type": "any", "doc": doc }]);
+    let whole = |name: &str, takes: &str, doc: &str, default: Json| json!({ "name": name, "label": name, "doc": doc, "takes": takes, "default": default });
+    [
+        json!({
+            "id": "graph/group", "version": 1, "label": "Group", "aliases": ["subgraph", "instance"],
+            "summary": "A graph in the graph: \"group\" names one of the file's groups, or a graph file beside it.",
+            "inputs": [], "outputs": [],
+            "params": [
+                whole("seed", "seed", "Gives this instance patterns of its own.", json!(0)),
+                whole("scale", "number", "Multiplies all lengths inside.", json!(1)),
+                whole("variant", "text", "Variant of the group to start from; its exposed knobs are parameters too.", json!("none")),
+            ],
+        }),
+        json!({
+            "id": "graph/reroute", "version": 1, "label": "Reroute", "aliases": ["bend", "dot"],
+            "summary": "A bend in a wire; passes on whatever comes in.",
+            "inputs": port("source", "Anything."), "outputs": port("source", "The same."), "params": [],
+        }),
+    ]
+}
+
+/// What stands in while nothing is connected; null where something must be.
+fn describe_input_default(default: &InputDefault) -> Json {
+    match default {
+        InputDefault::Required => Json::Null,
+        InputDefault::Knob(numbers) if numbers.len() == 1 => json!(short(numbers[0])),
+        InputDefault::Knob(numbers) => numbers.iter().map(|number| short(*number)).collect(),
+        InputDefault::Expression(expression) => json!(expression),
+        InputDefault::PlainMaterial => json!("a plain gray material"),
+    }
 }
 
 fn describe_kind(kind: &Kind) -> Json {
@@ -62,6 +97,7 @@ fn describe_kind(kind: &Kind) -> Json {
             "type": input.ty.to_string(),
             "doc": input.doc,
             "required": input.default == InputDefault::Required,
+            "default": describe_input_default(&input.default),
         })).collect::<Vec<_>>(),
         "outputs": kind.outputs.iter().map(|output| json!({
             "name": output.name,

@@ -7,6 +7,7 @@ use std::time::Duration;
 use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables};
 use sabi_graph::{Fit, FlatGraph, Overrides};
 use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, Target};
+use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
@@ -214,16 +215,16 @@ pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineErro
     Ok(())
 }
 
-/// Names everything about the surface that a result can depend on.
+/// Names the surface: the atlas by what it is made of, and where every triangle lies in space. Results are kept in
+/// memory only, so the program itself need not be part of it.
 fn surface_key(prepared: &Prepared, tables: &SurfaceTables) -> [u8; 32] {
     let mut hash = blake3::Hasher::new();
-    hash.update(&prepared.atlas.size.to_le_bytes());
-    for rows in [&tables.geometry, &tables.frames] {
-        for row in rows {
-            for number in row {
-                hash.update(&number.to_le_bytes());
-            }
-        }
+    hash.update(&atlas_key(
+        &prepared.model.mesh,
+        &AtlasOptions::new(prepared.atlas.size),
+    ));
+    for row in tables.geometry.iter().chain(&tables.frames) {
+        hash.update(row.map(f32::to_le_bytes).as_flattened());
     }
     *hash.finalize().as_bytes()
 }

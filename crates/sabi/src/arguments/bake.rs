@@ -9,6 +9,7 @@ use super::WorkpieceArguments;
 /// What `bake` takes.
 #[derive(Debug, Args)]
 #[command(
+    allow_negative_numbers = true,
     before_help = "\
 Examples:
   sabi bake graph.sabi --mesh model.glb -o out

@@ -9,6 +9,7 @@ use super::ModelArguments;
 /// What `check` takes.
 #[derive(Debug, Args)]
 #[command(
+    allow_negative_numbers = true,
     before_help = "\
 Examples:
   sabi check graph.sabi
@@ -26,11 +27,14 @@ pub(crate) struct CheckArguments {
 
 /// What `nodes` takes.
 #[derive(Debug, Args)]
-#[command(before_help = "\
+#[command(
+    allow_negative_numbers = true,
+    before_help = "\
 Examples:
   sabi nodes
   sabi nodes noise/simplex
-  sabi nodes --graph graph.sabi --json")]
+  sabi nodes --graph graph.sabi --json"
+)]
 pub(crate) struct NodesArguments {
     /// Describe this kind of node
     #[arg(value_name = "ID")]
@@ -45,10 +49,13 @@ pub(crate) struct NodesArguments {
 
 /// What `mesh` takes.
 #[derive(Debug, Args)]
-#[command(before_help = "\
+#[command(
+    allow_negative_numbers = true,
+    before_help = "\
 Examples:
   sabi mesh model.glb
-  sabi mesh model.obj --up z --size 2048 --json")]
+  sabi mesh model.obj --up z --size 2048 --json"
+)]
 pub(crate) struct MeshArguments {
     /// Model file (.glb, .gltf, .obj)
     #[arg(value_name = "FILE")]
@@ -63,6 +70,7 @@ pub(crate) struct MeshArguments {
 /// What `doctor` takes.
 #[derive(Debug, Args)]
 #[command(
+    allow_negative_numbers = true,
     before_help = "\
 Examples:
   sabi doctor

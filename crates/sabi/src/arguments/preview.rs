@@ -8,11 +8,14 @@ use super::WorkpieceArguments;
 
 /// What `preview` takes.
 #[derive(Debug, Args)]
-#[command(before_help = "\
+#[command(
+    allow_negative_numbers = true,
+    before_help = "\
 Examples:
   sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
   sabi preview graph.sabi --mesh model.glb --node cells.id -o id.png --size 512
-  sabi preview graph.sabi --mesh model.glb --node rust -o rust.exr      the exact values")]
+  sabi preview graph.sabi --mesh model.glb --node rust -o rust.exr      the exact values"
+)]
 pub(crate) struct PreviewArguments {
     #[command(flatten)]
     pub(crate) workpiece: WorkpieceArguments,

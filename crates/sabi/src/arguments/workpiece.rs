@@ -67,7 +67,7 @@ pub(crate) struct WorkpieceArguments {
     #[arg(long, value_name = "NAME", help_heading = "Graph")]
     variant: Option<String>,
     /// Seed in place of the graph's
-    #[arg(long, value_name = "N", help_heading = "Graph")]
+    #[arg(long, value_name = "N", value_parser = seed, help_heading = "Graph")]
     seed: Option<u32>,
     /// What counts as length 1: the largest side (unit), one metre (metres), or a length in metres
     #[arg(long, value_name = "unit|metres|LENGTH", value_parser = fit, help_heading = "Model")]
@@ -109,6 +109,11 @@ pub(crate) enum Axis {
     Y,
     Z,
     X,
+}
+
+fn seed(text: &str) -> Result<u32, String> {
+    let takes = || format!("it takes a whole number from 0 to {}", u32::MAX);
+    text.parse().map_err(|_| takes())
 }
 
 fn above_zero(text: &str) -> Result<f32, String> {

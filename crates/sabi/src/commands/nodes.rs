@@ -18,21 +18,32 @@ pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exi
     match &arguments.id {
         None if arguments.json => terminal.json(&Json::Array(nodes))?,
         None => terminal.data(&table(&nodes))?,
-        Some(id) => {
-            let node = find(&nodes, id)?;
-            if arguments.json {
-                terminal.json(node)?;
-            } else {
-                terminal.data(&details(node))?;
+        Some(word) => {
+            let found = find(&nodes, word)?;
+            match found.as_slice() {
+                [node] if arguments.json => terminal.json(node)?,
+                [node] => terminal.data(&details(node))?,
+                several if arguments.json => terminal.json(&Json::Array(several.to_vec()))?,
+                several => terminal.data(&table(several))?,
             }
         }
     }
     Ok(Exit::Done)
 }
 
-fn find<'a>(nodes: &'a [Json], id: &str) -> Result<&'a Json, Failure> {
+/// The kind of that id, or all that an artist may mean by a word: in the id, the label or the aliases.
+fn find(nodes: &[Json], id: &str) -> Result<Vec<Json>, Failure> {
     if let Some(node) = nodes.iter().find(|node| text(&node["id"]) == id) {
-        return Ok(node);
+        return Ok(vec![node.clone()]);
+    }
+    let word = id.to_lowercase();
+    let is_meant = |node: &&Json| {
+        let names = [&node["id"], &node["label"]].into_iter().chain(list(&node["aliases"]));
+        names.map(text).any(|name| name.to_lowercase().contains(&word))
+    };
+    let meant: Vec<Json> = nodes.iter().filter(is_meant).cloned().collect();
+    if !meant.is_empty() {
+        return Ok(meant);
     }
     let advice = match nearest(id, nodes.iter().map(|node| text(&node["id"]))) {
         Some(near) => format!("did you mean '{near}'?"),
@@ -73,7 +84,11 @@ fn details(node: &Json) -> String {
         } else {
             ""
         };
-        format!("{}{must}", text(&input["type"]))
+        let open = match &input["default"] {
+            Json::Null => String::new(),
+            default => format!(", else {}", plain(default)),
+        };
+        format!("{}{must}{open}", text(&input["type"]))
     });
     section(&mut page, "Outputs", list(&node["outputs"]), |output| {
         text(&output["type"]).to_owned()

@@ -201,3 +201,23 @@ fn a_machine_without_a_desktop_hears_no_error_of_the_driver() {
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
     assert!(output.status.success());
 }
+
+#[test]
+fn nodes_are_found_by_the_words_that_artists_use() {
+    let place = Place::new();
+    assert!(
+        place
+            .sabi(&["nodes", "perlin"])
+            .good()
+            .stdout
+            .starts_with("noise/simplex\n")
+    );
+    let several = place.sabi(&["nodes", "noise"]).good().stdout;
+    assert!(
+        several.lines().count() >= 3 && several.contains("noise/cells"),
+        "{several}"
+    );
+    assert!(place.sabi(&["nodes", "graph/reroute"]).good().stdout.contains("bend"));
+    let inputs = place.sabi(&["nodes", "effect/layer"]).good().stdout;
+    assert!(inputs.contains("Where the layer lies. [mask, else 1]"), "{inputs}");
+}

@@ -73,3 +73,17 @@ fn the_last_setting_wins_over_the_variant_and_the_file() {
     );
     assert_ne!(map(&[]), map(&["--seed", "5"]));
 }
+
+#[test]
+fn a_number_below_its_range_is_answered_with_the_range() {
+    let place = Place::new();
+    let cases = [
+        (["--seed", "-1"], "it takes a whole number from 0 to 4294967295"),
+        (["--seed", "abc"], "it takes a whole number from 0 to 4294967295"),
+        (["--scale", "-1"], "it takes a number above 0"),
+    ];
+    for (more, words) in cases {
+        let run = place.bake("clouds.sabi", "cube.glb", &more).fails(2);
+        assert!(run.stderr.contains(words), "{}", run.stderr);
+    }
+}
