@@ -18,13 +18,52 @@ fn height_at(texel: vec3i) -> f32 {
     return textureLoad(heights, texel.xy, texel.z, 0).x;
 }
 
+// Cosine of the angle between shading normals from which on an edge counts as hard.
+const HARD_EDGE: f32 = 0.766;
+
+// The shading normal of a triangle at texel coordinates of its chart.
+fn normal_at(triangle: u32, point: vec2f) -> vec3f {
+    let g = triangle * GEOMETRY_ROWS;
+    let step = point - vec2f(geometry[g].w, geometry[g + 1u].w);
+    return unit_or(
+        geometry[g + 3u].xyz + geometry[g + 4u].xyz * step.x + geometry[g + 5u].xyz * step.y,
+        vec3f(0.0, 1.0, 0.0),
+    );
+}
+
+// Whether a ghost lies over a hard edge from the triangle that reads it. Heights on both sides of such an edge rise in
+// different directions, so a step between them is no slope of either side.
+fn is_over_edge(near: vec3i, triangle: u32) -> bool {
+    let owner = owner_of(near);
+    if owner == EMPTY || (owner & GHOST_BIT) == 0u {
+        return false;
+    }
+    let spot = spot_of(near, owner);
+    let own = normal_at(triangle, vec2f(near.xy) + 0.5);
+    return dot(own, normal_at(spot.triangle, spot.point)) < HARD_EDGE;
+}
+
+// The height next to a texel; over a hard edge what the own side would be, straight on.
+fn height_near(center: vec3i, step: vec2i, middle: f32, triangle: u32) -> f32 {
+    let near = center + vec3i(step, 0);
+    if !is_over_edge(near, triangle) {
+        return height_at(near);
+    }
+    let opposite = center - vec3i(step, 0);
+    if is_over_edge(opposite, triangle) {
+        return middle;
+    }
+    return 2.0 * middle - height_at(opposite);
+}
+
 // Change of the height a texel along u and v; Scharr's weights, exact for planes.
-fn height_steps(texel: vec3i) -> vec2f {
+fn height_steps(center: vec3i, triangle: u32) -> vec2f {
     var steps = vec2f(0.0);
-    for (var row = -1; row <= 1; row++) {
-        let weight = select(3.0, 10.0, row == 0) / 32.0;
-        steps.x += weight * (height_at(texel + vec3i(1, row, 0)) - height_at(texel + vec3i(-1, row, 0)));
-        steps.y += weight * (height_at(texel + vec3i(row, 1, 0)) - height_at(texel + vec3i(row, -1, 0)));
+    let middle = height_at(center);
+    for (var index = 0; index < 9; index++) {
+        let step = vec2i(index % 3 - 1, index / 3 - 1);
+        let weight = select(vec2f(3.0), vec2f(10.0), step.yx == vec2i(0)) / 32.0;
+        steps += vec2f(step) * weight * (height_near(center, step, middle, triangle) - middle);
     }
     return steps;
 }
@@ -77,8 +116,11 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     if relief.has_height != 0u {
         // In the outer ring the stencil would leave the ghosts, so it is taken one texel further in.
         let inward = anchor.xy - texel.xy;
-        let center = texel + vec3i(select(vec2i(0), sign(inward), max(abs(inward.x), abs(inward.y)) > 1), 0);
-        let change = height_steps(center);
+        var center = texel + vec3i(select(vec2i(0), sign(inward), max(abs(inward.x), abs(inward.y)) > 1), 0);
+        if is_over_edge(center, triangle) {
+            center = anchor.xyz;
+        }
+        let change = height_steps(center, triangle);
         let r1 = cross(along_v, up);
         let r2 = cross(up, along_u);
         let determinant = dot(along_u, r1);

@@ -60,14 +60,16 @@ fn owner_of(texel: vec3i) -> u32 {
 struct Spot {
     triangle: u32,
     point: vec2f,
+    // The texel axes of the chart that reads it, in texels of the triangle's chart, column by column.
+    axes: vec4f,
 }
 
 fn spot_of(texel: vec3i, owner: u32) -> Spot {
     if (owner & GHOST_BIT) != 0u {
         let link = ghosts[owner & ~GHOST_BIT];
-        return Spot(link.triangle, link.target_texel);
+        return Spot(link.triangle, link.target_texel, link.target_from_own);
     }
-    return Spot(owner, vec2f(texel.xy) + 0.5);
+    return Spot(owner, vec2f(texel.xy) + 0.5, vec4f(1.0, 0.0, 0.0, 1.0));
 }
 
 fn unit_or(v: vec3f, fallback: vec3f) -> vec3f {
@@ -95,9 +97,17 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
     let face = unit_or(cross(along_v.xyz, along_u.xyz) * turned, vec3f(0.0, 1.0, 0.0));
     let shading = unit_or(normal.xyz + normal_u.xyz * step.x + normal_v.xyz * step.y, face);
     let direction = tangent.xyz + tangent_u.xyz * step.x + tangent_v.xyz * step.y;
+    // A ghost is read by its own chart, so its detail fades with that chart's texels: with those over the seam, coarser or
+    // finer, every seam between charts of different density would show as a step.
+    let axes = spot.axes;
+    let across = max(
+        length(along_u.xyz * axes.x + along_v.xyz * axes.y),
+        length(along_u.xyz * axes.z + along_v.xyz * axes.w),
+    );
+    let texel_size = select(abs(along_v.w), across, (owner & GHOST_BIT) != 0u);
     return Surface(
         origin.xyz + along_u.xyz * step.x + along_v.xyz * step.y,
-        abs(along_v.w),
+        texel_size,
         shading,
         bitcast<u32>(chart.z),
         face,
