@@ -340,7 +340,7 @@ impl Parser<'_> {
         })
     }
 
-    /// The character of `\uXXXX`, after the `u`; pairs of surrogates are one character, lone ones none.
+    /// The character of `\u` and four digits, after the `u`; pairs of surrogates are one character, lone ones none.
     fn unicode(&mut self) -> Option<char> {
         let first = self.hex()?;
         if !(0xd800..0xdc00).contains(&first) {

@@ -21,4 +21,5 @@ mod words;
 pub use compile::validate_wgsl;
 pub use fault::Fault;
 pub use library::{Libraries, Library, SourceFile};
+pub use notes::color_linear;
 pub use reader::read_kind;

@@ -294,7 +294,7 @@ pub(crate) fn is_plain_name(name: &str) -> bool {
 }
 
 /// Linear RGB of `#rrggbb` (sRGB), `None` when the text is not of that form.
-pub(crate) fn color_linear(text: &str) -> Option<[f32; 3]> {
+pub fn color_linear(text: &str) -> Option<[f32; 3]> {
     let digits = text.strip_prefix('#')?;
     if digits.len() != 6 || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
         return None;

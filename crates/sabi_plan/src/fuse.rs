@@ -36,24 +36,32 @@ impl Group {
     }
 }
 
-/// Results that are read by something, or wanted.
-pub(crate) fn needed(resolved: &Resolved<'_>, wanted: &[Value]) -> BTreeSet<Value> {
-    let mut needed: BTreeSet<Value> = wanted.iter().copied().collect();
+/// Nodes that read each value, once for each input.
+pub(crate) type Readers = BTreeMap<Value, Vec<usize>>;
+
+/// Who reads what in the wanted part of a graph.
+pub(crate) fn readers(resolved: &Resolved<'_>) -> Readers {
+    let mut readers = Readers::new();
     for node in &resolved.order {
-        let Some(ready) = &resolved.nodes[*node] else { continue };
-        needed.extend(ready.inputs.iter().flatten().map(|input| (input.node, input.output)));
+        let inputs = resolved.nodes[*node]
+            .iter()
+            .flat_map(|ready| ready.inputs.iter().flatten());
+        for input in inputs {
+            readers.entry((input.node, input.output)).or_default().push(*node);
+        }
     }
-    needed
+    readers
 }
 
 /// Cuts the wanted part of a graph into groups, in evaluation order.
 pub(crate) fn groups(
     resolved: &Resolved<'_>,
-    needed: &BTreeSet<Value>,
+    readers: &Readers,
     wanted: &[Value],
     mode: Mode,
     limits: &Limits,
 ) -> Vec<Group> {
+    let needed: BTreeSet<Value> = readers.keys().chain(wanted).copied().collect();
     let outputs_of = |node: usize| {
         needed
             .range((node, 0)..(node + 1, 0))
@@ -84,9 +92,8 @@ pub(crate) fn groups(
         }
         Mode::Bake { fuse: false } => groups.extend(points.into_iter().map(|point| Group::Points(vec![point]))),
         Mode::Bake { fuse: true } => {
-            let uses = uses(resolved);
             for region in regions(resolved, points) {
-                cut(resolved, &uses, region, wanted, limits, &mut groups);
+                cut(resolved, readers, region, wanted, limits, &mut groups);
             }
         }
     }
@@ -146,14 +153,14 @@ fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec
 /// Cuts a region where it costs or binds more than a kernel may: the longest beginning that fits, then the rest.
 fn cut(
     resolved: &Resolved<'_>,
-    uses: &BTreeMap<Value, usize>,
+    readers: &Readers,
     mut region: Vec<(usize, Vec<usize>)>,
     wanted: &[Value],
     limits: &Limits,
     groups: &mut Vec<Group>,
 ) {
     while !region.is_empty() {
-        let mut kernel = Beginning::new(resolved, uses, wanted);
+        let mut kernel = Beginning::new(resolved, readers, wanted);
         let mut longest = 1;
         for (count, (node, _)) in region.iter().enumerate() {
             kernel.add(*node);
@@ -170,24 +177,10 @@ fn cut(
     }
 }
 
-/// How often each value is read, counted by inputs.
-fn uses(resolved: &Resolved<'_>) -> BTreeMap<Value, usize> {
-    let mut uses = BTreeMap::new();
-    for node in &resolved.order {
-        let inputs = resolved.nodes[*node]
-            .iter()
-            .flat_map(|ready| ready.inputs.iter().flatten());
-        for input in inputs {
-            *uses.entry((input.node, input.output)).or_insert(0) += 1;
-        }
-    }
-    uses
-}
-
 /// The beginning of a region, and what a kernel of it costs and binds.
 struct Beginning<'a, 'k> {
     resolved: &'a Resolved<'k>,
-    uses: &'a BTreeMap<Value, usize>,
+    readers: &'a Readers,
     wanted: &'a [Value],
     inside: BTreeSet<usize>,
     loaded: BTreeSet<Value>,
@@ -199,10 +192,10 @@ struct Beginning<'a, 'k> {
 }
 
 impl<'a, 'k> Beginning<'a, 'k> {
-    fn new(resolved: &'a Resolved<'k>, uses: &'a BTreeMap<Value, usize>, wanted: &'a [Value]) -> Self {
+    fn new(resolved: &'a Resolved<'k>, readers: &'a Readers, wanted: &'a [Value]) -> Self {
         Beginning {
             resolved,
-            uses,
+            readers,
             wanted,
             inside: BTreeSet::new(),
             loaded: BTreeSet::new(),
@@ -232,14 +225,14 @@ impl<'a, 'k> Beginning<'a, 'k> {
             }
         }
         self.inside.insert(node);
-        for (value, count) in self.uses.range((node, 0)..(node + 1, 0)) {
-            self.outside.insert(*value, *count);
+        for (value, readers) in self.readers.range((node, 0)..(node + 1, 0)) {
+            self.outside.insert(*value, readers.len());
             self.stores += planes(self.resolved, *value);
         }
         let unread = self
             .wanted
             .iter()
-            .filter(|value| value.0 == node && !self.uses.contains_key(value));
+            .filter(|value| value.0 == node && !self.readers.contains_key(value));
         self.stores += unread.map(|value| planes(self.resolved, *value)).sum::<usize>();
     }
 }

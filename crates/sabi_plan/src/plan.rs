@@ -126,11 +126,6 @@ impl Plan {
         });
         kernels.collect()
     }
-
-    /// Bytes of all slots for an atlas of so many texels.
-    pub fn slot_bytes(&self, texels: u64) -> u64 {
-        self.slots.iter().map(|slot| slot.format.texel_bytes() * texels).sum()
-    }
 }
 
 /// How often a function repeats, once its parameter is known.

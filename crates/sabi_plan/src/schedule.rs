@@ -8,7 +8,7 @@ use sabi_nodes::link::{Binding, Call, Convert, INPUTS_A_WORD, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft};
 use crate::error::{PlanError, Problem};
-use crate::fuse::{self, Group, Value};
+use crate::fuse::{self, Group, Readers, Value};
 use crate::keys::result_key;
 use crate::plan::{Plan, SourceStep, Step, times};
 use crate::request::{Mode, Planner, Target};
@@ -28,13 +28,13 @@ impl Planner<'_> {
             }
         }
         let values: Vec<Value> = wanted.iter().map(|(_, value)| *value).collect();
-        let needed = fuse::needed(&resolved, &values);
-        let groups = fuse::groups(&resolved, &needed, &values, self.mode, &self.limits);
+        let readers = fuse::readers(&resolved);
+        let groups = fuse::groups(&resolved, &readers, &values, self.mode, &self.limits);
         let builder = Builder {
             planner: self,
             resolved: &resolved,
             producer: producers(&groups),
-            readers: readers(&resolved),
+            readers,
         };
         let order = builder.order(&groups, &values);
         let drafts: Vec<Draft> = order
@@ -83,20 +83,6 @@ impl Planner<'_> {
     }
 }
 
-/// Nodes that read a value, once for each input.
-fn readers(resolved: &Resolved<'_>) -> BTreeMap<Value, Vec<usize>> {
-    let mut readers: BTreeMap<Value, Vec<usize>> = BTreeMap::new();
-    for node in &resolved.order {
-        let inputs = resolved.nodes[*node]
-            .iter()
-            .flat_map(|ready| ready.inputs.iter().flatten());
-        for input in inputs {
-            readers.entry((input.node, input.output)).or_default().push(*node);
-        }
-    }
-    readers
-}
-
 fn producers(groups: &[Group]) -> BTreeMap<Value, usize> {
     let made = groups
         .iter()
@@ -109,7 +95,7 @@ pub(crate) struct Builder<'p, 'a> {
     pub(crate) planner: &'p Planner<'a>,
     pub(crate) resolved: &'p Resolved<'a>,
     producer: BTreeMap<Value, usize>,
-    readers: BTreeMap<Value, Vec<usize>>,
+    readers: Readers,
 }
 
 impl Builder<'_, '_> {

@@ -1,6 +1,7 @@
 //! Values of a graph file become the bytes that a node's WGSL reads.
 
 use sabi_graph::Value;
+use sabi_nodes::color_linear;
 use sabi_nodes::kind::{Kind, Param, ParamType, ParamValue, Role};
 
 /// Reads a value as written in a file for a parameter, in artist's units.
@@ -13,7 +14,7 @@ pub fn read_param(param: &Param, value: &Value) -> Result<ParamValue, String> {
             .iter()
             .position(|known| known == word)
             .map(|index| ParamValue::Unsigned(index as u32)),
-        (Role::Color, Value::Text(text)) => color(text).map(|rgb| ParamValue::Floats(rgb.to_vec())),
+        (Role::Color, Value::Text(text)) => color_linear(text).map(|rgb| ParamValue::Floats(rgb.to_vec())),
         (Role::Stops, Value::List(stops)) => read_stops(param.ty, stops),
         (Role::Toggle | Role::Choice(_) | Role::Stops | Role::Extent { .. }, _) => None,
         (_, value) => read_numbers(param.ty, value),
@@ -43,24 +44,6 @@ fn read_numbers(ty: ParamType, value: &Value) -> Option<ParamValue> {
     }
 }
 
-/// `#rrggbb` in sRGB as linear RGB (IEC 61966-2-1).
-pub(crate) fn color(text: &str) -> Option<[f32; 3]> {
-    let digits = text
-        .strip_prefix('#')
-        .filter(|digits| digits.len() == 6 && digits.is_ascii())?;
-    let code = u32::from_str_radix(digits, 16).ok()?;
-    let linear = |byte: u32| {
-        let encoded = f64::from(byte & 255) / 255.0;
-        let linear = if encoded <= 0.04045 {
-            encoded / 12.92
-        } else {
-            ((encoded + 0.055) / 1.055).powf(2.4)
-        };
-        linear as f32
-    };
-    Some([linear(code >> 16), linear(code >> 8), linear(code)])
-}
-
 fn read_stops(ty: ParamType, stops: &[Value]) -> Option<ParamValue> {
     let room = ty.components() / 4;
     if stops.is_empty() || stops.len() > room {
@@ -72,7 +55,7 @@ fn read_stops(ty: ParamType, stops: &[Value]) -> Option<ParamValue> {
         let [Value::Number(position), Value::Text(text)] = pair.as_slice() else {
             return None;
         };
-        let [r, g, b] = color(text)?;
+        let [r, g, b] = color_linear(text)?;
         if !(0.0..=1.0).contains(position) {
             return None;
         }

@@ -93,3 +93,14 @@ fn what_is_wrong_with_a_muted_node_is_told_all_the_same() {
         assert_eq!(said(lines), [expected], "{lines}");
     }
 }
+
+#[test]
+fn a_color_is_six_digits_and_nothing_else() {
+    for wrong in ["#+12345", "#12345g", "123456", "#12345"] {
+        let lines = format!("c color/constant color=\"{wrong}\"\n out output/mask source=c");
+        let expected = format!(
+            "parameter 'color' of node 'c' (color/constant) takes a color such as \"#6b3a1e\", not \"{wrong}\""
+        );
+        assert_eq!(said(&lines), [expected]);
+    }
+}

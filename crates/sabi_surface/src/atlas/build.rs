@@ -29,10 +29,7 @@ impl Atlas {
         }
         let uvs = Uvs::check(mesh, size)?;
         let topology = Topology::new(mesh);
-        let orientations: Vec<i8> = (0..mesh.triangles.len() as u32)
-            .into_par_iter()
-            .map(|triangle| uvs.orientation(triangle))
-            .collect();
+        let orientations = orientations(&uvs, mesh);
         let plan = Plan {
             mesh,
             topology: &topology,
@@ -60,9 +57,7 @@ impl Atlas {
         }
         let uvs = Uvs::check(mesh, size)?;
         let topology = Topology::new(mesh);
-        let orientations: Vec<i8> = (0..triangles as u32)
-            .map(|triangle| uvs.orientation(triangle))
-            .collect();
+        let orientations = orientations(&uvs, mesh);
         let plan = Plan {
             mesh,
             topology: &topology,
@@ -75,6 +70,14 @@ impl Atlas {
         let masks = plan.masks(&partition)?.into_iter().map(|(mask, _)| mask).collect();
         plan.assemble(&partition, masks)
     }
+}
+
+/// On which side of its texture coordinates each triangle lies.
+fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
+    (0..mesh.triangles.len() as u32)
+        .into_par_iter()
+        .map(|triangle| uvs.orientation(triangle))
+        .collect()
 }
 
 /// Texels of all charts' rectangles together: a bit each while building.
