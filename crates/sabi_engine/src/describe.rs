@@ -121,6 +121,7 @@ fn describe_param(param: &Param) -> Json {
         (_, ParamValue::Floats(numbers)) => numbers.iter().map(|number| short(*number)).collect(),
         (_, ParamValue::Unsigned(number)) => json!(number),
         (_, ParamValue::Signed(number)) => json!(number),
+        (_, ParamValue::Text(text)) => json!(text),
     };
     let role = match &param.role {
         Role::Plain | Role::Extent { .. } => "number",
@@ -131,6 +132,8 @@ fn describe_param(param: &Param) -> Json {
         Role::Angle => "angle",
         Role::Seed => "seed",
         Role::Stops => "stops",
+        Role::Text => "text",
+        Role::File => "file",
     };
     let mut shown = json!({
         "name": param.name, "label": param.label, "doc": param.doc, "takes": role, "default": default,
@@ -147,16 +150,15 @@ fn describe_param(param: &Param) -> Json {
 fn describe_source(kind: &SourceKind) -> Json {
     let port =
         |port: &sabi_plan::SourcePort| json!({ "name": port.name, "type": port.ty.to_string(), "doc": port.doc });
-    let param = |param: &sabi_plan::TextParam| json!({ "name": param.name, "doc": param.doc, "takes": "text", "default": param.default.to_string().trim_matches('"') });
     json!({
         "id": kind.id,
         "version": 1,
         "label": kind.label,
         "summary": kind.summary,
-        "aliases": [],
+        "aliases": kind.aliases,
         "inputs": kind.inputs.iter().map(port).collect::<Vec<_>>(),
         "outputs": kind.outputs.iter().map(port).collect::<Vec<_>>(),
-        "params": kind.params.iter().map(param).collect::<Vec<_>>(),
+        "params": kind.params.iter().map(describe_param).collect::<Vec<_>>(),
     })
 }
 

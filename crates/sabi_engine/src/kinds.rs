@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use sabi_nodes::kind::Role;
 use sabi_nodes::{Fault, Library};
 use sabi_plan::SourceKind;
 
@@ -42,6 +43,17 @@ impl Kinds {
             }
         }
         kinds
+    }
+
+    /// Whether a parameter of a kind is written as a text.
+    pub(crate) fn takes_text(&self, kind: &str, param: &str) -> bool {
+        let own = self.sources.get(kind).or_else(|| self.sinks.get(kind));
+        let found = match own {
+            Some(own) => own.params.iter().find(|known| known.name == param),
+            None => self.library.kind(kind).and_then(|kind| kind.param(param)),
+        };
+        let is_text = |role: &Role| matches!(role, Role::Text | Role::File | Role::Choice(_) | Role::Color);
+        found.is_some_and(|param| is_text(&param.role))
     }
 
     /// One sentence about node files that have faults, for work that does not need them.

@@ -1,11 +1,14 @@
 //! What can be known of a graph before there is a model.
 
 use sabi_graph::FlatGraph;
-use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Problem, Target};
+use sabi_plan::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, Problem, Target};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
+
+/// No kind names a file yet.
+static NO_FILES: FileContents = FileContents::new();
 
 /// A planner for a model that is not there: lengths are as written, and the adapter is a common one.
 pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds) -> Planner<'a> {
@@ -14,6 +17,7 @@ pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds) -> Planner<'a>
         library: &kinds.library,
         sources: &kinds.sources,
         sinks: &kinds.sinks,
+        files: &NO_FILES,
         lengths: Lengths {
             working_from: &|_| 1.0,
             extent: &|_| [0.0, 1.0],

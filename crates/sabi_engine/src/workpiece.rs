@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables};
 use sabi_graph::{Fit, FlatGraph, Overrides};
-use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, Target};
+use sabi_plan::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, Target};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
 use crate::document::OpenGraph;
@@ -15,14 +15,15 @@ use crate::kinds::Kinds;
 use crate::overridden::refuse_bad_values;
 use crate::prepare::{ModelOptions, Prepared};
 use crate::report::StageTimes;
-use crate::source::{ModelSource, kind_for};
+use crate::setting::read_typed;
+use crate::source::{Ground, Sources, kind_for};
 use crate::stages::{Progress, Stage};
 
 /// How a graph and a model are brought together.
 pub struct WorkpieceOptions {
     /// The model.
     pub model: ModelOptions,
-    /// Variant, values and seed on top of the file.
+    /// Variant, values and seed on top of the file. A text is taken as typed: what it is read as depends on the parameter.
     pub overrides: Overrides,
     /// What counts as 1, in place of the document's fit.
     pub fit: Option<Fit>,
@@ -64,6 +65,7 @@ impl Workpiece {
             fit: options.fit.or(options.overrides.fit),
             ..options.overrides.clone()
         };
+        let overrides = read_typed(open, kinds, &overrides);
         let graph = open.flatten(&overrides)?;
         refuse_bad_values(open, &graph, kinds, &overrides)?;
         Ok(graph)
@@ -169,6 +171,7 @@ impl Workpiece {
             library: &self.kinds.library,
             sources: &self.kinds.sources,
             sinks: &self.kinds.sinks,
+            files: &FileContents::new(),
             lengths: Lengths {
                 working_from: &|fit| scale / self.prepared.working_from_model(fit),
                 extent: &|direction| self.prepared.extent(&self.fit, direction),
@@ -188,7 +191,11 @@ impl Workpiece {
         progress: &dyn Progress,
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, EngineError> {
-        let mut source = ModelSource::new(&self.prepared.model, &self.prepared.atlas, &self.tables);
+        let mut sources = Sources::new(Ground {
+            model: &self.prepared.model,
+            atlas: &self.prepared.atlas,
+            tables: &self.tables,
+        });
         let options = RunOptions {
             submission,
             is_canceled: &|| progress.is_canceled(),
@@ -197,8 +204,8 @@ impl Workpiece {
         };
         let run = self
             .gpu
-            .run(&self.surface, &self.kinds.library, plan, &options, &mut source, cache);
-        let told = source.warnings;
+            .run(&self.surface, &self.kinds.library, plan, &options, &mut sources, cache);
+        let told = sources.warnings;
         self.warn(told);
         let run = run?;
         self.times.compile.add(run.report.compile);

@@ -12,10 +12,11 @@ use sabi_gpu::{
     AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, ResultCache, Run, RunOptions, SourceFill,
     SurfaceTables,
 };
-use sabi_graph::{Document, FlatGraph, Overrides, PortType, Value, flatten};
+use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
+use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
-use sabi_plan::{Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, Target, TextParam};
+use sabi_plan::{FileContents, Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, SourceValues, Target};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
 
@@ -79,6 +80,7 @@ impl Bench {
             library: &self.library,
             sources: &BTreeMap::new(),
             sinks: &sinks,
+            files: &FileContents::new(),
             lengths: Lengths {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],
@@ -101,6 +103,7 @@ impl Bench {
             node: 0,
             id: "lost".into(),
             kind: "source/image".into(),
+            values: SourceValues::default(),
             writes: vec![("mask".into(), vec![(Plane::Mask, slot); masks])],
             keys: vec![[0; 32]],
         };
@@ -133,11 +136,8 @@ fn sinks() -> BTreeMap<String, SourceKind> {
         id: "output/mask".into(),
         label: String::new(),
         summary: String::new(),
-        params: vec![TextParam {
-            name: "name".into(),
-            doc: String::new(),
-            default: Value::Null,
-        }],
+        aliases: Vec::new(),
+        params: vec![Param::text("name", "mask", "")],
         inputs: vec![SourcePort {
             name: "source".into(),
             ty: PortType::Mask,

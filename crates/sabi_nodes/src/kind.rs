@@ -1,5 +1,7 @@
 //! What a node is, as read from its one WGSL file. Plain data: the planner, the editor and the reference all read it.
 
+mod own;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -97,6 +99,8 @@ pub enum ParamType {
     Vec4,
     /// `array<vec4f, N>`: gradient stops, linear RGB with the position in `w`; unused stops have position 2.
     Stops(u32),
+    /// No memory: a text, which only kinds that are Rust can read.
+    Text,
 }
 
 impl ParamType {
@@ -108,6 +112,7 @@ impl ParamType {
             ParamType::Vec3 => 3,
             ParamType::Vec4 => 4,
             ParamType::Stops(count) => 4 * count as usize,
+            ParamType::Text => 0,
         }
     }
 }
@@ -131,6 +136,10 @@ pub enum Role {
     Seed,
     /// Gradient stops: `[[position, "#rrggbb"], …]` in files.
     Stops,
+    /// A text, only in kinds that are Rust.
+    Text,
+    /// The path of a file, relative to the file in which the node was written; only in kinds that are Rust.
+    File,
     /// `@extent low along` or `@extent high along`: not an artist's parameter; filled with the lowest or highest
     /// `dot(vertex, normalize(along))` over the model's vertices, `along` being another parameter.
     Extent {
@@ -150,6 +159,8 @@ pub enum ParamValue {
     Unsigned(u32),
     /// A signed whole number.
     Signed(i32),
+    /// A text or a path.
+    Text(String),
 }
 
 /// One input port.

@@ -338,6 +338,7 @@ impl ParamReader<'_> {
             ParamValue::Floats(values) => values.iter().any(|value| !(low..=high).contains(value)),
             ParamValue::Unsigned(value) => !(f64::from(low)..=f64::from(high)).contains(&f64::from(*value)),
             ParamValue::Signed(value) => !(f64::from(low)..=f64::from(high)).contains(&f64::from(*value)),
+            ParamValue::Text(_) => false,
         };
         if outside && let Some(note) = self.notes.get("default").cloned() {
             self.at_note(

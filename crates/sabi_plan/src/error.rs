@@ -4,6 +4,8 @@ use std::fmt;
 
 use sabi_graph::PortType;
 
+use crate::request::FileFault;
+
 /// One problem, at a node and perhaps one of its ports or parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanError {
@@ -82,6 +84,8 @@ pub enum Problem {
         /// What it was given.
         given: String,
     },
+    /// What a parameter's file holds cannot be had.
+    BadFile(FileFault),
     /// The node has no result of that name, or none at all.
     NoSuchResult {
         /// As asked.
@@ -161,6 +165,9 @@ impl fmt::Display for Sentence<'_> {
                     "parameter '{param}' of node '{node}' ({kind}) takes {takes}, not {given}"
                 )
             }
+            Problem::BadFile(FileFault { param, why, .. }) => {
+                write!(f, "parameter '{param}' of node '{node}' ({kind}): {why}")
+            }
             Problem::NoSuchResult {
                 output: Some(output),
                 known,
@@ -182,6 +189,7 @@ impl Problem {
             | Problem::Mistyped { port, .. }
             | Problem::MissingInput { port, .. } => Some(port),
             Problem::UnknownParam { param, .. } | Problem::BadValue { param, .. } => Some(param),
+            Problem::BadFile(fault) => Some(&fault.param),
             Problem::UnknownKind { .. } | Problem::NewerKind { .. } | Problem::NoSuchResult { .. } => None,
         }
     }

@@ -1,19 +1,18 @@
 //! A result's key names everything that can change it: there are no dirty flags.
 
-use sabi_graph::FlatNode;
-
 use crate::request::Planner;
 use crate::resolve::{Behavior, Resolved, ResolvedNode};
 
 impl Planner<'_> {
     /// Key of a node's results: source text with its libraries, values, keys of the inputs, surface.
-    pub(crate) fn node_key(&self, node: &FlatNode, ready: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> [u8; 32] {
+    pub(crate) fn node_key(&self, index: usize, ready: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> [u8; 32] {
         let mut hash = blake3::Hasher::new();
         let mut part = |bytes: &[u8]| {
             hash.update(&(bytes.len() as u64).to_le_bytes());
             hash.update(bytes);
         };
         part(&self.surface_key);
+        let node = &self.graph.nodes[index];
         part(node.kind.as_bytes());
         match ready.behavior {
             Behavior::Shader(kind) => {
@@ -24,9 +23,9 @@ impl Planner<'_> {
             }
             Behavior::Source(kind) | Behavior::Sink(kind) => {
                 part(&kind.content);
-                for (name, value) in &node.params {
-                    part(name.as_bytes());
-                    part(value.to_string().as_bytes());
+                part(&ready.source_values.key_bytes());
+                if let Some(Ok(content)) = self.files.get(&index) {
+                    part(content);
                 }
             }
         }

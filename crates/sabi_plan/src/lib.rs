@@ -18,13 +18,15 @@ mod resolve;
 mod schedule;
 mod seeds;
 mod slots;
+mod source_values;
 mod values;
 
 pub use error::{PlanError, Problem};
 pub use plan::{BlockValues, Feedback, KernelStep, Plan, PlannedResult, Slot, SlotRef, SourceStep, Step};
-pub use request::{Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target, TextParam};
+pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target};
 pub use resolve::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;
+pub use source_values::SourceValues;
 pub use values::{pack_params, read_param};
 
 #[cfg(test)]

@@ -5,6 +5,8 @@ use std::fmt;
 use sabi_nodes::kind::Repeat;
 use sabi_nodes::link::{Format, KernelSpec, Plane, Stored};
 
+use crate::source_values::SourceValues;
+
 /// What is to be done, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
@@ -46,6 +48,8 @@ pub struct SourceStep {
     pub id: String,
     /// Its kind.
     pub kind: String,
+    /// Its parameters.
+    pub values: SourceValues,
     /// Results that are read: name, planes and slots.
     pub writes: Vec<(String, Vec<(Plane, SlotRef)>)>,
     /// Names the content of each of `writes`.

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use sabi_graph::{Fit, FlatGraph, PortType, Value};
+use sabi_graph::{Fit, FlatGraph, PortType};
 use sabi_nodes::Library;
-use sabi_nodes::kind::Channel;
+use sabi_nodes::kind::{Channel, Param};
 
 /// A node kind whose results the engine makes without a kernel, given to the planner as data.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,25 +15,16 @@ pub struct SourceKind {
     pub label: String,
     /// One sentence.
     pub summary: String,
-    /// Parameters; the engine reads them itself.
-    pub params: Vec<TextParam>,
+    /// Other words an artist may search for.
+    pub aliases: Vec<String>,
+    /// Parameters; what fills the source receives them as [`crate::SourceValues`].
+    pub params: Vec<Param>,
     /// What may be connected; only sinks have inputs.
     pub inputs: Vec<SourcePort>,
     /// What it gives.
     pub outputs: Vec<SourcePort>,
-    /// Hash of the content behind it (the model's textures, an image), which every key below it contains.
+    /// Hash of the content behind all nodes of the kind (the model's textures), which every key below them contains.
     pub content: [u8; 32],
-}
-
-/// A parameter of a source kind.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TextParam {
-    /// Name in graph files.
-    pub name: String,
-    /// What it does.
-    pub doc: String,
-    /// Value when not set.
-    pub default: Value,
 }
 
 /// A port of a source kind.
@@ -104,6 +95,21 @@ pub struct Lengths<'a> {
 /// Kinds that only take: `output/material` and `output/mask`.
 pub type Sinks = BTreeMap<String, SourceKind>;
 
+/// What is in the files that nodes name, by node: a hash of it, or why it cannot be had. A node that is not here has no
+/// file that matters.
+pub type FileContents = BTreeMap<usize, Result<[u8; 32], FileFault>>;
+
+/// Why what a node's file holds cannot be had.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileFault {
+    /// The parameter that names the file.
+    pub param: String,
+    /// The file, what is wrong with it and what to do, as a sentence without its point.
+    pub why: String,
+    /// Whether it is not there at all.
+    pub is_missing: bool,
+}
+
 /// Everything a plan depends on besides the targets.
 pub struct Planner<'a> {
     /// The flat graph.
@@ -114,6 +120,8 @@ pub struct Planner<'a> {
     pub sources: &'a BTreeMap<String, SourceKind>,
     /// Kinds that only take, by id.
     pub sinks: &'a Sinks,
+    /// What is in the files that nodes name.
+    pub files: &'a FileContents,
     /// Lengths of the model.
     pub lengths: Lengths<'a>,
     /// Names the surface (model, size, fit): part of every key.

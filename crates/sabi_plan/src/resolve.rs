@@ -1,14 +1,15 @@
 //! Nodes meet their kinds: types are checked, values read, keys made.
 
 use sabi_graph::{FlatNode, FlatRef, PortType, nearest};
-use sabi_nodes::kind::{Channel, Input, InputDefault, Kind, ParamValue, Reads};
+use sabi_nodes::kind::{Channel, Input, InputDefault, Kind, Param, ParamValue, Reads};
 use sabi_nodes::link::Convert;
 
 use crate::channels::channels;
 use crate::error::{PlanError, Problem};
-use crate::inputs::{check_texts, read_values};
+use crate::inputs::{read_knobs, read_params};
 use crate::muted::{Ports, behind_muted};
 use crate::request::{Planner, SourceKind, SourcePort, Target};
+use crate::source_values::SourceValues;
 use crate::values::{Packing, pack_params};
 
 /// Version of all kinds that the engine makes itself.
@@ -32,10 +33,12 @@ pub struct ResolvedNode<'a> {
     pub behavior: Behavior<'a>,
     /// One for each input of the kind; none where nothing is connected.
     pub inputs: Vec<Option<ResolvedInput>>,
-    /// Values of the parameters in artist's units; empty for sources and sinks.
+    /// Values of the parameters in artist's units.
     pub values: Vec<ParamValue>,
-    /// Bytes of `struct Params`.
+    /// Bytes of `struct Params`; empty for sources and sinks.
     pub params: Vec<u8>,
+    /// What a source or sink receives; empty for shaders.
+    pub source_values: SourceValues,
     /// Knob values by input.
     pub knobs: Vec<Option<Vec<f32>>>,
     /// For each output the channels that a material result sets.
@@ -167,43 +170,48 @@ impl<'a> Planner<'a> {
                 Err(problem) => problems.push(problem),
             }
         }
-        let (values, knobs) = match behavior {
-            Behavior::Shader(kind) => read_values(kind, node, &mut problems),
-            Behavior::Source(kind) | Behavior::Sink(kind) => {
-                check_texts(kind, node, &mut problems);
-                (Vec::new(), Vec::new())
-            }
+        let values = read_params(params(behavior), node, &mut problems);
+        let knobs = match behavior {
+            Behavior::Shader(kind) => read_knobs(kind, node, &mut problems),
+            Behavior::Source(_) | Behavior::Sink(_) => Vec::new(),
         };
+        if let Some(Err(fault)) = self.files.get(&index) {
+            problems.push(Problem::BadFile(fault.clone()));
+        }
         if !problems.is_empty() {
             return Err(problems.into_iter().map(at_fault).collect());
         }
         if waits {
             return Ok(None);
         }
+        let (params, source_values) = self.pack(behavior, node, &values);
         let mut ready = ResolvedNode {
             behavior,
             inputs,
-            params: self.pack(behavior, node, &values),
+            params,
+            source_values,
             knobs,
             values,
             channels: Vec::new(),
             key: [0; 32],
         };
         ready.channels = channels(&ready, resolved);
-        ready.key = self.node_key(node, &ready, resolved);
+        ready.key = self.node_key(index, &ready, resolved);
         Ok(Some(ready))
     }
 
-    fn pack(&self, behavior: Behavior<'_>, node: &FlatNode, values: &[ParamValue]) -> Vec<u8> {
-        let Behavior::Shader(kind) = behavior else {
-            return Vec::new();
-        };
+    fn pack(&self, behavior: Behavior<'_>, node: &FlatNode, values: &[ParamValue]) -> (Vec<u8>, SourceValues) {
         let packing = Packing {
             seeds: &node.seeds,
             working_from_length: node.length_scale * (self.lengths.working_from)(&node.fit),
             extent: self.lengths.extent,
         };
-        pack_params(kind, values, &packing)
+        match behavior {
+            Behavior::Shader(kind) => (pack_params(kind, values, &packing), SourceValues::default()),
+            Behavior::Source(kind) | Behavior::Sink(kind) => {
+                (Vec::new(), SourceValues::new(&kind.params, values, &packing))
+            }
+        }
     }
 
     fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<Wire, Problem> {
@@ -292,22 +300,16 @@ impl<'a> Planner<'a> {
         let Ok(behavior) = self.behavior(node) else {
             return Vec::new();
         };
-        let known: Vec<&str> = match behavior {
-            Behavior::Shader(kind) => {
-                let params = kind.params.iter().map(|param| param.name.as_str());
-                let former = kind
-                    .params
-                    .iter()
-                    .flat_map(|param| param.formerly.iter().map(String::as_str));
-                params
-                    .chain(former)
-                    .chain(kind.inputs.iter().map(|input| input.name.as_str()))
-                    .collect()
-            }
-            Behavior::Source(kind) | Behavior::Sink(kind) => {
-                kind.params.iter().map(|param| param.name.as_str()).collect()
-            }
+        let params = params(behavior).iter();
+        let names = params.flat_map(|param| std::iter::once(&param.name).chain(&param.formerly));
+        let knobs = match behavior {
+            Behavior::Shader(kind) => kind.inputs.as_slice(),
+            Behavior::Source(_) | Behavior::Sink(_) => &[],
         };
+        let known: Vec<&str> = names
+            .chain(knobs.iter().map(|input| &input.name))
+            .map(String::as_str)
+            .collect();
         let unknown = node.params.keys().filter(|name| !known.contains(&name.as_str()));
         let problem = |name: &String| Problem::UnknownParam {
             param: name.clone(),
@@ -334,6 +336,13 @@ struct Port<'a> {
     ty: PortType,
     reads: Reads,
     required: bool,
+}
+
+fn params(behavior: Behavior<'_>) -> &[Param] {
+    match behavior {
+        Behavior::Shader(kind) => &kind.params,
+        Behavior::Source(kind) | Behavior::Sink(kind) => &kind.params,
+    }
 }
 
 fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {

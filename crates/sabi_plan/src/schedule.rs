@@ -174,6 +174,7 @@ impl Builder<'_, '_> {
             node,
             id: self.id(node),
             kind: self.planner.graph.nodes[node].kind.clone(),
+            values: ready.source_values.clone(),
             writes: names,
             keys,
         };

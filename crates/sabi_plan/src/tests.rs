@@ -7,11 +7,11 @@ mod random;
 
 use std::collections::BTreeMap;
 
-use sabi_graph::{Document, FlatGraph, FlatRef, Overrides, PortType, Value, flatten};
+use sabi_graph::{Document, FlatGraph, FlatRef, Overrides, PortType, flatten};
 use sabi_nodes::Library;
-use sabi_nodes::kind::Channel;
+use sabi_nodes::kind::{Channel, Param};
 
-use crate::{Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, SourcePort, Target, TextParam};
+use crate::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, SourcePort, Target};
 
 const FUSED: Mode = Mode::Bake { fuse: true };
 const UNFUSED: Mode = Mode::Bake { fuse: false };
@@ -26,15 +26,12 @@ fn port(name: &str, ty: PortType, channels: &[Channel]) -> SourcePort {
 }
 
 fn kind(id: &str, inputs: Vec<SourcePort>, outputs: Vec<SourcePort>) -> SourceKind {
-    let name = TextParam {
-        name: "name".to_owned(),
-        doc: String::new(),
-        default: Value::Null,
-    };
+    let name = Param::text("name", "mask", "");
     SourceKind {
         id: id.to_owned(),
         label: String::new(),
         summary: String::new(),
+        aliases: Vec::new(),
         params: vec![name],
         inputs,
         outputs,
@@ -47,6 +44,7 @@ struct Bench {
     library: Library,
     sources: BTreeMap<String, SourceKind>,
     sinks: BTreeMap<String, SourceKind>,
+    files: FileContents,
     limits: Limits,
 }
 
@@ -61,6 +59,7 @@ impl Bench {
                 kind("output/material", vec![material], Vec::new()),
                 kind("output/mask", vec![port("source", PortType::Mask, &[])], Vec::new()),
             ]),
+            files: FileContents::new(),
             limits: Limits {
                 storage_textures: 8,
                 ..Limits::default()
@@ -74,6 +73,7 @@ impl Bench {
             library: &self.library,
             sources: &self.sources,
             sinks: &self.sinks,
+            files: &self.files,
             lengths: Lengths {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],

@@ -16,7 +16,8 @@ pub fn read_param(param: &Param, value: &Value) -> Result<ParamValue, String> {
             .map(|index| ParamValue::Unsigned(index as u32)),
         (Role::Color, Value::Text(text)) => color_linear(text).map(|rgb| ParamValue::Floats(rgb.to_vec())),
         (Role::Stops, Value::List(stops)) => read_stops(param.ty, stops),
-        (Role::Toggle | Role::Choice(_) | Role::Stops | Role::Extent { .. }, _) => None,
+        (Role::Text | Role::File, Value::Text(text)) => Some(ParamValue::Text(text.clone())),
+        (Role::Toggle | Role::Choice(_) | Role::Stops | Role::Extent { .. } | Role::Text | Role::File, _) => None,
         (_, value) => read_numbers(param.ty, value),
     };
     match read {
@@ -72,6 +73,7 @@ fn in_range(param: &Param, value: &ParamValue) -> bool {
         ParamValue::Floats(numbers) => numbers.iter().all(|number| (low..=high).contains(number)),
         ParamValue::Unsigned(number) => (f64::from(low)..=f64::from(high)).contains(&f64::from(*number)),
         ParamValue::Signed(number) => (f64::from(low)..=f64::from(high)).contains(&f64::from(*number)),
+        ParamValue::Text(_) => true,
     }
 }
 
@@ -90,6 +92,11 @@ fn takes(param: &Param) -> String {
             )
         }
         (Role::Extent { .. }, _) => "no value: it is measured on the model".to_owned(),
+        (Role::Text, _) => match &param.default {
+            ParamValue::Text(text) if !text.is_empty() => format!("a text such as {text:?}"),
+            _ => "a text".to_owned(),
+        },
+        (Role::File, _) => "the path of a file, as a text".to_owned(),
         (Role::Angle, ParamType::F32) => format!("an angle in degrees{between}"),
         (_, ParamType::U32) if param.range.is_none() => format!("a whole number from 0 to {}", u32::MAX),
         (_, ParamType::U32 | ParamType::I32) => format!("a whole number{between}"),
@@ -108,6 +115,17 @@ pub struct Packing<'a> {
     pub(crate) extent: &'a dyn Fn([f32; 3]) -> [f32; 2],
 }
 
+impl Packing<'_> {
+    /// Factor from artist's units to those of kernels.
+    pub(crate) fn factor(&self, role: &Role) -> f64 {
+        match role {
+            Role::Angle => std::f64::consts::PI / 180.0,
+            Role::Length => self.working_from_length,
+            _ => 1.0,
+        }
+    }
+}
+
 /// The bytes of `struct Params`: angles in radians, lengths in working units, seeds hashed.
 ///
 /// `values` has one entry for each of the kind's parameters, in artist's units.
@@ -123,11 +141,7 @@ pub fn pack_params(kind: &Kind, values: &[ParamValue], packing: &Packing<'_>) ->
                 vec![crate::seeds::effective(packing.seeds, *seed).to_le_bytes()]
             }
             (role, ParamValue::Floats(numbers)) => {
-                let factor = match role {
-                    Role::Angle => std::f64::consts::PI / 180.0,
-                    Role::Length => packing.working_from_length,
-                    _ => 1.0,
-                };
+                let factor = packing.factor(role);
                 numbers
                     .iter()
                     .map(|number| ((f64::from(*number) * factor) as f32).to_le_bytes())
@@ -135,6 +149,7 @@ pub fn pack_params(kind: &Kind, values: &[ParamValue], packing: &Packing<'_>) ->
             }
             (_, ParamValue::Unsigned(number)) => vec![number.to_le_bytes()],
             (_, ParamValue::Signed(number)) => vec![number.to_le_bytes()],
+            (_, ParamValue::Text(_)) => Vec::new(),
         };
         for (index, word) in words.iter().enumerate() {
             let at = param.offset as usize + 4 * index;

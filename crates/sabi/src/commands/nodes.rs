@@ -122,5 +122,8 @@ fn takes(param: &Json) -> String {
     if let [low, high] = list(&param["range"]) {
         let _ = write!(words, " from {} to {}", plain(low), plain(high));
     }
-    format!("{words}, default {}", plain(&param["default"]))
+    match plain(&param["default"]) {
+        none if none.is_empty() => words,
+        default => format!("{words}, default {default}"),
+    }
 }

@@ -87,3 +87,16 @@ fn a_number_below_its_range_is_answered_with_the_range() {
         assert!(run.stderr.contains(words), "{}", run.stderr);
     }
 }
+
+#[test]
+fn a_text_of_digits_alone_is_set_as_it_was_typed() {
+    for (setting, file) in [
+        ("out.name=042", "cube_042.png"),
+        ("out.name=true", "cube_true.png"),
+        ("out.name=1,2", "cube_1,2.png"),
+    ] {
+        let place = Place::new();
+        place.bake("clouds.sabi", "cube.glb", &["--set", setting]).good();
+        assert!(place.path("out").join(file).is_file(), "{setting}");
+    }
+}

@@ -1,20 +1,16 @@
 //! `source/model`: the model's own textures and factors, brought onto the atlas.
 
-use half::f16;
-use rayon::prelude::*;
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
-use sabi_nodes::link::{Format, Plane};
-use sabi_plan::{SourceKind, SourcePort, SourceStep};
-use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
+use sabi_nodes::link::Plane;
+use sabi_plan::{SourceKind, SourcePort};
 use sabi_surface::model::{Model, ModelMaterial, TextureRef};
 
-use sabi_gpu::{SourceFill, SurfaceTables};
-
 use super::sampler::Sampler;
+use super::texels::{Ground, Spot};
 
 /// Id of the kind.
-const NAME: &str = "source/model";
+pub(crate) const NAME: &str = "source/model";
 
 /// The kind; without a model its material sets color and surface only.
 pub(crate) fn kind() -> SourceKind {
@@ -28,6 +24,7 @@ pub(crate) fn kind() -> SourceKind {
         id: NAME.to_owned(),
         label: "Model".to_owned(),
         summary: "The model's own textures and factors, normal map included.".to_owned(),
+        aliases: ["texture", "original", "mesh"].map(str::to_owned).to_vec(),
         params: Vec::new(),
         inputs: Vec::new(),
         outputs: vec![
@@ -100,17 +97,29 @@ impl MaterialSamplers<'_> {
         let [x, y, z, _] = sampler.sample(uv).map(|code| 2.0 * code - 1.0);
         [x * self.material.normal_scale, y * self.material.normal_scale, z]
     }
-}
 
-/// The model's textures on the atlas.
-pub(crate) struct ModelSource<'a> {
-    model: &'a Model,
-    atlas: &'a Atlas,
-    tables: &'a SurfaceTables,
-    /// Decoded at the first use: a run whose results are cached needs none of it.
-    materials: Option<Vec<MaterialSamplers<'a>>>,
-    /// What cannot be shown, as sentences.
-    pub(crate) warnings: Vec<String>,
+    /// What a plane of a result holds at a point.
+    fn value(&self, ground: &Ground<'_>, output: &str, plane: Plane, spot: &Spot) -> [f32; 4] {
+        let uv = spot.uv;
+        let triple = |[x, y, z]: [f32; 3]| [x, y, z, 1.0];
+        match (plane, output) {
+            (Plane::Material(Channel::Color), _) => self.base_color(uv),
+            (Plane::Material(Channel::Surface), _) => triple(self.surface(uv)),
+            (Plane::Material(Channel::Height), _) => [0.0; 4],
+            (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => {
+                triple(ground.frame(spot).slope(self.normal(uv)))
+            }
+            (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => triple(self.emission(uv)),
+            (Plane::Color, _) => {
+                let [r, g, b, _] = self.base_color(uv);
+                [r, g, b, 1.0]
+            }
+            (Plane::Mask, "alpha") => [self.base_color(uv)[3], 0.0, 0.0, 1.0],
+            (Plane::Mask, "roughness") => [self.surface(uv)[0], 0.0, 0.0, 1.0],
+            (Plane::Mask, "metallic") => [self.surface(uv)[1], 0.0, 0.0, 1.0],
+            (Plane::Mask, _) => [self.surface(uv)[2], 0.0, 0.0, 1.0],
+        }
+    }
 }
 
 /// The kind for a model: which channels its material sets, and a hash of all that it shows.
@@ -172,153 +181,28 @@ fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -
     model.materials.iter().map(open_material).collect()
 }
 
-/// A point of the surface: its triangle, and where it lies on its chart's page.
-struct Spot {
-    triangle: usize,
-    texel: [f64; 2],
-    uv: [f64; 2],
+/// The model's textures on the atlas.
+#[derive(Default)]
+pub(crate) struct ModelSource<'a> {
+    /// Decoded at the first use: a run whose results are cached needs none of it.
+    materials: Option<Vec<MaterialSamplers<'a>>>,
 }
 
 impl<'a> ModelSource<'a> {
-    /// A source that has not decoded anything yet.
-    pub(crate) fn new(model: &'a Model, atlas: &'a Atlas, tables: &'a SurfaceTables) -> ModelSource<'a> {
-        ModelSource {
-            model,
-            atlas,
-            tables,
-            materials: None,
-            warnings: Vec::new(),
-        }
-    }
-
-    /// The surface point under a texel; over the seam for a ghost.
-    fn spot(&self, index: usize) -> Option<Spot> {
-        let owner = self.atlas.owners[index];
-        if owner == EMPTY {
-            return None;
-        }
-        let [width, height] = self.atlas.page_size.map(|side| side as usize);
-        let (triangle, texel) = if owner & GHOST_BIT != 0 {
-            let ghost = self.atlas.ghosts.get((owner & !GHOST_BIT) as usize)?;
-            (ghost.target_triangle as usize, ghost.target_texel.map(f64::from))
-        } else {
-            (
-                owner as usize,
-                [(index % width) as f64 + 0.5, ((index / width) % height) as f64 + 0.5],
-            )
-        };
-        let chart = &self.atlas.charts[self.atlas.triangle_chart[triangle] as usize];
-        let size = f64::from(self.atlas.size);
-        let uv = std::array::from_fn(|axis| (texel[axis] - f64::from(chart.texel_from_uv[axis])) / size);
-        Some(Spot { triangle, texel, uv })
-    }
-
-    /// What a plane of a result holds at a point.
-    fn value(&self, output: &str, plane: Plane, spot: &Spot) -> Option<[f32; 4]> {
-        let material = self.model.mesh.triangle_material[spot.triangle] as usize;
-        let look = self.materials.as_ref()?.get(material)?;
-        let uv = spot.uv;
-        let triple = |[x, y, z]: [f32; 3]| [x, y, z, 1.0];
-        Some(match (plane, output) {
-            (Plane::Material(Channel::Color), _) => look.base_color(uv),
-            (Plane::Material(Channel::Surface), _) => triple(look.surface(uv)),
-            (Plane::Material(Channel::Height), _) => [0.0; 4],
-            (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => {
-                triple(slope(self.tables, spot.triangle, spot.texel, look.normal(uv)))
-            }
-            (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => triple(look.emission(uv)),
-            (Plane::Color, _) => {
-                let [r, g, b, _] = look.base_color(uv);
-                [r, g, b, 1.0]
-            }
-            (Plane::Mask, "alpha") => [look.base_color(uv)[3], 0.0, 0.0, 1.0],
-            (Plane::Mask, "roughness") => [look.surface(uv)[0], 0.0, 0.0, 1.0],
-            (Plane::Mask, "metallic") => [look.surface(uv)[1], 0.0, 0.0, 1.0],
-            (Plane::Mask, _) => [look.surface(uv)[2], 0.0, 0.0, 1.0],
+    /// A plane of a result. What cannot be shown is added to `warnings`.
+    pub(crate) fn plane(
+        &mut self,
+        ground: &Ground<'a>,
+        output: &str,
+        plane: Plane,
+        warnings: &mut Vec<String>,
+    ) -> Vec<u8> {
+        let open = || open_materials(ground.model, ground.atlas.size, warnings);
+        let materials = &*self.materials.get_or_insert_with(open);
+        let material_of = &ground.model.mesh.triangle_material;
+        ground.texels(plane, |spot| {
+            let look = materials.get(material_of[spot.triangle] as usize);
+            look.map_or([0.0; 4], |look| look.value(ground, output, plane, spot))
         })
-    }
-
-    fn texels(&self, output: &str, plane: Plane) -> Vec<u8> {
-        let format = plane.format();
-        let size = format.texel_bytes() as usize;
-        let mut bytes = vec![0_u8; self.atlas.owners.len() * size];
-        let chunk = 4096;
-        bytes.par_chunks_mut(chunk * size).enumerate().for_each(|(at, texels)| {
-            for (offset, texel) in texels.chunks_exact_mut(size).enumerate() {
-                let spot = self.spot(at * chunk + offset);
-                if let Some(value) = spot.and_then(|spot| self.value(output, plane, &spot)) {
-                    put(texel, format, value);
-                }
-            }
-        });
-        bytes
-    }
-}
-
-/// The surface gradient that a tangent-space normal stands for: `up − n / (n · up)` with `n` in model space.
-fn slope(tables: &SurfaceTables, triangle: usize, texel: [f64; 2], normal: [f32; 3]) -> [f32; 3] {
-    if normal[0] == 0.0 && normal[1] == 0.0 {
-        return [0.0; 3];
-    }
-    let geometry = &tables.geometry[6 * triangle..];
-    let frames = &tables.frames[4 * triangle..];
-    let step = [
-        texel[0] - f64::from(geometry[0][3]),
-        texel[1] - f64::from(geometry[1][3]),
-    ];
-    let affine = |rows: [&[f32; 4]; 3]| -> [f64; 3] {
-        std::array::from_fn(|axis| {
-            f64::from(rows[0][axis]) + f64::from(rows[1][axis]) * step[0] + f64::from(rows[2][axis]) * step[1]
-        })
-    };
-    let n = affine([&geometry[3], &geometry[4], &geometry[5]]);
-    let t = affine([&frames[0], &frames[1], &frames[2]]);
-    let sign = f64::from(frames[0][3]);
-    let cross = |a: [f64; 3], b: [f64; 3]| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
-    };
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let b = cross(n, t).map(|x| sign * x);
-    let [x, y, z] = normal.map(f64::from);
-    let tilted: [f64; 3] = std::array::from_fn(|axis| x * t[axis] + y * b[axis] + z * n[axis]);
-    let length = dot(n, n).sqrt();
-    let up = n.map(|axis| axis / length.max(1e-30));
-    let along = dot(tilted, up);
-    // A normal that leans back below the surface has no slope; it is taken as very steep instead.
-    let along = along.max(1e-3 * dot(tilted, tilted).sqrt()).max(1e-30);
-    std::array::from_fn(|axis| (up[axis] - tilted[axis] / along) as f32)
-}
-
-fn put(texel: &mut [u8], format: Format, value: [f32; 4]) {
-    match format {
-        Format::Rgba16Float => {
-            for (bytes, value) in texel.chunks_exact_mut(2).zip(value) {
-                bytes.copy_from_slice(&f16::from_f32(value).to_le_bytes());
-            }
-        }
-        Format::R32Float | Format::Rgba32Float => {
-            for (bytes, value) in texel.chunks_exact_mut(4).zip(value) {
-                bytes.copy_from_slice(&value.to_le_bytes());
-            }
-        }
-    }
-}
-
-impl SourceFill for ModelSource<'_> {
-    fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String> {
-        if step.kind != NAME {
-            return Err(format!(
-                "node '{}' is of kind '{}', which nobody fills; this is a mistake in Sabi",
-                step.id, step.kind
-            ));
-        }
-        if self.materials.is_none() {
-            self.materials = Some(open_materials(self.model, self.atlas.size, &mut self.warnings));
-        }
-        Ok(self.texels(output, plane))
     }
 }

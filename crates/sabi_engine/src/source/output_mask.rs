@@ -1,7 +1,8 @@
 //! `output/mask`: one more exported map.
 
 use sabi_graph::{FlatNode, PortType, Value};
-use sabi_plan::{SourceKind, SourcePort, TextParam};
+use sabi_nodes::kind::Param;
+use sabi_plan::{SourceKind, SourcePort};
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "output/mask";
@@ -12,11 +13,12 @@ pub(crate) fn kind() -> SourceKind {
         id: NAME.to_owned(),
         label: "Mask output".to_owned(),
         summary: "One more exported map.".to_owned(),
-        params: vec![TextParam {
-            name: "name".to_owned(),
-            doc: "What the file is called after the material's name.".to_owned(),
-            default: Value::Text("mask".to_owned()),
-        }],
+        aliases: ["export", "map"].map(str::to_owned).to_vec(),
+        params: vec![Param::text(
+            "name",
+            "mask",
+            "What the file is called after the material's name.",
+        )],
         inputs: vec![SourcePort {
             name: "source".to_owned(),
             ty: PortType::Mask,

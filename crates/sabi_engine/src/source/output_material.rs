@@ -1,7 +1,8 @@
 //! `output/material`: what is exported and shown.
 
 use sabi_graph::{FlatNode, PortType, Value};
-use sabi_plan::{SourceKind, SourcePort, TextParam};
+use sabi_nodes::kind::Param;
+use sabi_plan::{SourceKind, SourcePort};
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "output/material";
@@ -12,13 +13,13 @@ pub(crate) fn kind() -> SourceKind {
         id: NAME.to_owned(),
         label: "Material output".to_owned(),
         summary: "What is exported and shown.".to_owned(),
-        params: vec![TextParam {
-            name: "materials".to_owned(),
-            doc: "Names of the model's materials that this output serves, separated by commas; * serves all. Of \
-                  several outputs, one that lists a material wins over one that serves all; else the first by id."
-                .to_owned(),
-            default: Value::Text("*".to_owned()),
-        }],
+        aliases: ["export", "result"].map(str::to_owned).to_vec(),
+        params: vec![Param::text(
+            "materials",
+            "*",
+            "Names of the model's materials that this output serves, separated by commas; * serves all. Of several \
+             outputs, one that lists a material wins over one that serves all; else the first by id.",
+        )],
         inputs: vec![SourcePort {
             name: "material".to_owned(),
             ty: PortType::Material,

@@ -89,7 +89,7 @@ fn knob_offsets(kind: &Kind, end: &mut u32) -> Vec<Option<u32>> {
 
 fn params_align(kind: &Kind) -> u32 {
     let align = |ty| match ty {
-        ParamType::F32 | ParamType::U32 | ParamType::I32 => 4,
+        ParamType::F32 | ParamType::U32 | ParamType::I32 | ParamType::Text => 4,
         ParamType::Vec2 => 8,
         ParamType::Vec3 | ParamType::Vec4 | ParamType::Stops(_) => 16,
     };
