@@ -1,6 +1,7 @@
 //! Closed forms: results whose value is known without running a kernel.
 
 mod cells;
+mod curves;
 mod noise;
 mod reexport;
 mod relief;

@@ -87,7 +87,13 @@ pub(crate) fn plain(json: &Json) -> String {
             Some(number) => number.to_string(),
             None => number.to_string(),
         },
-        Json::Array(values) => values.iter().map(plain).collect::<Vec<_>>().join(", "),
+        Json::Array(values) => {
+            let inside = |value: &Json| match value {
+                Json::Array(_) => format!("[{}]", plain(value)),
+                value => plain(value),
+            };
+            values.iter().map(inside).collect::<Vec<_>>().join(", ")
+        }
         other => other.to_string(),
     }
 }

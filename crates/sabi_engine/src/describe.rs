@@ -117,6 +117,10 @@ fn describe_param(param: &Param) -> Json {
             let used = stops.chunks_exact(4).filter(|stop| stop[3] <= 1.0);
             used.map(|stop| json!([short(stop[3]), hexadecimal(stop)])).collect()
         }
+        (Role::Curve, ParamValue::Floats(points)) => {
+            let used = points.chunks_exact(4).filter(|point| point[3] > 0.0);
+            used.map(|point| json!([short(point[0]), short(point[1])])).collect()
+        }
         (_, ParamValue::Floats(numbers)) if numbers.len() == 1 => json!(short(numbers[0])),
         (_, ParamValue::Floats(numbers)) => numbers.iter().map(|number| short(*number)).collect(),
         (_, ParamValue::Unsigned(number)) => json!(number),
@@ -134,6 +138,7 @@ fn describe_param(param: &Param) -> Json {
         Role::Stops => "stops",
         Role::Text => "text",
         Role::File => "file",
+        Role::Curve => "curve",
     };
     let mut shown = json!({
         "name": param.name, "label": param.label, "doc": param.doc, "takes": role, "default": default,

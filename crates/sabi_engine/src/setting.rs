@@ -114,6 +114,14 @@ mod tests {
             ("true", Value::Bool(true)),
             ("#6b3a1e", Value::Text("#6b3a1e".into())),
             ("0,1,0", Value::List([0.0, 1.0, 0.0].map(Value::Number).to_vec())),
+            (
+                "[[0, 0.2], [1, 1]]",
+                Value::List(
+                    [[0.0, 0.2], [1.0, 1.0]]
+                        .map(|point| Value::List(point.map(Value::Number).to_vec()))
+                        .to_vec(),
+                ),
+            ),
             ("add", Value::Text("add".into())),
         ];
         for (text, value) in cases {

@@ -97,8 +97,8 @@ pub enum ParamType {
     Vec3,
     /// `vec4f`
     Vec4,
-    /// `array<vec4f, N>`: gradient stops, linear RGB with the position in `w`; unused stops have position 2.
-    Stops(u32),
+    /// `array<vec4f, N>`: gradient stops, or with `@curve` the points of a curve.
+    Points(u32),
     /// No memory: a text, which only kinds that are Rust can read.
     Text,
 }
@@ -111,7 +111,7 @@ impl ParamType {
             ParamType::Vec2 => 2,
             ParamType::Vec3 => 3,
             ParamType::Vec4 => 4,
-            ParamType::Stops(count) => 4 * count as usize,
+            ParamType::Points(count) => 4 * count as usize,
             ParamType::Text => 0,
         }
     }
@@ -134,8 +134,11 @@ pub enum Role {
     Angle,
     /// `@seed`: a whole number; WGSL receives it hashed with the seeds of the document and the groups around.
     Seed,
-    /// Gradient stops: `[[position, "#rrggbb"], …]` in files.
+    /// Gradient stops: `[[position, "#rrggbb"], …]` in files; linear RGB with the position in `w` in WGSL, where unused
+    /// stops have position 2.
     Stops,
+    /// `@curve`: `[[x, y], …]` in files; in WGSL x, y, slope and 1 if the point is used. See [`crate::curve_points`].
+    Curve,
     /// A text, only in kinds that are Rust.
     Text,
     /// The path of a file, relative to the file in which the node was written; only in kinds that are Rust.
@@ -150,10 +153,21 @@ pub enum Role {
     },
 }
 
+impl Role {
+    /// The numbers that a range holds: all of them, but of a curve only the coordinates.
+    pub fn ranged<'n>(&self, numbers: &'n [f32]) -> impl Iterator<Item = f32> + use<'n> {
+        let is_curve = *self == Role::Curve;
+        let points = numbers.iter().enumerate();
+        points
+            .filter(move |(at, _)| !is_curve || at % 4 < 2)
+            .map(|(_, number)| *number)
+    }
+}
+
 /// A default, as 32-bit components in artist's units (colors linear).
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParamValue {
-    /// One to four floats, or `4 × N` for stops (`r g b position`, unused positions 2).
+    /// One to four floats, or `4 × N` for stops (`r g b position`, unused positions 2) and curves (`x y slope used`).
     Floats(Vec<f32>),
     /// A whole number: `u32`, toggle or choice index.
     Unsigned(u32),

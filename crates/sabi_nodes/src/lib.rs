@@ -5,6 +5,7 @@
 
 mod analysis;
 mod compile;
+mod curve;
 mod explain;
 mod fault;
 pub mod kind;
@@ -19,6 +20,7 @@ mod scan;
 mod words;
 
 pub use compile::validate_wgsl;
+pub use curve::curve_points;
 pub use fault::Fault;
 pub use library::{Libraries, Library, SourceFile};
 pub use notes::color_linear;

@@ -15,14 +15,20 @@ use crate::scan::{Member, Scan};
 
 /// Annotations of a parameter.
 pub(crate) const ANNOTATIONS: &[&str] = &[
-    "range", "soft", "default", "choice", "toggle", "color", "length", "angle", "seed", "extent", "label", "was",
+    "range", "soft", "default", "choice", "toggle", "color", "length", "angle", "seed", "extent", "curve", "label",
+    "was",
 ];
 
 /// Annotations that say what an artist sees; one parameter has at most one.
-const ROLES: [&str; 7] = ["toggle", "choice", "color", "length", "angle", "seed", "extent"];
+const ROLES: [&str; 8] = [
+    "toggle", "choice", "color", "length", "angle", "seed", "extent", "curve",
+];
 
-/// Most gradient stops.
-const STOPS_LIMIT: u32 = 16;
+/// Most gradient stops, and most points of a curve.
+const POINTS_LIMIT: u32 = 16;
+
+/// Where the points of a curve may lie that says nothing about it.
+const CURVE_RANGE: [f32; 2] = [-1000.0, 1000.0];
 
 /// The type `Params` of a module.
 pub(crate) fn params_type(module: &Module) -> Option<(naga::Handle<Type>, &Type)> {
@@ -110,7 +116,9 @@ impl ParamReader<'_> {
         }
         let ty = self.param_type(module, ty)?;
         let role = self.role(ty)?;
-        let range = self.ends("range", ty, &role);
+        // Slopes of a curve have to stay finite.
+        let widest = (role == Role::Curve).then_some(CURVE_RANGE);
+        let range = self.ends("range", ty, &role).or(widest);
         let soft = self.ends("soft", ty, &role);
         if let (Some(range), Some(soft), Some(note)) = (range, soft, notes.get("soft"))
             && (soft[0] < range[0] || soft[1] > range[1])
@@ -122,7 +130,7 @@ impl ParamReader<'_> {
             );
         }
         let default = self.default(ty, &role)?;
-        self.check_in_range(&default, range);
+        self.check_in_range(&default, &role, range);
         let label = self.label()?;
         let formerly = notes.all("was").flat_map(|note| note.words.iter());
         Some(Param {
@@ -175,7 +183,7 @@ impl ParamReader<'_> {
                         scalar: Scalar::F32
                     })
                 );
-                (is_vec4 && count.get() <= STOPS_LIMIT).then_some(ParamType::Stops(count.get()))
+                (is_vec4 && count.get() <= POINTS_LIMIT).then_some(ParamType::Points(count.get()))
             }
             _ => None,
         };
@@ -185,7 +193,7 @@ impl ParamReader<'_> {
                 "Make a switch a `u32` with `@toggle`, and compare it with `!= 0u`.".to_owned()
             } else {
                 format!(
-                    "Use f32, u32, i32, vec2f, vec3f, vec4f, or `array<vec4f, N>` with N up to {STOPS_LIMIT} for gradient stops."
+                    "Use f32, u32, i32, vec2f, vec3f, vec4f, or `array<vec4f, N>` with N up to {POINTS_LIMIT} for gradient stops and curves."
                 )
             };
             let message = format!("`{written}` cannot be the type of a parameter.");
@@ -199,7 +207,7 @@ impl ParamReader<'_> {
         let notes = self.notes.clone();
         let mut roles = notes.notes.iter().filter(|note| ROLES.contains(&note.name.as_str()));
         let Some(note) = roles.next() else {
-            return Some(if matches!(ty, ParamType::Stops(_)) {
+            return Some(if matches!(ty, ParamType::Points(_)) {
                 Role::Stops
             } else {
                 Role::Plain
@@ -218,6 +226,7 @@ impl ParamReader<'_> {
             "length" => (Role::Length, is_float, "f32"),
             "angle" => (Role::Angle, is_float, "f32"),
             "extent" => (self.extent(note)?, ty == ParamType::F32, "f32"),
+            "curve" => (Role::Curve, matches!(ty, ParamType::Points(_)), "array<vec4f, 16>"),
             _ => (Role::Seed, ty == ParamType::U32, "u32"),
         };
         if !fits {
@@ -297,7 +306,7 @@ impl ParamReader<'_> {
     fn ends(&mut self, name: &str, ty: ParamType, role: &Role) -> Option<[f32; 2]> {
         let notes = self.notes.clone();
         let note = notes.get(name)?;
-        if !matches!(role, Role::Plain | Role::Length | Role::Angle) {
+        if !matches!(role, Role::Plain | Role::Length | Role::Angle | Role::Curve) {
             let advice = "Only numbers have a range.";
             self.at_note(note, format!("`@{name}` does not belong here."), advice);
             return None;
@@ -332,10 +341,10 @@ impl ParamReader<'_> {
         Some([low, high])
     }
 
-    fn check_in_range(&mut self, default: &ParamValue, range: Option<[f32; 2]>) {
+    fn check_in_range(&mut self, default: &ParamValue, role: &Role, range: Option<[f32; 2]>) {
         let Some([low, high]) = range else { return };
         let outside = match default {
-            ParamValue::Floats(values) => values.iter().any(|value| !(low..=high).contains(value)),
+            ParamValue::Floats(values) => role.ranged(values).any(|value| !(low..=high).contains(&value)),
             ParamValue::Unsigned(value) => !(f64::from(low)..=f64::from(high)).contains(&f64::from(*value)),
             ParamValue::Signed(value) => !(f64::from(low)..=f64::from(high)).contains(&f64::from(*value)),
             ParamValue::Text(_) => false,

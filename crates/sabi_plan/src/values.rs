@@ -1,8 +1,8 @@
 //! Values of a graph file become the bytes that a node's WGSL reads.
 
 use sabi_graph::Value;
-use sabi_nodes::color_linear;
 use sabi_nodes::kind::{Kind, Param, ParamType, ParamValue, Role};
+use sabi_nodes::{color_linear, curve_points};
 
 /// Reads a value as written in a file for a parameter, in artist's units.
 ///
@@ -16,8 +16,12 @@ pub fn read_param(param: &Param, value: &Value) -> Result<ParamValue, String> {
             .map(|index| ParamValue::Unsigned(index as u32)),
         (Role::Color, Value::Text(text)) => color_linear(text).map(|rgb| ParamValue::Floats(rgb.to_vec())),
         (Role::Stops, Value::List(stops)) => read_stops(param.ty, stops),
+        (Role::Curve, Value::List(points)) => read_curve(param.ty, points),
         (Role::Text | Role::File, Value::Text(text)) => Some(ParamValue::Text(text.clone())),
-        (Role::Toggle | Role::Choice(_) | Role::Stops | Role::Extent { .. } | Role::Text | Role::File, _) => None,
+        (
+            Role::Toggle | Role::Choice(_) | Role::Stops | Role::Curve | Role::Extent { .. } | Role::Text | Role::File,
+            _,
+        ) => None,
         (_, value) => read_numbers(param.ty, value),
     };
     match read {
@@ -67,10 +71,28 @@ fn read_stops(ty: ParamType, stops: &[Value]) -> Option<ParamValue> {
     Some(ParamValue::Floats(read.into_flattened()))
 }
 
+fn read_curve(ty: ParamType, points: &[Value]) -> Option<ParamValue> {
+    let room = ty.components() / 4;
+    if points.is_empty() || points.len() > room {
+        return None;
+    }
+    let mut read: Vec<[f32; 2]> = Vec::with_capacity(room);
+    for point in points {
+        let Value::List(pair) = point else { return None };
+        let [Value::Number(x), Value::Number(y)] = pair.as_slice() else {
+            return None;
+        };
+        read.push([*x as f32, *y as f32]);
+    }
+    // Two points at one place make a step, from the first of them to the second.
+    read.sort_by(|left, right| left[0].total_cmp(&right[0]));
+    Some(ParamValue::Floats(curve_points(&read, room)))
+}
+
 fn in_range(param: &Param, value: &ParamValue) -> bool {
     let Some([low, high]) = param.range else { return true };
     match value {
-        ParamValue::Floats(numbers) => numbers.iter().all(|number| (low..=high).contains(number)),
+        ParamValue::Floats(numbers) => param.role.ranged(numbers).all(|number| (low..=high).contains(&number)),
         ParamValue::Unsigned(number) => (f64::from(low)..=f64::from(high)).contains(&f64::from(*number)),
         ParamValue::Signed(number) => (f64::from(low)..=f64::from(high)).contains(&f64::from(*number)),
         ParamValue::Text(_) => true,
@@ -90,6 +112,10 @@ fn takes(param: &Param) -> String {
                 "a list of 1 to {} stops such as [0.5, \"#6b3a1e\"], positions from 0 to 1",
                 ty.components() / 4
             )
+        }
+        (Role::Curve, ty) => {
+            let room = ty.components() / 4;
+            format!("a list of 1 to {room} points such as [0.5, 0.8], both numbers{between}")
         }
         (Role::Extent { .. }, _) => "no value: it is measured on the model".to_owned(),
         (Role::Text, _) => match &param.default {

@@ -22,6 +22,11 @@ fn nodes_are_listed_one_a_line_and_described_by_id() {
         assert!(page.stdout.starts_with(&format!("{id}\n")) && page.stderr.is_empty());
         assert_eq!(json(&place.sabi(&["nodes", id, "--json"]).good().stdout), *node);
     }
+    let curve = place.sabi(&["nodes", "adjust/curve"]).good().stdout;
+    assert!(
+        curve.contains("[curve from -10 to 10, default [0, 0], [1, 1]]"),
+        "{curve}"
+    );
     let unknown = place.sabi(&["nodes", "noise/simplx"]).fails(2);
     assert_eq!(
         unknown.stderr,

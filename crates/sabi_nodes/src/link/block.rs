@@ -91,7 +91,7 @@ fn params_align(kind: &Kind) -> u32 {
     let align = |ty| match ty {
         ParamType::F32 | ParamType::U32 | ParamType::I32 | ParamType::Text => 4,
         ParamType::Vec2 => 8,
-        ParamType::Vec3 | ParamType::Vec4 | ParamType::Stops(_) => 16,
+        ParamType::Vec3 | ParamType::Vec4 | ParamType::Points(_) => 16,
     };
     kind.params.iter().map(|param| align(param.ty)).max().unwrap_or(4)
 }

@@ -122,10 +122,24 @@ fn unused_stops_lie_behind_the_end() {
         "params.a[1].x",
     )
     .unwrap();
-    assert_eq!((param.ty, param.role), (ParamType::Stops(3), Role::Stops));
+    assert_eq!((param.ty, param.role), (ParamType::Points(3), Role::Stops));
     assert_eq!(
         param.default,
         ParamValue::Floats(vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.5, 0.0, 0.0, 0.0, 2.0])
+    );
+}
+
+#[test]
+fn a_curve_has_points_with_slopes() {
+    let param = one(
+        "/// @curve @range -1 1 @default 0 0 1 0.5\na: array<vec4f, 3>,",
+        "params.a[1].x",
+    )
+    .unwrap();
+    assert_eq!((param.ty, param.role), (ParamType::Points(3), Role::Curve));
+    assert_eq!(
+        param.default,
+        ParamValue::Floats(vec![0.0, 0.0, 0.5, 1.0, 1.0, 0.5, 0.5, 1.0, 1.0, 0.5, 0.0, 0.0])
     );
 }
 
@@ -183,6 +197,15 @@ fn what_does_not_fit_is_refused() {
             "/// @default 0 #000000 1 #000000 1 #000000\na: array<vec4f, 2>,",
             "stops",
         ),
+        (
+            "/// @curve @default 0 0 1 1\na: vec4f,",
+            "must be of type `array<vec4f, 16>`",
+        ),
+        ("/// @curve @default 0 0 1\na: array<vec4f, 4>,", "pairs of numbers"),
+        ("/// @curve @default 1 0 0 1\na: array<vec4f, 4>,", "x growing"),
+        ("/// @curve @default 0 0 1 1 2 2\na: array<vec4f, 2>,", "1 to 2 points"),
+        ("/// @curve @range 0 1 @default 0 0 1 2\na: array<vec4f, 2>,", "outside"),
+        ("/// @curve @default 0 0 1 2000\na: array<vec4f, 2>,", "outside"),
         ("/// @extent up a\na: f32,", "`low` or `high`"),
         ("/// @extent low a @default 0\na: f32,", "`low` or `high`"),
     ] {

@@ -1,6 +1,7 @@
 //! `@default` of a parameter.
 
 use super::ParamReader;
+use crate::curve::curve_points;
 use crate::kind::{ParamType, ParamValue, Role};
 use crate::notes::{Note, color_linear, number};
 use crate::words::{list, nearest};
@@ -25,7 +26,8 @@ impl ParamReader<'_> {
             (Role::Toggle, _) => self.toggle(&note),
             (Role::Choice(words), _) => self.choice(&note, words),
             (Role::Color, _) => self.color(&note),
-            (Role::Stops, ParamType::Stops(count)) => self.stops(&note, count as usize),
+            (Role::Stops, ParamType::Points(count)) => self.stops(&note, count as usize),
+            (Role::Curve, ParamType::Points(count)) => self.curve(&note, count as usize),
             (_, ParamType::U32) => self.whole(&note, "0", ParamValue::Unsigned),
             (_, ParamType::I32) => self.whole(&note, "0", ParamValue::Signed),
             _ => self.floats(&note, ty.components()),
@@ -109,6 +111,22 @@ impl ParamReader<'_> {
             values.extend([0.0, 0.0, 0.0, UNUSED_STOP]);
         }
         Some(ParamValue::Floats(values))
+    }
+
+    /// `x y` pairs, x ascending.
+    fn curve(&mut self, note: &Note, count: usize) -> Option<ParamValue> {
+        let numbers: Option<Vec<f32>> = note.words.iter().map(number).collect();
+        let (points, rest) = numbers.as_deref().unwrap_or_default().as_chunks::<2>();
+        let is_sorted = points.is_sorted_by(|left, right| left[0] <= right[0]);
+        if !rest.is_empty() || !is_sorted || !(1..=count).contains(&points.len()) {
+            self.at_note(
+                note,
+                format!("The default of a curve is 1 to {count} points: pairs of numbers, x and y, with x growing."),
+                "Write `@default 0 0 1 1`.",
+            );
+            return None;
+        }
+        Some(ParamValue::Floats(curve_points(points, count)))
     }
 
     fn whole<T: std::str::FromStr>(

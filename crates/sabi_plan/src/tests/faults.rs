@@ -51,6 +51,16 @@ fn each_fault_is_a_sentence_that_names_node_and_port() {
             "parameter 'mode' of node 'a' (noise/simplex) takes one of fbm, billow, ridged, not \"rigged\"",
         ),
         (
+            "a adjust/curve points=[[0,0],[1]]\n out output/mask source=a",
+            "parameter 'points' of node 'a' (adjust/curve) takes a list of 1 to 16 points such as [0.5, 0.8], both \
+             numbers from -10 to 10, not [[0, 0], [1]]",
+        ),
+        (
+            "a adjust/curve points=[[0,0],[1,1e9]]\n out output/mask source=a",
+            "parameter 'points' of node 'a' (adjust/curve) takes a list of 1 to 16 points such as [0.5, 0.8], both \
+             numbers from -10 to 10, not [[0, 0], [1, 1000000000]]",
+        ),
+        (
             "a noise/simplex sizee=1\n out output/mask source=a",
             "node 'a' (noise/simplex) has no parameter 'sizee'; it is kept and ignored; did you mean 'size'?",
         ),
