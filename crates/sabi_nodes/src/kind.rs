@@ -292,16 +292,18 @@ impl Channel {
     ];
 }
 
-/// A channel that a material function may set, and the toggles without which it does not.
+/// A channel that a material function may set, and what it needs to do so.
 ///
-/// Read from the code: a store to a member of the returned material, under `if params.x != 0u`.
+/// Read from the code: a store to a member of the returned material, under `if params.x != 0u`, or times `params.y`.
 /// A result starts from the material inputs it copies; those pass their channels on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChannelWrite {
     /// The channel that may be set.
     pub channel: Channel,
-    /// Toggle parameters (indices in [`Kind::params`]) that must all be on for it to be set; empty: always set.
+    /// Parameters (indices in [`Kind::params`]) that must all be on, or other than zero, for it to be set.
     pub unless_off: Vec<usize>,
+    /// Inputs (indices in [`Kind::inputs`]) that must all be connected, or other than zero, for it to be set.
+    pub unless_open: Vec<usize>,
 }
 
 impl Kind {

@@ -20,8 +20,10 @@ pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<
                 .filter_map(|input| resolved.nodes[input.node].as_ref()?.channels.get(input.output).cloned())
                 .flatten()
                 .collect();
-            let is_on = |param: &usize| node.values.get(*param) != Some(&ParamValue::Unsigned(0));
-            let set = |write: &ChannelWrite| write.unless_off.iter().all(is_on);
+            let set = |write: &ChannelWrite| {
+                write.unless_off.iter().all(|param| is_on(node, *param))
+                    && write.unless_open.iter().all(|input| is_given(node, *input))
+            };
             kind.outputs
                 .iter()
                 .map(|output| {
@@ -41,5 +43,22 @@ pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<
                 })
                 .collect()
         }
+    }
+}
+
+/// Whether a parameter is on, or a number other than zero.
+fn is_on(node: &ResolvedNode<'_>, param: usize) -> bool {
+    match node.values.get(param) {
+        Some(ParamValue::Unsigned(0)) => false,
+        Some(ParamValue::Floats(numbers)) => numbers.iter().any(|number| *number != 0.0),
+        _ => true,
+    }
+}
+
+/// Whether an input is connected, or its knob is other than zero.
+fn is_given(node: &ResolvedNode<'_>, input: usize) -> bool {
+    match (node.inputs.get(input), node.knobs.get(input)) {
+        (Some(None), Some(Some(knob))) => knob.iter().any(|number| *number != 0.0),
+        _ => true,
     }
 }

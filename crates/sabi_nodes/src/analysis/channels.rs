@@ -1,9 +1,9 @@
-//! Which channels a function that returns a material may set, and under which toggles.
+//! Which channels a function that returns a material may set, and what it needs to do so.
 //!
 //! Follows each member of the returned material back to where it comes from. A member that is only copied, mixed or
 //! selected from material inputs is not set: it passes theirs on. What is not understood counts as always set.
 
-mod toggles;
+mod needs;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,8 +11,9 @@ use naga::{
     BinaryOperator, Expression, Function, Handle, LocalVariable, MathFunction, Module, Type, TypeInner, UnaryOperator,
 };
 
+use self::needs::{Need, Write, Writes, always, both, either, join};
 use super::walk::{Store, calls, is_zero, returns, stores};
-use crate::kind::{Channel, ChannelWrite, Param};
+use crate::kind::{Argument, Channel, ChannelWrite, Param};
 use crate::params::params_type;
 
 /// Members of `Material` and their channels, by name.
@@ -31,32 +32,13 @@ const MEMBERS: [(&str, Channel); 8] = [
 const DEPTH_LIMIT: u32 = 64;
 const FUEL: u32 = 1 << 16;
 
-/// `None`: not set. `Some(toggles)`: may be set when all these toggles are on.
-type Write = Option<BTreeSet<usize>>;
-
-/// Set whatever the toggles are.
-fn always() -> Write {
-    Some(BTreeSet::new())
-}
-
-/// Set when either is.
-fn either(a: Write, b: Write) -> Write {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.intersection(&b).copied().collect()),
-        (a, b) => a.or(b),
-    }
-}
-
-/// Set when both are: a product with zero stays zero.
-fn both(a: Write, b: Write) -> Write {
-    a.zip(b).map(|(a, b)| a.union(&b).copied().collect())
-}
-
-/// What a function may set, by member of `Material`.
-type Writes = Vec<Write>;
-
 /// The channels that the material function `root` sets; empty for other functions.
-pub(super) fn channels(module: &Module, params: &[Param], root: Handle<Function>) -> Vec<ChannelWrite> {
+pub(super) fn channels(
+    module: &Module,
+    params: &[Param],
+    root: Handle<Function>,
+    inputs: &[Argument],
+) -> Vec<ChannelWrite> {
     let Some((
         material,
         Type {
@@ -85,6 +67,8 @@ pub(super) fn channels(module: &Module, params: &[Param], root: Handle<Function>
         params,
         params_type: params_type(module).map(|(handle, _)| handle),
         material,
+        root,
+        inputs,
         channels: (0..members.len()).map(member_channel).collect(),
         plain: module
             .functions
@@ -103,9 +87,15 @@ pub(super) fn channels(module: &Module, params: &[Param], root: Handle<Function>
                 .zip(&reader.channels)
                 .filter(|(_, of)| **of == Some(channel));
             let write = of_channel.fold(None, |known, (write, _)| either(known, write.clone()));
-            write.map(|toggles| ChannelWrite {
+            let is_param = |need: &Need| matches!(need, Need::Param(_));
+            let (params, inputs) = write?.into_iter().partition::<Vec<_>, _>(is_param);
+            let index = |need| match need {
+                Need::Param(index) | Need::Input(index) => index,
+            };
+            Some(ChannelWrite {
                 channel,
-                unless_off: toggles.into_iter().collect(),
+                unless_off: params.into_iter().map(index).collect(),
+                unless_open: inputs.into_iter().map(index).collect(),
             })
         })
         .collect()
@@ -116,6 +106,9 @@ struct Reader<'m> {
     params: &'m [Param],
     params_type: Option<Handle<Type>>,
     material: Handle<Type>,
+    root: Handle<Function>,
+    /// What the arguments of `root` are bound to.
+    inputs: &'m [Argument],
     /// By member.
     channels: Vec<Option<Channel>>,
     plain: Option<Handle<Function>>,
@@ -291,6 +284,9 @@ impl<'m> Reader<'m> {
         if zero_is_plain && is_zero(self.module, frame.function, expression, depth) {
             return None;
         }
+        if zero_is_plain && let Some(need) = self.need(frame, expression) {
+            return Some(BTreeSet::from([need]));
+        }
         match frame.function.expressions[expression] {
             Expression::AccessIndex { base, index } if index as usize == member => self
                 .material(frame, base, depth)
@@ -315,6 +311,15 @@ impl<'m> Reader<'m> {
                 arg1: Some(other),
                 ..
             } => either(
+                self.value(frame, arg, member, depth),
+                self.value(frame, other, member, depth),
+            ),
+            Expression::Math {
+                fun: MathFunction::Max | MathFunction::Min,
+                arg,
+                arg1: Some(other),
+                ..
+            } if zero_is_plain => either(
                 self.value(frame, arg, member, depth),
                 self.value(frame, other, member, depth),
             ),
@@ -378,11 +383,5 @@ impl<'m> Reader<'m> {
         }
         frame.open.pop();
         write
-    }
-}
-
-fn join(writes: &mut Writes, others: Writes, toggles: &BTreeSet<usize>) {
-    for (write, other) in writes.iter_mut().zip(others) {
-        *write = either(write.take(), other.map(|other| &other | toggles));
     }
 }

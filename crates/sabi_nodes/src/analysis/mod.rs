@@ -58,14 +58,14 @@ pub(crate) fn analyze(
         faults.sort_by_key(|fault| (fault.line, fault.column));
         return Err(faults);
     }
-    let channels = |roots: &[Handle<Function>]| {
-        let of = |root: &Handle<Function>| channels::channels(module, params, *root);
-        roots.iter().map(of).collect()
+    let channels = |output: &Output| match handle(output) {
+        Some(root) => channels::channels(module, params, root, &output.arguments),
+        None => Vec::new(),
     };
     Ok(Findings {
         params_that_bound_loops,
         cost: cost::cost(module, &outputs),
-        output_channels: channels(&outputs),
-        pass_channels: channels(&passes),
+        output_channels: ports.outputs.iter().map(channels).collect(),
+        pass_channels: ports.passes.iter().map(|pass| channels(&pass.function)).collect(),
     })
 }

@@ -151,6 +151,49 @@ fn conditions_that_no_toggle_alone_decides_do_not_count() {
 }
 
 #[test]
+fn a_number_that_may_be_zero_is_what_a_channel_needs() {
+    let needs = |body: &str| {
+        let text = format!(
+            "struct Params {{\n/// D.\n/// @default 0\ndepth: f32,\n/// W.\n/// @default 0 0 0\nway: vec3f,\n}}\n\
+             /// Material.\n/// @input base One. @input t Height. @input light Light.\n\
+             fn material(base: Material, t: f32, light: vec3f, params: Params) -> Material {{\n\
+             if t + light.x + params.depth + params.way.x + base.alpha > 1e30 {{ return base; }}\n\
+             var r = base; {body} return r; }}\n"
+        );
+        let kind = read(&text).unwrap();
+        let [write] = kind.outputs[0].channels.as_slice() else {
+            panic!("{body}: {:?}", kind.outputs[0].channels)
+        };
+        let named = |inputs: &[usize]| {
+            inputs
+                .iter()
+                .map(|at| kind.inputs[*at].name.clone())
+                .collect::<Vec<_>>()
+        };
+        (write.unless_off.clone(), named(&write.unless_open))
+    };
+    for (body, params, inputs) in [
+        ("r.height = t;", &[][..], &["t"][..]),
+        ("r.emission = max(light, vec3f(0.0));", &[], &["light"]),
+        ("r.height = base.height + params.depth * t;", &[0], &["t"]),
+        ("r.height = base.height * (t - 1.0) + params.depth;", &[0], &[]),
+        ("let h = params.depth * 2.0; r.height += h;", &[0], &[]),
+        ("r.slope = params.way * t;", &[1], &["t"]),
+        // Either of two sets it, and so neither is needed.
+        ("r.height = t + params.depth;", &[], &[]),
+        ("r.height = t + 1.0;", &[], &[]),
+        // Roughness is not zero in the plain material: zero counts.
+        ("r.roughness = t;", &[], &[]),
+    ] {
+        assert_eq!(
+            needs(body),
+            (params.to_vec(), inputs.iter().map(|name| (*name).to_owned()).collect()),
+            "{body}"
+        );
+    }
+}
+
+#[test]
 fn what_is_not_understood_is_always_set() {
     let body = "var list = array<Material, 2>(base, other); return list[u32(t)];";
     let set: Vec<Channel> = channels(body).into_iter().map(|(channel, _)| channel).collect();

@@ -1,4 +1,4 @@
-//! Which toggle a condition asks for.
+//! Which toggle a condition asks for, and what makes a value zero.
 
 use std::collections::BTreeSet;
 
@@ -6,11 +6,51 @@ use naga::{BinaryOperator, Expression, Handle, Literal, ScalarKind, UnaryOperato
 
 use super::{Frame, Reader};
 use crate::analysis::walk::conjuncts;
-use crate::kind::Role;
+use crate::kind::{Argument, ParamType, Role};
+
+/// What must be on, or not zero, for a channel to be set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Need {
+    /// A parameter, by index.
+    Param(usize),
+    /// An input, by index.
+    Input(usize),
+}
+
+/// `None`: not set. `Some(needs)`: may be set when all of these are on.
+pub(super) type Write = Option<BTreeSet<Need>>;
+
+/// Set whatever is on.
+pub(super) fn always() -> Write {
+    Some(BTreeSet::new())
+}
+
+/// Set when either is.
+pub(super) fn either(a: Write, b: Write) -> Write {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.intersection(&b).copied().collect()),
+        (a, b) => a.or(b),
+    }
+}
+
+/// Set when both are: a product with zero stays zero.
+pub(super) fn both(a: Write, b: Write) -> Write {
+    a.zip(b).map(|(a, b)| a.union(&b).copied().collect())
+}
+
+/// What a function may set, by member of `Material`.
+pub(super) type Writes = Vec<Write>;
+
+/// Adds what else is set, all of it under more needs.
+pub(super) fn join(writes: &mut Writes, others: Writes, toggles: &BTreeSet<Need>) {
+    for (write, other) in writes.iter_mut().zip(others) {
+        *write = either(write.take(), other.map(|other| &other | toggles));
+    }
+}
 
 impl<'m> Reader<'m> {
     /// Toggles that are on when the conditions come out as told.
-    pub(super) fn toggles(&self, frame: &Frame<'m>, conditions: &[(Handle<Expression>, bool)]) -> BTreeSet<usize> {
+    pub(super) fn toggles(&self, frame: &Frame<'m>, conditions: &[(Handle<Expression>, bool)]) -> BTreeSet<Need> {
         let mut found = BTreeSet::new();
         for &(condition, taken) in conditions {
             let parts = if taken {
@@ -24,7 +64,7 @@ impl<'m> Reader<'m> {
     }
 
     /// The toggle that is on when `condition` comes out as `taken`.
-    fn toggle(&self, frame: &Frame<'m>, condition: Handle<Expression>, taken: bool) -> Option<usize> {
+    fn toggle(&self, frame: &Frame<'m>, condition: Handle<Expression>, taken: bool) -> Option<Need> {
         let (op, left, right) = match frame.function.expressions[condition] {
             Expression::Unary {
                 op: UnaryOperator::LogicalNot,
@@ -64,7 +104,13 @@ impl<'m> Reader<'m> {
         if is_on { self.toggle_param(frame, param) } else { None }
     }
 
-    fn toggle_param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<usize> {
+    fn toggle_param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Need> {
+        let index = self.param(frame, expression)?;
+        (self.params.get(index)?.role == Role::Toggle).then_some(Need::Param(index))
+    }
+
+    /// The parameter that an expression is.
+    fn param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<usize> {
         let Expression::AccessIndex { base, index } = frame.function.expressions[expression] else {
             return None;
         };
@@ -72,8 +118,22 @@ impl<'m> Reader<'m> {
             return None;
         };
         let ty = frame.function.arguments.get(argument as usize)?.ty;
-        let index = index as usize;
-        let is_toggle = self.params.get(index)?.role == Role::Toggle;
-        (Some(ty) == self.params_type && is_toggle).then_some(index)
+        (Some(ty) == self.params_type).then_some(index as usize)
+    }
+
+    /// The number, parameter or input, that an expression is.
+    pub(super) fn need(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Need> {
+        if let Some(index) = self.param(frame, expression) {
+            let is_number = matches!(self.params.get(index)?.ty, ParamType::F32 | ParamType::Vec3);
+            return is_number.then_some(Need::Param(index));
+        }
+        let Expression::FunctionArgument(argument) = frame.function.expressions[expression] else {
+            return None;
+        };
+        let is_root = std::ptr::eq(frame.function, &self.module.functions[self.root]);
+        match self.inputs.get(argument as usize) {
+            Some(Argument::Input(index)) if is_root => Some(Need::Input(*index)),
+            _ => None,
+        }
     }
 }
