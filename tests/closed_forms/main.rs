@@ -1,6 +1,8 @@
 //! Closed forms: results whose value is known without running a kernel.
 
+mod blending;
 mod cells;
+mod colors;
 mod curves;
 mod noise;
 mod reexport;
