@@ -93,7 +93,11 @@ fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
         if must || (is_full && can) {
             let id = format!("into_{}", input.name);
             connect(&mut nodes, &id, input, seed);
-            inputs.insert(input.name.clone(), json!(id));
+            let from = match input.ty {
+                PortType::Vector => format!("{id}.position"),
+                _ => id,
+            };
+            inputs.insert(input.name.clone(), json!(from));
         }
     }
     let mut params = Map::new();

@@ -42,6 +42,27 @@ fn a_blend_of_materials_passes_their_channels_on() {
 }
 
 #[test]
+fn relief_and_light_take_no_storage_where_they_are_zero() {
+    let library = Library::builtin();
+    let needs = |id: &str, channel| {
+        let kind = library.kind(id).unwrap();
+        let write = kind.outputs[0].channels.iter().find(|write| write.channel == channel)?;
+        let params = write.unless_off.iter().map(|index| kind.params[*index].name.as_str());
+        let inputs = write.unless_open.iter().map(|index| kind.inputs[*index].name.as_str());
+        Some(params.chain(inputs).collect::<Vec<_>>())
+    };
+    assert_eq!(needs("material/combine", Channel::Height), Some(vec!["height"]));
+    assert_eq!(needs("material/combine", Channel::Slope), Some(vec!["slope"]));
+    assert_eq!(needs("material/combine", Channel::Emission), Some(vec!["emission"]));
+    assert_eq!(needs("material/adjust", Channel::Height), Some(vec!["height"]));
+    assert_eq!(needs("material/adjust", Channel::Slope), None);
+    assert_eq!(
+        needs("effect/relief", Channel::Height),
+        Some(vec!["depth", "height_map"])
+    );
+}
+
+#[test]
 fn no_damaged_node_makes_the_reader_panic() {
     let (files, libraries) = Library::builtin_files();
     for file in files {

@@ -176,6 +176,30 @@ fn channels_that_nothing_sets_take_no_storage() {
 }
 
 #[test]
+fn a_knob_at_zero_takes_no_storage_and_a_wire_does() {
+    let slots = |lines: &str| {
+        let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+        assert_eq!(errors, []);
+        plan.slots.len()
+    };
+    let combined = "all material/combine\n out output/material material=all";
+    assert_eq!(slots(combined), 2, "color and surface");
+    assert_eq!(slots(&combined.replace("combine\n", "combine height=0.1\n")), 3);
+    assert_eq!(
+        slots(&combined.replace("combine\n", "combine emission=\"#ffffff\"\n")),
+        3
+    );
+    let wired = format!(
+        "a noise/simplex\n {}",
+        combined.replace("combine\n", "combine height=a\n")
+    );
+    assert_eq!(slots(&wired), 3);
+    let sunk = "all effect/relief depth=0\n out output/material material=all";
+    assert_eq!(slots(sunk), 2);
+    assert_eq!(slots(&sunk.replace("depth=0", "depth=0.1")), 3);
+}
+
+#[test]
 fn rewiring_an_interactive_graph_needs_no_new_kernel() {
     let specs = |lines: &str| {
         let (plan, _) = Bench::new().plan(&graph(lines), Mode::Interactive);

@@ -1,0 +1,36 @@
+//! Combine material
+//! Makes a material of its channels, each of them wired or set by hand.
+//!
+//! The counterpart of Split material: what was split and is combined again is the same as before.
+//! @alias combine material channels pbr pack merge make join
+
+/// The material.
+/// @input base_color Its color in plain light. @optional @default #808080
+/// @input alpha How opaque it is: 0 is a hole. @optional @default 1
+/// @input roughness 0 is a mirror, 1 is chalk. @optional @default 0.7
+/// @input metallic 0 is everything but metal, 1 is bare metal. @optional @default 0
+/// @input occlusion How much of the surrounding light arrives: 1 is open, 0 is buried. @optional @default 1
+/// @input height Height above the model; below 0 it is sunk in. @optional @default 0
+/// @input slope Relief of a normal map, as Split material gives it. @vector @optional @default 0 0 0
+/// @input emission Light that it gives off. @optional @default #000000
+fn material(
+    base_color: vec3f,
+    alpha: f32,
+    roughness: f32,
+    metallic: f32,
+    occlusion: f32,
+    height: f32,
+    slope: vec3f,
+    emission: vec3f,
+) -> Material {
+    return Material(
+        max(base_color, vec3f(0.0)),
+        clamp(alpha, 0.0, 1.0),
+        clamp(roughness, 0.0, 1.0),
+        clamp(metallic, 0.0, 1.0),
+        clamp(occlusion, 0.0, 1.0),
+        height,
+        slope,
+        max(emission, vec3f(0.0)),
+    );
+}
