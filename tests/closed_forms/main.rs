@@ -6,6 +6,8 @@ mod colors;
 mod curves;
 mod materials;
 mod noise;
+mod predecessor;
+mod predecessor_maps;
 mod reexport;
 mod relief;
 mod relief_seams;

@@ -1,5 +1,6 @@
 //! What the test binaries share: one device, graphs on models, and results that know their place on the surface.
 
+mod baked;
 mod device;
 mod meshes;
 mod node_files;
@@ -9,6 +10,7 @@ mod seams;
 
 use std::path::{Path, PathBuf};
 
+pub use baked::Baked;
 pub use device::device;
 pub use meshes::{MadeMesh, MeshFile, Quad};
 pub use node_files::NodeFolder;

@@ -1,0 +1,68 @@
+//! Whole bakes, as the command line asks for them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sabi_engine::{
+    AdapterChoice, BakeRequest, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Silent, WorkpieceOptions, bake,
+};
+use serde_json::Value as Json;
+use tempfile::TempDir;
+
+/// What a bake wrote, for as long as this lives.
+pub struct Baked {
+    // Removed when this is dropped.
+    _folder: TempDir,
+    output: PathBuf,
+    /// The report.
+    pub report: Json,
+}
+
+impl Baked {
+    /// Bakes a graph of built-in kinds on a model, on the software adapter, with padding everywhere.
+    ///
+    /// # Panics
+    /// If it fails.
+    pub fn new(graph: &str, mesh: &Path, size: u32) -> Baked {
+        let folder = tempfile::tempdir().expect("a folder for maps");
+        let (path, output) = (folder.path().join("test.sabi"), folder.path().join("out"));
+        fs::write(&path, graph).expect("the graph's file");
+        let request = BakeRequest {
+            graph: path,
+            workpiece: WorkpieceOptions {
+                model: ModelOptions::new(mesh, size),
+                overrides: Overrides::default(),
+                fit: None,
+                adapter: AdapterChoice::Cpu,
+                budget_bytes: DEFAULT_BUDGET_BYTES,
+            },
+            output: output.clone(),
+            presets: Vec::new(),
+            material: None,
+            all_maps: false,
+            padding: None,
+            fuse: true,
+            force: false,
+        };
+        let baked = bake(&request, &Silent).unwrap_or_else(|error| panic!("{error}\n{graph}"));
+        Baked {
+            _folder: folder,
+            output,
+            report: baked.json,
+        }
+    }
+
+    /// The bytes of a map, by its channel and ending: `roughness.png`.
+    ///
+    /// # Panics
+    /// If it was not written.
+    pub fn map(&self, name: &str) -> Vec<u8> {
+        let files = fs::read_dir(&self.output).expect("the output folder").flatten();
+        let ending = format!("_{name}");
+        let found = files
+            .map(|file| file.path())
+            .find(|path| path.to_string_lossy().ends_with(&ending));
+        let path = found.unwrap_or_else(|| panic!("no map '{name}' among {}", self.report["outputs"]));
+        fs::read(path).expect("a map")
+    }
+}
