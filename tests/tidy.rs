@@ -15,7 +15,7 @@ const MAY_NAME: [(&str, &[&str], &[&str]); 10] = [
     ("sabi_graph", &[], &["petgraph"]),
     ("sabi_nodes", &["sabi_graph"], &["naga"]),
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
-    ("sabi_surface", &[], &["gltf", "obvhs"]),
+    ("sabi_surface", &[], &["gltf", "obvhs", "uvunwrap"]),
     ("sabi_image", &[], &["image", "png", "exr"]),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
     ("sabi_export", &["sabi_image", "sabi_surface"], &[]),
@@ -37,11 +37,12 @@ const MAY_NAME: [(&str, &[&str], &[&str]); 10] = [
 ];
 
 /// Outside crates with one owner. Anything else is free to use. egui and what belongs to it have none yet.
-const OWNED: [&str; 12] = [
+const OWNED: [&str; 13] = [
     "petgraph",
     "naga",
     "gltf",
     "obvhs",
+    "uvunwrap",
     "image",
     "png",
     "exr",

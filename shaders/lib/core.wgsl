@@ -16,7 +16,7 @@ struct Surface {
     part: u32,
     /// Direction of growing u along the surface, unit length; `w` of MikkTSpace in `tangent.w`.
     tangent: vec4f,
-    /// The model's own texture coordinates.
+    /// Texture coordinates that maps are laid out by: the model's own of the chosen set, or of the sheet it was unwrapped to.
     uv: vec2f,
     /// A random value for each part.
     seed: u32,

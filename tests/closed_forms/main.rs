@@ -11,4 +11,5 @@ mod predecessor_maps;
 mod reexport;
 mod relief;
 mod relief_seams;
+mod texture_sets;
 mod waves;

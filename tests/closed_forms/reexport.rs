@@ -36,7 +36,7 @@ fn colors() -> Codes {
 }
 
 /// Two faces at a right angle; the second one's texture coordinates are mirrored. Together they fill the unit square.
-fn folded() -> MadeMesh {
+fn folded() -> MeshFile {
     let upright = Quad {
         corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.5, 0.0], [0.0, 0.5, 0.0]],
         uvs: [[0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [0.0, 0.0]],
@@ -49,8 +49,8 @@ fn folded() -> MadeMesh {
         quads: vec![upright, mirrored],
         base_color: Some(png(&colors())),
         normal: Some(png(&normals())),
+        picture_uvs: None,
     }
-    .write()
 }
 
 const GRAPH: &str = r#"{ "format": "sabi", "version": 1, "nodes": {
@@ -71,7 +71,18 @@ fn pixels(on_mesh: &OnMesh) -> Vec<(usize, usize)> {
 
 #[test]
 fn a_models_own_maps_come_back_on_straight_and_on_mirrored_charts() {
-    let mut on_mesh = OnMesh::new(GRAPH, folded().path(), SIZE);
+    assert_comes_back(&folded().write());
+}
+
+#[test]
+fn maps_of_another_uv_set_come_back_as_exactly() {
+    let mut file = folded();
+    file.picture_uvs = Some(file.quads.iter().map(|quad| quad.uvs).collect());
+    assert_comes_back(&file.write());
+}
+
+fn assert_comes_back(mesh: &MadeMesh) {
+    let mut on_mesh = OnMesh::new(GRAPH, mesh.path(), SIZE);
     assert_eq!(on_mesh.atlas().report.mirrored_charts, 1);
     let evaluated = on_mesh.evaluate("out");
     let color = ["base_color.r", "base_color.g", "base_color.b"].map(|name| evaluated.component(name));

@@ -24,6 +24,8 @@ pub struct MeshFile {
     pub base_color: Option<Vec<u8>>,
     /// An encoded normal map.
     pub normal: Option<Vec<u8>>,
+    /// A second set of texture coordinates, four a face, that the pictures are laid out by.
+    pub picture_uvs: Option<Vec<[[f32; 2]; 4]>>,
 }
 
 /// A model on disk, for as long as this lives.
@@ -68,10 +70,10 @@ impl Chunks {
         self.push("accessors", accessor)
     }
 
-    fn texture(&mut self, png: &[u8]) -> Value {
+    fn texture(&mut self, png: &[u8], set: u32) -> Value {
         let view = self.view(png);
         let image = self.push("images", json!({ "bufferView": view, "mimeType": "image/png" }));
-        json!({ "index": self.push("textures", json!({ "source": image })) })
+        json!({ "index": self.push("textures", json!({ "source": image })), "texCoord": set })
     }
 
     fn glb(mut self) -> Vec<u8> {
@@ -120,19 +122,23 @@ impl MeshFile {
         let indices: Vec<u16> = (0..self.quads.len() as u16)
             .flat_map(|quad| [0, 1, 2, 0, 2, 3].map(|corner| 4 * quad + corner))
             .collect();
-        let attributes = json!({
+        let mut attributes = json!({
             "POSITION": file.floats(&positions), "NORMAL": file.floats(&normals), "TEXCOORD_0": file.floats(&uvs),
         });
+        if let Some(uvs) = &self.picture_uvs {
+            attributes["TEXCOORD_1"] = json!(file.floats(uvs.as_flattened()));
+        }
         let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
         let view = file.view(&bytes);
         let accessor = json!({ "bufferView": view, "componentType": 5123, "count": indices.len(), "type": "SCALAR" });
         let indices = file.push("accessors", accessor);
         let mut material = json!({ "name": "made", "pbrMetallicRoughness": {} });
+        let set = u32::from(self.picture_uvs.is_some());
         if let Some(png) = &self.base_color {
-            material["pbrMetallicRoughness"]["baseColorTexture"] = file.texture(png);
+            material["pbrMetallicRoughness"]["baseColorTexture"] = file.texture(png, set);
         }
         if let Some(png) = &self.normal {
-            material["normalTexture"] = file.texture(png);
+            material["normalTexture"] = file.texture(png, set);
         }
         file.json["materials"] = json!([material]);
         file.json["meshes"] =

@@ -85,9 +85,14 @@ impl OnMesh {
 
     /// A graph of these kinds on a model whose atlas was tampered with.
     pub fn on(graph: &str, kinds: Kinds, mesh: &Path, size: u32, tamper: impl FnOnce(&mut Prepared)) -> OnMesh {
+        OnMesh::on_model(graph, kinds, ModelOptions::new(mesh, size), tamper)
+    }
+
+    /// A graph of these kinds on a model that is taken in a certain way and tampered with.
+    pub fn on_model(graph: &str, kinds: Kinds, model: ModelOptions, tamper: impl FnOnce(&mut Prepared)) -> OnMesh {
         let open = opened(graph);
         let options = WorkpieceOptions {
-            model: ModelOptions::new(mesh, size),
+            model,
             overrides: Overrides::default(),
             fit: None,
             adapter: AdapterChoice::Cpu,

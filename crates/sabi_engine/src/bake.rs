@@ -9,6 +9,7 @@ use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult};
 use serde_json::{Map, Value as Json, json};
 
+use crate::describe::describe_unwrapping;
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::folder::is_foreign_folder;
@@ -16,6 +17,7 @@ use crate::kinds::Kinds;
 use crate::maps::{MapWriter, SetWork, WrittenMaps};
 use crate::modelless::{refuse_faults, targets};
 use crate::outputs::{clashes, nothing_comes_out, outputs};
+use crate::overlap::Sharing;
 use crate::report::{BakeReport, StageTime, StageTimes};
 use crate::sets::{TextureSet, bare_materials, serve, texture_sets};
 use crate::source::{OUTPUT_MASK, mask_name};
@@ -201,7 +203,8 @@ fn report(
             "triangles": workpiece.prepared.model.mesh.triangles.len(),
             "charts": atlas.charts.len(),
             "coverage": rounded(atlas.report.coverage),
-            "overlap": atlas.report.overlap_texels,
+            "overlap": Sharing::of(&workpiece.prepared).json(&workpiece.prepared),
+            "unwrapped": workpiece.prepared.unwrapped.as_ref().map(describe_unwrapping),
         },
         "adapter": { "name": adapter.name, "kind": adapter.kind.to_string() },
         "size": atlas.size,

@@ -5,24 +5,29 @@ use sabi_plan::SourceKind;
 use serde_json::{Value as Json, json};
 
 use crate::kinds::Kinds;
-use crate::prepare::Prepared;
+use crate::overlap::Sharing;
+use crate::prepare::{Prepared, Unwrapping};
 
 /// A model and its atlas.
 pub fn describe_mesh(prepared: &Prepared) -> Json {
     let (mesh, report) = (&prepared.model.mesh, &prepared.atlas.report);
     let [width, height] = prepared.atlas.page_size;
+    let sharing = Sharing::of(prepared);
+    let told = prepared.model.warnings.iter().chain(&report.warnings).cloned();
+    let warnings: Vec<String> = told.chain(sharing.warning(prepared)).collect();
     json!({
         "triangles": mesh.triangles.len(),
         "vertices": mesh.positions.len(),
         "parts": prepared.model.parts,
         "materials": sabi_export::set_names(&prepared.model),
+        "unwrapped": prepared.unwrapped.as_ref().map(describe_unwrapping),
         "largest_side": short(prepared.largest_side as f32),
         "size": prepared.atlas.size,
         "pages": prepared.atlas.pages,
         "page_size": [width, height],
         "charts": prepared.atlas.charts.len(),
         "coverage": short(report.coverage),
-        "overlap_texels": report.overlap_texels,
+        "overlap": sharing.json(prepared),
         "overlapping_charts": report.overlapping_charts.len(),
         "stacked_charts": report.stacked_charts,
         "mirrored_charts": report.mirrored_charts,
@@ -34,7 +39,23 @@ pub fn describe_mesh(prepared: &Prepared) -> Json {
         "border_edges": report.border_edges,
         "ghost_texels": prepared.atlas.ghosts.len(),
         "unlinked_ghosts": report.unlinked_ghosts,
-        "warnings": prepared.model.warnings.iter().chain(&report.warnings).collect::<Vec<_>>(),
+        "warnings": warnings,
+    })
+}
+
+/// How a model was unwrapped.
+pub(crate) fn describe_unwrapping(unwrapping: &Unwrapping) -> Json {
+    let report = &unwrapping.report;
+    let [pieces, distinct] = report.pieces;
+    json!({
+        "uv_set": unwrapping.uv_set,
+        "pieces": pieces,
+        "distinct_pieces": distinct,
+        "charts": report.charts,
+        "coverage": short(report.coverage),
+        "stretch": short(report.stretch),
+        "worst_stretch": short(report.worst_stretch),
+        "gap_texels": short(report.gap),
     })
 }
 

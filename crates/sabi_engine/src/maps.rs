@@ -11,6 +11,7 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
 use crate::error::EngineError;
+use crate::prepare::{Overlap, Prepared};
 use crate::stages::{Progress, Stage};
 use crate::workpiece::{Workpiece, stop_if_canceled};
 
@@ -88,7 +89,7 @@ impl MapWriter<'_> {
             let open: Vec<OpenSet<'_>> = together
                 .iter()
                 .map(|work| {
-                    let layout = SetLayout::new(atlas, work.key);
+                    let layout = set_layout(&self.workpiece.prepared, work.key);
                     OpenSet {
                         work,
                         padding: PaddingMap::new(&layout, self.padding),
@@ -209,12 +210,21 @@ impl Maps<'_> {
         first: usize,
         value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
     ) -> Result<(), EngineError> {
-        let pixels = match plane {
+        let mut pixels = match plane {
             Some(plane) => set
                 .padding
                 .gather(&set.layout, channel, first, |index| value(plane.texel(index))),
             None => ChannelPixels::neutral(channel, set.padding.source.len()),
         };
+        if *channel == Channel::Normal && !set.layout.shared.is_empty() {
+            // The mean of unit vectors is shorter than one.
+            for normal in pixels.data.chunks_exact_mut(3) {
+                let length = normal.iter().map(|part| part * part).sum::<f32>().sqrt();
+                if length > 0.0 {
+                    normal.iter_mut().for_each(|part| *part /= length);
+                }
+            }
+        }
         let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
         let done = writer.channel(channel, pixels)?;
         if done.not_finite > 0 {
@@ -228,6 +238,14 @@ impl Maps<'_> {
         self.written.outputs.extend(done.outputs);
         self.written.constants.extend(done.constant);
         Ok(())
+    }
+}
+
+/// The layout of a set, with what charts that share a place get.
+pub(crate) fn set_layout(prepared: &Prepared, key: SetKey) -> SetLayout {
+    match prepared.overlap {
+        Overlap::Merge => SetLayout::merged(&prepared.atlas, key),
+        Overlap::First | Overlap::Unwrap => SetLayout::new(&prepared.atlas, key),
     }
 }
 

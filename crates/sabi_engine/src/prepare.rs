@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use sabi_gpu::SurfaceTables;
 use sabi_graph::Fit;
-use sabi_surface::atlas::{Atlas, AtlasOptions, cached};
+use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
 use sabi_surface::load::{LoadOptions, Up, load};
 use sabi_surface::model::Model;
+use sabi_surface::unwrap::{UnwrapOptions, UnwrapReport, unwrap_cached};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::stages::{Progress, Stage};
@@ -22,10 +23,24 @@ pub struct ModelOptions {
     pub up: Up,
     /// All lengths are multiplied by this.
     pub scale: f32,
+    /// What charts that share a place on the maps get.
+    pub overlap: Overlap,
     /// Texels for one unit of UV.
     pub size: u32,
     /// Where atlases are kept; none to build anew.
     pub cache_dir: Option<PathBuf>,
+}
+
+/// What charts that share a place on the maps get: stacked and mirrored ones, or those of a tiling texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Overlap {
+    /// The first chart's result.
+    #[default]
+    First,
+    /// The mean of the results of all of them.
+    Merge,
+    /// Places of their own: the whole model is unwrapped anew onto one sheet for all its materials.
+    Unwrap,
 }
 
 impl ModelOptions {
@@ -36,16 +51,25 @@ impl ModelOptions {
             uv: 0,
             up: Up::Y,
             scale: 1.0,
+            overlap: Overlap::First,
             size,
             cache_dir: None,
         }
+    }
+
+    fn cache_folder(&self) -> Option<PathBuf> {
+        self.cache_dir.as_deref().map(|folder| folder.join("atlas"))
     }
 }
 
 /// A model with its atlas.
 pub struct Prepared {
-    /// The model.
+    /// The model; where it was unwrapped, with its new mesh.
     pub model: Model,
+    /// How it was unwrapped; none where its own UVs are used.
+    pub unwrapped: Option<Unwrapping>,
+    /// What charts that share a place on the maps get.
+    pub overlap: Overlap,
     /// Its linked atlas.
     pub atlas: Atlas,
     /// Whether the atlas was found on disk.
@@ -54,6 +78,23 @@ pub struct Prepared {
     pub largest_side: f64,
     /// Model units in one unit of the file: what all lengths of it were multiplied by.
     pub scale: f64,
+}
+
+/// What is known about an unwrapped model.
+///
+/// To write it out with UVs that its maps fit: [`Prepared::model`] has the mesh that was unwrapped, in world space. Its
+/// positions, normals, tangents and colors go into the file as they are, every set of `texture_uvs` as the `TEXCOORD` of its
+/// number, and `uvs`, which the maps are laid out by, as [`Unwrapping::uv_set`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unwrapping {
+    /// The `TEXCOORD` that the new coordinates are in a written file: the first that its textures leave free.
+    pub uv_set: u32,
+    /// For each vertex of the new mesh its vertex in the mesh as it was loaded.
+    pub source_vertex: Vec<u32>,
+    /// How well it went.
+    pub report: UnwrapReport,
+    /// Whether it was found on disk.
+    pub was_cached: bool,
 }
 
 impl Prepared {
@@ -78,17 +119,33 @@ impl Prepared {
         Ok(load(&options.path, &load_options)?)
     }
 
-    /// Builds or finds the atlas of a loaded model.
-    pub fn link(model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
-        let cache_dir = options.cache_dir.as_deref().map(|folder| folder.join("atlas"));
+    /// Builds or finds the atlas of a loaded model, which is unwrapped first where it has to be.
+    pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
         progress.advance(Stage::Atlas, 0, 1);
-        let built = cached(cache_dir.as_deref(), &model.mesh, &AtlasOptions::new(options.size));
-        let (atlas, atlas_was_cached) = built
-            .map_err(|error| EngineError::new(ErrorKind::BadInput, format!("{}: {error}", options.path.display())))?;
+        let refused = |error: String| {
+            let why = format!("{}: {error}", options.path.display());
+            EngineError::new(ErrorKind::BadInput, why)
+        };
+        let mut unwrapped = None;
+        if options.overlap == Overlap::Unwrap || needs_unwrapping(&mut model) {
+            unwrapped = Some(unwrap_model(&mut model, options).map_err(refused)?);
+        }
+        let cache_dir = options.cache_folder();
+        let atlas_options = AtlasOptions::new(options.size);
+        let mut built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
+        if unwrapped.is_none() && matches!(built, Err(AtlasError::NoArea { .. })) {
+            let sentence = "The model's UVs have no area, so it was unwrapped anew onto one sheet.";
+            model.warnings.push(sentence.to_owned());
+            unwrapped = Some(unwrap_model(&mut model, options).map_err(refused)?);
+            built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
+        }
+        let (atlas, atlas_was_cached) = built.map_err(|error| refused(with_advice(&error)))?;
         progress.advance(Stage::Atlas, 1, 1);
         let largest_side = largest_side(&model);
         Ok(Prepared {
             model,
+            unwrapped,
+            overlap: options.overlap,
             atlas,
             atlas_was_cached,
             largest_side,
@@ -133,6 +190,50 @@ impl Prepared {
             .map(along)
             .fold(start, |[low, high], x| [low.min(x), high.max(x)]);
         if low <= high { [low, high] } else { [0.0, 1.0] }
+    }
+}
+
+/// Whether a model has no UVs for some or all of its surface; says so.
+fn needs_unwrapping(model: &mut Model) -> bool {
+    if model.mesh.uvs.is_empty() {
+        let sentence = "The model has no UVs, so it was unwrapped onto one sheet for all its materials.";
+        model.warnings.push(sentence.to_owned());
+        return true;
+    }
+    if model.without_uvs.is_empty() {
+        return false;
+    }
+    model.warnings.push(format!(
+        "A part of the model has no UVs ({}), so all of it was unwrapped anew onto one sheet for all its materials.",
+        model.without_uvs.join(", ")
+    ));
+    true
+}
+
+/// Puts the unwrapped mesh in the place of the model's own.
+fn unwrap_model(model: &mut Model, options: &ModelOptions) -> Result<Unwrapping, String> {
+    let folder = options.cache_folder();
+    let unwrap_options = UnwrapOptions { size: options.size };
+    let found = unwrap_cached(folder.as_deref(), &model.mesh, &unwrap_options);
+    let (unwrapped, was_cached) = found.map_err(|error| error.to_string())?;
+    model.mesh = unwrapped.mesh;
+    model.warnings.extend(unwrapped.report.warnings.iter().cloned());
+    let last = model.mesh.texture_uvs.last();
+    Ok(Unwrapping {
+        uv_set: last.map_or(0, |last| last.set.saturating_add(1)),
+        source_vertex: unwrapped.source_vertex,
+        report: unwrapped.report,
+        was_cached,
+    })
+}
+
+/// Why there is no atlas, with the way out that unwrapping is.
+fn with_advice(error: &AtlasError) -> String {
+    match error {
+        AtlasError::UvTooFar { .. } | AtlasError::ChartTooLarge { .. } | AtlasError::TooManyTexels { .. } => {
+            format!("{error}; or have the model unwrapped anew with --overlap unwrap")
+        }
+        _ => error.to_string(),
     }
 }
 

@@ -13,6 +13,7 @@ use sabi_plan::{Mode, PlannedResult, Target};
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
+use crate::maps::set_layout;
 use crate::modelless::refuse_faults;
 use crate::sets::{texture_sets, which_is_shown};
 use crate::source::OUTPUT_MASK;
@@ -69,7 +70,7 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, workpiece.gpu.limits())?;
     let run = workpiece.run(&plan, Duration::from_millis(200), progress, None)?;
     let result = plan.results.first().ok_or_else(nothing)?;
-    let layout = SetLayout::new(&workpiece.prepared.atlas, key);
+    let layout = set_layout(&workpiece.prepared, key);
     let padding = PaddingMap::new(&layout, Padding::Texels(4));
     let shown = shown_planes(result).into_iter().zip(&result.slots);
     let planes = shown.map(|((name, components), &slot)| {

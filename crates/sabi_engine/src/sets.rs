@@ -1,9 +1,11 @@
 //! The texture sets of a model, and what of the graph goes into them.
 
+use std::collections::BTreeSet;
+
 use sabi_export::{SetKey, set_keys, set_names};
 use sabi_graph::FlatGraph;
 use sabi_surface::atlas::Atlas;
-use sabi_surface::model::Model;
+use sabi_surface::model::{Model, ModelMaterial};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
@@ -21,12 +23,22 @@ pub(crate) struct TextureSet {
 /// The sets of the model's materials, or of those that go by the wanted name: their own, or the stem of their files.
 /// Never empty.
 pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -> Result<Vec<TextureSet>, EngineError> {
-    let stems = set_names(model);
+    let stems = sheet_names(model);
     let keys: Vec<SetKey> = set_keys(atlas)
         .into_iter()
-        .filter(|key| is_covered(atlas, key.material))
+        .filter(|key| {
+            let mut charts = atlas.charts.iter();
+            charts.any(|chart| chart.sheet == key.material && chart.texels > 0)
+        })
         .collect();
-    let names = |key: &SetKey| names_of(model, &stems, key.material);
+    let names = |key: &SetKey| {
+        let [name, stem] = names_of(model, &stems, key.material);
+        if model.mesh.is_one_sheet {
+            [stem, stem]
+        } else {
+            [name, stem]
+        }
+    };
     let chosen = keys
         .iter()
         .filter(|key| wanted.is_none_or(|wanted| names(key).contains(&wanted)));
@@ -51,6 +63,25 @@ pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -
     }
 }
 
+/// A stem for each material's files; the model's own where all materials share one sheet.
+fn sheet_names(model: &Model) -> Vec<String> {
+    if !model.mesh.is_one_sheet {
+        return set_names(model);
+    }
+    // Named as a lone unnamed material would be.
+    set_names(&Model {
+        stem: model.stem.clone(),
+        materials: vec![ModelMaterial::default()],
+        ..Model::default()
+    })
+}
+
+/// The materials in use, numbers rising.
+fn used_materials(atlas: &Atlas) -> Vec<u32> {
+    let used: BTreeSet<u32> = atlas.charts.iter().map(|chart| chart.material).collect();
+    used.into_iter().collect()
+}
+
 /// Whether a material owns any texel.
 fn is_covered(atlas: &Atlas, material: u32) -> bool {
     atlas
@@ -62,8 +93,7 @@ fn is_covered(atlas: &Atlas, material: u32) -> bool {
 /// A sentence for each material that gets no maps, because none of its surface reaches a texel.
 pub(crate) fn bare_materials(model: &Model, atlas: &Atlas) -> Vec<String> {
     let stems = set_names(model);
-    let mut bare: Vec<u32> = set_keys(atlas).iter().map(|key| key.material).collect();
-    bare.dedup();
+    let mut bare = used_materials(atlas);
     bare.retain(|&material| !is_covered(atlas, material));
     let sentence = |material: u32| {
         let [name, _] = names_of(model, &stems, material);
@@ -117,16 +147,23 @@ pub(crate) fn serve(
     sets: &[TextureSet],
 ) -> Result<Serving, EngineError> {
     let stems = set_names(model);
-    let mut used: Vec<u32> = set_keys(atlas).iter().map(|key| key.material).collect();
-    used.dedup();
+    let used = used_materials(atlas);
     let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
     let by_material = served(graph, outputs, &names);
     let output_of = |material: u32| {
         let at = used.iter().position(|&index| index == material)?;
         by_material[at]
     };
-    let found: Vec<Option<usize>> = sets.iter().map(|set| output_of(set.key.material)).collect();
-    let mut left: Vec<u32> = sets.iter().map(|set| set.key.material).collect();
+    let of_sheet = model
+        .mesh
+        .is_one_sheet
+        .then(|| by_material.iter().copied().flatten().min());
+    let of_set = |set: &TextureSet| of_sheet.unwrap_or_else(|| output_of(set.key.material));
+    let found: Vec<Option<usize>> = sets.iter().map(of_set).collect();
+    let mut left: Vec<u32> = match of_sheet {
+        Some(_) => used.clone(),
+        None => sets.iter().map(|set| set.key.material).collect(),
+    };
     left.dedup();
     left.retain(|&material| output_of(material).is_none());
     let gives = materials(graph, outputs);
@@ -140,7 +177,19 @@ pub(crate) fn serve(
         return Err(EngineError::new(ErrorKind::BadInput, open.said(why)));
     }
     let mut warnings = idle(graph, outputs, &names);
-    if !gives.is_empty() {
+    if let Some(Some(chosen)) = of_sheet {
+        let others = used
+            .iter()
+            .zip(&by_material)
+            .filter(|(_, output)| **output != Some(chosen));
+        let others = quoted(others.map(|(&material, _)| names_of(model, &stems, material)[0]));
+        if !others.is_empty() {
+            warnings.push(format!(
+                "the model's materials share one sheet, and all of it is served by the output '{}', {others} as well",
+                graph.nodes[chosen].id
+            ));
+        }
+    } else if !gives.is_empty() {
         let without = left.iter().map(|&material| names_of(model, &stems, material)[0]);
         warnings.extend(without.map(|name| format!("no output serves the model's material '{name}'; {advice}")));
     }

@@ -12,6 +12,7 @@ use sabi_surface::atlas::{AtlasOptions, atlas_key};
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
+use crate::overlap::Sharing;
 use crate::overridden::refuse_bad_values;
 use crate::prepare::{ModelOptions, Prepared};
 use crate::report::StageTimes;
@@ -111,6 +112,7 @@ impl Workpiece {
         kinds.sources.insert(model_kind.id.clone(), model_kind);
         let mut warnings = prepared.model.warnings.clone();
         warnings.extend(prepared.atlas.report.warnings.iter().cloned());
+        warnings.extend(Sharing::of(&prepared).warning(&prepared));
         warnings.extend(kinds.left_out());
         let surface_key = surface_key(&prepared, &tables);
         let budget_bytes = options.budget_bytes;

@@ -108,6 +108,7 @@ mod tests {
             size: 2,
             source: vec![0, 1, 2, NONE],
             cover: vec![Cover::Owned, Cover::Owned, Cover::Ghost, Cover::Empty],
+            shared: Vec::new(),
             collisions: 0,
         }
     }

@@ -18,10 +18,11 @@ pub enum Cover {
     Owned,
 }
 
-/// One texture set of a model: a material, or one UV tile of a material that uses several.
+/// One texture set of a model: a material, or one UV tile of a material that uses several, or the one sheet that all
+/// materials share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SetKey {
-    /// An index into the model's materials.
+    /// An index into the model's materials, or 0 for their one sheet.
     pub material: u32,
     /// UV tile, v downward; `[0, 0]` is the unit square.
     pub uv_tile: [i32; 2],
@@ -40,6 +41,8 @@ pub struct SetLayout {
     pub source: Vec<u32>,
     /// For each pixel what wrote it.
     pub cover: Vec<Cover>,
+    /// What else claims a pixel the way [`SetLayout::source`] does: pixel and texel, pixels rising. Empty unless asked for.
+    pub shared: Vec<(u32, u32)>,
     /// Owned texels that found their pixel taken by a chart before theirs: overlapping or tiling UVs.
     pub collisions: u64,
 }
@@ -55,7 +58,7 @@ fn udim([u, v]: [i32; 2]) -> Option<u32> {
 pub fn set_keys(atlas: &Atlas) -> Vec<SetKey> {
     let mut tiles: BTreeMap<u32, BTreeSet<[i32; 2]>> = BTreeMap::new();
     for chart in &atlas.charts {
-        let of_material = tiles.entry(chart.material).or_default();
+        let of_material = tiles.entry(chart.sheet).or_default();
         if chart.texels > 0 {
             of_material.insert(chart.uv_tile);
         }
@@ -97,6 +100,13 @@ impl SetLayout {
     /// The layout of one set. Owned texels go before ghosts, lower charts before higher ones. Ghosts outside the tile are
     /// dropped; an owned texel outside goes to the tile it falls in where that has a set, else it wraps.
     pub fn new(atlas: &Atlas, key: SetKey) -> SetLayout {
+        let mut layout = SetLayout::merged(atlas, key);
+        layout.shared = Vec::new();
+        layout
+    }
+
+    /// As [`SetLayout::new`], with all texels of pixels that several charts claim, for the mean of them.
+    pub fn merged(atlas: &Atlas, key: SetKey) -> SetLayout {
         let siblings: BTreeSet<[i32; 2]> = match key.udim {
             Some(_) => set_keys(atlas)
                 .iter()
@@ -111,6 +121,7 @@ impl SetLayout {
             size: atlas.size,
             source: vec![NONE; pixels],
             cover: vec![Cover::Empty; pixels],
+            shared: Vec::new(),
             collisions: 0,
         };
         let [width, height] = atlas.page_size.map(|side| side as usize);
@@ -123,7 +134,25 @@ impl SetLayout {
                 }
             }
         }
+        let SetLayout { shared, cover, .. } = &mut layout;
+        shared.retain(|&(pixel, texel)| {
+            claim(atlas, texel as usize).is_some_and(|(_, how)| how == cover[pixel as usize])
+        });
+        shared.sort_unstable();
         layout
+    }
+
+    /// All texels that give a pixel its value, the first chart's first.
+    pub fn sources(&self, pixel: usize) -> impl Iterator<Item = usize> {
+        let start = self.shared.partition_point(|&(other, _)| (other as usize) < pixel);
+        let more = self.shared[start..]
+            .iter()
+            .take_while(move |&&(other, _)| other as usize == pixel);
+        let first = self.source.get(pixel).copied().filter(|&texel| texel != NONE);
+        first
+            .into_iter()
+            .chain(more.map(|&(_, texel)| texel))
+            .map(|texel| texel as usize)
     }
 
     fn place(&mut self, atlas: &Atlas, siblings: &BTreeSet<[i32; 2]>, texel: usize, [x, y]: [i64; 2]) {
@@ -133,7 +162,7 @@ impl SetLayout {
         let Some(chart) = atlas.charts.get(chart_index as usize) else {
             return;
         };
-        if chart.material != self.key.material {
+        if chart.sheet != self.key.material {
             return;
         }
         let size = i64::from(self.size);
@@ -164,6 +193,10 @@ impl SetLayout {
         let taken = before.0 == Cover::Owned && cover == Cover::Owned;
         self.collisions += u64::from(taken);
         let wins = cover > before.0 || (cover == before.0 && before.1.is_some_and(|other| chart_index < other));
+        if before.0 != Cover::Empty {
+            let loser = if wins { self.source[pixel] } else { texel as u32 };
+            self.shared.push((pixel as u32, loser));
+        }
         if wins {
             self.source[pixel] = texel as u32;
             self.cover[pixel] = cover;
@@ -205,6 +238,7 @@ pub(crate) mod tests {
                 texel_from_uv: offset,
                 bounds: [columns.start, rows.start, columns.end, rows.end],
                 material,
+                sheet: material,
                 uv_tile,
                 mirrored: false,
                 triangles: 1,
@@ -307,6 +341,14 @@ pub(crate) mod tests {
         assert_eq!(layout.cover[4], Cover::Owned);
         assert_eq!(layout.cover[5], Cover::Ghost);
         assert_eq!(layout.collisions, 16);
+        let merged = SetLayout::merged(&atlas, layout.key);
+        assert_eq!(
+            merged.sources(0).collect::<Vec<_>>(),
+            [0, 20],
+            "all owners, and no ghost with them"
+        );
+        assert_eq!(merged.sources(4).collect::<Vec<_>>(), [24]);
+        assert_eq!((&merged.source, layout.shared.len()), (&layout.source, 0));
     }
 
     #[test]

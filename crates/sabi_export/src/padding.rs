@@ -54,7 +54,8 @@ impl PaddingMap {
         PaddingMap { source }
     }
 
-    /// A channel of the set, taken from the atlas: covered pixels are exact copies of their texels, padding repeats them.
+    /// A channel of the set, taken from the atlas: covered pixels are exact copies of their texels, or the mean of those that
+    /// share one in a merged layout; padding repeats them.
     ///
     /// `texel` gives the values of an atlas texel, of which the channel's begin at `first`; those that a texel does not
     /// have are the channel's neutral ones.
@@ -73,11 +74,16 @@ impl PaddingMap {
             .zip(&self.source)
             .with_min_len(4096)
             .for_each(|(values, &pixel)| {
-                let from = layout.source.get(pixel as usize).filter(|&&from| from != NONE);
-                if let Some(&from) = from {
-                    for (value, stored) in values.iter_mut().zip(texel(from as usize).into_iter().skip(first)) {
-                        *value = stored;
-                    }
+                let mut sources = layout.sources(pixel as usize);
+                let Some(from) = sources.next() else { return };
+                let (mut mean, mut count) = (texel(from), 1.0);
+                for from in sources {
+                    let stored = texel(from);
+                    mean = std::array::from_fn(|at| mean[at] + stored[at]);
+                    count += 1.0;
+                }
+                for (value, sum) in values.iter_mut().zip(mean.into_iter().skip(first)) {
+                    *value = sum / count;
                 }
             });
         pixels
@@ -197,6 +203,7 @@ mod tests {
             size,
             source: covered.iter().enumerate().map(source).collect(),
             cover: covered.iter().map(cover).collect(),
+            shared: Vec::new(),
             collisions: 0,
         }
     }

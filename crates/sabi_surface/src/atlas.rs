@@ -13,21 +13,21 @@ mod charts;
 mod codec;
 mod error;
 mod fill;
-mod fixed;
+pub(crate) mod fixed;
 mod leap;
 mod level;
 mod links;
-mod mask;
+pub(crate) mod mask;
 mod overlap;
-mod pack;
+pub(crate) mod pack;
 mod place;
-mod raster;
+pub(crate) mod raster;
 mod report;
 mod ring;
 mod split;
 #[cfg(test)]
 mod tests;
-mod topology;
+pub(crate) mod topology;
 mod walk;
 
 pub use cache::{atlas_key, cached};
@@ -127,6 +127,9 @@ pub struct Chart {
     pub bounds: [u32; 4],
     /// Material, an index into the model's materials.
     pub material: u32,
+    /// Sheet of texture coordinates that it lies on: its material, or 0 for all where they share one
+    /// ([`crate::model::Mesh::is_one_sheet`]). Charts of different sheets never overlap.
+    pub sheet: u32,
     /// UV tile, `[floor(u), floor(v)]` of the chart's center; `[0, 0]` is the unit square.
     pub uv_tile: [i32; 2],
     /// Whether its texture coordinates are mirrored.
@@ -166,9 +169,9 @@ pub struct TileRef {
 /// What was found while building, for `sabi mesh` and the report file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AtlasReport {
-    /// Owned texels of all charts divided by the texels of the unit squares in use, one for each material.
+    /// Owned texels of all charts divided by the texels of the unit squares in use, one for each sheet.
     pub coverage: f32,
-    /// Owned texels whose place in their material's unit square another chart claims as well, UV tiles wrapped
+    /// Owned texels whose place in their sheet's unit square another chart claims as well, UV tiles wrapped
     /// onto one square as a repeating texture does.
     pub overlap_texels: u64,
     /// Pairs of overlapping charts, lower index first, with the number of places they share; the first 10 000 pairs.

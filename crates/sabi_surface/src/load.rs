@@ -17,6 +17,8 @@ use std::path::{Path, PathBuf};
 use glam::{DMat3, DMat4, DVec3};
 
 pub use self::error::{Fault, LoadError};
+pub(crate) use self::piece::Piece;
+pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
 use crate::model::Model;
 
 /// More triangles than this are refused before anything is allocated for them.

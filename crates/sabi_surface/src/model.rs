@@ -18,6 +18,8 @@ pub struct Model {
     pub parts: Vec<String>,
     /// Files that it was read from: the model's own, buffers, pictures, material libraries. Empty when read from memory.
     pub files: Vec<PathBuf>,
+    /// What of it has no UVs of the chosen set although other triangles have: materials as warnings name them.
+    pub without_uvs: Vec<String>,
     /// What was repaired, reduced or left out, as sentences for the artist.
     pub warnings: Vec<String>,
 }
@@ -29,10 +31,17 @@ pub struct Mesh {
     pub positions: Vec<[f32; 3]>,
     /// Shading normals, unit length, one for each vertex.
     pub normals: Vec<[f32; 3]>,
-    /// MikkTSpace tangents, unit length, `w` the sign of the bitangent; one for each vertex.
+    /// MikkTSpace tangents of [`Mesh::uvs`], unit length, `w` the sign of the bitangent; one for each vertex.
     pub tangents: Vec<[f32; 4]>,
-    /// Texture coordinates of the chosen set, glTF convention (v grows downward), one for each vertex; empty when there are none.
+    /// Texture coordinates that the atlas is built from and maps are laid out by: those of the chosen set, or unwrapped.
+    /// glTF convention (v grows downward), one for each vertex; empty when there are none.
     pub uvs: Vec<[f32; 2]>,
+    /// Which set of the file [`Mesh::uvs`] is (`TEXCOORD_n`); none when there are no UVs or they were unwrapped.
+    pub uv_set: Option<u32>,
+    /// Whether all materials share one sheet of [`Mesh::uvs`], and so one set of maps; otherwise each has its own.
+    pub is_one_sheet: bool,
+    /// The other sets that the model's own textures are laid out by, numbers rising.
+    pub texture_uvs: Vec<TextureUvs>,
     /// Vertex colors, linear RGBA; empty when there are none.
     pub colors: Vec<[f32; 4]>,
     /// Corners as vertex numbers, counter-clockwise seen from outside.
@@ -41,6 +50,28 @@ pub struct Mesh {
     pub triangle_material: Vec<u32>,
     /// Part of each triangle, an index into [`Model::parts`].
     pub triangle_part: Vec<u32>,
+}
+
+/// A set of texture coordinates of the file that pictures are laid out by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TextureUvs {
+    /// Its number: `TEXCOORD_n`.
+    pub set: u32,
+    /// One for each vertex; zero where the file has none.
+    pub uvs: Vec<[f32; 2]>,
+    /// Tangents in which a normal map of this set is meant, as [`Mesh::tangents`]; empty when no normal map uses it.
+    pub tangents: Vec<[f32; 4]>,
+}
+
+impl Mesh {
+    /// Texture coordinates and tangents of a set of the file; none when it was not loaded.
+    pub fn set(&self, set: u32) -> Option<(&[[f32; 2]], &[[f32; 4]])> {
+        if self.uv_set == Some(set) {
+            return Some((&self.uvs, &self.tangents));
+        }
+        let other = self.texture_uvs.iter().find(|other| other.set == set)?;
+        Some((&other.uvs, &other.tangents))
+    }
 }
 
 /// A material of the model's own: glTF's metallic-roughness factors and textures.
@@ -100,8 +131,8 @@ pub struct TextureRef {
     pub wrap: [Wrap; 2],
     /// `uv_in_texture = uv_from_texture_transform × (u, v, 1)`, rows; the identity without KHR_texture_transform.
     pub transform: [[f32; 3]; 2],
-    /// Whether the texture is meant for the UV set that was loaded into [`Mesh::uvs`].
-    pub on_loaded_uv_set: bool,
+    /// The UV set that it is laid out by; see [`Mesh::set`].
+    pub uv_set: u32,
 }
 
 /// What happens outside 0..1.

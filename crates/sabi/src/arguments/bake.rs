@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::WorkpieceArguments;
 
@@ -36,9 +36,6 @@ pub(crate) struct BakeArguments {
     /// How far maps reach over the edges of charts, texels, or 'infinite' [default: 16 at size 2048]
     #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
     pub(crate) padding: Option<Padding>,
-    /// What overlapping UVs get: the result of the first chart
-    #[arg(long, value_enum, default_value_t = Overlap::First, help_heading = "Maps")]
-    pub(crate) overlap: Overlap,
     /// Bake into a folder that has files but no earlier maps
     #[arg(long, help_heading = "Maps")]
     pub(crate) force: bool,
@@ -70,12 +67,6 @@ impl BakeArguments {
 pub(crate) enum Padding {
     Infinite,
     Texels(u32),
-}
-
-/// What overlapping UVs get.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum Overlap {
-    First,
 }
 
 fn padding(text: &str) -> Result<Padding, String> {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sabi_engine::{
-    AdapterChoice, DEFAULT_BUDGET_BYTES, Fit, ModelOptions, Overrides, Up, WorkpieceOptions, default_cache_dir,
-    read_setting,
+    AdapterChoice, DEFAULT_BUDGET_BYTES, Fit, ModelOptions, Overlap, Overrides, Up, WorkpieceOptions,
+    default_cache_dir, read_setting,
 };
 
 use crate::exit::{Exit, Failure};
@@ -27,6 +27,9 @@ pub(crate) struct ModelArguments {
     /// UV set of the file
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Model")]
     pub(crate) uv: u32,
+    /// What mirrored or stacked UVs get: the first chart's result, their mean, or a second UV set for the whole model
+    #[arg(long, value_enum, default_value_t = Sharing::First, help_heading = "Model")]
+    pub(crate) overlap: Sharing,
     /// Build the atlas anew instead of taking it from the disk cache
     #[arg(long, help_heading = "Model")]
     pub(crate) no_cache: bool,
@@ -43,6 +46,11 @@ impl ModelArguments {
                 Axis::Z => Up::Z,
             },
             scale: self.scale,
+            overlap: match self.overlap {
+                Sharing::First => Overlap::First,
+                Sharing::Merge => Overlap::Merge,
+                Sharing::Unwrap => Overlap::Unwrap,
+            },
             cache_dir: if self.no_cache { None } else { default_cache_dir() },
             ..ModelOptions::new(&path, self.size)
         }
@@ -109,6 +117,14 @@ pub(crate) enum Axis {
     Y,
     Z,
     X,
+}
+
+/// What charts that share a place on the maps get.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Sharing {
+    First,
+    Merge,
+    Unwrap,
 }
 
 fn seed(text: &str) -> Result<u32, String> {

@@ -13,3 +13,4 @@ mod nothing_lost;
 mod outputs;
 mod place;
 mod settings;
+mod unwrapping;

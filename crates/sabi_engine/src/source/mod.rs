@@ -5,6 +5,7 @@ mod output_mask;
 mod output_material;
 mod sampler;
 mod texels;
+mod texture_set;
 
 use std::collections::BTreeMap;
 

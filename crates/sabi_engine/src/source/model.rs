@@ -4,7 +4,7 @@ use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort};
-use sabi_surface::model::{Model, ModelMaterial, TextureRef};
+use sabi_surface::model::{Model, ModelMaterial, TextureRef, TextureUvs};
 
 use super::sampler::Sampler;
 use super::texels::{Ground, Spot};
@@ -51,31 +51,50 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// The samplers of one material; a picture is decoded when it is first asked for.
-struct MaterialSamplers<'a> {
+/// A texture of a material.
+struct Texture<'a> {
+    sampler: Sampler,
+    /// The set that it is laid out by; none where that is the one of the atlas.
+    other: Option<&'a TextureUvs>,
+}
+
+/// The textures of one material; a picture is decoded when it is first asked for.
+struct MaterialTextures<'a> {
     material: &'a ModelMaterial,
-    base_color: Option<Sampler>,
-    metallic_roughness: Option<Sampler>,
-    normal: Option<Sampler>,
-    occlusion: Option<Sampler>,
-    emission: Option<Sampler>,
+    base_color: Option<Texture<'a>>,
+    metallic_roughness: Option<Texture<'a>>,
+    normal: Option<Texture<'a>>,
+    occlusion: Option<Texture<'a>>,
+    emission: Option<Texture<'a>>,
 }
 
-/// Linear RGBA of a picture; white where there is none.
-fn sample(sampler: &Option<Sampler>, uv: [f64; 2]) -> [f32; 4] {
-    sampler.as_ref().map_or([1.0; 4], |sampler| sampler.sample(uv))
+/// A point as textures are asked about it.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    ground: &'a Ground<'a>,
+    spot: &'a Spot,
 }
 
-impl MaterialSamplers<'_> {
-    fn base_color(&self, uv: [f64; 2]) -> [f32; 4] {
-        let color = sample(&self.base_color, uv);
-        std::array::from_fn(|at| color[at] * self.material.base_color_factor[at])
+impl At<'_> {
+    /// Linear RGBA of a picture; white where there is none.
+    fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
+        let Some(Texture { sampler, other }) = texture else {
+            return [1.0; 4];
+        };
+        sampler.sample(&self.ground.footprint(self.spot, *other))
+    }
+}
+
+impl MaterialTextures<'_> {
+    fn base_color(&self, at: At) -> [f32; 4] {
+        let color = at.sample(&self.base_color);
+        std::array::from_fn(|channel| color[channel] * self.material.base_color_factor[channel])
     }
 
     /// Roughness, metallic, occlusion.
-    fn surface(&self, uv: [f64; 2]) -> [f32; 3] {
-        let [_, rough, metal, _] = sample(&self.metallic_roughness, uv);
-        let [open, ..] = sample(&self.occlusion, uv);
+    fn surface(&self, at: At) -> [f32; 3] {
+        let [_, rough, metal, _] = at.sample(&self.metallic_roughness);
+        let [open, ..] = at.sample(&self.occlusion);
         let material = self.material;
         [
             rough * material.roughness_factor,
@@ -84,40 +103,41 @@ impl MaterialSamplers<'_> {
         ]
     }
 
-    fn emission(&self, uv: [f64; 2]) -> [f32; 3] {
-        let emission = sample(&self.emission, uv);
-        std::array::from_fn(|at| emission[at] * self.material.emission_factor[at])
+    fn emission(&self, at: At) -> [f32; 3] {
+        let emission = at.sample(&self.emission);
+        std::array::from_fn(|channel| emission[channel] * self.material.emission_factor[channel])
     }
 
-    /// The normal in tangent space, not of unit length.
-    fn normal(&self, uv: [f64; 2]) -> [f32; 3] {
-        let Some(sampler) = &self.normal else {
-            return [0.0, 0.0, 1.0];
+    /// The surface gradient of the normal map, in model space: it leans in the frame of its own set.
+    fn slope(&self, at: At) -> [f32; 3] {
+        let Some(texture) = &self.normal else {
+            return [0.0; 3];
         };
-        let [x, y, z, _] = sampler.sample(uv).map(|code| 2.0 * code - 1.0);
-        [x * self.material.normal_scale, y * self.material.normal_scale, z]
+        let [x, y, z, _] = at.sample(&self.normal).map(|code| 2.0 * code - 1.0);
+        let scale = self.material.normal_scale;
+        at.ground
+            .frame_of(at.spot, texture.other)
+            .slope([x * scale, y * scale, z])
     }
 
     /// What a plane of a result holds at a point.
     fn value(&self, ground: &Ground<'_>, output: &str, plane: Plane, spot: &Spot) -> [f32; 4] {
-        let uv = spot.uv;
+        let at = At { ground, spot };
         let triple = |[x, y, z]: [f32; 3]| [x, y, z, 1.0];
         match (plane, output) {
-            (Plane::Material(Channel::Color), _) => self.base_color(uv),
-            (Plane::Material(Channel::Surface), _) => triple(self.surface(uv)),
+            (Plane::Material(Channel::Color), _) => self.base_color(at),
+            (Plane::Material(Channel::Surface), _) => triple(self.surface(at)),
             (Plane::Material(Channel::Height), _) => [0.0; 4],
-            (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => {
-                triple(ground.frame(spot).slope(self.normal(uv)))
-            }
-            (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => triple(self.emission(uv)),
+            (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => triple(self.slope(at)),
+            (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => triple(self.emission(at)),
             (Plane::Color, _) => {
-                let [r, g, b, _] = self.base_color(uv);
+                let [r, g, b, _] = self.base_color(at);
                 [r, g, b, 1.0]
             }
-            (Plane::Mask, "alpha") => [self.base_color(uv)[3], 0.0, 0.0, 1.0],
-            (Plane::Mask, "roughness") => [self.surface(uv)[0], 0.0, 0.0, 1.0],
-            (Plane::Mask, "metallic") => [self.surface(uv)[1], 0.0, 0.0, 1.0],
-            (Plane::Mask, _) => [self.surface(uv)[2], 0.0, 0.0, 1.0],
+            (Plane::Mask, "alpha") => [self.base_color(at)[3], 0.0, 0.0, 1.0],
+            (Plane::Mask, "roughness") => [self.surface(at)[0], 0.0, 0.0, 1.0],
+            (Plane::Mask, "metallic") => [self.surface(at)[1], 0.0, 0.0, 1.0],
+            (Plane::Mask, _) => [self.surface(at)[2], 0.0, 0.0, 1.0],
         }
     }
 }
@@ -133,13 +153,19 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
         };
     }
     hash.update(format!("{:?}", model.materials).as_bytes());
+    for other in &model.mesh.texture_uvs {
+        for uv in &other.uvs {
+            hash.update(uv.map(f32::to_le_bytes).as_flattened());
+        }
+        for tangent in &other.tangents {
+            hash.update(tangent.map(f32::to_le_bytes).as_flattened());
+        }
+    }
     kind.content = *hash.finalize().as_bytes();
     let emits = |material: &ModelMaterial| material.emission_factor.iter().any(|factor| *factor > 0.0);
-    if model
-        .materials
-        .iter()
-        .any(|material| usable(&material.normal).is_some())
-    {
+    let is_there = |texture: &TextureRef| model.mesh.set(texture.uv_set).is_some();
+    let mut normals = model.materials.iter().filter_map(|material| material.normal.as_ref());
+    if normals.any(is_there) {
         kind.outputs[0].channels.push(Channel::Slope);
     }
     if model.materials.iter().any(emits) {
@@ -148,29 +174,28 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     kind
 }
 
-/// A texture that is meant for the UV set at hand.
-fn usable(texture: &Option<TextureRef>) -> Option<&TextureRef> {
-    texture.as_ref().filter(|texture| texture.on_loaded_uv_set)
-}
-
 /// Decodes the pictures that the materials use. What cannot be shown is added to `warnings`.
-fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -> Vec<MaterialSamplers<'a>> {
+fn open_materials<'a>(model: &'a Model, warnings: &mut Vec<String>) -> Vec<MaterialTextures<'a>> {
     let mut open = |texture: &Option<TextureRef>, what: &str, is_srgb: bool| {
         let texture = texture.as_ref()?;
         let image = model.images.get(texture.image)?;
-        if !texture.on_loaded_uv_set {
-            let name = &image.name;
+        let (name, set) = (&image.name, texture.uv_set);
+        if model.mesh.set(set).is_none() {
             warnings.push(format!(
-                "the {what} picture {name} uses another UV set and is left out; see --uv"
+                "the {what} picture {name} is laid out by UV set {set}, which the model does not have; the factor is used \
+                 alone"
             ));
             return None;
         }
         let bytes = image.bytes.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
         let decoded = sabi_image::decode(&image.name, bytes);
         let told = decoded.map_err(|why| warnings.push(format!("{why}; the factor is used alone")));
-        Some(Sampler::new(told.ok()?, texture, is_srgb, size))
+        Some(Texture {
+            sampler: Sampler::new(told.ok()?, texture, is_srgb),
+            other: model.mesh.texture_uvs.iter().find(|other| other.set == set),
+        })
     };
-    let open_material = |material: &'a ModelMaterial| MaterialSamplers {
+    let open_material = |material: &'a ModelMaterial| MaterialTextures {
         material,
         base_color: open(&material.base_color, "base color", true),
         metallic_roughness: open(&material.metallic_roughness, "roughness", false),
@@ -185,7 +210,7 @@ fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -
 #[derive(Default)]
 pub(crate) struct ModelSource<'a> {
     /// Decoded at the first use: a run whose results are cached needs none of it.
-    materials: Option<Vec<MaterialSamplers<'a>>>,
+    materials: Option<Vec<MaterialTextures<'a>>>,
 }
 
 impl<'a> ModelSource<'a> {
@@ -197,7 +222,7 @@ impl<'a> ModelSource<'a> {
         plane: Plane,
         warnings: &mut Vec<String>,
     ) -> Vec<u8> {
-        let open = || open_materials(ground.model, ground.atlas.size, warnings);
+        let open = || open_materials(ground.model, warnings);
         let materials = &*self.materials.get_or_insert_with(open);
         let material_of = &ground.model.mesh.triangle_material;
         ground.texels(plane, |spot| {

@@ -6,6 +6,15 @@ use sabi_surface::model::{TextureRef, Wrap};
 /// Taps along one side of a texel's footprint, at most.
 const TAPS_LIMIT: u32 = 8;
 
+/// What of a picture a texel of the atlas covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Footprint {
+    /// Texture coordinates under the texel's center.
+    pub(crate) uv: [f64; 2],
+    /// How they change over one texel along the atlas' u, and along its v.
+    pub(crate) steps: [[f64; 2]; 2],
+}
+
 /// A picture with its wrap and its transform.
 pub(crate) struct Sampler {
     picture: Picture,
@@ -14,44 +23,51 @@ pub(crate) struct Sampler {
     is_srgb: bool,
     wrap: [Wrap; 2],
     transform: [[f64; 3]; 2],
-    /// Taps a side: as many picture pixels as a texel of the atlas covers.
-    taps: u32,
-    texel: f64,
 }
 
 impl Sampler {
-    /// A picture sampled once a texel of an atlas of `size` texels for one unit of UV.
-    pub(crate) fn new(picture: Picture, texture: &TextureRef, is_srgb: bool, size: u32) -> Sampler {
+    /// A picture as a material uses it.
+    pub(crate) fn new(picture: Picture, texture: &TextureRef, is_srgb: bool) -> Sampler {
         let linear = |code: usize| {
             let value = code as f32 / 255.0;
             if is_srgb { linear_from_srgb(value) } else { value }
         };
         let code_table = matches!(picture.pixels, Pixels::U8(_)).then(|| std::array::from_fn(linear));
-        let larger = picture.width.max(picture.height);
         Sampler {
             code_table,
             is_srgb,
             wrap: texture.wrap,
             transform: texture.transform.map(|row| row.map(f64::from)),
-            taps: larger.div_ceil(size.max(1)).clamp(1, TAPS_LIMIT),
-            texel: 1.0 / f64::from(size.max(1)),
             picture,
         }
     }
 
-    /// Linear RGBA at the model's own texture coordinates, averaged over a texel.
-    pub(crate) fn sample(&self, uv: [f64; 2]) -> [f32; 4] {
+    /// Linear RGBA at the texture coordinates of its set, averaged over a texel of the atlas.
+    pub(crate) fn sample(&self, at: &Footprint) -> [f32; 4] {
         let mut sum = [0.0_f32; 4];
-        for tap in 0..self.taps * self.taps {
-            let offset = |index: u32| ((f64::from(index) + 0.5) / f64::from(self.taps) - 0.5) * self.texel;
-            let at = [uv[0] + offset(tap % self.taps), uv[1] + offset(tap / self.taps)];
-            let value = self.bilinear(at);
+        let taps = self.taps(at);
+        for tap in 0..taps * taps {
+            let offset = |index: u32| (f64::from(index) + 0.5) / f64::from(taps) - 0.5;
+            let (x, y) = (offset(tap % taps), offset(tap / taps));
+            let uv = std::array::from_fn(|axis| at.uv[axis] + at.steps[0][axis] * x + at.steps[1][axis] * y);
+            let value = self.bilinear(uv);
             for (sum, value) in sum.iter_mut().zip(value) {
                 *sum += value;
             }
         }
-        let count = (self.taps * self.taps) as f32;
+        let count = (taps * taps) as f32;
         sum.map(|sum| sum / count)
+    }
+
+    /// Taps a side: as many pixels of the picture as a texel covers.
+    fn taps(&self, at: &Footprint) -> u32 {
+        let side = |step: [f64; 2]| {
+            let [u, v] = [self.picture.width, self.picture.height].map(f64::from);
+            (step[0] * u).hypot(step[1] * v)
+        };
+        let larger = side(at.steps[0]).max(side(at.steps[1]));
+        // A hair less than the next pixel is not one more.
+        ((larger - 1e-6).ceil().max(1.0) as u32).min(TAPS_LIMIT)
     }
 
     fn bilinear(&self, [u, v]: [f64; 2]) -> [f32; 4] {

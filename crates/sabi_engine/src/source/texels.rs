@@ -73,18 +73,7 @@ impl Ground<'_> {
         let normal = self.affine(spot, [&geometry[3], &geometry[4], &geometry[5]]);
         let tangent = self.affine(spot, [&frames[0], &frames[1], &frames[2]]);
         let sign = f64::from(frames[0][3]);
-        let cross = |a: [f64; 3], b: [f64; 3]| {
-            [
-                a[1] * b[2] - a[2] * b[1],
-                a[2] * b[0] - a[0] * b[2],
-                a[0] * b[1] - a[1] * b[0],
-            ]
-        };
-        Frame {
-            bitangent: cross(normal, tangent).map(|x| sign * x),
-            tangent,
-            normal,
-        }
+        Frame::new(normal, tangent, sign)
     }
 
     /// All texels of a plane in its storage format, ghosts included; zeros where nothing is.
@@ -104,6 +93,22 @@ impl Ground<'_> {
 }
 
 impl Frame {
+    /// A frame of interpolated vectors and the sign of its bitangent.
+    pub(crate) fn new(normal: [f64; 3], tangent: [f64; 3], sign: f64) -> Frame {
+        let cross = |a: [f64; 3], b: [f64; 3]| {
+            [
+                a[1] * b[2] - a[2] * b[1],
+                a[2] * b[0] - a[0] * b[2],
+                a[0] * b[1] - a[1] * b[0],
+            ]
+        };
+        Frame {
+            bitangent: cross(normal, tangent).map(|x| sign * x),
+            tangent,
+            normal,
+        }
+    }
+
     /// The surface gradient that a tangent-space normal stands for: `up − n / (n · up)` with `n` in model space.
     pub(crate) fn slope(&self, normal: [f32; 3]) -> [f32; 3] {
         if normal[0] == 0.0 && normal[1] == 0.0 {

@@ -315,6 +315,11 @@ impl Plan<'_> {
                     texel_from_uv: place.offset,
                     bounds: bounds.map(|value| value as u32),
                     material: self.mesh.triangle_material[triangles[0] as usize],
+                    sheet: if self.mesh.is_one_sheet {
+                        0
+                    } else {
+                        self.mesh.triangle_material[triangles[0] as usize]
+                    },
                     uv_tile: self.uv_tile(triangles),
                     // Counter-clockwise seen from outside is clockwise in numbers, since v grows downward.
                     mirrored: turned > 0.0,

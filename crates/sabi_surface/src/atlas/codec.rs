@@ -26,7 +26,16 @@ pub(super) fn encode(atlas: &Atlas) -> Vec<u8> {
         out.u32s(&[chart.page, dx, dy]);
         out.u32s(&chart.bounds);
         let mirrored = u32::from(chart.mirrored);
-        out.u32s(&[chart.material, tile_u, tile_v, mirrored, chart.triangles, chart.texels]);
+        let sheet = chart.sheet;
+        out.u32s(&[
+            chart.material,
+            sheet,
+            tile_u,
+            tile_v,
+            mirrored,
+            chart.triangles,
+            chart.texels,
+        ]);
     }
     out.u32s(&atlas.triangle_chart);
     out.bytes
@@ -189,7 +198,7 @@ impl<'a> In<'a> {
     fn chart(&mut self) -> Option<Chart> {
         let [page, dx, dy] = self.u32_array()?;
         let bounds = self.u32_array()?;
-        let [material, tile_u, tile_v, mirrored, triangles, texels] = self.u32_array()?;
+        let [material, sheet, tile_u, tile_v, mirrored, triangles, texels] = self.u32_array()?;
         let texel_from_uv = [dx, dy].map(u32::cast_signed);
         let uv_tile = [tile_u, tile_v].map(u32::cast_signed);
         Some(Chart {
@@ -197,6 +206,7 @@ impl<'a> In<'a> {
             texel_from_uv,
             bounds,
             material,
+            sheet,
             uv_tile,
             mirrored: mirrored != 0,
             triangles,

@@ -4,7 +4,7 @@ use super::AtlasError;
 use crate::model::Mesh;
 
 /// Parts of a texel that corners are snapped to for the raster.
-pub(super) const UNIT: i64 = 256;
+pub(crate) const UNIT: i64 = 256;
 /// Farther than this many texels from the origin the raster could not count.
 const REACH_TEXELS: f64 = (1u64 << 30) as f64;
 

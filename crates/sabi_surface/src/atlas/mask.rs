@@ -5,13 +5,13 @@ use super::raster::spans;
 
 /// Texels that a chart covers in the user's layout, a bit each, in the smallest rectangle that holds them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Mask {
+pub(crate) struct Mask {
     /// Column and row of the first bit in the user's layout.
-    pub(super) origin: [i64; 2],
+    pub(crate) origin: [i64; 2],
     /// Columns.
-    pub(super) width: u32,
+    pub(crate) width: u32,
     /// Rows.
-    pub(super) height: u32,
+    pub(crate) height: u32,
     /// Words a row, at least one bit more than columns.
     words: usize,
     bits: Vec<u64>,
@@ -19,7 +19,7 @@ pub(super) struct Mask {
 
 impl Mask {
     /// A mask without any bit set.
-    pub(super) fn empty(origin: [i64; 2], width: u32, height: u32) -> Mask {
+    pub(crate) fn empty(origin: [i64; 2], width: u32, height: u32) -> Mask {
         let words = width as usize / 64 + 1;
         Mask {
             origin,
@@ -47,7 +47,7 @@ impl Mask {
     }
 
     /// Sets the bits `x0..x1` of a row; says whether one was set before.
-    fn set(&mut self, y: i64, x0: i64, x1: i64) -> bool {
+    pub(crate) fn set(&mut self, y: i64, x0: i64, x1: i64) -> bool {
         let row = &mut self.bits[y as usize * self.words..][..self.words];
         let (x0, last) = (x0 as usize, x1 as usize - 1);
         let mut before = 0;
@@ -90,7 +90,7 @@ impl Mask {
     }
 
     /// The mask grown by the rings of ghosts, on all sides.
-    pub(super) fn grown(&self) -> Mask {
+    pub(crate) fn grown(&self) -> Mask {
         if self.is_empty() {
             return Mask::default();
         }
@@ -112,7 +112,7 @@ impl Mask {
     }
 
     /// The mask in cells of `cell × cell` texels, counted from its own corner.
-    pub(super) fn cells(&self, cell: u32) -> Mask {
+    pub(crate) fn cells(&self, cell: u32) -> Mask {
         let mut cells = Mask::empty([0, 0], self.width.div_ceil(cell), self.height.div_ceil(cell));
         for (y, row) in self.rows().enumerate() {
             for_each_run(row, |x0, x1| {
@@ -123,28 +123,41 @@ impl Mask {
         cells
     }
 
+    /// The mask a quarter turn on: what was to the right is at the top.
+    pub(crate) fn turned(&self) -> Mask {
+        let mut turned = Mask::empty([0, 0], self.height, self.width);
+        for (y, row) in self.rows().enumerate() {
+            for_each_run(row, |x0, x1| {
+                for x in x0..x1 {
+                    turned.set(self.width as i64 - 1 - x as i64, y as i64, y as i64 + 1);
+                }
+            });
+        }
+        turned
+    }
+
     /// Whether no bit is set.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.height == 0
     }
 
     /// Number of bits set.
-    pub(super) fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         self.bits.iter().map(|word| u64::from(word.count_ones())).sum()
     }
 
     /// Bits of one row.
-    pub(super) fn row(&self, y: usize) -> &[u64] {
+    pub(crate) fn row(&self, y: usize) -> &[u64] {
         &self.bits[y * self.words..][..self.words]
     }
 
     /// Rows of bits from the top.
-    pub(super) fn rows(&self) -> impl Iterator<Item = &[u64]> {
+    pub(crate) fn rows(&self) -> impl Iterator<Item = &[u64]> {
         self.bits.chunks_exact(self.words.max(1))
     }
 
     /// Adds another mask's row at a column; says whether a bit was set before.
-    pub(super) fn merge_row(&mut self, y: usize, row: &[u64], shift: i64) -> bool {
+    pub(crate) fn merge_row(&mut self, y: usize, row: &[u64], shift: i64) -> bool {
         let target = &mut self.bits[y * self.words..][..self.words];
         let hit = meets_shifted(target, row, shift);
         or_shifted(target, row, shift);
@@ -152,7 +165,7 @@ impl Mask {
     }
 
     /// Whether no two by two texels are covered whole.
-    pub(super) fn is_thin(&self) -> bool {
+    pub(crate) fn is_thin(&self) -> bool {
         let pairs = |y: usize| {
             let row = self.row(y);
             (0..row.len()).map(move |word| {
@@ -202,14 +215,14 @@ fn shifted_word(row: &[u64], index: usize, shift: i64) -> u64 {
 }
 
 /// Ors a row of bits, moved to the right by `shift`, into another; what falls outside is dropped.
-pub(super) fn or_shifted(target: &mut [u64], row: &[u64], shift: i64) {
+pub(crate) fn or_shifted(target: &mut [u64], row: &[u64], shift: i64) {
     for (index, word) in target.iter_mut().enumerate() {
         *word |= shifted_word(row, index, shift);
     }
 }
 
 /// Whether a row of bits, moved to the right by `shift`, has a bit in common with another.
-pub(super) fn meets_shifted(target: &[u64], row: &[u64], shift: i64) -> bool {
+pub(crate) fn meets_shifted(target: &[u64], row: &[u64], shift: i64) -> bool {
     target
         .iter()
         .enumerate()
@@ -217,7 +230,7 @@ pub(super) fn meets_shifted(target: &[u64], row: &[u64], shift: i64) -> bool {
 }
 
 /// Calls `found(x0, x1)` for each run of set bits, `x1` excluded.
-pub(super) fn for_each_run(row: &[u64], mut found: impl FnMut(usize, usize)) {
+pub(crate) fn for_each_run(row: &[u64], mut found: impl FnMut(usize, usize)) {
     let mut start = None;
     for (index, &word) in row.iter().enumerate() {
         let mut bit = 0;

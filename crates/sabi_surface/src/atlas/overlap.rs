@@ -25,19 +25,19 @@ pub(super) struct Overlap {
     pub(super) stacked: u32,
 }
 
-/// Finds all overlaps; UV tiles are wrapped onto the unit square, materials have one each.
+/// Finds all overlaps; UV tiles are wrapped onto the unit square, sheets have one each.
 pub(super) fn overlap(uvs: &Uvs, partition: &Partition, charts: &[Chart], masks: &[Mask], size: u32) -> Overlap {
     let mut found = Overlap::default();
     let numbers: Vec<usize> = (0..charts.len()).collect();
-    for of_material in numbers.chunk_by(|&a, &b| charts[a].material == charts[b].material) {
-        if of_material.len() > 1 {
-            overlap_of_material(uvs, partition, charts, masks, size, of_material, &mut found);
+    for of_sheet in numbers.chunk_by(|&a, &b| charts[a].sheet == charts[b].sheet) {
+        if of_sheet.len() > 1 {
+            overlap_of_sheet(uvs, partition, charts, masks, size, of_sheet, &mut found);
         }
     }
     found
 }
 
-fn overlap_of_material(
+fn overlap_of_sheet(
     uvs: &Uvs,
     partition: &Partition,
     charts: &[Chart],

@@ -6,14 +6,14 @@ use super::mask::{Mask, for_each_run};
 
 /// Where a shape went.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Spot {
-    pub(super) page: u32,
-    pub(super) column: u32,
-    pub(super) row: u32,
+pub(crate) struct Spot {
+    pub(crate) page: u32,
+    pub(crate) column: u32,
+    pub(crate) row: u32,
 }
 
 /// Pages of cells.
-pub(super) struct Packer {
+pub(crate) struct Packer {
     columns: u32,
     rows_limit: u32,
     pages: Vec<Page>,
@@ -29,11 +29,16 @@ struct Page {
 
 impl Packer {
     /// Pages of a width that suits shapes with `area` cells in all, the widest of `widest` columns.
-    pub(super) fn new(area: u64, widest: u32, limit: u32) -> Packer {
+    pub(crate) fn new(area: u64, widest: u32, limit: u32) -> Packer {
         // A seventh more than the area: about what is lost between the shapes.
         let side = ((area as f64) * 1.15).sqrt().ceil() as u32;
+        Packer::with_columns(side.max(widest).min(limit).max(1), limit)
+    }
+
+    /// Pages of so many columns.
+    pub(crate) fn with_columns(columns: u32, limit: u32) -> Packer {
         Packer {
-            columns: side.max(widest).min(limit).max(1),
+            columns,
             rows_limit: limit,
             pages: Vec::new(),
             starts: BTreeMap::new(),
@@ -41,7 +46,19 @@ impl Packer {
     }
 
     /// Places a shape that fits on an empty page. Larger shapes should come first.
-    pub(super) fn place(&mut self, shape: &Mask) -> Spot {
+    pub(crate) fn place(&mut self, shape: &Mask) -> Spot {
+        let spot = self.find(shape);
+        self.take(shape, spot);
+        spot
+    }
+
+    /// Takes a place that was found.
+    pub(crate) fn take(&mut self, shape: &Mask, spot: Spot) {
+        self.pages[spot.page as usize].take(shape, spot.column, spot.row, self.columns);
+    }
+
+    /// Where a shape that fits on an empty page would go.
+    pub(crate) fn find(&mut self, shape: &Mask) -> Spot {
         let size = (shape.width, shape.height);
         let (mut page, mut row) = self.starts.get(&size).copied().unwrap_or((0, 0));
         loop {
@@ -52,9 +69,8 @@ impl Packer {
                 (page, row) = (page + 1, 0);
                 continue;
             }
-            let cells = &mut self.pages[page as usize];
+            let cells = &self.pages[page as usize];
             if let Some(column) = cells.free_column(shape, row, self.columns) {
-                cells.take(shape, column, row, self.columns);
                 self.starts.insert(size, (page, row));
                 return Spot { page, column, row };
             }
@@ -63,12 +79,12 @@ impl Packer {
     }
 
     /// Number of pages.
-    pub(super) fn pages(&self) -> u32 {
+    pub(crate) fn pages(&self) -> u32 {
         self.pages.len() as u32
     }
 
     /// Columns and rows in use on the fullest page, at least one.
-    pub(super) fn extent(&self) -> (u32, u32) {
+    pub(crate) fn extent(&self) -> (u32, u32) {
         let rows = self.pages.iter().map(|page| page.rows.len()).max().unwrap_or(0);
         let last = |row: &Vec<u64>| {
             row.iter()

@@ -9,7 +9,7 @@ const HALF: i64 = UNIT / 2;
 /// Corners are in parts of a texel ([`UNIT`]), within ±2³⁸. A center on an edge belongs to the triangle whose top or
 /// left edge it is. Only rows `rows.0 ≤ y < rows.1` are visited. Triangles of either winding are painted; those
 /// without area paint nothing.
-pub(super) fn spans(corners: [[i64; 2]; 3], rows: (i64, i64), mut paint: impl FnMut(i64, i64, i64)) {
+pub(crate) fn spans(corners: [[i64; 2]; 3], rows: (i64, i64), mut paint: impl FnMut(i64, i64, i64)) {
     let origin = [corners[0][0] & -UNIT, corners[0][1] & -UNIT];
     // Small numbers from here on: products stay far below 2⁶³ for any triangle that fits on a page.
     let mut c = corners.map(|corner| [corner[0] - origin[0], corner[1] - origin[1]]);

@@ -32,9 +32,9 @@ pub(super) struct Findings<'a> {
 
 impl Findings<'_> {
     pub(super) fn report(&self, overlap: Overlap, unlinked_ghosts: u32, pulled_ghosts: u32) -> AtlasReport {
-        let materials: BTreeSet<u32> = self.charts.iter().map(|chart| chart.material).collect();
+        let sheets: BTreeSet<u32> = self.charts.iter().map(|chart| chart.sheet).collect();
         let owned: u64 = self.charts.iter().map(|chart| u64::from(chart.texels)).sum();
-        let squares = materials.len() as f64 * f64::from(self.size).powi(2);
+        let squares = sheets.len() as f64 * f64::from(self.size).powi(2);
         let count = |found: &mut dyn Iterator<Item = bool>| found.filter(|&found| found).count() as u32;
         let mut report = AtlasReport {
             coverage: (owned as f64 / squares) as f32,
@@ -46,14 +46,24 @@ impl Findings<'_> {
             degenerate_triangles: count(&mut self.sound.iter().map(|&sound| !sound)),
             nonmanifold_edges: self.topology.nonmanifold_edges,
             border_edges: self.topology.border_edges,
-            thin_charts: count(&mut self.masks.iter().map(Mask::is_thin)),
+            thin_charts: self.thin_charts(),
             moved_charts: self.moved_charts(),
             unlinked_ghosts,
             pulled_ghosts,
             warnings: Vec::new(),
         };
-        report.warnings = self.warnings(&report, owned);
+        report.warnings = self.warnings(&report);
         report
+    }
+
+    /// Charts of triangles without area in UV are no charts that could be wider.
+    fn thin_charts(&self) -> u32 {
+        let has_area = |chart: usize| {
+            let mut triangles = self.partition.triangles(chart).iter();
+            triangles.any(|&triangle| self.orientations[triangle as usize] != 0)
+        };
+        let thin = |chart: &usize| self.masks[*chart].is_thin() && has_area(*chart);
+        (0..self.masks.len()).filter(thin).count() as u32
     }
 
     fn moved_charts(&self) -> u32 {
@@ -64,9 +74,8 @@ impl Findings<'_> {
         self.charts.iter().filter(moved).count() as u32
     }
 
-    fn warnings(&self, report: &AtlasReport, owned: u64) -> Vec<String> {
+    fn warnings(&self, report: &AtlasReport) -> Vec<String> {
         let mut warnings = Vec::new();
-        warnings.extend(overlap_warning(report, owned));
         let outside = self
             .charts
             .iter()
@@ -133,32 +142,6 @@ impl Findings<'_> {
     }
 }
 
-fn overlap_warning(report: &AtlasReport, owned: u64) -> Option<String> {
-    let share = report.overlap_texels as f64 / owned.max(1) as f64;
-    let copies = match report.stacked_charts {
-        0 => String::new(),
-        copies => format!(
-            " ({})",
-            counted(copies, "stacked or mirrored copy", "stacked or mirrored copies")
-        ),
-    };
-    (report.overlap_texels > 0).then(|| {
-        format!(
-            "UV charts overlap on {} of the surface{copies}: each is worked out for itself, but a map has room for one \
-             of them",
-            percent(share)
-        )
-    })
-}
-
 fn counted(count: u32, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
-}
-
-fn percent(share: f64) -> String {
-    if share < 0.001 {
-        "less than 0.1 %".to_owned()
-    } else {
-        format!("{:.1} %", share * 100.0)
-    }
 }

@@ -5,24 +5,24 @@ use rayon::prelude::*;
 use crate::model::Mesh;
 
 /// No triangle on the other side of an edge.
-pub(super) const NO_TWIN: u32 = u32::MAX;
+pub(crate) const NO_TWIN: u32 = u32::MAX;
 
 /// Triangles welded by exact position.
 ///
 /// Edge `3 t + k` runs from corner `k` to corner `(k + 1) % 3` of triangle `t`.
-pub(super) struct Topology {
+pub(crate) struct Topology {
     /// Welded vertex of each corner `3 t + k`.
-    pub(super) corners: Vec<u32>,
+    pub(crate) corners: Vec<u32>,
     /// For each edge the same edge of the triangle on the other side, or [`NO_TWIN`]. Always mutual.
-    pub(super) twins: Vec<u32>,
+    pub(crate) twins: Vec<u32>,
     /// Edges with one triangle.
-    pub(super) border_edges: u32,
+    pub(crate) border_edges: u32,
     /// Edges with more than two triangles.
-    pub(super) nonmanifold_edges: u32,
+    pub(crate) nonmanifold_edges: u32,
 }
 
 impl Topology {
-    pub(super) fn new(mesh: &Mesh) -> Topology {
+    pub(crate) fn new(mesh: &Mesh) -> Topology {
         let welded = weld(&mesh.positions);
         let corners: Vec<u32> = mesh
             .triangles

@@ -7,6 +7,8 @@ mod material;
 mod primitive;
 mod scene;
 
+use std::collections::BTreeSet;
+
 use glam::DMat4;
 use rayon::prelude::*;
 
@@ -18,7 +20,7 @@ use self::scene::Instance;
 use super::error::Fault;
 use super::warnings::Warnings;
 use super::{LoadOptions, MAX_TRIANGLES};
-use crate::model::Model;
+use crate::model::{Mesh, Model, TextureUvs};
 
 /// The files beside a model.
 pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
@@ -45,11 +47,14 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         primitive::check_uv_set(options.uv_set, pieces.values().flatten())?;
     }
 
-    gather_warnings(&source, pieces.values().flatten(), with_uvs, &mut warnings);
+    let without_uvs = gather_warnings(&source, pieces.values().flatten(), with_uvs, &mut warnings);
     let mut model = Model {
         stem: super::stem(name),
+        without_uvs: without_uvs.into_iter().collect(),
         ..Model::default()
     };
+    model.mesh.uv_set = with_uvs.then_some(options.uv_set);
+    model.mesh.texture_uvs = empty_sets(pieces.values().flatten());
     let mut materials = Materials::default();
     let world_from_file = options.world_from_file();
     let mut lost = 0;
@@ -75,18 +80,45 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         }
         return Err(warnings.into_fault());
     }
+    drop_idle_frames(&mut model.mesh, pieces.values().flatten());
     materials.finish(&source, name, resolve, &mut model, &mut warnings);
     model.warnings = warnings.finish();
     Ok(model)
 }
 
-/// The warnings of the pieces, and one for those without the UVs that others have.
+/// The sets that textures of the pieces are laid out by, without coordinates yet.
+fn empty_sets<'a>(pieces: impl Iterator<Item = &'a Outcome>) -> Vec<TextureUvs> {
+    let others = pieces.flat_map(|piece| &piece.piece.texture_uvs);
+    let sets: BTreeSet<u32> = others.map(|other| other.set).collect();
+    let of_set = |set| TextureUvs {
+        set,
+        ..TextureUvs::default()
+    };
+    sets.into_iter().map(of_set).collect()
+}
+
+/// Leaves out the tangents of sets that no normal map uses.
+fn drop_idle_frames<'a>(mesh: &mut Mesh, pieces: impl Iterator<Item = &'a Outcome>) {
+    let others = pieces.flat_map(|piece| &piece.piece.texture_uvs);
+    let framed: BTreeSet<u32> = others
+        .filter(|other| !other.tangents.is_empty())
+        .map(|other| other.set)
+        .collect();
+    for other in &mut mesh.texture_uvs {
+        if !framed.contains(&other.set) {
+            other.tangents = Vec::new();
+        }
+    }
+}
+
+/// The warnings of the pieces, and one for those without the UVs that others have, which are named.
 fn gather_warnings<'a>(
     source: &Source,
     pieces: impl Iterator<Item = &'a Outcome>,
     with_uvs: bool,
     warnings: &mut Warnings,
-) {
+) -> BTreeSet<String> {
+    let mut without_uvs = BTreeSet::new();
     for piece in pieces {
         warnings.absorb(piece.warnings.clone());
         if with_uvs && piece.piece.uvs.is_empty() && !piece.piece.triangles.is_empty() {
@@ -95,8 +127,10 @@ fn gather_warnings<'a>(
             warnings.add(format!(
                 "Triangles of {material} have no UV set {set}; their texture coordinates are all zero."
             ));
+            without_uvs.insert(material);
         }
     }
+    without_uvs
 }
 
 /// Puts the pieces of an instance into the model as one part; says how many triangles were lost.

@@ -50,7 +50,8 @@ pub(super) fn read(
         stem: super::stem(name),
         ..Model::default()
     };
-    let piece = triangulate(&statements, &mut warnings);
+    let (piece, without_uvs) = triangulate(&statements, &mut warnings);
+    model.without_uvs = without_uvs;
     let mut placed = complete(piece, &mut warnings).placed(options.world_from_file());
     if placed.drop_broken() > 0 {
         warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
@@ -66,15 +67,18 @@ pub(super) fn read(
     number_parts(&statements, &mut placed, &mut model);
     library.read_images(resolve, &mut model, &mut warnings);
     let (with_uvs, with_colors) = (!placed.uvs.is_empty(), !placed.colors.is_empty());
-    let mut mesh = Mesh::default();
+    let mut mesh = Mesh {
+        uv_set: with_uvs.then_some(0),
+        ..Mesh::default()
+    };
     placed.append_to(&mut mesh, with_uvs, with_colors);
     model.mesh = mesh;
     model.warnings = warnings.finish();
     Ok(model)
 }
 
-/// Faces become triangles, and corners that agree in everything one vertex.
-fn triangulate(statements: &Statements, warnings: &mut Warnings) -> Piece {
+/// Faces become triangles, and corners that agree in everything one vertex; names what has no UVs where others have.
+fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Piece, Vec<String>) {
     let mut piece = Piece::default();
     let mut vertices: HashMap<Corner, u32> = HashMap::new();
     let mut budget = polygon::Budget::default();
@@ -123,13 +127,16 @@ fn triangulate(statements: &Statements, warnings: &mut Warnings) -> Piece {
     if budget.is_spent() {
         warnings.add("Some hollow faces have too many corners to be cut up well; triangulate the model on export.");
     }
-    for material in without_uvs {
-        let label = statements.material_label(material);
+    let labels = without_uvs
+        .into_iter()
+        .map(|material| statements.material_label(material));
+    let labels: Vec<String> = labels.collect();
+    for label in &labels {
         warnings.add(format!(
             "Some faces of {label} have no UVs; their texture coordinates are all zero."
         ));
     }
-    piece
+    (piece, labels)
 }
 
 /// Repairs what is broken and makes what is missing.

@@ -5,29 +5,35 @@ use std::collections::HashMap;
 use glam::{DMat4, DVec3, Vec3};
 
 use super::tangents::perpendicular;
-use crate::model::Mesh;
+use crate::model::{Mesh, TextureUvs};
 
 /// Triangles in the space of their mesh. Arrays of vertices are empty where the file has nothing to say.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Piece {
-    pub(super) positions: Vec<[f32; 3]>,
+pub(crate) struct Piece {
+    pub(crate) positions: Vec<[f32; 3]>,
     /// Zero where a vertex has none.
-    pub(super) normals: Vec<[f32; 3]>,
-    pub(super) tangents: Vec<[f32; 4]>,
-    pub(super) uvs: Vec<[f32; 2]>,
-    pub(super) colors: Vec<[f32; 4]>,
-    pub(super) triangles: Vec<[u32; 3]>,
+    pub(crate) normals: Vec<[f32; 3]>,
+    pub(crate) tangents: Vec<[f32; 4]>,
+    pub(crate) uvs: Vec<[f32; 2]>,
+    /// Sets besides `uvs` that its material's textures are laid out by, numbers rising.
+    pub(crate) texture_uvs: Vec<TextureUvs>,
+    /// The set of its material's normal map.
+    pub(crate) normal_set: Option<u32>,
+    /// The vertex that each was in an earlier mesh; empty where nobody asks.
+    pub(crate) sources: Vec<u32>,
+    pub(crate) colors: Vec<[f32; 4]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
     /// Material of each triangle.
-    pub(super) materials: Vec<u32>,
+    pub(crate) materials: Vec<u32>,
     /// Part of each triangle.
-    pub(super) parts: Vec<u32>,
+    pub(crate) parts: Vec<u32>,
     /// Smoothing of each triangle, for normals that have to be made; empty where the format has none.
-    pub(super) smoothing: Vec<Smoothing>,
+    pub(crate) smoothing: Vec<Smoothing>,
 }
 
 /// What a file says about shading over a triangle's edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Smoothing {
+pub(crate) enum Smoothing {
     /// Nothing: edges are smooth unless they turn sharply.
     ByAngle,
     /// Flat.
@@ -60,6 +66,13 @@ impl Piece {
         before - self.triangles.len()
     }
 
+    /// Puts another set in the place of the chosen one, and back.
+    pub(super) fn swap_set(&mut self, index: usize) {
+        let other = &mut self.texture_uvs[index];
+        std::mem::swap(&mut self.uvs, &mut other.uvs);
+        std::mem::swap(&mut self.tangents, &mut other.tangents);
+    }
+
     fn drop_unused(&mut self) {
         let mut used = vec![false; self.positions.len()];
         for corner in self.triangles.as_flattened() {
@@ -80,12 +93,17 @@ impl Piece {
         retain(&mut self.tangents, &used);
         retain(&mut self.uvs, &used);
         retain(&mut self.colors, &used);
+        for other in &mut self.texture_uvs {
+            retain(&mut other.uvs, &used);
+            retain(&mut other.tangents, &used);
+        }
     }
 
     /// Sets texture coordinates and colors that are no numbers to zero and white; says how many vertices that were.
     pub(super) fn repair_attributes(&mut self) -> usize {
         let mut repaired = 0;
-        for uv in &mut self.uvs {
+        let others = self.texture_uvs.iter_mut().flat_map(|other| &mut other.uvs);
+        for uv in self.uvs.iter_mut().chain(others) {
             if !uv.iter().all(|x| x.is_finite()) {
                 *uv = [0.0; 2];
                 repaired += 1;
@@ -102,7 +120,7 @@ impl Piece {
 
     /// Gives each vertex the value of its corners, splitting vertices whose corners disagree.
     /// `corners` has three values a triangle; the result has one a vertex. Triangles keep their order.
-    pub(super) fn split_by<const N: usize>(&mut self, corners: &[[f32; N]]) -> Vec<[f32; N]> {
+    pub(crate) fn split_by<const N: usize>(&mut self, corners: &[[f32; N]]) -> Vec<[f32; N]> {
         let count = self.positions.len();
         let mut origins: Vec<u32> = Vec::new();
         let mut values: Vec<Option<[f32; N]>> = vec![None; count];
@@ -127,6 +145,11 @@ impl Piece {
         repeat(&mut self.tangents, &origins);
         repeat(&mut self.uvs, &origins);
         repeat(&mut self.colors, &origins);
+        repeat(&mut self.sources, &origins);
+        for other in &mut self.texture_uvs {
+            repeat(&mut other.uvs, &origins);
+            repeat(&mut other.tangents, &origins);
+        }
         values.into_iter().map(|value| value.unwrap_or([0.0; N])).collect()
     }
 
@@ -151,7 +174,10 @@ impl Piece {
         for normal in &mut placed.normals {
             *normal = direction(normal_from_normal * Vec3::from(*normal).as_dvec3()).unwrap_or(*normal);
         }
-        for (tangent, normal) in placed.tangents.iter_mut().zip(&placed.normals) {
+        let others = placed.texture_uvs.iter_mut().map(|other| &mut other.tangents);
+        let frames = std::iter::once(&mut placed.tangents).chain(others);
+        let with_normals = frames.flat_map(|tangents| tangents.iter_mut().zip(&placed.normals));
+        for (tangent, normal) in with_normals {
             let [x, y, z, w] = *tangent;
             let turned = linear * Vec3::new(x, y, z).as_dvec3();
             let [x, y, z] = direction(turned).unwrap_or_else(|| perpendicular(*normal));
@@ -165,10 +191,20 @@ impl Piece {
         placed
     }
 
-    /// Puts the piece's triangles behind those of `mesh`; missing texture coordinates become zero, missing colors white.
+    /// Puts the piece's triangles behind those of `mesh`, which has all the sets that pieces have; missing texture
+    /// coordinates become zero, missing colors white.
     pub(super) fn append_to(self, mesh: &mut Mesh, with_uvs: bool, with_colors: bool) {
         let first = mesh.positions.len() as u32;
         let count = self.positions.len();
+        for set in &mut mesh.texture_uvs {
+            let own = self.texture_uvs.iter().find(|own| own.set == set.set);
+            let (uvs, tangents) = own.map_or((&[][..], &[][..]), |own| (&own.uvs, &own.tangents));
+            set.uvs.extend(uvs);
+            set.uvs.resize(first as usize + count, [0.0; 2]);
+            // Where no normal map looks at them any will do.
+            let tangents = if tangents.is_empty() { &self.tangents } else { tangents };
+            set.tangents.extend(tangents);
+        }
         mesh.positions.extend(self.positions);
         mesh.normals.extend(self.normals);
         mesh.tangents.extend(self.tangents);

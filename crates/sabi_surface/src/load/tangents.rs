@@ -44,6 +44,12 @@ pub(super) fn complete(piece: &mut Piece, who: &str, warnings: &mut Warnings) {
         .collect();
 }
 
+/// Gives every vertex a tangent for the texture coordinates, whatever it had.
+pub(crate) fn for_uvs(piece: &mut Piece) {
+    piece.tangents.clear();
+    complete(piece, "the model", &mut Warnings::default());
+}
+
 /// Tangents of the corners, or `None` where making them would take minutes.
 fn mikktspace(piece: &Piece) -> Option<Vec<[f32; 4]>> {
     if crowding(piece) > MOST_CROWDED {

@@ -3,8 +3,8 @@
 use std::fs;
 
 use super::shapes::*;
-use crate::atlas::cache::make_room;
 use crate::atlas::{Atlas, AtlasOptions, atlas_key, cached};
+use crate::disk::make_room;
 
 #[test]
 fn an_atlas_comes_back_from_disk_as_it_was() {

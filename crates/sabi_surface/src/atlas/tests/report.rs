@@ -42,11 +42,8 @@ fn stacked_and_mirrored_copies_are_found() {
     assert_eq!(report.border_edges, 4 * 8);
     assert!(report.moved_charts >= 2);
     assert_eq!(
-        report.warnings,
-        [
-            "UV charts overlap on 75.0 % of the surface (2 stacked or mirrored copies): each is worked out for itself, but \
-          a map has room for one of them"
-        ]
+        report.warnings, [""; 0],
+        "what to do about it is told by who knows the maps"
     );
 }
 

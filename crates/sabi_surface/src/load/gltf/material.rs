@@ -1,6 +1,6 @@
 //! Materials in use, their textures, and the pictures behind them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use gltf::json;
@@ -151,9 +151,8 @@ impl Pictures<'_> {
         uv_set: u32,
         others: Option<&Map<String, Value>>,
     ) -> Option<TextureRef> {
-        let raw = others.and_then(|others| others.get("KHR_texture_transform"));
-        let transform = raw.and_then(|raw| serde_json::from_value(raw.clone()).ok());
-        if raw.is_some() && transform.is_none() {
+        let transform = raw_transform(others);
+        if transform.is_none() && others.is_some_and(|others| others.contains_key(TRANSFORM)) {
             self.warnings.add(format!(
                 "A texture transform of {label} cannot be read and is left out."
             ));
@@ -194,17 +193,6 @@ impl Pictures<'_> {
         let sampler = texture
             .sampler
             .and_then(|sampler| document.samplers.get(sampler.value()));
-        let uv_set = used
-            .transform
-            .and_then(|transform| transform.tex_coord)
-            .unwrap_or(used.uv_set);
-        let on_loaded_uv_set = uv_set == self.source.uv_set;
-        if !on_loaded_uv_set {
-            self.warnings.add(format!(
-                "A texture of {label} is meant for UV set {uv_set}, and set {} was loaded; it cannot be shown rightly.",
-                self.source.uv_set
-            ));
-        }
         Some(TextureRef {
             image,
             wrap: sampler.map_or([Wrap::Repeat; 2], |sampler| {
@@ -213,9 +201,61 @@ impl Pictures<'_> {
             transform: used
                 .transform
                 .map_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], transform_rows),
-            on_loaded_uv_set,
+            uv_set: overridden(used.uv_set, used.transform),
         })
     }
+}
+
+/// The UV sets that a material's textures are laid out by.
+#[derive(Default)]
+pub(super) struct TextureSets {
+    pub(super) all: BTreeSet<u32>,
+    /// The one of its normal map.
+    pub(super) normal: Option<u32>,
+}
+
+impl TextureSets {
+    /// Of a material of the file.
+    pub(super) fn of(material: &json::Material) -> TextureSets {
+        let pbr = &material.pbr_metallic_roughness;
+        let infos = [
+            &pbr.base_color_texture,
+            &pbr.metallic_roughness_texture,
+            &material.emissive_texture,
+        ];
+        let of_info = |info: &json::texture::Info| {
+            let extensions = info.extensions.as_ref();
+            overridden(
+                info.tex_coord,
+                extensions.and_then(|extensions| extensions.texture_transform.as_ref()),
+            )
+        };
+        let normal = material.normal_texture.as_ref().map(|normal| {
+            let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
+            overridden(normal.tex_coord, raw_transform(others).as_ref())
+        });
+        let occlusion = material.occlusion_texture.as_ref().map(|occlusion| {
+            let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
+            overridden(occlusion.tex_coord, raw_transform(others).as_ref())
+        });
+        let infos = infos.into_iter().flatten().map(of_info);
+        TextureSets {
+            all: infos.chain(normal).chain(occlusion).collect(),
+            normal,
+        }
+    }
+}
+
+const TRANSFORM: &str = "KHR_texture_transform";
+
+/// A texture transform that the crate's types leave unread; none where it is not there or cannot be read.
+fn raw_transform(others: Option<&Map<String, Value>>) -> Option<json::extensions::texture::TextureTransform> {
+    serde_json::from_value(others?.get(TRANSFORM)?.clone()).ok()
+}
+
+/// KHR_texture_transform may name another UV set than the texture's use does.
+fn overridden(uv_set: u32, transform: Option<&json::extensions::texture::TextureTransform>) -> u32 {
+    transform.and_then(|transform| transform.tex_coord).unwrap_or(uv_set)
 }
 
 /// KHR_texture_transform: scaled, turned counter-clockwise as one sees it (v grows downward), moved.

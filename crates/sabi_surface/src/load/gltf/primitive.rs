@@ -9,11 +9,13 @@ use rayon::prelude::*;
 
 use super::buffers::Buffers;
 use super::document::Document;
+use super::material::TextureSets;
 use crate::load::error::{Fault, damaged};
 use crate::load::normals::{self, Missing};
 use crate::load::piece::Piece;
 use crate::load::tangents;
 use crate::load::warnings::Warnings;
+use crate::model::TextureUvs;
 
 /// A file with the bytes it names.
 #[derive(Clone, Copy)]
@@ -119,33 +121,56 @@ impl Source<'_> {
     }
 
     fn read_attributes(&self, primitive: &json::mesh::Primitive, label: &str, piece: &mut Piece) -> Result<(), Fault> {
+        let mut tangents = Vec::new();
+        let count = piece.positions.len();
+        let check = |what: &str, length: usize| match length {
+            length if length == count => Ok(()),
+            length => damaged(format!("{label} has {count} positions and {length} {what}")),
+        };
         if let Some(index) = attribute(primitive, Semantic::Normals) {
             piece.normals = self.floats(index.value(), &format!("normals of {label}"))?;
+            check("normals", piece.normals.len())?;
             // Without normals, glTF has tangents ignored.
             if let Some(index) = attribute(primitive, Semantic::Tangents) {
-                piece.tangents = self.floats(index.value(), &format!("tangents of {label}"))?;
+                tangents = self.floats(index.value(), &format!("tangents of {label}"))?;
+                check("tangents", tangents.len())?;
             }
-        }
-        if let Some(index) = attribute(primitive, Semantic::TexCoords(self.uv_set)) {
-            piece.uvs = self.floats(index.value(), &format!("UV set {} of {label}", self.uv_set))?;
         }
         if let Some(index) = attribute(primitive, Semantic::Colors(0)) {
             piece.colors = self.colors(index.value(), &format!("colors of {label}"))?;
+            check("colors", piece.colors.len())?;
         }
-        let count = piece.positions.len();
-        for (what, length) in [
-            ("normals", piece.normals.len()),
-            ("tangents", piece.tangents.len()),
-            ("texture coordinates", piece.uvs.len()),
-            ("colors", piece.colors.len()),
-        ] {
-            let given = match what {
-                "normals" => attribute(primitive, Semantic::Normals).is_some(),
-                _ => length > 0,
+        let material = primitive.material.map(|index| index.value());
+        let material = material.and_then(|index| self.document.materials.get(index));
+        let sets = material.map_or_else(TextureSets::default, TextureSets::of);
+        // glTF 2.0, 3.7.2.1: a file's tangents are those of the normal map's texture coordinates.
+        let framed_set = sets.normal.unwrap_or(0);
+        piece.normal_set = sets.normal;
+        let mut wanted = sets.all;
+        wanted.insert(self.uv_set);
+        for set in wanted {
+            let Some(index) = attribute(primitive, Semantic::TexCoords(set)) else {
+                continue;
             };
-            if given && length != count {
-                return damaged(format!("{label} has {count} positions and {length} {what}"));
+            let uvs: Vec<[f32; 2]> = self.floats(index.value(), &format!("UV set {set} of {label}"))?;
+            check("texture coordinates", uvs.len())?;
+            let mut own = || {
+                if set == framed_set {
+                    std::mem::take(&mut tangents)
+                } else {
+                    Vec::new()
+                }
+            };
+            if set != self.uv_set {
+                let tangents = own();
+                piece.texture_uvs.push(TextureUvs { set, uvs, tangents });
+            } else {
+                piece.uvs = uvs;
+                piece.tangents = own();
             }
+        }
+        if piece.uvs.is_empty() && piece.texture_uvs.is_empty() {
+            piece.tangents = tangents;
         }
         Ok(())
     }
@@ -175,6 +200,14 @@ fn complete(outcome: &mut Outcome, label: &str) {
         ));
     }
     tangents::complete(piece, label, warnings);
+    let normal = piece.normal_set;
+    for index in 0..piece.texture_uvs.len() {
+        if Some(piece.texture_uvs[index].set) == normal {
+            piece.swap_set(index);
+            tangents::complete(piece, label, warnings);
+            piece.swap_set(index);
+        }
+    }
 }
 
 /// Says that the chosen UV set is nowhere, unless no set at all is what the default set may mean.

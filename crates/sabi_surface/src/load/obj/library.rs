@@ -135,7 +135,7 @@ impl Library {
             image,
             wrap: [wrap; 2],
             transform,
-            on_loaded_uv_set: true,
+            uv_set: 0,
         })
     }
 

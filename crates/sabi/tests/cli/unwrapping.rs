@@ -1,0 +1,112 @@
+//! Models without UVs, and models whose charts share places.
+
+use serde_json::Value as Json;
+
+use crate::place::{Place, graph};
+
+/// A cube of two materials without texture coordinates; of the second, one face has some.
+const BARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+    usemtl wood\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nusemtl steel\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+/// Two squares that face away from each other, in one place of the unit square.
+const STACKED: &str = "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\n\
+    vt 0.1 0.1\nvt 0.9 0.1\nvt 0.9 0.9\nvt 0.1 0.9\nf 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n";
+
+/// 1 where the surface faces +z, 0 where it faces away.
+const FRONT: &str = r#"    "front": { "kind": "surface/direction", "params": { "toward": [0, 0, 1] } },
+    "out": { "kind": "output/mask", "inputs": { "source": "front" } }"#;
+
+fn json(text: &str) -> Json {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+#[test]
+fn a_model_without_uvs_is_baked_onto_one_sheet_for_all_its_materials() {
+    let place = Place::new();
+    place.write("bare.obj", BARE);
+    let run = place
+        .bake("rust.sabi", "bare.obj", &["--report", "out/report.json"])
+        .good();
+    assert!(
+        run.stderr
+            .contains("The model has no UVs, so it was unwrapped onto one sheet for all its materials."),
+        "{}",
+        run.stderr
+    );
+    let maps = place.listing("out");
+    assert!(maps.contains(&"bare_base_color.png".to_owned()), "{maps:?}");
+    assert!(
+        !maps.iter().any(|map| map.contains("wood") || map.contains("steel")),
+        "{maps:?}"
+    );
+    let report = json(std::str::from_utf8(&place.read("out/report.json")).unwrap());
+    let unwrapped = &report["mesh"]["unwrapped"];
+    assert_eq!(unwrapped["uv_set"], 0);
+    assert_eq!(unwrapped["gap_texels"].as_f64(), Some(4.0));
+    assert_eq!(report["mesh"]["overlap"]["texels"], 0);
+    // Again, from the disk cache, and with one thread.
+    let before = place.read("out/bare_base_color.png");
+    place.bake("rust.sabi", "bare.obj", &["-o", "again"]).good();
+    assert_eq!(place.read("again/bare_base_color.png"), before);
+    place
+        .bake("rust.sabi", "bare.obj", &["-o", "anew", "--no-cache"])
+        .good();
+    assert_eq!(place.read("anew/bare_base_color.png"), before);
+}
+
+#[test]
+fn a_model_with_uvs_in_part_is_unwrapped_as_a_whole() {
+    let place = Place::new();
+    let part = BARE.replace("f 4 1 5 8", "vt 0.2 0.2\nvt 0.8 0.2\nvt 0.8 0.8\nf 4/1 1/2 5/3 8/3");
+    place.write("part.obj", part);
+    let run = place.sabi(&["mesh", "part.obj", "--size", "64", "--json"]).good();
+    assert!(
+        run.stderr.contains("so all of it was unwrapped anew onto one sheet"),
+        "{}",
+        run.stderr
+    );
+    let mesh = json(&run.stdout);
+    // The set that some of it has stays where it was.
+    assert_eq!(mesh["unwrapped"]["uv_set"], 1);
+    assert!(mesh["charts"].as_u64() >= Some(2), "two materials at least: {mesh}");
+}
+
+#[test]
+fn charts_that_share_a_place_get_the_first_result_their_mean_or_places_of_their_own() {
+    let place = Place::new();
+    place.write("stacked.obj", STACKED);
+    place.write(
+        "front.sabi",
+        graph(FRONT)
+            .replace("clouds.gain", "front.reach")
+            .replace("clouds.mode", "front.fade"),
+    );
+    let baked = |overlap: &str| {
+        let run = place.bake("front.sabi", "stacked.obj", &["--overlap", overlap, "--json"]);
+        let run = run.good();
+        (json(&run.stdout), run.stderr)
+    };
+    let constant = |report: &Json| report["constants"][0]["value"].as_f64();
+    let (first, told) = baked("first");
+    assert_eq!(constant(&first), Some(1.0), "{first}");
+    let overlap = &first["mesh"]["overlap"];
+    assert_eq!(
+        (&overlap["share"], &overlap["stacked"]),
+        (&Json::from(1.0), &Json::from(1))
+    );
+    assert_eq!(overlap["materials"][0]["material"], "stacked");
+    assert!(
+        told.contains(
+            "UV charts overlap on 100.0 % of the surface (1 stacked), most of all in 'stacked': maps hold the first one's \
+             result there; --overlap merge takes the mean of all, --overlap unwrap gives each a place of its own"
+        ),
+        "{told}"
+    );
+    let (merged, _) = baked("merge");
+    assert_eq!(constant(&merged), Some(0.5), "{merged}");
+    let (apart, told) = baked("unwrap");
+    assert_eq!(apart["mesh"]["overlap"]["texels"], 0);
+    assert_eq!(apart["mesh"]["unwrapped"]["uv_set"], 1);
+    assert_eq!(constant(&apart), None, "black and white side by side");
+    assert!(!told.contains("overlap"), "{told}");
+}

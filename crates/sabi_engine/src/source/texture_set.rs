@@ -1,0 +1,61 @@
+//! Points of the surface as the model's own textures see them: each through the UV set that it is laid out by.
+
+use sabi_surface::model::TextureUvs;
+
+use super::sampler::Footprint;
+use super::texels::{Frame, Ground, Spot};
+
+impl Ground<'_> {
+    /// What a texel covers of a picture that is laid out like the atlas, or by another set.
+    pub(super) fn footprint(&self, spot: &Spot, other: Option<&TextureUvs>) -> Footprint {
+        let width = 1.0 / f64::from(self.atlas.size);
+        let steps = [[width, 0.0], [0.0, width]];
+        let Some(other) = other else {
+            return Footprint { uv: spot.uv, steps };
+        };
+        let corners = self.corners(spot).map(|corner| other.uvs[corner].map(f64::from));
+        let at = |[u, v]: [f64; 2]| blend(self.weights(spot, [spot.uv[0] + u, spot.uv[1] + v]), corners);
+        let uv = at([0.0; 2]);
+        let steps = steps.map(|step| {
+            let ahead = at(step);
+            [ahead[0] - uv[0], ahead[1] - uv[1]]
+        });
+        Footprint { uv, steps }
+    }
+
+    /// The frame in which a normal map of the atlas' layout is meant, or one of another set.
+    pub(super) fn frame_of(&self, spot: &Spot, other: Option<&TextureUvs>) -> Frame {
+        let Some(other) = other.filter(|other| !other.tangents.is_empty()) else {
+            return self.frame(spot);
+        };
+        let (corners, weights) = (self.corners(spot), self.weights(spot, spot.uv));
+        let tangents = corners.map(|corner| other.tangents[corner].map(f64::from));
+        let [x, y, z, _] = blend(weights, tangents);
+        let normals = corners.map(|corner| self.model.mesh.normals[corner].map(f64::from));
+        Frame::new(blend(weights, normals), [x, y, z], tangents[0][3])
+    }
+
+    fn corners(&self, spot: &Spot) -> [usize; 3] {
+        self.model.mesh.triangles[spot.triangle].map(|corner| corner as usize)
+    }
+
+    /// Weights of the second and third corner at a place of the atlas' layout; none for a triangle without area there.
+    fn weights(&self, spot: &Spot, uv: [f64; 2]) -> [f64; 2] {
+        let [a, b, c] = self
+            .corners(spot)
+            .map(|corner| self.model.mesh.uvs[corner].map(f64::from));
+        let from_a = |to: [f64; 2]| [to[0] - a[0], to[1] - a[1]];
+        let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+        let (ab, ac, at) = (from_a(b), from_a(c), from_a(uv));
+        let area = cross(ab, ac);
+        if area == 0.0 {
+            return [0.0; 2];
+        }
+        [cross(at, ac) / area, cross(ab, at) / area]
+    }
+}
+
+/// What the corners have, weighted.
+fn blend<const N: usize>([second, third]: [f64; 2], [a, b, c]: [[f64; N]; 3]) -> [f64; N] {
+    std::array::from_fn(|at| a[at] + (b[at] - a[at]) * second + (c[at] - a[at]) * third)
+}

@@ -1,0 +1,61 @@
+//! Why a mesh cannot be unwrapped.
+
+use super::UnwrapOptions;
+use crate::model::Mesh;
+
+/// Why a mesh cannot be unwrapped, as a sentence to the person who can change it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum UnwrapError {
+    /// Nothing to put on a sheet.
+    #[error("the model has no triangles, so there is no surface to work on; choose a model with faces")]
+    NoTriangles,
+    /// Nothing that would cover a texel.
+    #[error(
+        "no triangle of the model has an area, so there is no surface to work on; look for a scale of zero in your \
+         modeling program"
+    )]
+    NoArea,
+    /// The mesh contradicts itself.
+    #[error("the mesh is damaged: {what}; export the model again")]
+    BrokenMesh {
+        /// What does not fit.
+        what: String,
+    },
+    /// Size outside of what is supported.
+    #[error("a size of {size} texels was asked for, but it has to be between 16 and 16384")]
+    SizeOutOfRange {
+        /// Texels asked for.
+        size: u32,
+    },
+}
+
+/// Refuses what no step after this could work with.
+pub(super) fn check(mesh: &Mesh, options: &UnwrapOptions) -> Result<(), UnwrapError> {
+    let size = options.size;
+    if !(16..=16384).contains(&size) {
+        return Err(UnwrapError::SizeOutOfRange { size });
+    }
+    let triangles = mesh.triangles.len();
+    if triangles == 0 {
+        return Err(UnwrapError::NoTriangles);
+    }
+    let broken = |what: String| Err(UnwrapError::BrokenMesh { what });
+    let vertices = mesh.positions.len();
+    if mesh.triangle_material.len() != triangles || mesh.triangle_part.len() != triangles {
+        return broken("not every triangle has a material and a part".to_owned());
+    }
+    if triangles >= (1 << 30) {
+        return broken(format!("{triangles} triangles are more than can be numbered"));
+    }
+    let mut corners = mesh.triangles.iter().flatten();
+    if let Some(bad) = corners.find(|&&vertex| vertex as usize >= vertices) {
+        return broken(format!("a triangle names vertex {bad} of {vertices}"));
+    }
+    if mesh.positions.as_flattened().iter().any(|value| !value.is_finite()) {
+        return broken("a position is no number".to_owned());
+    }
+    if (0..triangles as u32).all(|triangle| super::sheet::area(mesh, triangle) <= 0.0) {
+        return Err(UnwrapError::NoArea);
+    }
+    Ok(())
+}

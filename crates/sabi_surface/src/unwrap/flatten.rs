@@ -1,0 +1,150 @@
+//! Pieces cut into charts and laid flat, by the crate `uvunwrap`.
+
+use rayon::prelude::*;
+
+use super::pieces::Piece;
+use super::sheet::area;
+use crate::model::Mesh;
+
+/// Charts of pieces with more triangles than this are kept small: to lay one flat takes time that grows faster than it.
+const LARGE: usize = 12_000;
+/// About how many triangles a chart of a large piece has at most.
+const CHART_TRIANGLES: f64 = 3_000.0;
+
+/// Triangles laid flat together.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FlatChart {
+    pub(super) triangles: Vec<u32>,
+    /// Their corners in model units, counter-clockwise where u goes right and v goes down, that is as a picture is seen.
+    pub(super) corners: Vec<[[f64; 2]; 3]>,
+}
+
+/// All charts of a mesh.
+pub(super) struct Flattened {
+    pub(super) charts: Vec<FlatChart>,
+    /// Pieces that were worked out; the others are copies of those.
+    pub(super) distinct: u32,
+}
+
+/// Lays all pieces flat, those that are alike once. Triangles without area are on no chart.
+pub(super) fn flatten(mesh: &Mesh, pieces: &[Piece]) -> Flattened {
+    let is_first = |&index: &usize| pieces[index].like.0 == index;
+    let firsts: Vec<usize> = (0..pieces.len()).filter(is_first).collect();
+    let worked_out: Vec<Vec<LocalChart>> = firsts
+        .par_iter()
+        .map(|&index| charts_of(mesh, &pieces[index]))
+        .collect();
+    let mut charts = Vec::new();
+    for piece in pieces {
+        let (first, factor) = piece.like;
+        let Ok(at) = firsts.binary_search(&first) else { continue };
+        charts.extend(worked_out[at].iter().map(|(members, corners)| {
+            FlatChart {
+                triangles: members.iter().map(|&member| piece.triangles[member as usize]).collect(),
+                corners: corners
+                    .iter()
+                    .map(|triangle| triangle.map(|corner| corner.map(|value| value * factor)))
+                    .collect(),
+            }
+        }));
+    }
+    Flattened {
+        charts,
+        distinct: firsts.len() as u32,
+    }
+}
+
+/// Places in a piece's list of triangles, and their corners.
+type LocalChart = (Vec<u32>, Vec<[[f64; 2]; 3]>);
+
+fn charts_of(mesh: &Mesh, piece: &Piece) -> Vec<LocalChart> {
+    // One triangle needs no solver, and a soup of a million of them no million calls.
+    if let [triangle] = piece.triangles[..] {
+        return one_by_one(mesh, &[triangle]);
+    }
+    unwrapped(mesh, piece).unwrap_or_else(|| one_by_one(mesh, &piece.triangles))
+}
+
+fn unwrapped(mesh: &Mesh, piece: &Piece) -> Option<Vec<LocalChart>> {
+    let positions: Vec<[f32; 3]> = piece
+        .vertices
+        .iter()
+        .map(|&vertex| mesh.positions[vertex as usize])
+        .collect();
+    let (low, high) = positions
+        .iter()
+        .fold(([f32::MAX; 3], [f32::MIN; 3]), |(low, high), at| {
+            (
+                [0, 1, 2].map(|axis| low[axis].min(at[axis])),
+                [0, 1, 2].map(|axis| high[axis].max(at[axis])),
+            )
+        });
+    let side = [0, 1, 2].map(|axis| f64::from(high[axis]) - f64::from(low[axis]));
+    let longest = side.into_iter().fold(0.0, f64::max);
+    // In steps of the longest side, so that very small and very large models are the same to the solver.
+    let scale = 1.0 / longest;
+    let total: f64 = piece.triangles.iter().map(|&triangle| area(mesh, triangle)).sum();
+    let count = piece.triangles.len();
+    let limit = total * scale * scale * CHART_TRIANGLES / count as f64;
+    let options = uvunwrap::Options {
+        density: uvunwrap::Density::Fixed {
+            texels_per_unit: TEXELS,
+            page_size: None,
+        },
+        padding: 0,
+        allow_rotation: false,
+        packing: uvunwrap::Packing::Fast,
+        max_chart_area: if count > LARGE { limit as f32 } else { 0.0 },
+        ..uvunwrap::Options::default()
+    };
+    let input = uvunwrap::MeshInput {
+        scale: scale as f32,
+        ..uvunwrap::MeshInput::new(&positions, &piece.corners)
+    };
+    let found = uvunwrap::generate(&[input], &options).ok()?;
+    let unit = 1.0 / (f64::from(TEXELS) * f64::from(scale as f32));
+    let page = [f64::from(found.width) * unit, f64::from(found.height) * unit];
+    charts(mesh, piece, found.meshes.first()?, page)
+}
+
+/// Resolution in which the crate hands over its charts, texels for the longest side of a piece; they are not rounded to it.
+const TEXELS: f32 = 512.0;
+
+/// The crate's result sorted by chart. Its triangles have a positive area in (u, v), which is clockwise in a picture.
+fn charts(mesh: &Mesh, piece: &Piece, found: &uvunwrap::OutputMesh, page: [f64; 2]) -> Option<Vec<LocalChart>> {
+    let mut by_chart: std::collections::BTreeMap<u32, LocalChart> = std::collections::BTreeMap::new();
+    for (member, corners) in found.indices.as_chunks::<3>().0.iter().enumerate() {
+        let vertices = corners.map(|corner| found.vertices.get(corner as usize));
+        let [Some(a), Some(b), Some(c)] = vertices else {
+            return None;
+        };
+        if area(mesh, piece.triangles[member]) <= 0.0 {
+            continue;
+        }
+        let place =
+            |vertex: &uvunwrap::OutputVertex| [f64::from(vertex.uv[0]) * page[0], -f64::from(vertex.uv[1]) * page[1]];
+        // Too thin for the solver: it lies on a chart's border, without area.
+        let Some(chart) = a.chart else { continue };
+        let entry = by_chart.entry(chart).or_default();
+        entry.0.push(member as u32);
+        entry.1.push([a, b, c].map(place));
+    }
+    Some(by_chart.into_values().collect())
+}
+
+/// Every triangle as a chart of its own, in its own plane: what is left for a piece that nothing can lay flat.
+fn one_by_one(mesh: &Mesh, triangles: &[u32]) -> Vec<LocalChart> {
+    let with_area = (0..triangles.len() as u32).filter(|&member| area(mesh, triangles[member as usize]) > 0.0);
+    with_area
+        .map(|member| {
+            let corners = mesh.triangles[triangles[member as usize] as usize];
+            let [a, b, c] = corners.map(|vertex| glam::DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+            let (ab, ac) = (b - a, c - a);
+            let along = ab / ab.length();
+            let height = (ac - along * ac.dot(along)).length();
+            // Counter-clockwise as seen is upward, against v.
+            let flat = [[0.0, 0.0], [ab.length(), 0.0], [ac.dot(along), -height]];
+            (vec![member], vec![flat])
+        })
+        .collect()
+}

@@ -1,0 +1,4 @@
+//! Promises of unwrapping, each on small meshes.
+
+mod promises;
+mod shapes;
