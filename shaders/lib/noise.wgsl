@@ -27,16 +27,19 @@ fn turn_of(angle: vec3f) -> Turn {
     );
 }
 
-/// The place in the noise's own space: turns the pattern by `rotate` (radians; about x, then y, then z) and draws it
-/// out by `stretch` along its own axes.
-fn noise_place(position: vec3f, stretch: vec3f, rotate: vec3f) -> vec3f {
+/// A direction of the model in the noise's own axes, which `rotate` has turned (radians; about x, then y, then z).
+fn noise_direction(direction: vec3f, rotate: vec3f) -> vec3f {
     let turn = turn_of(rotate);
     // The pattern is turned forward by looking it up backward: z first, then y, then x.
-    var p = position;
+    var p = direction;
     p = vec3f(turn.cosine.z * p.x + turn.sine.z * p.y, turn.cosine.z * p.y - turn.sine.z * p.x, p.z);
     p = vec3f(turn.cosine.y * p.x - turn.sine.y * p.z, p.y, turn.cosine.y * p.z + turn.sine.y * p.x);
-    p = vec3f(p.x, turn.cosine.x * p.y + turn.sine.x * p.z, turn.cosine.x * p.z - turn.sine.x * p.y);
-    return p / stretch;
+    return vec3f(p.x, turn.cosine.x * p.y + turn.sine.x * p.z, turn.cosine.x * p.z - turn.sine.x * p.y);
+}
+
+/// The place in the noise's own space: turns the pattern by `rotate` and draws it out by `stretch` along its own axes.
+fn noise_place(position: vec3f, stretch: vec3f, rotate: vec3f) -> vec3f {
+    return noise_direction(position, rotate) / stretch;
 }
 
 /// The factor by which `stretch` changes the finest wavelength.

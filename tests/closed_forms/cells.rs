@@ -1,6 +1,6 @@
-//! `noise/cells` against all points of the 7 × 7 × 7 cells around, on the processor.
+//! `noise/cells` and `noise/cracks` against all points of the 7 × 7 × 7 cells around, on the processor.
 
-use glam::{DVec3, IVec3, UVec3, Vec3, ivec3};
+use glam::{DMat3, DVec3, IVec3, UVec3, Vec3, dvec2, dvec3, ivec3};
 use sabi_tests::{OnMesh, project};
 
 /// The hash of `lib/hash.wgsl`, written again: Jarzynski and Olano, "Hash Functions for GPU Rendering" (2020).
@@ -42,60 +42,191 @@ fn point(cell: IVec3, seed: u32, jitter: f32) -> (Vec3, u32) {
     let folded: UVec3 = cell.as_uvec3() & UVec3::splat(65_535);
     let parts = folded.to_array();
     let random = pcg3d([0, 1, 2].map(|axis| parts[axis].wrapping_add(key[axis])));
-    let unit = |bits: u32| (bits >> 8) as f32 / 16_777_216.0;
     (
         Vec3::splat(0.5) + jitter * (Vec3::from(random.map(unit)) - 0.5),
         random[0],
     )
 }
 
-/// Distance to the nearest of 343 points, and its value.
-fn brute_force(position: DVec3, size: f64, seed: u32, jitter: f32) -> (f32, f32) {
-    let place = position / size + DVec3::new(0.2713, 0.3137, 0.2299);
-    let cell = place.floor().as_ivec3();
-    let inside = (place - place.floor()).as_vec3();
-    let mut nearest = (f32::INFINITY, 0);
-    for at in 0..343 {
-        let step = ivec3(at % 7 - 3, at / 7 % 7 - 3, at / 49 - 3);
-        let (point, id) = point(cell + step, seed, jitter);
-        let distance = (point + step.as_vec3()).distance(inside);
-        if distance < nearest.0 {
-            nearest = (distance, id);
-        }
-    }
-    (nearest.0, (nearest.1 >> 8) as f32 / 16_777_216.0)
+/// Where the cells stand and how they are drawn out.
+struct Pattern {
+    size: f64,
+    own_seed: u32,
+    jitter: f32,
+    stretch: DVec3,
+    /// Degrees.
+    rotate: DVec3,
 }
 
-/// Places looked at.
-const PLACES: usize = 10_000;
+impl Pattern {
+    fn params(&self) -> String {
+        let list = |v: DVec3| format!("[{}, {}, {}]", v.x, v.y, v.z);
+        format!(
+            r#""size": {}, "seed": {}, "jitter": {}, "stretch": {}, "rotate": {}"#,
+            self.size,
+            self.own_seed,
+            self.jitter,
+            list(self.stretch),
+            list(self.rotate)
+        )
+    }
+
+    /// Turns the pattern about x, then y, then z.
+    fn turn(&self) -> DMat3 {
+        let [x, y, z] = self.rotate.to_array().map(f64::to_radians);
+        DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x)
+    }
+
+    /// All points around, as seen from the place, with their random numbers, the nearest first.
+    fn around(&self, position: DVec3) -> Vec<(DVec3, u32)> {
+        let place = self.turn().transpose() * position / self.stretch / self.size + DVec3::new(0.2713, 0.3137, 0.2299);
+        let cell = place.floor().as_ivec3();
+        let mut points: Vec<(DVec3, u32)> = (0..343)
+            .map(|at| {
+                let step = ivec3(at % 7 - 3, at / 7 % 7 - 3, at / 49 - 3);
+                let (point, id) = point(cell + step, effective_seed(self.own_seed), self.jitter);
+                (point.as_dvec3() + (cell + step).as_dvec3() - place, id)
+            })
+            .collect();
+        let nearest = (0..343).min_by(|a, b| points[*a].0.length().total_cmp(&points[*b].0.length()));
+        points.swap(0, nearest.unwrap_or(0));
+        points
+    }
+
+    /// Distance along a plane to the nearest plane in the middle between the nearest point and another one, and the way
+    /// there.
+    fn nearest_wall(&self, points: &[(DVec3, u32)], normal: DVec3) -> (f64, DVec3) {
+        let own = points[0].0;
+        let away = |(other, _): &(DVec3, u32)| {
+            let between = *other - own;
+            let across = between.normalize();
+            // The wall's normal in the model, and how steeply the distance grows along the plane.
+            let slope = self.turn() * (across / self.stretch) / self.size;
+            let along = slope - normal * slope.dot(normal);
+            let steep = along.length().max(0.2 * slope.length());
+            ((0.5 * (own + *other)).dot(across) / steep, along)
+        };
+        let walls = points[1..].iter().map(away);
+        let (distance, way) = walls
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .unwrap_or((f64::INFINITY, DVec3::X));
+        (distance, way.normalize())
+    }
+}
+
+fn unit(bits: u32) -> f32 {
+    (bits >> 8) as f32 / 16_777_216.0
+}
+
+fn patterns() -> [Pattern; 4] {
+    let pattern = |jitter: f32, own_seed: u32, size: f64, stretch: DVec3, rotate: DVec3| Pattern {
+        size,
+        own_seed,
+        jitter,
+        stretch,
+        rotate,
+    };
+    [
+        pattern(1.0, 0, 0.12, DVec3::ONE, DVec3::ZERO),
+        pattern(0.6, 7, 0.15, DVec3::ONE, DVec3::ZERO),
+        pattern(0.0, 3, 0.2, DVec3::ONE, DVec3::ZERO),
+        pattern(1.0, 5, 0.1, dvec3(1.0, 2.0, 3.0), dvec3(20.0, -35.0, 50.0)),
+    ]
+}
+
+/// Places looked at for each pattern.
+const PLACES: usize = 100_000;
+/// At this size the cube owns more than that.
+const SIZE: u32 = 512;
+
+fn on_cube(kind: &str, params: &str) -> OnMesh {
+    let graph = format!(
+        r#"{{ "format": "sabi", "version": 1, "nodes": {{ "noise": {{ "kind": "noise/{kind}", "params": {{ {params} }} }} }} }}"#
+    );
+    OnMesh::new(&graph, &project("assets/meshes/cube.glb"), SIZE)
+}
+
+/// Texels to look at, and their triangles.
+fn places(on_mesh: &OnMesh) -> Vec<(usize, u32)> {
+    let owned: Vec<(usize, u32)> = on_mesh.owned().collect();
+    assert!(owned.len() >= PLACES, "{} texels", owned.len());
+    let step = owned.len() / PLACES;
+    owned.into_iter().step_by(step).take(PLACES).collect()
+}
 
 #[test]
 fn cells_find_the_nearest_point_of_all() {
-    for (jitter, own_seed, size) in [(1.0_f32, 0_u32, 0.12), (0.6, 7, 0.15), (0.0, 3, 0.2)] {
-        let graph = format!(
-            r#"{{ "format": "sabi", "version": 1, "nodes": {{ "cells": {{ "kind": "noise/cells",
-                "params": {{ "size": {size}, "jitter": {jitter}, "seed": {own_seed} }} }} }} }}"#
-        );
-        let mut on_mesh = OnMesh::new(&graph, &project("assets/meshes/cube.glb"), 256);
-        let distances = on_mesh.evaluate("cells").component("mask");
-        let ids = on_mesh.evaluate("cells.id").component("mask");
-        let owned: Vec<usize> = on_mesh.owned().map(|(index, _)| index).collect();
-        assert!(owned.len() >= PLACES, "{} texels", owned.len());
-        let longest = 0.866_025_4 + (1.0 - 0.866_025_4) * jitter;
+    for pattern in patterns() {
+        let mut on_mesh = on_cube("cells", &pattern.params());
+        let distances = on_mesh.evaluate("noise").component("mask");
+        let ids = on_mesh.evaluate("noise.id").component("mask");
+        let jitter = pattern.jitter;
+        let longest = 0.866_025_4 + (1.0 - 0.866_025_4) * f64::from(jitter);
         let mut other_ids = 0;
-        for index in owned.iter().step_by(owned.len() / PLACES).take(PLACES) {
-            let position = on_mesh.position(*index).expect("an owned texel");
-            let (distance, id) = brute_force(position, size, effective_seed(own_seed), jitter);
-            let expected = (distance / longest).min(1.0);
-            let got = distances[*index];
+        for (index, _) in places(&on_mesh) {
+            let position = on_mesh.position(index).expect("an owned texel");
+            let (offset, id) = pattern.around(position)[0];
+            let expected = (offset.length() / longest).min(1.0);
+            let got = f64::from(distances[index]);
             assert!(
                 (expected - got).abs() < 2e-5,
                 "jitter {jitter} at {position}: {got}, not {expected}"
             );
-            other_ids += usize::from((id - ids[*index]).abs() > 1e-6);
+            other_ids += usize::from((unit(id) - ids[index]).abs() > 1e-6);
         }
         // Where two points are equally far, rounding decides which one is nearer.
         let allowed = if jitter > 0.0 { PLACES / 1000 } else { PLACES / 50 };
         assert!(other_ids <= allowed, "jitter {jitter}: {other_ids} other cells");
+    }
+}
+
+/// The share of a crack that a square texel sees whose sides are these wide across it, by adding up 32 × 32 parts.
+fn seen(distance: f64, [inner, outer]: [f64; 2], sides: [f64; 2]) -> f64 {
+    let middle = |at: u32| (f64::from(at) + 0.5) / 32.0 - 0.5;
+    let part = |at: u32| {
+        let away = (distance + sides[0] * middle(at % 32) + sides[1] * middle(at / 32)).abs();
+        ((outer - away) / (outer - inner)).clamp(0.0, 1.0)
+    };
+    (0..1024).map(part).sum::<f64>() / 1024.0
+}
+
+#[test]
+fn cracks_are_where_the_nearest_wall_of_all_is() {
+    // So wide and soft that the mask tells the distance wherever there is a wall.
+    const FADE: f64 = 100.0;
+    for pattern in patterns() {
+        let width = 0.4 * pattern.size;
+        let params = format!(r#"{}, "width": {width}, "fade": {FADE}"#, pattern.params());
+        let mut on_mesh = on_cube("cracks", &params);
+        let cracks = on_mesh.evaluate("noise").component("mask");
+        let ids = on_mesh.evaluate("noise.id").component("mask");
+        let borders = [width / (1.0 + FADE), width * FADE / (1.0 + FADE)];
+        let mut other_ids = 0;
+        for (index, triangle) in places(&on_mesh) {
+            let position = on_mesh.position(index).expect("an owned texel");
+            let [_, x, y] = on_mesh.texel(index);
+            let at = dvec2(f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let [tangent, bitangent, normal] = on_mesh.frame_at(triangle, at).map(DVec3::normalize);
+            let texel = f64::from(on_mesh.tables.geometry[6 * triangle as usize + 2][3].abs());
+            let points = pattern.around(position);
+            let (distance, way) = pattern.nearest_wall(&points, normal);
+            let sides = [tangent, bitangent].map(|side| texel * side.dot(way));
+            let expected = seen(distance, borders, sides);
+            let got = f64::from(cracks[index]);
+            // In the middle and at the ends, where the profile has a kink, the node takes the mean of two windows for that
+            // over the texel.
+            assert!(
+                (expected - got).abs() < 3e-3,
+                "size {} at {position}: {got}, not {expected}",
+                pattern.size
+            );
+            other_ids += usize::from((unit(points[0].1) - ids[index]).abs() > 1e-6);
+        }
+        let allowed = if pattern.jitter > 0.0 {
+            PLACES / 1000
+        } else {
+            PLACES / 50
+        };
+        assert!(other_ids <= allowed, "size {}: {other_ids} other pieces", pattern.size);
     }
 }

@@ -4,6 +4,7 @@ mod blending;
 mod cells;
 mod colors;
 mod curves;
+mod marks;
 mod materials;
 mod noise;
 mod predecessor;

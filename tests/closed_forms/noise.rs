@@ -84,6 +84,9 @@ fn seeds_are_independent() {
         ("noise/simplex", r#""size": 0.02, "octaves": 1"#),
         ("noise/white", r#""size": 0.012"#),
         ("noise/cells", r#""size": 0.022"#),
+        ("noise/cracks", r#""size": 0.03, "width": 0.006"#),
+        ("noise/dots", r#""size": 0.008, "spacing": 0.016"#),
+        ("noise/scratches", r#""density": 1, "length": 0.05, "width": 0.004"#),
     ];
     for (kind, params) in noises {
         let of_seed = |seed: u32| owned_values(kind, &format!(r#"{params}, "seed": {seed}"#), 512);
@@ -154,5 +157,42 @@ fn simplex_noise_is_the_same_along_every_axis() {
     let mean = steepness.iter().sum::<f64>() / 3.0;
     for steep in steepness {
         assert!((steep / mean - 1.0).abs() < 0.05, "{steepness:?}");
+    }
+}
+
+#[test]
+fn marks_finer_than_the_texels_are_their_mean() {
+    // Far below the size at which any of them is seen by itself; the model is the sphere, so every direction counts.
+    for (kind, params) in [
+        ("cells", r#""size": 0.0625"#),
+        ("cracks", r#""size": 0.05, "width": 0.004"#),
+        ("cracks", r#""size": 0.05, "width": 0.008, "jitter": 0.3"#),
+        ("dots", r#""size": 0.02, "spacing": 0.06"#),
+        ("dots", r#""size": 0.06, "spacing": 0.06, "variation": 0"#),
+        (
+            "dots",
+            r#""size": 0.04, "spacing": 0.06, "variation": 1, "sharpness": 0"#,
+        ),
+        ("scratches", r#""length": 0.1, "width": 0.003"#),
+        ("scratches", r#""length": 0.1, "width": 0.003, "density": 1"#),
+    ] {
+        for port in if kind == "cracks" || kind == "scratches" {
+            &["mask", "height"][..]
+        } else {
+            &["mask"]
+        } {
+            let mean = |size: u32| {
+                let graph = one_node(&format!("noise/{kind}"), params);
+                let mut on_mesh = OnMesh::new(&graph, &project("assets/meshes/sphere.glb"), size);
+                let values = on_mesh.evaluate(&format!("noise.{port}")).component("mask");
+                let owned: Vec<f64> = on_mesh.owned().map(|(index, _)| f64::from(values[index])).collect();
+                owned.iter().sum::<f64>() / owned.len() as f64
+            };
+            let (coarse, fine) = (mean(16), mean(1024));
+            assert!(
+                (coarse - fine).abs() < 0.02,
+                "{kind}, {params}: the mean of {port} is {fine:.4} and is taken for {coarse:.4}"
+            );
+        }
     }
 }

@@ -1,7 +1,10 @@
 //! What every node promises, whatever it makes: numbers, the same ones each time, in range.
 
 use sabi_graph::PortType;
+use sabi_nodes::Library;
+use sabi_nodes::kind::{Kind, Param, ParamType, Role};
 use sabi_tests::{Evaluated, OnMesh};
+use serde_json::{Value, json};
 
 use crate::specimens::{Specimen, for_each, on_own_mesh};
 
@@ -27,6 +30,41 @@ fn every_result_is_a_number_on_charts_and_ghosts() {
     });
 }
 
+/// Settings that put one knob to one of its ends.
+fn ends(kind: &Kind) -> Vec<Value> {
+    let numbers = kind.params.iter().filter(|param| {
+        matches!(param.role, Role::Plain | Role::Length | Role::Angle) && !matches!(param.ty, ParamType::Stops(_))
+    });
+    let both = |param: &Param| {
+        param.range.unwrap_or_default().map(|end| {
+            let value = match param.ty {
+                ParamType::U32 => json!(end as u32),
+                ParamType::I32 => json!(end as i32),
+                _ if param.ty.components() == 1 => json!(end),
+                _ => json!(vec![end; param.ty.components()]),
+            };
+            json!({ param.name.as_str(): value })
+        })
+    };
+    numbers.flat_map(both).collect()
+}
+
+#[test]
+fn every_result_is_a_number_with_any_knob_at_either_end() {
+    let library = Library::builtin();
+    for_each(|specimen| {
+        let mut on_mesh = on_own_mesh(&specimen.alone, "cube", 32);
+        for params in ends(library.kind(&specimen.kind).expect("a built-in kind")) {
+            let mut graph: Value = serde_json::from_str(&specimen.alone).expect("a graph");
+            graph["nodes"]["node"]["params"] = params.clone();
+            on_mesh.set_graph(&graph.to_string());
+            let evaluated = on_mesh.evaluate(&specimen.target());
+            numbers(&on_mesh, &evaluated).map_err(|why| format!("{why}, with {params}"))?;
+        }
+        Ok(())
+    });
+}
+
 #[test]
 fn the_same_graph_gives_the_same_bytes() {
     for_each(|specimen| {
@@ -47,9 +85,10 @@ fn the_same_graph_gives_the_same_bytes() {
 /// Lowest and highest that a component may be while everything is at its default.
 fn bounds(name: &str) -> [f32; 2] {
     match name {
-        // A mask, a color and what a material is made of are shares; half floats round up by at most 2⁻¹¹.
+        // Of a material, or a map for one.
         "height" => [-1.0, 1.0],
         _ if name.starts_with("vector") || name.starts_with("slope") || name.starts_with("normal") => [-1.001, 1.001],
+        // A mask, a color and what a material is made of are shares; half floats round up by at most 2⁻¹¹.
         _ => [0.0, 1.0],
     }
 }
@@ -58,7 +97,8 @@ fn in_bounds(specimen: &Specimen) -> Result<(), String> {
     let mut on_mesh = on_own_mesh(&specimen.alone, "cube", 64);
     let evaluated = on_mesh.evaluate(&specimen.target());
     for (name, values) in evaluated.components() {
-        let [low, high] = bounds(&name);
+        let is_height = specimen.port == "height";
+        let [low, high] = bounds(if is_height { "height" } else { &name });
         if let Some(index) = on_mesh.covered().find(|index| !(low..=high).contains(&values[*index])) {
             return Err(format!("{name} is {}, outside of {low} to {high}", values[index]));
         }

@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::Library;
-use sabi_nodes::kind::{Input, InputDefault, Kind, Role};
+use sabi_nodes::kind::{Input, InputDefault, Kind, ParamValue, Role};
 use sabi_tests::{OnMesh, project};
 use serde_json::{Map, Value, json};
 
@@ -20,7 +20,7 @@ pub(crate) struct Specimen {
     pub(crate) connected: String,
     /// A graph in which only what must be connected is.
     pub(crate) alone: String,
-    /// As `connected`, with a kind's `size` so large that the coarsest maps here carry it.
+    /// As `connected`, with a kind's lengths so large that the coarsest maps here carry them.
     pub(crate) coarse: String,
 }
 
@@ -83,6 +83,9 @@ pub(crate) fn for_each(mut check: impl FnMut(&Specimen) -> Result<(), String>) {
     assert!(complaints.is_empty(), "\n{}\n", complaints.join("\n"));
 }
 
+/// Lengths of a pattern, which grow together.
+const SIZES: [&str; 4] = ["size", "spacing", "length", "width"];
+
 fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
     let mut nodes = Map::new();
     let mut inputs = Map::new();
@@ -104,11 +107,13 @@ fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
     let sized = kind
         .params
         .iter()
-        .find(|param| param.name == "size" && param.role == Role::Length);
-    if let Some(sabi_nodes::kind::ParamValue::Floats(default)) = sized.map(|param| &param.default)
-        && size != 1.0
-    {
-        params.insert("size".to_owned(), json!(f64::from(default[0]) * size));
+        .filter(|param| SIZES.contains(&param.name.as_str()) && param.role == Role::Length);
+    for param in sized {
+        if let ParamValue::Floats(default) = &param.default
+            && size != 1.0
+        {
+            params.insert(param.name.clone(), json!(f64::from(default[0]) * size));
+        }
     }
     nodes.insert(
         "node".to_owned(),

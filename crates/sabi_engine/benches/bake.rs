@@ -143,6 +143,23 @@ fn bench_run(folder: &Path, model: &Path) {
     row("the same without fusion, as a multiple", run(false) / fused, "×", "");
 }
 
+/// Each noise of many points alone: the best of nine runs, on which other work shows least.
+fn bench_noises(folder: &Path, model: &Path) {
+    for kind in ["simplex", "cells", "cracks", "dots", "scratches"] {
+        let nodes = format!(
+            r#""noise": {{ "kind": "noise/{kind}" }}, "out": {{ "kind": "output/mask", "inputs": {{ "source": "noise" }} }}"#
+        );
+        let graph = graph(folder, "noise.sabi", &nodes);
+        let once = || {
+            bake_once(&graph, model, folder, 1024, true, None)["nodes_ms"]["noise"]
+                .as_f64()
+                .unwrap()
+        };
+        let best = (0..9).map(|_| once()).fold(f64::INFINITY, f64::min);
+        row(&format!("noise/{kind} alone at 1024²"), best, "ms", "≤ 60 ms");
+    }
+}
+
 fn bench_atlas(folder: &Path, model: &Path) {
     let options = ModelOptions::new(model, 2048);
     let atlas = |cache: Option<PathBuf>| {
@@ -253,6 +270,7 @@ fn main() {
     let model = peer_model();
     println!("| what | measured | aim |\n|---|---|---|");
     bench_run(folder.path(), &model);
+    bench_noises(folder.path(), &model);
     bench_atlas(folder.path(), &model);
     bench_demo(folder.path());
     bench_planning(folder.path());

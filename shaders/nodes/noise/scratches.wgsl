@@ -1,0 +1,242 @@
+//! Scratches
+//! Bent scratches all over the surface, or along one way: use, transport, brushing, sanding.
+//!
+//! Each scratch is where one side of a thin, slightly bent disk in space cuts the surface: it runs over seams, and ends where
+//! the surface turns away from that side. Some are cut far from the middle of their disk and are shorter and finer.
+//! Scratches thinner than a texel become faint, not dotted.
+//! @alias scratches scratched scrapes brushed sanded grinding wear marks
+//! @use cells lines
+
+struct Params {
+    /// How many scratches there are: 1 is all that there can be.
+    /// @range 0 1 @default 0.5
+    density: f32,
+    /// Length of the longest scratches.
+    /// @length @range 0.0001 100 @soft 0.02 1 @default 0.3
+    length: f32,
+    /// Width of the widest scratches, measured on the surface at half their strength.
+    /// @length @range 0 10 @soft 0.0005 0.02 @default 0.004
+    width: f32,
+    /// How bent the scratches are: how far the ends of the most bent ones stray, as a share of half their length.
+    /// @range 0 1 @default 0.2
+    bend: f32,
+    /// How far from Toward scratches may point, measured from one side to the other. It does nothing without Toward.
+    /// @angle @range 0 180 @default 180
+    spread: f32,
+    /// Draws the scratches out along the pattern's own axes; their width stays.
+    /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
+    stretch: vec3f,
+    /// Turns the pattern about the model's axes: x first, then y, then z.
+    /// @angle @range -360 360 @soft -180 180 @default 0 0 0
+    rotate: vec3f,
+    /// Another number, another pattern of the same kind.
+    /// @seed @default 0
+    seed: u32,
+}
+
+/// The scratches: 1 inside, 0 between them.
+/// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
+/// @input toward The way that scratches follow, in model space; none at all lets them run anywhere. @vector @optional
+/// @default 0 0 0
+fn mask(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
+    let found = scratches(at, position, toward, params);
+    return mix(mean_cover(params), 1.0 - found.clear, seen(at, params));
+}
+
+/// A groove with raised ridges for each scratch: -1 at the bottom of the widest, up to 0.25 on the ridges, 0 between. For
+/// the height map of an effect, whose height is then how deep the scratches are.
+fn height(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
+    let found = scratches(at, position, toward, params);
+    // What is pushed out of a groove is 0.54 of it: that much less than the mask the mean height has.
+    return mix(-0.3 * mean_cover(params), found.low + found.high * (1.0 + found.low), seen(at, params));
+}
+
+/// The way along a scratch, in model space; as long as the scratch is strong, and 0 between scratches.
+/// @vector
+fn direction(at: Surface, position: vec3f, toward: vec3f, params: Params) -> vec3f {
+    let found = scratches(at, position, toward, params);
+    let rotate = params.rotate;
+    let turned = vec3f(
+        dot(noise_direction(vec3f(1.0, 0.0, 0.0), rotate), found.along),
+        dot(noise_direction(vec3f(0.0, 1.0, 0.0), rotate), found.along),
+        dot(noise_direction(vec3f(0.0, 0.0, 1.0), rotate), found.along),
+    );
+    return turned * seen(at, params);
+}
+
+/// A random value for each scratch; 0 between them.
+fn id(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
+    let found = scratches(at, position, toward, params);
+    return select(0.0, unit_random(found.id), found.depth > 0.0);
+}
+
+// Disks in a cube, at most. A cube's side is half the length, which is also the radius of a disk and the unit below.
+const IN_CUBE: f32 = 3.0;
+// How far above the surface the middles of disks may be: only the nearer halves of disks cut, so that a board is not
+// scratched all around.
+const HIGHEST: f32 = 0.7;
+
+struct Disk {
+    // Normal in its middle, in the noise's own axes.
+    normal: vec3f,
+    // Half of the curvature of the sphere that it is part of.
+    bend: f32,
+    // Width of its scratch as a share of the largest.
+    width: f32,
+}
+
+struct Found {
+    // The share that all scratches leave free.
+    clear: f32,
+    low: f32,
+    high: f32,
+    // How far inside of the border of the nearest scratch the place is, and which one that is.
+    depth: f32,
+    id: u32,
+    along: vec3f,
+}
+
+fn seen(at: Surface, params: Params) -> f32 {
+    return carried(params.length * finest_stretch(params.stretch), at.texel_size);
+}
+
+// The covered share of the surface, fitted to what was measured.
+fn mean_cover(params: Params) -> f32 {
+    return 1.0 - exp2(-2.92 * params.density * params.width / params.length);
+}
+
+fn scratches(at: Surface, position: vec3f, toward: vec3f, params: Params) -> Found {
+    let unit = 0.5 * params.length;
+    let place = cells_place(position, unit, params.stretch, params.rotate);
+    let normal = noise_direction(at.normal, params.rotate);
+    let way = noise_direction(toward, params.rotate) / params.stretch;
+    let way_size = length(way);
+    let lead = way / max(way_size, 1e-12);
+    let strays = select(1.0, turn_of(vec3f(0.5 * params.spread)).sine.x, way_size > 1e-6);
+    let key = seed_key(params.seed);
+    // No disk is further away than this, in cubes, if the texel sees its scratch or the ridges beside it.
+    let reach = (params.width + at.texel_size) / (unit * finest_stretch(params.stretch)) * (1.0 + params.bend);
+    // A plane's normal where space is drawn out: disks are looked for on this side only.
+    let up = normalize(normal * params.stretch);
+    var left = disks_around(place, up, key, params.density * IN_CUBE);
+    var found = Found(1.0, 0.0, 0.0, 0.0, 0u, vec3f(0.0));
+    for (var i = 0; i < 81; i++) {
+        let first = select(select(left.z, left.y, left.y != 0u), left.x, left.x != 0u);
+        if first == 0u {
+            break;
+        }
+        let k = select(select(2u, 1u, left.y != 0u), 0u, left.x != 0u);
+        let index = i32(firstTrailingBit(first));
+        left = select(left, left & (left - 1u), vec3u(k) == vec3u(0u, 1u, 2u));
+        let corner = corner_of(index, place);
+        let numbers = cell_random(cell_of(place) + cube_step(index), key);
+        let bits = select(select(numbers.z, numbers.y, k == 1u), numbers.x, k == 0u);
+        let offset = -corner - middle_of(bits);
+        let random = pcg3d(vec3u(bits, 0x85ebca6bu, 0x9e3779b9u));
+        // Few are bent much.
+        let bent = f32(random.y & 65535u) / 32768.0 - 1.0;
+        let disk = Disk(disk_normal(random, lead, strays), bent * abs(bent) * params.bend, own_width(random));
+        let away = dot(disk.normal, offset) - disk.bend * dot(offset, offset);
+        if abs(away) < reach && unit_random(random.z) < params.density * IN_CUBE - f32(k) {
+            add_scratch(&found, disk, offset, away * unit, bits, at, normal, -dot(up, offset), params);
+        }
+    }
+    return found;
+}
+
+// Which disks may cut the surface here: one bit for each of the 27 cubes around, one number for each disk of a cube.
+// Without branches, so that processors can work on several cubes at once.
+fn disks_around(place: vec3f, up: vec3f, key: vec3u, count: f32) -> vec3u {
+    let cell = cell_of(place);
+    var found = vec3u(0u);
+    for (var i = 0; i < 9; i++) {
+        for (var j = 0; j < 3; j++) {
+            let index = 3 * i + j;
+            let corner = corner_of(index, place);
+            let random = cell_random(cell + cube_step(index), key);
+            let x = corner.x + thousandth(random >> vec3u(22u));
+            let y = corner.y + thousandth((random >> vec3u(12u)) & vec3u(1023u));
+            let z = corner.z + thousandth((random >> vec3u(2u)) & vec3u(1023u));
+            let rise = up.x * x + up.y * y + up.z * z;
+            let hits = (x * x + y * y + z * z < vec3f(1.0)) & (rise > vec3f(0.0)) & (rise < vec3f(HIGHEST));
+            found |= select(vec3u(0u), vec3u(1u << u32(index)), hits);
+        }
+    }
+    return select(vec3u(0u), found, vec3f(count) > vec3f(0.0, 1.0, 2.0));
+}
+
+fn cube_step(index: i32) -> vec3i {
+    return vec3i(index % 3, (index / 3) % 3, index / 9) - 1;
+}
+
+// From the place to the corner of a cube.
+fn corner_of(index: i32, place: vec3f) -> vec3f {
+    return vec3f(cube_step(index)) - (place - vec3f(cell_of(place)));
+}
+
+// The middle of a disk in its cube, decided in 1/1024 of it.
+fn middle_of(bits: u32) -> vec3f {
+    return thousandth((vec3u(bits) >> vec3u(22u, 12u, 2u)) & vec3u(1023u));
+}
+
+fn thousandth(bits: vec3u) -> vec3f {
+    return (vec3f(bits) + 0.5) * 0.0009765625;
+}
+
+// Fine ones are more frequent than wide ones.
+fn own_width(random: vec3u) -> f32 {
+    let chance = f32(random.y >> 16u) / 65536.0;
+    return 0.25 + 0.75 * chance * chance;
+}
+
+// The normal of a disk whose plane holds `lead` but for an angle whose sine is at most `strays`.
+fn disk_normal(random: vec3u, lead: vec3f, strays: f32) -> vec3f {
+    // A random direction: even along the axis, and around it by two parabolas for sine and cosine.
+    let z = f32(random.x & 65535u) / 32768.0 - 1.0;
+    let turn = f32(random.x >> 16u) / 32768.0 - 1.0;
+    let turned = turn + select(0.5, -1.5, turn > 0.5);
+    let around = vec2f(turn * (1.0 - abs(turn)), turned * (1.0 - abs(turned)));
+    let even = vec3f(around * sqrt((1.0 - z * z) / dot(around, around)), z);
+    if strays == 1.0 {
+        return even;
+    }
+    // Pressed toward the plane across the way.
+    let high = dot(even, lead);
+    let flat = even - high * lead;
+    let low = strays * high;
+    return flat * sqrt((1.0 - low * low) / max(dot(flat, flat), 1e-12)) + low * lead;
+}
+
+// `above` is how far the middle of the disk is above the surface.
+fn add_scratch(
+    found: ptr<function, Found>, disk: Disk, offset: vec3f, away: f32, id: u32, at: Surface, normal: vec3f, above: f32,
+    params: Params,
+) {
+    // What is left of the slope along the surface turns the distance from the disk to one on the surface.
+    let slope = (disk.normal - 2.0 * disk.bend * offset) / params.stretch;
+    let rise = dot(slope, normal);
+    let whole = dot(slope, slope);
+    let steep = sqrt(max(whole - rise * rise, 1e-12));
+    let distance = abs(away) / steep;
+    // A disk almost along the surface would cut out a patch, not a line.
+    let upright = steep * inverseSqrt(whole);
+    let edge = clamp((upright - 0.3) * 4.0, 0.0, 1.0) * clamp(10.0 * min(above, HIGHEST - above), 0.0, 1.0);
+    let square = dot(offset, offset);
+    // Pointed at its ends.
+    let size = disk.width * edge * (1.0 - square * square);
+    let half = 0.5 * params.width * size;
+    let tangent = noise_direction(at.tangent.xyz, params.rotate);
+    let texel = line_texel(slope - rise * normal, tangent, at.texel_size);
+    let cover = line_cover(distance, 0.6 * half, 1.4 * half, texel);
+    (*found).clear *= 1.0 - cover;
+    let height = size * ridged_height(distance, 1.4 * half, texel);
+    (*found).low = min((*found).low, height);
+    (*found).high = max((*found).high, height);
+    let depth = half - distance;
+    if depth > (*found).depth {
+        (*found).id = id;
+        (*found).depth = depth;
+    }
+    let along = cross(normal, slope) / steep;
+    (*found).along = mix((*found).along, along, cover);
+}
