@@ -142,9 +142,11 @@ fn scratches_are_as_long_and_as_wide_as_asked_for() {
 
 #[test]
 fn scratches_follow_the_way_that_they_are_led() {
-    let toward = dvec3(1.0, 0.4, 0.2).normalize();
+    // Along the plane.
+    let toward = dvec3(1.0, 0.4, 30.0_f64.to_radians().tan()).normalize();
     let [x, y, z] = toward.to_array();
-    for (spread, allowed) in [(0.0, 1.0), (20.0, 25.0)] {
+    // A disk that leans over as far as one may, 17 degrees above the surface, triples the angle.
+    for (spread, allowed) in [(0.0, 1.0), (20.0, 36.0)] {
         let graph = format!(
             r#"{{ "format": "sabi", "version": 1, "nodes": {{ "noise": {{ "kind": "noise/scratches",
                 "params": {{ "toward": [{x}, {y}, {z}],
@@ -203,7 +205,7 @@ fn dots_are_round_of_one_size_and_apart() {
         }
         // The rest lie at the border of the plane, or of the slab that the dots come from.
         assert!(
-            whole as f64 > 0.7 * count,
+            whole as f64 > 0.6 * count,
             "{degrees} degrees: {whole} of {count} are whole"
         );
         let full = on_mesh.owned().filter(|(index, _)| values[*index] > 0.999).count();

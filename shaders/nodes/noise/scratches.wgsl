@@ -36,8 +36,8 @@ struct Params {
 
 /// The scratches: 1 inside, 0 between them.
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
-/// @input toward The way that scratches follow, in model space; none at all lets them run anywhere. @vector @optional
-/// @default 0 0 0
+/// @input toward The way that scratches follow, in model space, where the surface runs along it; none at all lets them run
+/// anywhere. @vector @optional @default 0 0 0
 fn mask(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
     let found = scratches(at, position, toward, params);
     return mix(mean_cover(params), 1.0 - found.clear, seen(at, params));
