@@ -121,6 +121,9 @@ fn an_adjustment_with_nothing_set_or_an_empty_mask_changes_nothing() {
     }
 }
 
+/// What a channel's value becomes.
+type Formula = fn(f32) -> f32;
+
 #[test]
 fn an_adjustment_does_to_each_channel_what_its_name_says() {
     let params = json!({
@@ -130,7 +133,7 @@ fn an_adjustment_does_to_each_channel_what_its_name_says() {
     let node = json!({ "kind": "material/adjust", "inputs": { "material": "varied" }, "params": params });
     let mut on_mesh = on_cube(json!({ "node": node }));
     let (varied, adjusted) = (on_mesh.evaluate("varied"), on_mesh.evaluate("node"));
-    let expected: [(&str, fn(f32) -> f32); 7] = [
+    let expected: [(&str, Formula); 7] = [
         ("base_color.r", |was| 0.75 * was),
         ("alpha", |was| was),
         ("roughness", |was| was + 0.5 * (0.1 - 0.5 * was)),

@@ -11,7 +11,7 @@ use naga::{
     BinaryOperator, Expression, Function, Handle, LocalVariable, MathFunction, Module, Type, TypeInner, UnaryOperator,
 };
 
-use self::needs::{Need, Write, Writes, always, both, either, join};
+use self::needs::{Write, Writes, always, both, channel_write, either, join};
 use super::walk::{Store, calls, is_zero, returns, stores};
 use crate::kind::{Argument, Channel, ChannelWrite, Param};
 use crate::params::params_type;
@@ -87,16 +87,7 @@ pub(super) fn channels(
                 .zip(&reader.channels)
                 .filter(|(_, of)| **of == Some(channel));
             let write = of_channel.fold(None, |known, (write, _)| either(known, write.clone()));
-            let is_param = |need: &Need| matches!(need, Need::Param(_));
-            let (params, inputs) = write?.into_iter().partition::<Vec<_>, _>(is_param);
-            let index = |need| match need {
-                Need::Param(index) | Need::Input(index) => index,
-            };
-            Some(ChannelWrite {
-                channel,
-                unless_off: params.into_iter().map(index).collect(),
-                unless_open: inputs.into_iter().map(index).collect(),
-            })
+            write.map(|needs| channel_write(channel, needs))
         })
         .collect()
 }
@@ -306,20 +297,11 @@ impl<'m> Reader<'m> {
                 either(accept, reject)
             }
             Expression::Math {
-                fun: MathFunction::Mix,
+                fun,
                 arg,
                 arg1: Some(other),
                 ..
-            } => either(
-                self.value(frame, arg, member, depth),
-                self.value(frame, other, member, depth),
-            ),
-            Expression::Math {
-                fun: MathFunction::Max | MathFunction::Min,
-                arg,
-                arg1: Some(other),
-                ..
-            } if zero_is_plain => either(
+            } if fun == MathFunction::Mix || (zero_is_plain && is_one_of_two(fun)) => either(
                 self.value(frame, arg, member, depth),
                 self.value(frame, other, member, depth),
             ),
@@ -384,4 +366,9 @@ impl<'m> Reader<'m> {
         frame.open.pop();
         write
     }
+}
+
+/// Whether the result is one of the two arguments.
+fn is_one_of_two(fun: MathFunction) -> bool {
+    matches!(fun, MathFunction::Max | MathFunction::Min)
 }

@@ -6,7 +6,7 @@ use naga::{BinaryOperator, Expression, Handle, Literal, ScalarKind, UnaryOperato
 
 use super::{Frame, Reader};
 use crate::analysis::walk::conjuncts;
-use crate::kind::{Argument, ParamType, Role};
+use crate::kind::{Argument, Channel, ChannelWrite, ParamType, Role};
 
 /// What must be on, or not zero, for a channel to be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -45,6 +45,23 @@ pub(super) type Writes = Vec<Write>;
 pub(super) fn join(writes: &mut Writes, others: Writes, toggles: &BTreeSet<Need>) {
     for (write, other) in writes.iter_mut().zip(others) {
         *write = either(write.take(), other.map(|other| &other | toggles));
+    }
+}
+
+/// What is told of a channel that may be set.
+pub(super) fn channel_write(channel: Channel, needs: BTreeSet<Need>) -> ChannelWrite {
+    let param = |need: &Need| match need {
+        Need::Param(index) => Some(*index),
+        Need::Input(_) => None,
+    };
+    let input = |need: &Need| match need {
+        Need::Input(index) => Some(*index),
+        Need::Param(_) => None,
+    };
+    ChannelWrite {
+        channel,
+        unless_off: needs.iter().filter_map(param).collect(),
+        unless_open: needs.iter().filter_map(input).collect(),
     }
 }
 
