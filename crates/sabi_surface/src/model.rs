@@ -63,9 +63,12 @@ pub struct TextureUvs {
     pub tangents: Vec<[f32; 4]>,
 }
 
+/// Texture coordinates and tangents of a set, one of each for a vertex.
+pub type SetView<'a> = (&'a [[f32; 2]], &'a [[f32; 4]]);
+
 impl Mesh {
     /// Texture coordinates and tangents of a set of the file; none when it was not loaded.
-    pub fn set(&self, set: u32) -> Option<(&[[f32; 2]], &[[f32; 4]])> {
+    pub fn set(&self, set: u32) -> Option<SetView<'_>> {
         if self.uv_set == Some(set) {
             return Some((&self.uvs, &self.tangents));
         }

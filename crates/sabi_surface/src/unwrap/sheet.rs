@@ -34,6 +34,9 @@ pub(super) fn area(mesh: &Mesh, triangle: u32) -> f64 {
     }
 }
 
+/// Two corners.
+type Edge = [[f64; 2]; 2];
+
 /// A chart with its corner at the origin.
 struct Shape<'a> {
     chart: &'a FlatChart,
@@ -41,7 +44,7 @@ struct Shape<'a> {
     /// Width and height, model units.
     side: [f64; 2],
     /// Edges with one triangle.
-    outline: Vec<[[f64; 2]; 2]>,
+    outline: Vec<Edge>,
 }
 
 impl Shape<'_> {
@@ -54,7 +57,7 @@ impl Shape<'_> {
             }
         }
         let edges = chart.corners.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        let mut keyed: Vec<([[u64; 2]; 2], [[f64; 2]; 2])> = edges
+        let mut keyed: Vec<([[u64; 2]; 2], Edge)> = edges
             .map(|[a, b]| {
                 let mut key = [a, b].map(|corner| corner.map(f64::to_bits));
                 key.sort_unstable();
