@@ -32,9 +32,10 @@ fn every_result_is_a_number_on_charts_and_ghosts() {
 
 /// Settings that put one knob to one of its ends.
 fn ends(kind: &Kind) -> Vec<Value> {
-    let numbers = kind.params.iter().filter(|param| {
-        matches!(param.role, Role::Plain | Role::Length | Role::Angle) && !matches!(param.ty, ParamType::Stops(_))
-    });
+    let numbers = kind
+        .params
+        .iter()
+        .filter(|param| matches!(param.role, Role::Plain | Role::Length | Role::Angle));
     let both = |param: &Param| {
         param.range.unwrap_or_default().map(|end| {
             let value = match param.ty {
