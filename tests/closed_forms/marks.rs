@@ -208,7 +208,8 @@ fn dots_are_round_of_one_size_and_apart() {
             whole as f64 > 0.6 * count,
             "{degrees} degrees: {whole} of {count} are whole"
         );
-        let full = on_mesh.owned().filter(|(index, _)| values[*index] > 0.999).count();
+        // A border widened to a texel takes a little from the middle, so that the area stays.
+        let full = on_mesh.owned().filter(|(index, _)| values[*index] > 0.995).count();
         assert!(
             full as f64 * area > 0.8 * count * 0.2 * size * size,
             "{full} texels are full"
