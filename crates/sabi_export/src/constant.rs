@@ -64,12 +64,30 @@ pub fn constant_value(channel: &Channel, layout: &SetLayout, pixels: &ChannelPix
             low[index] + (high[index] - low[index]) / 2.0
         }
     };
+    let value = |index: usize| match channel {
+        Channel::Height | Channel::Mask(_) | Channel::Normal => middle(index),
+        // The rest has been a half float on its way here.
+        _ => shortest_near(middle(index)),
+    };
     match (same, channel, components) {
         (false, ..) => None,
         (true, Channel::Normal, _) => Some(Value::Triple([0.0, 0.0, 1.0])),
-        (true, _, 3) => Some(Value::Triple(std::array::from_fn(middle))),
-        _ => Some(Value::Number(middle(0))),
+        (true, _, 3) => Some(Value::Triple(std::array::from_fn(value))),
+        _ => Some(Value::Number(value(0))),
     }
+}
+
+/// The decimal number of fewest digits within one step of a half float: drivers may round either way when they store
+/// one, so 0.7 may come back as 0.69970703 or 0.70019531, and both mean 0.7.
+fn shortest_near(value: f32) -> f32 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    // 10 bits behind the leading one; below 2⁻¹⁴ the steps get no smaller.
+    let step = 2.0_f64.powi((f64::from(value).abs().log2().floor() as i32).max(-14) - 10);
+    let decimal = |digits: usize| format!("{value:.digits$e}").parse::<f32>().ok();
+    let near = |short: &f32| (f64::from(*short) - f64::from(value)).abs() <= step && *short != 0.0;
+    (0..8).filter_map(decimal).find(near).unwrap_or(value)
 }
 
 fn is_same(channel: &Channel, component: usize, low: f32, high: f32, all_high: [f32; 3]) -> bool {
@@ -124,6 +142,37 @@ mod tests {
                 data,
             },
         )
+    }
+
+    #[test]
+    fn a_value_is_told_as_it_was_set_however_a_driver_rounds_halves() {
+        // A half float keeps 10 of the 23 bits that an f32 has behind its leading one.
+        let cut = |value: f32| f32::from_bits(value.to_bits() & !0x1fff);
+        let rounded = |value: f32| f32::from_bits((value.to_bits() + 0x1000) & !0x1fff);
+        for hundredths in 1..=100u16 {
+            let set = f32::from(hundredths) / 100.0;
+            for stored in [cut(set), rounded(set)] {
+                assert_eq!(
+                    of(Channel::Roughness, &[stored], &[stored]),
+                    Some(Value::Number(set)),
+                    "{stored}"
+                );
+            }
+        }
+        for (stored, told) in [
+            (0.699_707_03, 0.7),
+            (0.0, 0.0),
+            (0.333_251_95, 0.3333),
+            (1234.0, 1234.0),
+            (-0.25, -0.25),
+        ] {
+            assert_eq!(shortest_near(stored), told);
+        }
+        let [dark, bright] = [cut(0.007), rounded(0.509)];
+        let color = of(Channel::BaseColor, &[dark, bright, 1.0], &[dark, bright, 1.0]);
+        assert_eq!(color, Some(Value::Triple([0.007, 0.509, 1.0])));
+        let height = of(Channel::Height, &[0.699_707_03], &[0.699_707_03]);
+        assert_eq!(height, Some(Value::Number(0.699_707_03)), "a float all the way");
     }
 
     #[test]

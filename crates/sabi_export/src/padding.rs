@@ -247,6 +247,78 @@ mod tests {
         }
     }
 
+    const SIZE: u32 = 128;
+
+    /// Charts of several shapes, with gaps between them from one texel on, as a map of ones over a background of zeros.
+    fn ones(padding: Padding) -> (Vec<bool>, Vec<f32>) {
+        let covered: Vec<bool> = (0..SIZE * SIZE)
+            .map(|pixel| {
+                let (x, y) = ((pixel % SIZE) as i32, (pixel / SIZE) as i32);
+                let is_disk = (x - 90).pow(2) + (y - 85).pow(2) < 20 * 20;
+                let is_strip = (20..22).contains(&x) && (10..110).contains(&y);
+                let is_triangle = x > 24 && y > 8 && x + y < 70;
+                is_disk || is_strip || is_triangle || (x, y) == (110, 20)
+            })
+            .collect();
+        let layout = layout(SIZE, &covered);
+        let one = |_| [1.0, 0.0, 0.0, 0.0];
+        let map = PaddingMap::new(&layout, padding).gather(&layout, &Channel::Metallic, 0, one);
+        (covered, map.data)
+    }
+
+    /// The next mip level by averaging four texels.
+    fn halved(level: &[f32]) -> Vec<f32> {
+        let side = level.len().isqrt();
+        let mean = |at: usize| {
+            let first = at / (side / 2) * 2 * side + at % (side / 2) * 2;
+            (level[first] + level[first + 1] + level[first + side] + level[first + side + 1]) / 4.0
+        };
+        (0..level.len() / 4).map(mean).collect()
+    }
+
+    /// The lowest value that a bilinear lookup in a mip level finds at the corners of covered texels.
+    fn lowest(covered: &[bool], level: &[f32]) -> f32 {
+        let side = level.len().isqrt() as i32;
+        let texel = |x: i32, y: i32| level[(y.clamp(0, side - 1) * side + x.clamp(0, side - 1)) as usize];
+        let lookup = |x: f32, y: f32| {
+            let [x, y] = [x, y].map(|at| at * side as f32 / SIZE as f32 - 0.5);
+            let (left, top, u, v) = (x.floor() as i32, y.floor() as i32, x - x.floor(), y - y.floor());
+            let row = |y| texel(left, y) * (1.0 - u) + texel(left + 1, y) * u;
+            row(top) * (1.0 - v) + row(top + 1) * v
+        };
+        let mut lowest = f32::INFINITY;
+        for pixel in (0..SIZE * SIZE).filter(|pixel| covered[*pixel as usize]) {
+            let (x, y) = ((pixel % SIZE) as f32, (pixel / SIZE) as f32);
+            for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (0.5, 0.5)] {
+                lowest = lowest.min(lookup(x + dx, y + dy));
+            }
+        }
+        lowest
+    }
+
+    #[test]
+    fn no_mip_level_that_the_padding_is_for_bleeds() {
+        for texels in [2_u32, 4, 8, 16] {
+            let (covered, mut level) = ones(Padding::Texels(texels));
+            let mut first_that_bleeds = None;
+            for number in 0..6_u32 {
+                if lowest(&covered, &level) < 1.0 {
+                    first_that_bleeds = first_that_bleeds.or(Some(number));
+                }
+                level = halved(&level);
+            }
+            // A lookup reaches one and a half texels of its level out of a chart, which is 2.1 across a corner.
+            let first = first_that_bleeds.unwrap();
+            assert!(2_u32.pow(first) * 2 > texels, "{texels} texels: level {first} bleeds");
+        }
+        let (covered, mut level) = ones(Padding::Infinite);
+        while level.len() > 1 {
+            assert_eq!(lowest(&covered, &level), 1.0);
+            assert!(level.iter().all(|&value| value == 1.0), "infinite fills all");
+            level = halved(&level);
+        }
+    }
+
     #[test]
     fn of_two_equally_near_pixels_the_left_and_the_upper_one_is_taken() {
         let covered: Vec<bool> = (0..25).map(|i| [2, 10, 14, 22].contains(&i)).collect();
