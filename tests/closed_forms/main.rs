@@ -6,6 +6,7 @@ mod colors;
 mod curves;
 mod marks;
 mod materials;
+mod model_copy;
 mod noise;
 mod predecessor;
 mod predecessor_maps;

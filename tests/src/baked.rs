@@ -43,6 +43,7 @@ impl Baked {
             padding: None,
             fuse: true,
             force: false,
+            model: false,
         };
         let baked = bake(&request, &Silent).unwrap_or_else(|error| panic!("{error}\n{graph}"));
         Baked {

@@ -68,6 +68,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         padding: None,
         fuse,
         force: false,
+        model: false,
     };
     let started = Instant::now();
     let mut json = bake(&request, &Silent).unwrap().json;

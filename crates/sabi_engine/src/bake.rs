@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Padding, SetOptions, preset};
+use sabi_export::{BakeWriter, Committed, Padding, SetOptions, preset};
 use sabi_gpu::{Run, RunOptions};
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult};
@@ -15,6 +15,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::folder::is_foreign_folder;
 use crate::kinds::Kinds;
 use crate::maps::{MapWriter, SetWork, WrittenMaps};
+use crate::model_copy::{open_copy, write_copy};
 use crate::modelless::{refuse_faults, targets};
 use crate::outputs::{clashes, nothing_comes_out, outputs};
 use crate::overlap::Sharing;
@@ -47,6 +48,8 @@ pub struct BakeRequest {
     pub fuse: bool,
     /// Whether a folder that has files but no earlier maps is taken all the same.
     pub force: bool,
+    /// Whether a glTF copy of the model that uses the maps is written too.
+    pub model: bool,
 }
 
 /// Bakes; nothing is replaced before everything is complete, and no model is loaded for a graph with a fault.
@@ -66,7 +69,8 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     workpiece.warn(bare_materials(&workpiece.prepared.model, &workpiece.prepared.atlas));
     let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    let serving = serve(&open, &workpiece.graph, &outputs, model, atlas, &sets)?;
+    let mut serving = serve(&open, &workpiece.graph, &outputs, model, atlas, &sets)?;
+    let copy = open_copy(request, &workpiece.prepared, &sets, &mut serving, &mut writer)?;
     workpiece.warn(serving.warnings);
     let is_used =
         |node: &usize| workpiece.graph.nodes[*node].kind == OUTPUT_MASK || serving.outputs.contains(&Some(*node));
@@ -87,28 +91,30 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
             budget_bytes: request.workpiece.budget_bytes,
         },
     };
-    let written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
+    let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
+    encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let committed = encode.time(|| writer.commit())?;
-    let left_over = committed.left_over.iter().map(|path| path.display());
-    let left_over = left_over.map(|path| format!("{path} is from an earlier bake; its channel is constant now"));
     let told = workpiece.warnings.iter().chain(&written.warnings).cloned();
-    let warnings: Vec<String> = told.chain(left_over).collect();
+    let warnings: Vec<String> = told.chain(left_over(&committed)).collect();
     let times = StageTimes {
         encode,
         ..workpiece.times
     };
     let json = report(request, &workpiece, &plan, &run, &written, &times, &warnings);
-    let files = committed
-        .files
-        .iter()
-        .filter_map(|file| Some(file.file_name()?.to_string_lossy().into_owned()));
+    let files = committed.files.iter().filter_map(|file| file.file_name());
     Ok(BakeReport {
         times,
-        files: files.collect(),
+        files: files.map(|name| name.to_string_lossy().into_owned()).collect(),
         warnings,
         json,
     })
+}
+
+/// A sentence for each file that an earlier bake left.
+fn left_over(committed: &Committed) -> impl Iterator<Item = String> {
+    let paths = committed.left_over.iter().map(|path| path.display());
+    paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now"))
 }
 
 fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineError> {
@@ -195,7 +201,7 @@ fn report(
             nodes_ms.insert(node.clone(), json!(((before + ms) * 100.0).round() / 100.0));
         }
     }
-    json!({
+    let mut json = json!({
         "sabi": env!("CARGO_PKG_VERSION"),
         "graph": request.graph.display().to_string(),
         "mesh": {
@@ -219,7 +225,11 @@ fn report(
         "outputs": written.outputs.iter().map(sabi_export::OutputRecord::to_json).collect::<Vec<_>>(),
         "constants": written.constants.iter().map(sabi_export::ConstantRecord::to_json).collect::<Vec<_>>(),
         "warnings": warnings,
-    })
+    });
+    if let Some(copy) = &written.copy {
+        json["model"] = copy.clone();
+    }
+    json
 }
 
 fn rounded(value: f32) -> f64 {

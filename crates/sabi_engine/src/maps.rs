@@ -33,6 +33,8 @@ pub(crate) struct WrittenMaps {
     pub(crate) outputs: Vec<OutputRecord>,
     pub(crate) constants: Vec<ConstantRecord>,
     pub(crate) warnings: Vec<String>,
+    /// The report's entry for the copy of the model.
+    pub(crate) copy: Option<serde_json::Value>,
     /// Kernels that only exports need.
     pub(crate) finish_passes: usize,
 }
@@ -159,7 +161,7 @@ impl Maps<'_> {
                         [x * scale, y * scale, z * scale, w * scale]
                     })?;
                 }
-                self.advance()?;
+                self.advance();
             }
         }
         let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));
@@ -171,7 +173,7 @@ impl Maps<'_> {
         }
         for set in &sets {
             self.channel(set, &Channel::Normal, normals.as_ref(), 0, |normal| normal)?;
-            self.advance()?;
+            self.advance();
         }
         Ok(())
     }
@@ -189,16 +191,15 @@ impl Maps<'_> {
                 let is_color = result.stored.ty == PortType::Color;
                 let gray = |[r, g, b, _]: [f32; 4]| if is_color { [luminance([r, g, b]); 4] } else { [r; 4] };
                 self.channel(set, &Channel::Mask(name.clone()), plane.as_ref(), 0, gray)?;
-                self.advance()?;
+                self.advance();
             }
         }
         Ok(())
     }
 
-    fn advance(&mut self) -> Result<(), EngineError> {
+    fn advance(&mut self) {
         self.done += 1;
         self.progress.advance(Stage::Encode, self.done, self.of);
-        stop_if_canceled(self.progress)
     }
 
     /// Writes one channel; without a plane, what the channel is where nothing sets it.
@@ -210,6 +211,8 @@ impl Maps<'_> {
         first: usize,
         value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
     ) -> Result<(), EngineError> {
+        // A large map takes seconds to encode.
+        stop_if_canceled(self.progress)?;
         let mut pixels = match plane {
             Some(plane) => set
                 .padding

@@ -118,7 +118,7 @@ fn codes_16(pixels: &ChannelPixels, codes: Codes, range: [f32; 2]) -> Vec<u16> {
     out
 }
 
-fn codes_8(pixels: &ChannelPixels, size: u32, codes: Codes, dither: bool, range: [f32; 2]) -> Vec<u8> {
+pub(crate) fn codes_8(pixels: &ChannelPixels, size: u32, codes: Codes, dither: bool, range: [f32; 2]) -> Vec<u8> {
     let components = pixels.components.max(1);
     let row_length = size as usize * components;
     let mut out = vec![0u8; pixels.data.len()];
@@ -183,6 +183,50 @@ mod tests {
         assert_eq!(long, Pixels::U16(vec![32768, 0, 32768]), "unit length");
         let broken = codes_of(vec![0.0; 3], 3, 1, Codes::Signed, 16, false);
         assert_eq!(broken, Pixels::U16(vec![32768, 32768, 65535]));
+    }
+
+    /// The largest angle between unit vectors and what their codes stand for, degrees.
+    fn largest_turn(bits: u8) -> f64 {
+        let size = 64_u32;
+        let vectors: Vec<[f32; 3]> = (0..size * size)
+            .map(|i| {
+                // Evenly over the half sphere, by the golden angle.
+                let z = 1.0 - (f64::from(i) + 0.5) / f64::from(size * size);
+                let (around, across) = (2.399_963_229_728_653 * f64::from(i), (1.0 - z * z).sqrt());
+                [across * around.cos(), across * around.sin(), z].map(|part| part as f32)
+            })
+            .collect();
+        let codes: Vec<f64> = match codes_of(vectors.concat(), 3, size, Codes::Signed, bits, false) {
+            Pixels::U8(codes) => codes.into_iter().map(|code| f64::from(code) / 255.0).collect(),
+            Pixels::U16(codes) => codes.into_iter().map(|code| f64::from(code) / 65535.0).collect(),
+            Pixels::F32(_) => panic!("whole numbers"),
+        };
+        let turn = |(vector, code): (&[f32; 3], &[f64])| {
+            let was = vector.map(f64::from);
+            let is: [f64; 3] = std::array::from_fn(|at| 2.0 * code[at] - 1.0);
+            let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            (dot(was, is) / (dot(was, was) * dot(is, is)).sqrt())
+                .clamp(-1.0, 1.0)
+                .acos()
+        };
+        let turns = vectors.iter().zip(codes.chunks_exact(3)).map(turn);
+        turns.fold(0.0, f64::max).to_degrees()
+    }
+
+    #[test]
+    fn normals_come_back_from_their_codes_as_exactly_as_the_bits_allow() {
+        // Half a step of each component, √3/255 and √3/65535 as a vector; and what acos loses near 1.
+        let half_step = |codes: f64| (3.0_f64.sqrt() / codes).to_degrees();
+        let (at_8, at_16) = (largest_turn(8), largest_turn(16));
+        assert!(at_8 < half_step(255.0), "{at_8}");
+        assert!(at_16 < half_step(65535.0) + 1e-5, "{at_16}");
+        assert!(at_16 < 0.01);
+    }
+
+    #[test]
+    fn the_flat_normal_is_128_128_255_in_8_bits() {
+        let flat = codes_of(vec![0.0, 0.0, 1.0], 3, 1, Codes::Signed, 8, false);
+        assert_eq!(flat, Pixels::U8(vec![128, 128, 255]));
     }
 
     #[test]

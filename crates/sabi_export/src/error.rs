@@ -58,6 +58,14 @@ pub enum ExportError {
         /// The file, without its folder.
         file_name: String,
     },
+    /// The model cannot be read again for its copy.
+    #[error("no copy of {} can be made: {reason}; bake again, or without --model", path.display())]
+    Model {
+        /// The model's file.
+        path: PathBuf,
+        /// What stands in the way.
+        reason: String,
+    },
     /// The number of values does not fit the texture set.
     #[error("channel {channel} has {given} values for a texture set of {expected}; this is a defect of Sabi")]
     WrongSize {

@@ -45,7 +45,7 @@ pub struct ConstantRecord {
 }
 
 /// A number as short as an f32 can be written, as a reader of the report expects it.
-fn short(value: f32) -> Json {
+pub(crate) fn short(value: f32) -> Json {
     value
         .to_string()
         .parse::<f64>()

@@ -61,6 +61,11 @@ impl Staging {
         &self.folder
     }
 
+    /// Names of the files so far, in lower case.
+    pub fn names(&self) -> &BTreeSet<String> {
+        &self.names
+    }
+
     /// Names files that this work reads: to write over one of them is refused.
     pub fn protect(&mut self, inputs: impl IntoIterator<Item = PathBuf>) {
         // A file that is not there cannot be written over.
@@ -68,8 +73,8 @@ impl Staging {
             .extend(inputs.into_iter().filter_map(|path| path.canonicalize().ok()));
     }
 
-    /// Writes a file completely, under a temporary name for now. `file_name` is a plain name without a folder.
-    pub fn stage(&mut self, file_name: &str, bytes: &[u8]) -> Result<(), ExportError> {
+    /// Whether a file may be written under a plain name: refused for one that is read, and for what is no file.
+    pub fn check(&self, file_name: &str) -> Result<(), ExportError> {
         let target = self.folder.join(file_name);
         if Path::new(file_name).file_name().is_none_or(|name| name != file_name) {
             return Err(ExportError::write(&target, io::ErrorKind::InvalidFilename.into()));
@@ -80,6 +85,13 @@ impl Staging {
         if fs::metadata(&target).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
             return Err(ExportError::NotAFile { path: target });
         }
+        Ok(())
+    }
+
+    /// Writes a file completely, under a temporary name for now. `file_name` is a plain name without a folder.
+    pub fn stage(&mut self, file_name: &str, bytes: &[u8]) -> Result<(), ExportError> {
+        self.check(file_name)?;
+        let target = self.folder.join(file_name);
         if !self.names.insert(file_name.to_lowercase()) {
             return Err(ExportError::SameName {
                 file_name: file_name.to_owned(),

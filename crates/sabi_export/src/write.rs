@@ -1,13 +1,15 @@
 //! A bake's files, one channel at a time.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::constant::{bounds, constant_value};
 use crate::encode::encode;
 use crate::layout::SetLayout;
+use crate::model_copy::{Gathering, MapFile, MaterialMaps, Passing};
 use crate::preset::{Codes, Format, Preset, When, raw};
-use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord, Staging};
+use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord, Staging, Value};
 
 /// How a texture set is written.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +35,8 @@ pub struct BakeWriter {
     staging: Staging,
     /// Files that this bake could have written but did not need to.
     spared: BTreeSet<String>,
+    /// Maps for a copy of the model, where there is to be one.
+    gathering: Option<Gathering>,
 }
 
 /// What a channel became.
@@ -62,7 +66,28 @@ impl BakeWriter {
         Ok(BakeWriter {
             staging: Staging::create(folder)?,
             spared: BTreeSet::new(),
+            gathering: None,
         })
+    }
+
+    /// Keeps the maps that a copy of the model needs: of all channels from now on that are no masks.
+    pub fn keep_model_maps(&mut self) {
+        self.gathering = Some(Gathering::default());
+    }
+
+    /// The maps that were kept, by material of the model.
+    pub fn take_model_maps(&mut self) -> BTreeMap<u32, MaterialMaps> {
+        self.gathering.take().map(Gathering::finish).unwrap_or_default()
+    }
+
+    /// Names of the files so far, in lower case.
+    pub fn names(&self) -> &BTreeSet<String> {
+        self.staging.names()
+    }
+
+    /// Whether a file may be written under a name; refused for one that is read, or that is no file.
+    pub fn check(&self, file_name: &str) -> Result<(), ExportError> {
+        self.staging.check(file_name)
     }
 
     /// Names files that this bake reads: to write over one of them is refused.
@@ -133,6 +158,7 @@ impl SetWriter<'_> {
         let (low, high) = bounds(self.layout, &pixels).unwrap_or(([0.0; 3], [0.0; 3]));
         let above_one = high[..components].iter().any(|&value| value > 1.0);
         let mut outputs = Vec::new();
+        let mut written = Vec::new();
         for map in self.options.preset.maps_of(channel).cloned().collect::<Vec<_>>() {
             let file_name = map.file_name(&self.name, channel, udim);
             if (constant.is_some() && !self.options.all_maps) || (map.when == When::AboveOne && !above_one) {
@@ -140,12 +166,52 @@ impl SetWriter<'_> {
                 continue;
             }
             let range = [low[0], high[0]];
-            outputs.push(self.stage_map(channel, &pixels, map.format, file_name, range)?);
+            let (record, bytes) = self.stage_map(channel, &pixels, map.format, file_name, range)?;
+            if self.bake.gathering.is_some() {
+                let file = MapFile {
+                    name: record.path.clone(),
+                    bytes: Arc::new(bytes),
+                    is_written: true,
+                };
+                written.push((map.format, file));
+            }
+            outputs.push(record);
         }
+        self.keep(
+            channel,
+            &pixels,
+            constant.as_ref().map(|constant| constant.value),
+            &written,
+        )?;
         Ok(Written {
             outputs,
             constant,
             not_finite,
+        })
+    }
+
+    /// Keeps what a copy of the model needs of a channel.
+    fn keep(
+        &mut self,
+        channel: &Channel,
+        pixels: &ChannelPixels,
+        constant: Option<Value>,
+        written: &[(Format, MapFile)],
+    ) -> Result<(), ExportError> {
+        let Some(gathering) = &mut self.bake.gathering else {
+            return Ok(());
+        };
+        let passing = Passing {
+            layout: self.layout,
+            name: &self.name,
+            channel,
+            pixels,
+            constant,
+            written,
+        };
+        gathering.take(&passing).map_err(|source| ExportError::Encode {
+            file_name: format!("{} for the copy of the model", channel.name()),
+            source,
         })
     }
 
@@ -156,7 +222,7 @@ impl SetWriter<'_> {
         format: Format,
         file_name: String,
         range: [f32; 2],
-    ) -> Result<OutputRecord, ExportError> {
+    ) -> Result<(OutputRecord, Vec<u8>), ExportError> {
         let encoded = encode(pixels, self.layout.size, format, range).map_err(|source| ExportError::Encode {
             file_name: file_name.clone(),
             source,
@@ -169,7 +235,7 @@ impl SetWriter<'_> {
                 ..
             }
         );
-        Ok(OutputRecord {
+        let record = OutputRecord {
             path: file_name,
             channel: channel.clone(),
             material: self.name.clone(),
@@ -180,7 +246,8 @@ impl SetWriter<'_> {
             color_space: encoded.color_space,
             range: spans_range.then_some(range),
             blake3: blake3::hash(&encoded.bytes).to_hex().to_string(),
-        })
+        };
+        Ok((record, encoded.bytes))
     }
 }
 

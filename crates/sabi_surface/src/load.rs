@@ -122,6 +122,19 @@ pub fn load_bytes(
     })
 }
 
+/// A file that a glTF model at `path` names by a `uri`, looked for as [`load`] does: its bytes and its path, or the reason
+/// why not; `None` where the `uri` holds the bytes itself.
+pub fn named_file(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    match uri::Uri::parse(uri) {
+        uri::Uri::Data(_) => None,
+        uri::Uri::Unusable(reason) => Some(Err(reason)),
+        uri::Uri::Beside(decoded) => {
+            Some(beside(folder, &decoded).or_else(|reason| beside(folder, uri).map_err(|_| reason)))
+        }
+    }
+}
+
 enum Format {
     Gltf,
     Obj,

@@ -82,8 +82,12 @@ impl Mesh {
 pub struct ModelMaterial {
     /// Name in the file; empty when it has none.
     pub name: String,
+    /// Its place among the materials of a glTF file; none for glTF's default material and for OBJ.
+    pub file_index: Option<usize>,
     /// Linear RGBA factor.
     pub base_color_factor: [f32; 4],
+    /// Whether alpha is to be ignored: glTF's alpha mode `OPAQUE`, under which pictures may have anything in it.
+    pub ignores_alpha: bool,
     /// Metallic factor.
     pub metallic_factor: f32,
     /// Roughness factor.
@@ -110,7 +114,9 @@ impl Default for ModelMaterial {
     fn default() -> Self {
         ModelMaterial {
             name: String::new(),
+            file_index: None,
             base_color_factor: [1.0; 4],
+            ignores_alpha: false,
             metallic_factor: 1.0,
             roughness_factor: 1.0,
             emission_factor: [0.0; 3],

@@ -33,6 +33,9 @@ pub(crate) struct BakeArguments {
     /// Write maps of channels that are the same all over too, not only their value in the report
     #[arg(long, help_heading = "Maps")]
     pub(crate) all_maps: bool,
+    /// Write a glTF copy of the model that uses the maps, too: as .glb or .gltf like the model, .glb for others
+    #[arg(long = "model", help_heading = "Maps")]
+    pub(crate) copies_model: bool,
     /// How far maps reach over the edges of charts, texels, or 'infinite' [default: 16 at size 2048]
     #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
     pub(crate) padding: Option<Padding>,

@@ -53,13 +53,18 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
         padding: arguments.padding_texels(),
         fuse: !arguments.no_fuse,
         force: arguments.force,
+        model: arguments.copies_model,
     })
 }
 
 fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, terminal: &Terminal) {
     let (json, times) = (&report.json, &report.times);
     let counted = |count: u64, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
-    let count = counted(report.files.len() as u64, "map", "maps");
+    let maps = json["outputs"].as_array().map_or(0, Vec::len);
+    let mut count = counted(maps as u64, "map", "maps");
+    if let Some(copy) = json["model"]["path"].as_str() {
+        count = format!("{count} and {copy}");
+    }
     let number = |key: &str| json[key].as_u64().unwrap_or(0);
     let size = arguments.workpiece.model.size;
     terminal.note(format_args!(

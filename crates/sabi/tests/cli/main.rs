@@ -6,6 +6,7 @@ mod bad_graphs;
 mod bad_models;
 mod bad_places;
 mod baking;
+mod copies;
 mod help;
 mod interruption;
 mod looking;

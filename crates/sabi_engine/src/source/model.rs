@@ -88,7 +88,12 @@ impl At<'_> {
 impl MaterialTextures<'_> {
     fn base_color(&self, at: At) -> [f32; 4] {
         let color = at.sample(&self.base_color);
-        std::array::from_fn(|channel| color[channel] * self.material.base_color_factor[channel])
+        let mut color: [f32; 4] =
+            std::array::from_fn(|channel| color[channel] * self.material.base_color_factor[channel]);
+        if self.material.ignores_alpha {
+            color[3] = 1.0;
+        }
+        color
     }
 
     /// Roughness, metallic, occlusion.

@@ -108,7 +108,9 @@ impl Pictures<'_> {
         let emission = info(&material.emissive_texture);
         ModelMaterial {
             name: material.name.clone().unwrap_or_default(),
+            file_index: Some(index),
             base_color_factor: finite(pbr.base_color_factor.0, 1.0),
+            ignores_alpha: matches!(material.alpha_mode, Checked::Valid(json::material::AlphaMode::Opaque)),
             metallic_factor: finite([pbr.metallic_factor.0], 1.0)[0],
             roughness_factor: finite([pbr.roughness_factor.0], 1.0)[0],
             emission_factor: finite(material.emissive_factor.0.map(|factor| factor * strength), 0.0),

@@ -1,0 +1,242 @@
+//! A glTF copy of the model that uses the new maps: only what the baked materials look like is changed, on the JSON and
+//! the buffers themselves, so that animations, skins, extensions and all else that Sabi does not know stay as they were.
+
+mod container;
+mod edit;
+mod extensions;
+mod from_mesh;
+mod maps;
+mod pictures;
+mod references;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use sabi_surface::load::named_file;
+use sabi_surface::model::{Model, ModelMaterial};
+use serde_json::{Value as Json, json};
+
+use self::container::Container;
+use self::edit::TextureUse;
+use self::pictures::Pictures;
+use crate::ExportError;
+use crate::names::file_stem;
+
+pub(crate) use self::maps::{Gathering, Passing};
+pub use self::maps::{MapFile, MaterialMaps};
+
+/// A file to be written beside the maps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CopiedFile {
+    /// Plain file name.
+    pub name: String,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// What a copy consists of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FinishedCopy {
+    /// The `.gltf` or `.glb` file.
+    pub copy: CopiedFile,
+    /// Files that it names and that are not maps of the bake.
+    pub beside: Vec<CopiedFile>,
+    /// What could not be brought along, as sentences.
+    pub warnings: Vec<String>,
+}
+
+/// A model that is to be copied with new maps.
+#[derive(Debug)]
+pub struct ModelCopy {
+    path: PathBuf,
+    /// By material of the model.
+    materials: Vec<CopiedMaterial>,
+    uv_set: u32,
+    stem: String,
+    container: Container,
+    document: Json,
+}
+
+/// A material of the model, as the copy has to know it.
+#[derive(Debug)]
+struct CopiedMaterial {
+    /// Its place in the file; none for glTF's default material.
+    file_index: Option<usize>,
+    /// What its maps do outside 0..1.
+    wrap: u32,
+}
+
+impl ModelCopy {
+    /// Reads the file anew: `model` is what was loaded from it, with `uv_set` as the set of the maps. Models that are no
+    /// glTF are copied as they were loaded: turned, scaled, triangulated; `baked` are their materials that get maps.
+    pub fn open(path: &Path, model: &Model, uv_set: u32, baked: &BTreeSet<u32>) -> Result<ModelCopy, ExportError> {
+        let refuse = |reason: String| ExportError::Model {
+            path: path.to_owned(),
+            reason,
+        };
+        let bytes = std::fs::read(path).map_err(|error| refuse(error.to_string()))?;
+        let is_made = !container::looks_like_gltf(&bytes);
+        let (container, document) = if is_made {
+            from_mesh::glb(model, baked)
+        } else {
+            Container::split(&bytes).map_err(refuse)?
+        };
+        let there = document["materials"].as_array().map_or(0, Vec::len);
+        let named = model.materials.iter().filter_map(|material| material.file_index);
+        if named.max().is_some_and(|last| last >= there) {
+            return Err(refuse("it was changed while it was read".to_owned()));
+        }
+        let stem = match file_stem(&model.stem) {
+            stem if stem.is_empty() => "model".to_owned(),
+            stem => stem,
+        };
+        let copied = |(index, material): (usize, &ModelMaterial)| CopiedMaterial {
+            file_index: if is_made { Some(index) } else { material.file_index },
+            wrap: wrap(model, index as u32),
+        };
+        Ok(ModelCopy {
+            path: path.to_owned(),
+            materials: model.materials.iter().enumerate().map(copied).collect(),
+            uv_set,
+            stem,
+            container,
+            document,
+        })
+    }
+
+    /// Name of the copy: the model's own, `.glb` or `.gltf` as the model was, `.glb` where it was neither.
+    pub fn file_name(&self) -> String {
+        let ending = if self.container.is_glb() { "glb" } else { "gltf" };
+        format!("{}.{ending}", self.stem)
+    }
+
+    /// The copy, with these maps on these materials of the model. Maps of a `.glb` go into it; those of a `.gltf` stay
+    /// beside it. `taken` are file names, in lower case, that the bake has given away already.
+    pub fn finish(mut self, baked: BTreeMap<u32, MaterialMaps>, taken: &BTreeSet<String>) -> FinishedCopy {
+        let known = extensions::present(&self.document);
+        let mut materials = Vec::new();
+        for (material, maps) in baked {
+            let wrap = self.materials.get(material as usize).map_or(REPEAT, |known| known.wrap);
+            materials.push((self.material_of_file(material), wrap, maps));
+        }
+        let mut pictures = Pictures::new(&self.document);
+        for (index, ..) in &materials {
+            edit::strip(&mut self.document["materials"][*index]);
+        }
+        pictures.find_free(&self.document);
+        for (index, wrap, maps) in materials {
+            let mut place = |document: &mut Json, map: MapFile| TextureUse {
+                index: pictures.add(document, &mut self.container, map, wrap),
+                uv_set: self.uv_set,
+            };
+            edit::dress(&mut self.document, index, maps, &mut place);
+        }
+        let placed = pictures.finish(&mut self.document);
+        self.container.forget(&mut self.document, &placed.dead);
+        extensions::keep_lists_true(&mut self.document, &known);
+        let mut beside = placed.files;
+        let mut warnings = Vec::new();
+        self.bring_along(&placed.new, taken.clone(), &mut beside, &mut warnings);
+        let copy = CopiedFile {
+            name: self.file_name(),
+            bytes: self.container.join(&mut self.document),
+        };
+        FinishedCopy { copy, beside, warnings }
+    }
+
+    /// The place of a material in the file; the default material, which a file does not list, is added to it.
+    fn material_of_file(&mut self, material: u32) -> usize {
+        if let Some(index) = self.materials.get(material as usize).and_then(|known| known.file_index) {
+            return index;
+        }
+        let index = edit::push(&mut self.document, "materials", json!({}));
+        for primitive in edit::primitives(&mut self.document) {
+            if primitive.get("material").is_none() {
+                primitive["material"] = json!(index);
+            }
+        }
+        index
+    }
+
+    /// Copies the buffers and pictures that a `.gltf` names in files of their own.
+    fn bring_along(
+        &mut self,
+        new: &BTreeSet<usize>,
+        mut taken: BTreeSet<String>,
+        files: &mut Vec<CopiedFile>,
+        warnings: &mut Vec<String>,
+    ) {
+        taken.extend(files.iter().map(|file| file.name.to_lowercase()));
+        let mut brought: Vec<(String, String)> = Vec::new();
+        for list in ["buffers", "images"] {
+            let entries = self.document.get_mut(list).and_then(Json::as_array_mut);
+            for (index, entry) in entries.into_iter().flatten().enumerate() {
+                let is_new = list == "images" && new.contains(&index);
+                let Some(uri) = entry["uri"].as_str().filter(|_| !is_new).map(str::to_owned) else {
+                    continue;
+                };
+                if let Some((_, name)) = brought.iter().find(|(from, _)| *from == uri) {
+                    entry["uri"] = json!(pictures::uri_of(name));
+                    continue;
+                }
+                match named_file(&self.path, &uri) {
+                    None => {}
+                    Some(Err(reason)) => warnings.push(format!(
+                        "the copy of the model names {uri} as the model does, but it was not copied: {reason}"
+                    )),
+                    Some(Ok((bytes, file))) => {
+                        let name = free_name(&file, list, &self.stem, &mut taken);
+                        entry["uri"] = json!(pictures::uri_of(&name));
+                        brought.push((uri, name.clone()));
+                        files.push(CopiedFile { name, bytes });
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A plain name for a copied file: a buffer goes by the model's name, a picture by its own.
+fn free_name(file: &Path, list: &str, stem: &str, taken: &mut BTreeSet<String>) -> String {
+    let part = |part: Option<&OsStr>| file_stem(&part.unwrap_or_default().to_string_lossy());
+    let first = match part(file.file_stem()) {
+        _ if list == "buffers" => stem.to_owned(),
+        own if own.is_empty() => "picture".to_owned(),
+        own => own,
+    };
+    let ending = part(file.extension());
+    let mut number = 1;
+    loop {
+        let name = match number {
+            1 => format!("{first}.{ending}"),
+            number => format!("{first}_{number}.{ending}"),
+        };
+        if taken.insert(name.to_lowercase()) {
+            return name;
+        }
+        number += 1;
+    }
+}
+
+/// How far UVs may lie outside the unit square and still mean its edge.
+const EDGE: f32 = 1e-4;
+/// glTF's numbers for what happens outside 0..1.
+const CLAMP_TO_EDGE: u32 = 33071;
+const REPEAT: u32 = 10497;
+
+/// Maps repeat where UVs leave the unit square. Where they do not, repeating would only let opposite edges bleed into
+/// each other.
+fn wrap(model: &Model, material: u32) -> u32 {
+    let mesh = &model.mesh;
+    let of_material = mesh.triangles.iter().zip(&mesh.triangle_material);
+    let inside = of_material
+        .filter(|(_, of)| **of == material)
+        .flat_map(|(corners, _)| corners)
+        .filter_map(|vertex| mesh.uvs.get(*vertex as usize))
+        .all(|uv| uv.iter().all(|at| (-EDGE..=1.0 + EDGE).contains(at)));
+    if inside { CLAMP_TO_EDGE } else { REPEAT }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,160 @@
+//! What a baked material looks like, in the JSON of a glTF file.
+
+use serde_json::{Map, Value as Json, json};
+
+use super::maps::{MapFile, MaterialMaps};
+
+/// A texture of the file on a UV set.
+pub(super) struct TextureUse {
+    pub(super) index: usize,
+    pub(super) uv_set: u32,
+}
+
+impl TextureUse {
+    /// As materials write it: the first set goes without saying.
+    fn to_json(&self) -> Json {
+        match self.uv_set {
+            0 => json!({ "index": self.index }),
+            uv_set => json!({ "index": self.index, "texCoord": uv_set }),
+        }
+    }
+}
+
+/// Extensions of a material that say what it looks like in place of what is written, or on top of it.
+const REPLACED: [&str; 2] = [
+    "KHR_materials_emissive_strength",
+    // Viewers that know it would not look at metallic and roughness.
+    "KHR_materials_pbrSpecularGlossiness",
+];
+const STRENGTH: &str = "KHR_materials_emissive_strength";
+
+/// Adds to a list of the document, which is made if need be; gives the entry's place.
+pub(super) fn push(document: &mut Json, list: &str, value: Json) -> usize {
+    match &mut document[list] {
+        Json::Array(entries) => {
+            entries.push(value);
+            entries.len() - 1
+        }
+        none => {
+            *none = json!([value]);
+            0
+        }
+    }
+}
+
+/// All primitives of all meshes.
+pub(super) fn primitives(document: &mut Json) -> impl Iterator<Item = &mut Json> {
+    let meshes = document.get_mut("meshes").and_then(Json::as_array_mut);
+    let lists = meshes
+        .into_iter()
+        .flatten()
+        .filter_map(|mesh| mesh.get_mut("primitives"));
+    lists.filter_map(Json::as_array_mut).flatten()
+}
+
+/// Removes a key, and keeps the order of the others.
+pub(super) fn remove(object: &mut Json, key: &str) {
+    if let Some(object) = object.as_object_mut() {
+        object.shift_remove(key);
+    }
+}
+
+/// Takes off a material what its maps and factors stand for.
+pub(super) fn strip(material: &mut Json) {
+    for key in ["normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor"] {
+        remove(material, key);
+    }
+    if let Some(pbr) = material.get_mut("pbrMetallicRoughness") {
+        for key in [
+            "baseColorFactor",
+            "baseColorTexture",
+            "metallicFactor",
+            "roughnessFactor",
+            "metallicRoughnessTexture",
+        ] {
+            remove(pbr, key);
+        }
+    }
+    if let Some(extensions) = material.get_mut("extensions") {
+        for name in REPLACED {
+            remove(extensions, name);
+        }
+        if extensions.as_object().is_some_and(Map::is_empty) {
+            remove(material, "extensions");
+        }
+    }
+}
+
+/// Gives a stripped material its new maps and factors; what is glTF's default goes without saying.
+pub(super) fn dress(
+    document: &mut Json,
+    index: usize,
+    mut maps: MaterialMaps,
+    place: &mut dyn FnMut(&mut Json, MapFile) -> TextureUse,
+) {
+    let mut put = |document: &mut Json, map: Option<MapFile>| map.map(|map| place(document, map).to_json());
+    let base_color = put(document, maps.base_color.take());
+    let packed = put(document, maps.packed.take());
+    let normal = put(document, maps.normal.take());
+    let emission = put(document, maps.emission.take());
+    let metallic_roughness = packed.clone().filter(|_| maps.packed_surface);
+    let material = &mut document["materials"][index];
+    let pbr = metallic_roughness_model(&maps, base_color, metallic_roughness);
+    if !pbr.is_empty() {
+        // What others keep there stays.
+        let held = &mut material["pbrMetallicRoughness"];
+        if !held.is_object() {
+            *held = json!({});
+        }
+        for (key, value) in pbr {
+            held[key] = value;
+        }
+    }
+    for (key, texture) in [
+        ("normalTexture", normal),
+        ("occlusionTexture", packed.filter(|_| maps.packed_occlusion)),
+        ("emissiveTexture", emission),
+    ] {
+        if let Some(texture) = texture {
+            material[key] = texture;
+        }
+    }
+    if maps.emission_factor != [0.0; 3] {
+        material["emissiveFactor"] = numbers(&maps.emission_factor);
+    }
+    if maps.emission_strength != 1.0 {
+        material["extensions"][STRENGTH] = json!({ "emissiveStrength": number(maps.emission_strength) });
+    }
+    let shows_alpha = matches!(material["alphaMode"].as_str(), Some("MASK" | "BLEND"));
+    if maps.has_opacity && !shows_alpha {
+        material["alphaMode"] = json!("BLEND");
+    }
+}
+
+/// glTF's `pbrMetallicRoughness`.
+fn metallic_roughness_model(
+    maps: &MaterialMaps,
+    base_color: Option<Json>,
+    metallic_roughness: Option<Json>,
+) -> Vec<(&'static str, Json)> {
+    let factor = |value: f32| (value != 1.0).then(|| number(value));
+    let color = maps.base_color_factor;
+    let entries = [
+        ("baseColorFactor", (color != [1.0; 4]).then(|| numbers(&color))),
+        ("baseColorTexture", base_color),
+        ("metallicFactor", factor(maps.metallic_factor)),
+        ("roughnessFactor", factor(maps.roughness_factor)),
+        ("metallicRoughnessTexture", metallic_roughness),
+    ];
+    let present = entries.into_iter().filter_map(|(key, value)| Some((key, value?)));
+    present.collect()
+}
+
+fn numbers(values: &[f32]) -> Json {
+    values.iter().map(|value| number(*value)).collect()
+}
+
+/// As short as an f32 can be written.
+fn number(value: f32) -> Json {
+    crate::record::short(value)
+}

@@ -1,0 +1,53 @@
+//! The lists of extensions of a glTF file: true before, they are to be true afterwards.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Value as Json, json};
+
+use super::edit::{push, remove};
+
+/// Names of the extensions that stand anywhere in the document.
+pub(super) fn present(document: &Json) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    collect(document, &mut found);
+    found
+}
+
+fn collect(value: &Json, found: &mut BTreeSet<String>) {
+    match value {
+        Json::Object(object) => {
+            for (key, value) in object {
+                if key == "extensions" {
+                    found.extend(value.as_object().into_iter().flatten().map(|(name, _)| name.clone()));
+                }
+                collect(value, found);
+            }
+        }
+        Json::Array(values) => values.iter().for_each(|value| collect(value, found)),
+        _ => {}
+    }
+}
+
+/// Takes off the lists what was there `before` and is gone, and adds what is new. Names that never stood anywhere stay:
+/// some extensions are no more than a name.
+pub(super) fn keep_lists_true(document: &mut Json, before: &BTreeSet<String>) {
+    let now = present(document);
+    for key in ["extensionsUsed", "extensionsRequired"] {
+        let Some(Json::Array(names)) = document.get_mut(key) else {
+            continue;
+        };
+        names.retain(|name| {
+            let name = name.as_str().unwrap_or_default();
+            !before.contains(name) || now.contains(name)
+        });
+        if names.is_empty() {
+            remove(document, key);
+        }
+    }
+    for name in now.difference(before) {
+        let listed = document["extensionsUsed"].as_array();
+        if !listed.is_some_and(|names| names.iter().any(|listed| listed == name.as_str())) {
+            push(document, "extensionsUsed", json!(name));
+        }
+    }
+}

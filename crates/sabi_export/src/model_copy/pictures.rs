@@ -1,0 +1,176 @@
+//! New maps among the textures and pictures of a glTF file. Places in its lists never move, since extensions may count on
+//! them: a new entry takes the place of one that nothing uses any more, or goes to the end.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Value as Json, json};
+
+use super::CopiedFile;
+use super::container::Container;
+use super::edit::{push, remove};
+use super::maps::MapFile;
+use super::references;
+
+const LINEAR: u32 = 9729;
+const LINEAR_MIPMAP_LINEAR: u32 = 9987;
+
+/// The textures, pictures and buffer views of a file, while materials change theirs.
+pub(super) struct Pictures {
+    /// In use before.
+    textures: BTreeSet<usize>,
+    images: BTreeSet<usize>,
+    /// In use no more, and not taken yet.
+    free_textures: BTreeSet<usize>,
+    free_images: BTreeSet<usize>,
+    free_views: BTreeSet<usize>,
+    /// Buffer views as they were whose bytes nobody needs.
+    dead: Vec<Json>,
+    /// Places of new pictures.
+    new: BTreeSet<usize>,
+    /// New pictures that go beside the file.
+    files: Vec<CopiedFile>,
+}
+
+/// What became of the pictures.
+pub(super) struct Placed {
+    /// Buffer views as they were whose bytes nobody needs.
+    pub(super) dead: Vec<Json>,
+    /// Places of new pictures.
+    pub(super) new: BTreeSet<usize>,
+    /// Pictures that go beside the file.
+    pub(super) files: Vec<CopiedFile>,
+}
+
+fn count(document: &Json, list: &str) -> usize {
+    document[list].as_array().map_or(0, Vec::len)
+}
+
+impl Pictures {
+    /// Sees what a file uses before anything is taken off.
+    pub(super) fn new(document: &Json) -> Pictures {
+        let all = (0..count(document, "textures")).collect();
+        Pictures {
+            textures: references::textures(document),
+            images: references::images(document, &all),
+            free_textures: BTreeSet::new(),
+            free_images: BTreeSet::new(),
+            free_views: BTreeSet::new(),
+            dead: Vec::new(),
+            new: BTreeSet::new(),
+            files: Vec::new(),
+        }
+    }
+
+    /// Finds what nothing uses any more.
+    pub(super) fn find_free(&mut self, document: &Json) {
+        let textures = references::textures(document);
+        let is_there = |list: &'static str| move |index: &usize| *index < count(document, list);
+        self.free_textures = self.textures.difference(&textures).copied().collect();
+        self.free_textures.retain(is_there("textures"));
+        let kept = (0..count(document, "textures")).filter(|index| !self.free_textures.contains(index));
+        let images = references::images(document, &kept.collect());
+        self.free_images = self.images.difference(&images).copied().collect();
+        self.free_images.retain(is_there("images"));
+        let views = references::views(document, &self.free_images);
+        let held = |index: &usize| usize::try_from(document["images"][*index]["bufferView"].as_u64()?).ok();
+        self.free_views = self.free_images.iter().filter_map(held).collect();
+        self.free_views.retain(is_there("bufferViews"));
+        self.free_views.retain(|view| !views.contains(view));
+        self.dead = self
+            .free_views
+            .iter()
+            .map(|view| document["bufferViews"][*view].clone())
+            .collect();
+    }
+
+    /// Adds a map; gives the number of its texture.
+    pub(super) fn add(&mut self, document: &mut Json, container: &mut Container, map: MapFile, wrap: u32) -> usize {
+        let sampler = json!({
+            "magFilter": LINEAR, "minFilter": LINEAR_MIPMAP_LINEAR, "wrapS": wrap, "wrapT": wrap
+        });
+        let same = document["samplers"]
+            .as_array()
+            .and_then(|all| all.iter().position(|other| *other == sampler));
+        let sampler = same.unwrap_or_else(|| push(document, "samplers", sampler));
+        let name = map.name.trim_end_matches(".png");
+        let image = match container.put(&map.bytes) {
+            Some(view) => {
+                let view = put(document, "bufferViews", &mut self.free_views, view);
+                json!({ "name": name, "mimeType": "image/png", "bufferView": view })
+            }
+            None => json!({ "name": name, "mimeType": "image/png", "uri": uri_of(&map.name) }),
+        };
+        if image.get("uri").is_some() && !map.is_written {
+            self.files.push(CopiedFile {
+                name: map.name.clone(),
+                bytes: map.bytes.to_vec(),
+            });
+        }
+        let source = put(document, "images", &mut self.free_images, image);
+        self.new.insert(source);
+        let texture = json!({ "name": name, "sampler": sampler, "source": source });
+        put(document, "textures", &mut self.free_textures, texture)
+    }
+
+    /// Takes free entries off the ends of the lists; those between others stay, so that no place moves.
+    pub(super) fn finish(mut self, document: &mut Json) -> Placed {
+        cut(document, "textures", &self.free_textures);
+        let left = (0..count(document, "textures")).collect();
+        let in_use = references::images(document, &left);
+        self.free_images.retain(|image| !in_use.contains(image));
+        cut(document, "images", &self.free_images);
+        // A picture between others keeps its bytes.
+        let left = references::views(document, &BTreeSet::new());
+        let (stays, free): (BTreeSet<usize>, BTreeSet<usize>) =
+            self.free_views.iter().partition(|view| left.contains(view));
+        for view in stays {
+            let entry = &document["bufferViews"][view];
+            self.dead.retain(|dead| dead != entry);
+        }
+        cut(document, "bufferViews", &free);
+        // Nobody can point into a view that stays without use: its bytes would be cut, so it stays whole.
+        for view in free {
+            let entry = &document["bufferViews"][view];
+            self.dead.retain(|dead| entry.is_null() || dead != entry);
+        }
+        Placed {
+            dead: self.dead,
+            new: self.new,
+            files: self.files,
+        }
+    }
+}
+
+/// Puts an entry into the first free place of a list, or to its end.
+fn put(document: &mut Json, list: &str, free: &mut BTreeSet<usize>, value: Json) -> usize {
+    match free.pop_first() {
+        Some(place) => {
+            document[list][place] = value;
+            place
+        }
+        None => push(document, list, value),
+    }
+}
+
+/// Takes free entries off the end of a list; a list of nothing must not stand in a glTF file.
+fn cut(document: &mut Json, list: &str, free: &BTreeSet<usize>) {
+    let Some(entries) = document.get_mut(list).and_then(Json::as_array_mut) else {
+        return;
+    };
+    while !entries.is_empty() && free.contains(&(entries.len() - 1)) {
+        entries.pop();
+    }
+    if entries.is_empty() {
+        remove(document, list);
+    }
+}
+
+/// A file name as a `uri`: everything but the plainest letters as `%` and two digits (RFC 3986).
+pub(super) fn uri_of(name: &str) -> String {
+    name.bytes()
+        .map(|byte| match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => char::from(byte).to_string(),
+            _ => format!("%{byte:02X}"),
+        })
+        .collect()
+}

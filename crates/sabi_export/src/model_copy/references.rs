@@ -1,0 +1,79 @@
+//! Who points at textures and pictures. Extensions that Sabi does not know may do so too, so whatever looks like a
+//! reference counts as one: a picture too many is no harm, one too few is.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value as Json;
+
+/// Lists whose entries are what is pointed at, or that point at bytes alone.
+const NOT_SEARCHED: [&str; 6] = ["accessors", "buffers", "bufferViews", "images", "samplers", "textures"];
+
+/// Textures that anything but a texture list points at: numbers under `index` or a key that speaks of textures.
+pub(super) fn textures(document: &Json) -> BTreeSet<usize> {
+    let mut found = BTreeSet::new();
+    for (key, value) in document.as_object().into_iter().flatten() {
+        if !NOT_SEARCHED.contains(&key.as_str()) {
+            search(
+                value,
+                &|key| key == "index" || speaks_of(key, "texture"),
+                false,
+                &mut found,
+            );
+        }
+    }
+    found
+}
+
+/// Pictures that the given textures, or extensions, point at.
+pub(super) fn images(document: &Json, textures: &BTreeSet<usize>) -> BTreeSet<usize> {
+    let is_reference = |key: &str| key == "source" || speaks_of(key, "image");
+    let mut found = BTreeSet::new();
+    for index in textures {
+        search(&document["textures"][*index], &is_reference, false, &mut found);
+    }
+    for (key, value) in document.as_object().into_iter().flatten() {
+        if !NOT_SEARCHED.contains(&key.as_str()) {
+            search(value, &is_reference, false, &mut found);
+        }
+    }
+    found
+}
+
+/// Buffer views that anything but the given pictures points at.
+pub(super) fn views(document: &Json, without_images: &BTreeSet<usize>) -> BTreeSet<usize> {
+    let mut found = BTreeSet::new();
+    for (key, value) in document.as_object().into_iter().flatten() {
+        let is_reference = |key: &str| speaks_of(key, "bufferview");
+        if key == "images" {
+            for (index, image) in value.as_array().into_iter().flatten().enumerate() {
+                if !without_images.contains(&index) {
+                    search(image, &is_reference, false, &mut found);
+                }
+            }
+        } else if key != "bufferViews" {
+            search(value, &is_reference, false, &mut found);
+        }
+    }
+    found
+}
+
+fn speaks_of(key: &str, what: &str) -> bool {
+    key.to_ascii_lowercase().contains(what)
+}
+
+/// Collects whole numbers below keys that refer.
+fn search(value: &Json, is_reference: &dyn Fn(&str) -> bool, refers: bool, found: &mut BTreeSet<usize>) {
+    match value {
+        Json::Object(object) => {
+            for (key, value) in object {
+                let refers = is_reference(key);
+                search(value, is_reference, refers, found);
+            }
+        }
+        Json::Array(values) => values
+            .iter()
+            .for_each(|value| search(value, is_reference, refers, found)),
+        Json::Number(number) if refers => found.extend(number.as_u64().and_then(|at| usize::try_from(at).ok())),
+        _ => {}
+    }
+}
