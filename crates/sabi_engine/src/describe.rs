@@ -1,6 +1,6 @@
 //! Models, nodes and the machine described as data, for `sabi mesh`, `nodes` and `doctor`.
 
-use sabi_nodes::kind::{InputDefault, Kind, Param, ParamValue, Role};
+use sabi_nodes::kind::{InputDefault, Kind, Param, ParamValue, Role, Shape};
 use sabi_plan::SourceKind;
 use serde_json::{Value as Json, json};
 
@@ -112,7 +112,12 @@ fn describe_kind(kind: &Kind) -> Json {
         "version": kind.version,
         "label": kind.label,
         "summary": kind.summary,
+        "description": kind.description,
         "aliases": kind.aliases,
+        "shape": match kind.shape {
+            Shape::Point => "point",
+            Shape::Field => "field",
+        },
         "inputs": kind.inputs.iter().map(|input| json!({
             "name": input.name,
             "type": input.ty.to_string(),
@@ -169,6 +174,9 @@ fn describe_param(param: &Param) -> Json {
     }
     if let Some([low, high]) = param.range {
         shown["range"] = json!([short(low), short(high)]);
+    }
+    if let Some([low, high]) = param.soft {
+        shown["soft"] = json!([short(low), short(high)]);
     }
     shown
 }

@@ -1,44 +1,91 @@
 //! The project's own models, written as GLB: the same bytes on every run.
 
 mod ball;
+mod bar;
+mod barrel;
 mod bench;
+mod chain;
+mod chair;
+mod column;
+mod crate_box;
 mod figure;
-mod glb;
+mod fixings;
+pub(crate) mod glb;
+mod hoop;
+mod lathe;
 mod outline;
 mod pack;
 mod shape;
 mod solids;
 mod sweep;
+mod table;
 #[cfg(test)]
 mod tests;
+mod wall;
 
 use std::fs;
 use std::path::Path;
 
 use glb::Model;
 
-use crate::place::Stop;
+use crate::place::{Place, Stop};
+
+/// A model's name and what makes it.
+type Maker = (&'static str, fn() -> Model);
 
 /// Every model this project makes.
-fn models() -> [Model; 4] {
-    [bench::bench(), figure::figure(), solids::sphere(), solids::cube()]
+const MAKERS: [Maker; 11] = [
+    ("bench", bench::bench),
+    ("figure", figure::figure),
+    ("sphere", solids::sphere),
+    ("cube", solids::cube),
+    ("chair", chair::chair),
+    ("table", table::table),
+    ("crate", crate_box::crate_box),
+    ("barrel", barrel::barrel),
+    ("chain", chain::chain),
+    ("column", column::column),
+    ("wall", wall::wall),
+];
+
+/// A model by its name.
+pub(crate) fn model(name: &str) -> Option<Model> {
+    MAKERS.iter().find(|(own, _)| *own == name).map(|(_, make)| make())
 }
 
-/// Writes them all below the project's root and says what was written.
-pub(crate) fn write(root: &Path) -> Result<(), Stop> {
-    let folder = root.join("assets/meshes");
-    let cannot = |error| Stop::new(1, format!("{} cannot be written: {error}.", folder.display()));
-    fs::create_dir_all(&folder).map_err(cannot)?;
-    for model in models() {
-        let bytes = glb::encode(&model);
-        let triangles: usize = model.parts.iter().map(|part| part.shape.triangles.len()).sum();
-        fs::write(folder.join(format!("{}.glb", model.name)), &bytes).map_err(cannot)?;
-        eprintln!(
-            "assets/meshes/{}.glb: {} parts, {triangles} triangles, {} KiB",
-            model.name,
-            model.parts.len(),
-            bytes.len().div_ceil(1024)
-        );
+/// Writes all models into the project, or with `--million` the large one to where it is wanted.
+pub(crate) fn run(place: &Place, arguments: &[String]) -> Result<(), Stop> {
+    match arguments {
+        [] => {
+            let folder = place.root.join("assets/meshes");
+            MAKERS.iter().try_for_each(|(_, make)| {
+                let model = make();
+                write(&model, &folder.join(format!("{}.glb", model.name)))
+            })
+        }
+        [flag] if flag == "--million" => write(&figure::million(), &place.target.join("meshes/figure-million.glb")),
+        [flag, file] if flag == "--million" => write(&figure::million(), Path::new(file)),
+        _ => {
+            let advice = "`cargo xtask assets` takes nothing, or `--million` and a file to write.";
+            Err(Stop::new(2, advice.to_owned()))
+        }
     }
+}
+
+/// Writes a model and says what was written.
+fn write(model: &Model, path: &Path) -> Result<(), Stop> {
+    let cannot = |error| Stop::new(1, format!("{} cannot be written: {error}.", path.display()));
+    let bytes = glb::encode(model);
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(cannot)?;
+    }
+    fs::write(path, &bytes).map_err(cannot)?;
+    let triangles: usize = model.parts.iter().map(|part| part.shape.triangles.len()).sum();
+    eprintln!(
+        "{}: {} parts, {triangles} triangles, {} KiB",
+        path.display(),
+        model.parts.len(),
+        bytes.len().div_ceil(1024)
+    );
     Ok(())
 }

@@ -1,10 +1,12 @@
-//! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`, `cargo xtask bless`.
+//! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
+//! `cargo xtask bless`, `cargo xtask reference`.
 
 mod assets;
 mod bless;
 mod checks;
 mod demo;
 mod place;
+mod reference;
 mod vulkan;
 
 use std::process::ExitCode;
@@ -14,17 +16,21 @@ use place::{Place, Stop};
 const HELP: &str = "\
 cargo xtask demo      set up, build in release and bake the example bench into out/weathered-bench
 cargo xtask test      set up, then format check, clippy, tests, doc tests and documentation
-cargo xtask assets    write the project's own models into assets/meshes again
+cargo xtask assets    write the project's own models into assets/meshes again; with --million [FILE],
+                      write only the figure in a million triangles, into target/meshes or FILE
 cargo xtask bless K   write the goldens of node kind K again, or of all
+cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
 ";
 
 fn main() -> ExitCode {
     let task = std::env::args().nth(1);
+    let rest: Vec<String> = std::env::args().skip(2).collect();
     let result = match task.as_deref() {
         Some("demo") => Place::find().and_then(|place| demo::run(&place)),
         Some("test") => Place::find().and_then(|place| checks::run(&place)),
-        Some("assets") => Place::find().and_then(|place| assets::write(&place.root)),
-        Some("bless") => Place::find().and_then(|place| bless::run(&place, std::env::args().nth(2).as_deref())),
+        Some("assets") => Place::find().and_then(|place| assets::run(&place, &rest)),
+        Some("bless") => Place::find().and_then(|place| bless::run(&place, rest.first().map(String::as_str))),
+        Some("reference") => Place::find().and_then(|place| reference::run(&place, &rest)),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");
             Ok(())

@@ -13,5 +13,6 @@ mod looking;
 mod nothing_lost;
 mod outputs;
 mod place;
+mod reference;
 mod settings;
 mod unwrapping;

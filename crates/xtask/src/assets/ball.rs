@@ -96,11 +96,16 @@ impl Skin {
         Skin { points, faces, beside }
     }
 
-    /// The shape, each face one chart laid out by [`unroll`].
+    /// Each face laid flat by [`unroll`].
+    pub(crate) fn sheets(&self, rounds: usize) -> Vec<Vec<Vec<DVec2>>> {
+        let faces = self.faces.iter();
+        faces.map(|rows| unroll(&self.points, rows, rounds)).collect()
+    }
+
+    /// The shape, each face one chart.
     pub(crate) fn shape(&self, rounds: usize) -> Shape {
         let mut shape = Shape::default();
-        for rows in &self.faces {
-            let sheet = unroll(&self.points, rows, rounds);
+        for (rows, sheet) in self.faces.iter().zip(self.sheets(rounds)) {
             let corners: Vec<Vec<Corner>> = rows
                 .iter()
                 .zip(&sheet)

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec2, DVec3, dvec2, dvec3};
 
-use super::glb::Model;
+use super::glb::{Material, Model};
 use super::outline::{Outline, Turn, circle, rounded, rounded_rectangle};
 use super::shape::{Part, Shape};
 use super::sweep::{Ends, Station, sweep, turned};
@@ -36,7 +36,7 @@ pub(crate) fn bench() -> Model {
     }
     Model {
         name: "bench",
-        base_color_linear: [0.5, 0.42, 0.34],
+        materials: vec![Material::plain("bench", [0.5, 0.42, 0.34])],
         parts,
     }
 }
@@ -103,6 +103,7 @@ fn part(name: String, translation: DVec3, rotation: DQuat, shape: Shape, smooth_
         name,
         translation,
         rotation,
+        material: 0,
         shape,
         smooth_below,
     }

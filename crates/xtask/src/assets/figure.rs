@@ -1,17 +1,19 @@
 //! An owl of smooth solids melted together: the organic model. A ball is shrunk onto it, so its charts stay six.
 
-use glam::{DQuat, DVec3, dvec3};
+use glam::{DQuat, DVec2, DVec3, dvec3};
 
 use super::ball::Skin;
-use super::glb::Model;
-use super::shape::Part;
+use super::glb::{Material, Model};
+use super::shape::{Corner, Part, Shape};
 
 /// Height of the figure without its ears, in meters; the solids below are for a height of 1.
 const SCALE: f64 = 0.4;
 /// Inside the chest, where the ball is centered before it shrinks.
 const HEART: DVec3 = dvec3(0.0, 0.45, 0.0);
 /// Quads along the edge of a chart.
-const STEPS: usize = 44;
+pub(crate) const STEPS: usize = 44;
+/// How often the charts are relaxed.
+const UNROLL_ROUNDS: usize = 300;
 
 /// An ellipsoid and how softly it melts into what stands before it.
 struct Lump {
@@ -125,15 +127,88 @@ fn outermost(lumps: &[Lump], softness: f64, direction: DVec3) -> f64 {
     reach
 }
 
-/// The seated owl: a ball around a blurred owl, which then comes into focus.
+/// The seated owl.
 pub(crate) fn figure() -> Model {
+    let shape = scaled(skin(&lumps())).shape(UNROLL_ROUNDS);
+    model("figure", shape)
+}
+
+/// Pieces of a quad's side that make more than a million triangles.
+pub(crate) const MILLION_PIECES: usize = 7;
+
+/// The same owl of more than a million triangles.
+pub(crate) fn million() -> Model {
+    model("figure-million", subdivided(MILLION_PIECES))
+}
+
+/// Every quad cut into `pieces`² and brought onto the owl again; texture coordinates stay where they were.
+pub(crate) fn subdivided(pieces: usize) -> Shape {
     let lumps = lumps();
+    let skin = skin(&lumps);
+    let sheets = scaled(skin.clone()).sheets(UNROLL_ROUNDS);
+    let mut shape = Shape::default();
+    for (rows, sheet) in skin.faces.iter().zip(&sheets) {
+        let corner = |x: usize, y: usize| {
+            let (i, j) = ((x / pieces).min(STEPS - 1), (y / pieces).min(STEPS - 1));
+            let (s, t) = (
+                (x - i * pieces) as f64 / pieces as f64,
+                (y - j * pieces) as f64 / pieces as f64,
+            );
+            let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t];
+            let quad = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
+            let mut position = DVec3::ZERO;
+            let mut own = DVec2::ZERO;
+            for ((i, j), weight) in quad.into_iter().zip(weights) {
+                position += skin.points[rows[j][i]] * weight;
+                own += sheet[j][i] * weight;
+            }
+            for _ in 0..3 {
+                position = onto(&lumps, 1.0, position);
+            }
+            Corner {
+                position: position * SCALE,
+                sheet: own,
+                normal: None,
+            }
+        };
+        let steps = STEPS * pieces;
+        let corners: Vec<Vec<Corner>> = (0..=steps)
+            .map(|y| (0..=steps).map(|x| corner(x, y)).collect())
+            .collect();
+        shape.grid(&corners);
+    }
+    shape
+}
+
+fn scaled(mut skin: Skin) -> Skin {
+    skin.points.iter_mut().for_each(|point| *point *= SCALE);
+    skin
+}
+
+fn model(name: &'static str, shape: Shape) -> Model {
+    let part = Part {
+        name: "owl".into(),
+        translation: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+        material: 0,
+        shape,
+        smooth_below: 180.0,
+    };
+    Model {
+        name,
+        materials: vec![Material::plain("figure", [0.55, 0.5, 0.45])],
+        parts: vec![part],
+    }
+}
+
+/// A ball around a blurred owl, which then comes into focus; for a height of 1.
+fn skin(lumps: &[Lump]) -> Skin {
     let blurred = 5.0;
     let rounds = 110;
     let mut skin = Skin::new(STEPS);
     for point in &mut skin.points {
         let direction = (*point * dvec3(0.5, 1.0, 0.5)).normalize_or_zero();
-        *point = HEART + direction * outermost(&lumps, blurred, direction);
+        *point = HEART + direction * outermost(lumps, blurred, direction);
     }
     // Points slide along the surface toward the middle of their neighbors, so that they lie evenly.
     for round in 0..rounds {
@@ -145,26 +220,13 @@ pub(crate) fn figure() -> Model {
                 let pull = before[number].distance(*point);
                 (sum + before[number] * pull, weights + pull)
             });
-            *point = onto(&lumps, softness, point.lerp(sum / weights.max(1e-12), 0.4));
+            *point = onto(lumps, softness, point.lerp(sum / weights.max(1e-12), 0.4));
         }
     }
     for point in &mut skin.points {
         for _ in 0..4 {
-            *point = onto(&lumps, 1.0, *point);
+            *point = onto(lumps, 1.0, *point);
         }
-        *point *= SCALE;
     }
-    let shape = skin.shape(300);
-    let part = Part {
-        name: "owl".into(),
-        translation: DVec3::ZERO,
-        rotation: DQuat::IDENTITY,
-        shape,
-        smooth_below: 180.0,
-    };
-    Model {
-        name: "figure",
-        base_color_linear: [0.55, 0.5, 0.45],
-        parts: vec![part],
-    }
+    skin
 }

@@ -1,4 +1,4 @@
-//! Parts into the bytes of a GLB file: one buffer, one material, a root node with the parts below it.
+//! Parts into the bytes of a GLB file: one buffer, a root node with the parts below it.
 
 use std::collections::BTreeMap;
 
@@ -17,12 +17,47 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// A model to write.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
-    /// File stem, root node and material.
+    /// File stem and root node.
     pub(crate) name: &'static str,
-    /// Linear base color of the material.
-    pub(crate) base_color_linear: [f64; 3],
+    /// What its parts are made of; all share one sheet of texture coordinates.
+    pub(crate) materials: Vec<Material>,
     /// Its pieces.
     pub(crate) parts: Vec<Part>,
+}
+
+/// What a part is made of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Material {
+    /// Its name in the file.
+    pub(crate) name: &'static str,
+    /// Linear base color.
+    pub(crate) base_color_linear: [f64; 3],
+    /// 1 for bare metal.
+    pub(crate) metallic: f64,
+    /// 0 is a mirror, 1 is chalk.
+    pub(crate) roughness: f64,
+}
+
+impl Material {
+    /// Anything but metal, rather rough.
+    pub(crate) fn plain(name: &'static str, base_color_linear: [f64; 3]) -> Material {
+        Material {
+            name,
+            base_color_linear,
+            metallic: 0.0,
+            roughness: 0.8,
+        }
+    }
+
+    /// Bare wrought iron.
+    pub(crate) fn iron() -> Material {
+        Material {
+            name: "iron",
+            base_color_linear: [0.28, 0.27, 0.26],
+            metallic: 1.0,
+            roughness: 0.5,
+        }
+    }
 }
 
 /// A part as the file holds it.
@@ -139,23 +174,29 @@ pub(crate) fn encode(model: &Model) -> Vec<u8> {
         let indices = tables.push_indices(&indexed.indices, indexed.positions.len());
         meshes.push(json!({
             "name": part.name,
-            "primitives": [{ "attributes": attributes, "indices": indices, "material": 0 }],
+            "primitives": [{ "attributes": attributes, "indices": indices, "material": part.material }],
         }));
         nodes.push(node(part, meshes.len() - 1));
     }
     let children: Vec<usize> = (0..nodes.len()).collect();
     nodes.push(json!({ "name": model.name, "children": children }));
-    let [r, g, b] = model.base_color_linear;
+    let materials = model.materials.iter().map(|material| {
+        let [r, g, b] = material.base_color_linear;
+        let (metallic, roughness) = (material.metallic, material.roughness);
+        json!({
+            "name": material.name,
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [r, g, b, 1.0], "metallicFactor": metallic, "roughnessFactor": roughness,
+            },
+        })
+    });
     let document = json!({
         "asset": { "version": "2.0", "generator": "cargo xtask assets", "copyright": "The Sabi authors, MIT OR Apache-2.0" },
         "scene": 0,
         "scenes": [{ "nodes": [nodes.len() - 1] }],
         "nodes": nodes,
         "meshes": meshes,
-        "materials": [{
-            "name": model.name,
-            "pbrMetallicRoughness": { "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8 },
-        }],
+        "materials": materials.collect::<Vec<_>>(),
         "accessors": tables.accessors,
         "bufferViews": tables.views,
         "buffers": [{ "byteLength": tables.bytes.len() }],

@@ -63,6 +63,11 @@ fn arc(before: DVec2, corner: DVec2, after: DVec2, radius: f64, segments: usize)
 /// A rounded rectangle about the origin, its wide sides cut into `spans`; starts in the middle of the lower side, where
 /// the chart border goes because nobody looks there.
 pub(crate) fn rounded_rectangle(width: f64, height: f64, radius: f64, spans: usize) -> Outline {
+    rectangle(width, height, radius, spans, 3)
+}
+
+/// A [`rounded_rectangle`] with a choice of how many pieces each corner's arc has; 1 is a plain bevel.
+pub(crate) fn rectangle(width: f64, height: f64, radius: f64, spans: usize, segments: usize) -> Outline {
     let (x, y) = (width / 2.0, height / 2.0);
     let corner = |x: f64, y: f64| Turn {
         at: dvec2(x, y),
@@ -87,7 +92,7 @@ pub(crate) fn rounded_rectangle(width: f64, height: f64, radius: f64, spans: usi
         });
     }
     turns.extend([corner(-x, y), corner(-x, -y)]);
-    rounded(&turns, 3, true)
+    rounded(&turns, segments, true)
 }
 
 /// A circle about the origin with one chart border at its lowest point.

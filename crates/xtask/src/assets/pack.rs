@@ -86,6 +86,10 @@ type Rect = [i32; 4];
 fn place_all(sizes: &[DVec2], density: f64) -> Option<Vec<([i32; 2], bool)>> {
     // The gap above and to the right of each chart is part of its rectangle; the one at the border is the margin.
     let texels = |meters: f64| (meters * density - 1e-6).ceil() as i32 + GAP_PX;
+    let area = |size: &DVec2| texels(size.x) * texels(size.y);
+    if sizes.iter().map(area).sum::<i32>() > (SHEET_PX - GAP_PX) * (SHEET_PX - GAP_PX) {
+        return None;
+    }
     let mut order: Vec<usize> = (0..sizes.len()).collect();
     let longest = |i: usize| texels(sizes[i].max_element());
     order.sort_by_key(|&i| (-longest(i), -texels(sizes[i].min_element()), i));

@@ -68,6 +68,21 @@ impl Shape {
         }
     }
 
+    /// Adds another shape's charts, turned and moved.
+    pub(crate) fn append(&mut self, other: Shape, rotation: DQuat, translation: DVec3) {
+        let charts = self.charts;
+        self.charts += other.charts;
+        self.triangles
+            .extend(other.triangles.into_iter().map(|triangle| Triangle {
+                corners: triangle.corners.map(|corner| Corner {
+                    position: translation + rotation * corner.position,
+                    sheet: corner.sheet,
+                    normal: corner.normal.map(|normal| rotation * normal),
+                }),
+                chart: charts + triangle.chart,
+            }));
+    }
+
     /// Adds a chart from a grid of corners: rows follow each other to the left of their own direction.
     pub(crate) fn grid(&mut self, rows: &[Vec<Corner>]) {
         let chart = self.begin_chart();
@@ -88,6 +103,8 @@ pub(crate) struct Part {
     pub(crate) translation: DVec3,
     /// How it is turned.
     pub(crate) rotation: DQuat,
+    /// Which of the model's materials it is made of.
+    pub(crate) material: usize,
     /// Its triangles.
     pub(crate) shape: Shape,
     /// Faces that meet at less than this angle, in degrees, are shaded as one.

@@ -3,14 +3,14 @@
 use glam::{DQuat, DVec2, DVec3, dvec2};
 
 use super::ball::{FACES, ball};
-use super::glb::Model;
+use super::glb::{Material, Model};
 use super::shape::{Corner, Part, Shape};
 
 /// A ball of one meter across, in six charts.
 pub(crate) fn sphere() -> Model {
     Model {
         name: "sphere",
-        base_color_linear: [0.6, 0.6, 0.6],
+        materials: vec![Material::plain("sphere", [0.6, 0.6, 0.6])],
         parts: vec![part("sphere", ball(0.5, 24))],
     }
 }
@@ -51,7 +51,7 @@ pub(crate) fn cube() -> Model {
     }
     Model {
         name: "cube",
-        base_color_linear: [0.6, 0.6, 0.6],
+        materials: vec![Material::plain("cube", [0.6, 0.6, 0.6])],
         parts: vec![part("cube", shape)],
     }
 }
@@ -61,6 +61,7 @@ fn part(name: &str, shape: Shape) -> Part {
         name: name.into(),
         translation: DVec3::ZERO,
         rotation: DQuat::IDENTITY,
+        material: 0,
         shape,
         smooth_below: 30.0,
     }

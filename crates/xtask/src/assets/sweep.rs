@@ -1,6 +1,7 @@
 //! Solids from outlines: drawn along a path, or turned about an axis.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 
@@ -19,7 +20,8 @@ pub(crate) struct Station {
 }
 
 impl Station {
-    fn place(&self, point: DVec2) -> DVec3 {
+    /// Where a point of the outline is in space.
+    pub(crate) fn place(&self, point: DVec2) -> DVec3 {
         self.center + self.side * point.x + self.up * point.y
     }
 
@@ -41,35 +43,30 @@ pub(crate) struct Ends {
 /// end with its rounding is one more.
 pub(crate) fn sweep(outline: &Outline, path: &[Station], ends: Ends) -> Shape {
     let mut shape = Shape::default();
-    let count = outline.points.len();
-    let seams = if outline.seams.is_empty() {
-        vec![0]
-    } else {
-        outline.seams.clone()
-    };
-    for (i, &first) in seams.iter().enumerate() {
-        let last = if i + 1 < seams.len() {
-            seams[i + 1]
-        } else {
-            seams[0] + count
-        };
-        wall(&mut shape, outline, path, first..=last, ends.radius);
+    for range in seam_to_seam(outline) {
+        wall(&mut shape, outline, path, range, ends.radius);
     }
     if let (Some(first), Some(last)) = (path.first(), path.last()) {
-        end_cap(&mut shape, &outline.points, first, ends, true);
-        end_cap(&mut shape, &outline.points, last, ends, false);
+        end_cap(&mut shape, &outline.points, first, first.along(), ends, true);
+        end_cap(&mut shape, &outline.points, last, -last.along(), ends, false);
     }
     shape
 }
 
+/// Runs of outline points from one chart border to the next; numbers past the end begin again at the start.
+pub(crate) fn seam_to_seam(outline: &Outline) -> Vec<RangeInclusive<usize>> {
+    let count = outline.points.len();
+    let seams = if outline.seams.is_empty() {
+        &[0][..]
+    } else {
+        &outline.seams
+    };
+    let after = seams[1..].iter().copied().chain([seams[0] + count]);
+    seams.iter().zip(after).map(|(&first, last)| first..=last).collect()
+}
+
 /// One chart of the wall: the outline's points of a range, along the whole path short of the rounded ends.
-fn wall(
-    shape: &mut Shape,
-    outline: &Outline,
-    path: &[Station],
-    range: std::ops::RangeInclusive<usize>,
-    end_radius: f64,
-) {
+fn wall(shape: &mut Shape, outline: &Outline, path: &[Station], range: RangeInclusive<usize>, end_radius: f64) {
     let count = outline.points.len();
     let mut rows = Vec::new();
     let mut y = 0.0;
@@ -102,13 +99,20 @@ fn wall(
 }
 
 /// An end: rings of the rounding and the flat fill, as one chart; the rings lie on the sheet at their true distance.
-fn end_cap(shape: &mut Shape, outline: &[DVec2], station: &Station, ends: Ends, is_start: bool) {
+/// `inward` leads from the end into the solid, by one meter of depth.
+pub(crate) fn end_cap(
+    shape: &mut Shape,
+    outline: &[DVec2],
+    station: &Station,
+    inward: DVec3,
+    ends: Ends,
+    is_start: bool,
+) {
     let chart = shape.begin_chart();
-    let outward = if is_start { -station.along() } else { station.along() };
     let mirror = dvec2(if is_start { -1.0 } else { 1.0 }, 1.0);
     let ring = |i: usize| -> Vec<Corner> {
         let angle = FRAC_PI_2 * (i as f64 / ends.segments as f64);
-        let center = station.center - outward * ends.radius * (1.0 - angle.sin());
+        let center = station.center + inward * ends.radius * (1.0 - angle.sin());
         let inset = offset(outline, -ends.radius * (1.0 - angle.cos()));
         let sheet = offset(outline, ends.radius * (FRAC_PI_2 - angle - 1.0));
         inset
