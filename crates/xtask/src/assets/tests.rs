@@ -119,6 +119,27 @@ fn every_part_is_closed_and_faces_outward() {
     }
 }
 
+/// Where they did, a program that welds by place would find edges with more than two faces.
+#[test]
+fn no_two_parts_share_an_edge() {
+    for model in &*MODELS {
+        let mut owners: BTreeMap<[[i64; 3]; 2], &str> = BTreeMap::new();
+        for part in &model.parts {
+            for triangle in &part.shape.triangles {
+                let place = |i: usize| part.translation + part.rotation * triangle.corners[i % 3].position;
+                for i in 0..3 {
+                    // To a hundredth of a millimeter, as a loader may weld.
+                    let key = |i: usize| place_key(place(i) / 100.0);
+                    let mut edge = [key(i), key(i + 1)];
+                    edge.sort_unstable();
+                    let owner = *owners.entry(edge).or_insert(&part.name);
+                    assert_eq!(owner, part.name, "{}: two parts share an edge", model.name);
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn normals_have_unit_length_and_face_with_their_triangles() {
     for model in &*MODELS {

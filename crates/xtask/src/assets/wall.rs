@@ -146,6 +146,8 @@ fn molding() -> super::outline::Outline {
     rounded(&turns, 3, true)
 }
 
+/// Half the joint at the miter, so that the two stones do not share their edges.
+const MITER_GAP: f64 = 0.0006;
 const CORNICE_ENDS: Ends = Ends {
     radius: 0.0016,
     segments: 1,
@@ -153,7 +155,7 @@ const CORNICE_ENDS: Ends = Ends {
 
 /// From the miter at the corner to beyond the front wall's end.
 fn cornice_front(y: f64) -> Part {
-    let (from, to) = (THICK / 2.0, REACH + 0.04);
+    let (from, to) = (THICK / 2.0 + MITER_GAP, REACH + 0.04);
     let along = Bar {
         cuts: [miter(-1.0, -1.0), DVec3::X],
         ..Bar::of(to - from)
@@ -166,7 +168,7 @@ fn cornice_front(y: f64) -> Part {
 
 /// The same along the left wall; its x runs toward the front.
 fn cornice_left(y: f64) -> Part {
-    let (from, to) = (THICK / 2.0, REACH + 0.04);
+    let (from, to) = (THICK / 2.0 + MITER_GAP, REACH + 0.04);
     let along = Bar {
         cuts: [DVec3::NEG_X, miter(1.0, -1.0)],
         ..Bar::of(to - from)
