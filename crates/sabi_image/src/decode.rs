@@ -14,6 +14,10 @@ pub const MAX_SIDE: u32 = 16384;
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 /// Deflate makes no file smaller than this fraction (RFC 1951: 258 bytes from 2 bits).
 const DEFLATE_BEST_RATIO: u64 = 1032;
+/// A JPEG has at least a bit for each 8 × 8 block of pixels (ITU-T T.81: no Huffman code is shorter).
+const JPEG_PIXELS_A_BYTE: u64 = 8 * 8 * 8;
+/// A run of 128 pixels of a TGA takes two bytes.
+const TGA_PIXELS_A_BYTE: u64 = 64;
 
 /// The picture in the bytes of a PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR file, recognized by its content (TGA,
 /// which has no mark, by the name's ending). `name` stands in messages. Sizes are checked before memory is taken.
@@ -231,6 +235,14 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     if width == 0 || height == 0 {
         return Err(damaged(name, format_name, "it has no pixels"));
     }
+    let pixels_a_byte = match format {
+        ImageFormat::Jpeg => JPEG_PIXELS_A_BYTE,
+        ImageFormat::Tga => TGA_PIXELS_A_BYTE,
+        _ => u64::MAX,
+    };
+    if (bytes.len() as u64) < u64::from(width) * u64::from(height) / pixels_a_byte {
+        return Err(damaged(name, format_name, "the file ends too early"));
+    }
     let picture = DynamicImage::from_decoder(decoder).map_err(explain)?;
     let channels = picture.color().channel_count();
     let pixels = samples_of(picture).map_err(|feature| ImageError::Feature {
@@ -275,5 +287,7 @@ fn jpeg_is_complete(bytes: &[u8]) -> bool {
     last([0xff, 0xd9]).is_some_and(|end| last([0xff, 0xda]).is_none_or(|scan| scan < end))
 }
 
+#[cfg(test)]
+mod odd_kinds;
 #[cfg(test)]
 mod tests;

@@ -1,38 +1,59 @@
-//! OpenEXR files: RGBA or luminance of the first layer, at full resolution.
+//! OpenEXR files: RGBA or luminance of one layer, at full resolution.
 
 use std::io::Cursor;
 
-use exr::image::{FlatSamples, Image, Layer};
+use exr::image::{FlatSamples, Image, Layer, Layers};
 use exr::meta::MetaData;
+use exr::meta::attribute::IntegerBounds;
 use exr::meta::header::Header;
 use exr::prelude::{AnyChannels, ReadChannels as _, ReadLayers as _};
 
-use crate::decode::{check_size, damaged};
+use crate::decode::{MAX_DECODED_BYTES, check_size, damaged};
 use crate::{Declared, ImageError, Picture, Pixels};
 
 const FORMAT: &str = "OpenEXR";
+/// Stands for what is infinite: the largest number of most files.
+const LARGEST_HALF: f32 = 65504.0;
 
-type FlatLayer = Image<Layer<AnyChannels<FlatSamples>>>;
+type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
 /// What is shown is the display window; pixels of it that the file does not have are 0.
 pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
-    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| damaged(name, FORMAT, error))?;
-    let header = meta
-        .headers
-        .first()
-        .ok_or_else(|| damaged(name, FORMAT, "it has no layer"))?;
-    check_header(name, header)?;
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| explain(name, error))?;
+    if meta.headers.is_empty() {
+        return Err(damaged(name, FORMAT, "it has no layer"));
+    }
+    let mut all_bytes = 0;
+    for header in &meta.headers {
+        all_bytes += check_header(name, header)?;
+    }
+    // All layers of a file are decoded together.
+    if all_bytes > MAX_DECODED_BYTES {
+        return Err(unsupported(name, "its layers take more than 1 GiB together"));
+    }
     // One thread: a slip in a worker of the decoder could not be caught.
-    let image: FlatLayer = exr::prelude::read()
+    let image: Image<Layers<AnyChannels<FlatSamples>>> = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()
-        .first_valid_layer()
+        .all_layers()
         .all_attributes()
         .non_parallel()
         .from_buffered(Cursor::new(bytes))
         .map_err(|error| explain(name, error))?;
-    compose(name, &image)
+    let names: Vec<Vec<String>> = image.layer_data.iter().map(channel_names).collect();
+    let (layer, picked) = pick_layer(&names).ok_or_else(|| {
+        let all: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+        unsupported(
+            name,
+            &format!("none of its channels ({}) is R, G, B or Y", all.join(", ")),
+        )
+    })?;
+    Ok(compose(
+        &image.layer_data[layer],
+        image.attributes.display_window,
+        &picked,
+    ))
 }
 
 fn explain(name: &str, error: exr::error::Error) -> ImageError {
@@ -50,19 +71,16 @@ fn unsupported(name: &str, feature: &str) -> ImageError {
     }
 }
 
-fn check_header(name: &str, header: &Header) -> Result<(), ImageError> {
+/// Refuses what is not read; gives the bytes that the layer takes.
+fn check_header(name: &str, header: &Header) -> Result<u64, ImageError> {
     if header.deep {
         return Err(unsupported(name, "it holds deep samples, several for each pixel"));
     }
     let window = header.shared_attributes.display_window.size;
     let data = header.layer_size;
     check_size(name, window.0 as u64, window.1 as u64, 16)?;
-    check_size(
-        name,
-        data.0 as u64,
-        data.1 as u64,
-        header.channels.bytes_per_pixel.max(1) as u64,
-    )?;
+    let pixel_bytes = header.channels.bytes_per_pixel.max(1) as u64;
+    check_size(name, data.0 as u64, data.1 as u64, pixel_bytes)?;
     if window.0 == 0 || window.1 == 0 {
         return Err(damaged(name, FORMAT, "it has no pixels"));
     }
@@ -77,7 +95,23 @@ fn check_header(name: &str, header: &Header) -> Result<(), ImageError> {
             "its color channels have fewer pixels than its brightness",
         ));
     }
-    Ok(())
+    Ok(data.0 as u64 * data.1 as u64 * pixel_bytes)
+}
+
+fn channel_names(layer: &FlatLayer) -> Vec<String> {
+    let channels = layer.channel_data.list.iter();
+    channels.map(|channel| channel.name.to_string()).collect()
+}
+
+/// The first layer in color, else the first that makes a picture at all (depth often comes first), with its channels.
+fn pick_layer(names: &[Vec<String>]) -> Option<(usize, Vec<usize>)> {
+    let pictures = || {
+        let picked = names.iter().map(|names| pick_channels(names));
+        picked.enumerate().filter_map(|(layer, picked)| Some((layer, picked?)))
+    };
+    pictures()
+        .find(|(_, picked)| picked.len() >= 3)
+        .or_else(|| pictures().next())
 }
 
 /// Channels of the picture in their order, as indices into the layer's list.
@@ -98,21 +132,7 @@ fn pick_channels(names: &[String]) -> Option<Vec<usize>> {
     Some(color.into_iter().chain(find("A")).collect())
 }
 
-fn compose(name: &str, image: &FlatLayer) -> Result<Picture, ImageError> {
-    let layer = &image.layer_data;
-    let names: Vec<String> = layer
-        .channel_data
-        .list
-        .iter()
-        .map(|channel| channel.name.to_string())
-        .collect();
-    let picked = pick_channels(&names).ok_or_else(|| {
-        unsupported(
-            name,
-            &format!("none of its channels ({}) is R, G, B or Y", names.join(", ")),
-        )
-    })?;
-    let window = image.attributes.display_window;
+fn compose(layer: &FlatLayer, window: IntegerBounds, picked: &[usize]) -> Picture {
     let (width, height) = (window.size.0, window.size.1);
     // Where the data's corner lies in the window.
     let corner_x = i64::from(layer.attributes.layer_position.0) - i64::from(window.position.0);
@@ -131,13 +151,13 @@ fn compose(name: &str, image: &FlatLayer) -> Result<Picture, ImageError> {
             }
         }
     }
-    Ok(Picture {
+    Picture {
         width: width as u32,
         height: height as u32,
         channels: channels as u8,
         pixels: Pixels::F32(samples),
         color_space: Declared::Linear,
-    })
+    }
 }
 
 fn overlap(corner: i64, length: usize, window: usize) -> std::ops::Range<usize> {
@@ -145,11 +165,18 @@ fn overlap(corner: i64, length: usize, window: usize) -> std::ops::Range<usize> 
     (corner.clamp(0, window as i64) as usize).min(end)..end
 }
 
+/// A sample that can be reckoned with: renderers leave behind what is no number, and any filter would spread it.
 fn sample(samples: &FlatSamples, index: usize) -> f32 {
-    match samples {
+    let value = match samples {
         FlatSamples::F16(list) => list.get(index).map_or(0.0, |value| value.to_f32()),
         FlatSamples::F32(list) => list.get(index).copied().unwrap_or(0.0),
         FlatSamples::U32(list) => list.get(index).map_or(0.0, |&value| value as f32),
+    };
+    match value {
+        _ if value.is_nan() => 0.0,
+        f32::INFINITY => LARGEST_HALF,
+        f32::NEG_INFINITY => -LARGEST_HALF,
+        value => value,
     }
 }
 
@@ -165,6 +192,23 @@ mod tests {
         assert_eq!(pick(&["A", "Y", "Z"]), Some(vec![1, 0]));
         assert_eq!(pick(&["depth"]), Some(vec![0]));
         assert_eq!(pick(&["id", "depth"]), None);
+    }
+
+    #[test]
+    fn a_layer_in_color_goes_before_depth_and_masks() {
+        let pick = |layers: &[&[&str]]| {
+            let names: Vec<Vec<String>> = layers
+                .iter()
+                .map(|names| names.iter().map(ToString::to_string).collect())
+                .collect();
+            pick_layer(&names)
+        };
+        assert_eq!(
+            pick(&[&["Z"], &["B", "G", "R"], &["R", "G", "B"]]),
+            Some((1, vec![2, 1, 0]))
+        );
+        assert_eq!(pick(&[&["id", "object"], &["Z"]]), Some((1, vec![0])));
+        assert_eq!(pick(&[&["id", "object"]]), None);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! sentence, and never panic.
 
 mod error;
+mod format;
 mod gltf;
 mod normals;
 mod obj;
@@ -19,6 +20,7 @@ use glam::{DMat3, DMat4, DVec3};
 pub use self::error::{Fault, LoadError};
 pub(crate) use self::piece::Piece;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
+use self::format::{Format, format_of, refused_format};
 use crate::model::Model;
 
 /// More triangles than this are refused before anything is allocated for them.
@@ -133,45 +135,6 @@ pub fn named_file(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), S
             Some(beside(folder, &decoded).or_else(|reason| beside(folder, uri).map_err(|_| reason)))
         }
     }
-}
-
-enum Format {
-    Gltf,
-    Obj,
-}
-
-fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
-    if let Some(sentence) = refused_format(name) {
-        return Err(Fault::Format(sentence));
-    }
-    match ending(name).as_str() {
-        "gltf" | "glb" | "vrm" => Ok(Format::Gltf),
-        "obj" => Ok(Format::Obj),
-        _ if bytes.starts_with(b"glTF") => Ok(Format::Gltf),
-        _ if bytes.trim_ascii_start().starts_with(b"{") => Ok(Format::Gltf),
-        _ => Err(Fault::Format(
-            "this is not a model that is read here: give a .glb, .gltf or .obj file".into(),
-        )),
-    }
-}
-
-/// A sentence for the well-known formats that are not read.
-fn refused_format(name: &str) -> Option<String> {
-    let ending = ending(name);
-    let way = match ending.as_str() {
-        "fbx" | "dae" | "3ds" | "ply" | "stl" | "x3d" | "wrl" | "abc" | "usd" | "usda" | "usdc" | "usdz" => {
-            "open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)"
-        }
-        "blend" => "open it in Blender and export it with File > Export > glTF 2.0 (.glb)",
-        "max" | "ma" | "mb" | "c4d" | "hip" | "hiplc" | "skp" | "lwo" | "ztl" | "spp" => {
-            "export it from its own program as glTF 2.0 (.glb) or OBJ"
-        }
-        "step" | "stp" | "iges" | "igs" | "sldprt" | "3dm" | "ifc" => {
-            "tessellate it in its CAD program and export it as glTF 2.0 (.glb) or OBJ"
-        }
-        _ => return None,
-    };
-    Some(format!(".{ending} files are not read here: {way}"))
 }
 
 fn ending(name: &str) -> String {

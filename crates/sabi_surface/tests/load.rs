@@ -9,6 +9,8 @@ mod builder;
 mod completing;
 #[path = "load/faults.rs"]
 mod faults;
+#[path = "load/files.rs"]
+mod files;
 #[path = "load/fuzz.rs"]
 mod fuzz;
 #[path = "load/layouts.rs"]
@@ -17,9 +19,17 @@ mod layouts;
 mod materials;
 #[path = "load/obj.rs"]
 mod obj;
+#[path = "load/oracle.rs"]
+mod oracle;
 #[path = "load/placing.rs"]
 mod placing;
 #[path = "load/promises.rs"]
 mod promises;
+#[path = "load/repairs.rs"]
+mod repairs;
 #[path = "load/shared_data.rs"]
 mod shared_data;
+#[path = "load/skins.rs"]
+mod skins;
+#[path = "load/storage.rs"]
+mod storage;

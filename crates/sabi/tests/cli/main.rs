@@ -10,6 +10,7 @@ mod copies;
 mod help;
 mod interruption;
 mod looking;
+mod model_options;
 mod nothing_lost;
 mod outputs;
 mod place;

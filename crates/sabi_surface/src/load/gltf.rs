@@ -6,6 +6,8 @@ mod document;
 mod material;
 mod primitive;
 mod scene;
+mod skin;
+mod storage;
 
 use std::collections::BTreeSet;
 
@@ -17,8 +19,8 @@ use self::document::Document;
 use self::material::Materials;
 use self::primitive::{Outcome, Source};
 use self::scene::Instance;
-use super::error::Fault;
-use super::warnings::Warnings;
+use super::error::{Fault, damaged};
+use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, TextureUvs};
 
@@ -27,16 +29,16 @@ pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
 /// Reads a `.gltf` or `.glb` file.
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
-    let (document, binary) = Document::parse(bytes)?;
     let mut warnings = Warnings::default();
+    let (document, binary) = Document::parse(bytes, &mut warnings)?;
     document.check_extensions(&mut warnings)?;
-    let instances = scene::instances(&document, &mut warnings)?;
-    let buffers = Buffers::gather(&document, binary, resolve);
+    let buffers = Buffers::gather(&document, binary, resolve, &mut warnings);
     let source = Source {
         document: &document,
         buffers: &buffers,
         uv_set: options.uv_set,
     };
+    let instances = scene::instances(&source, &mut warnings)?;
     check_size(&source, &instances)?;
 
     let pieces = source.pieces(instances.iter().map(|instance| instance.mesh))?;
@@ -71,7 +73,8 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     }
     if lost > 0 {
         warnings.add(format!(
-            "{lost} triangles reach out of the range of numbers once placed and are left out."
+            "{} reached out of the range of numbers once placed and had to be left out.",
+            counted(lost, TRIANGLES)
         ));
     }
     if model.mesh.triangles.is_empty() {
@@ -160,6 +163,9 @@ fn place<'a>(
     lost
 }
 
+/// Primitives may share their vertices, but each takes a look at all of them: more looks than this take minutes.
+const MOST_VERTICES_SEEN: u64 = 1 << 31;
+
 /// Adds up what the file claims before anything is allocated for it.
 fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
     let claims: Vec<u64> = source
@@ -172,8 +178,14 @@ fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
         .iter()
         .fold(0u64, |sum, instance| sum.saturating_add(claims[instance.mesh]));
     if total > MAX_TRIANGLES {
-        Err(Fault::TooLarge(total))
-    } else {
-        Ok(())
+        return Err(Fault::TooLarge(total));
     }
+    let primitives = source.document.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let seen = primitives.fold(0u64, |sum, primitive| sum.saturating_add(source.vertices(primitive)));
+    if seen > MOST_VERTICES_SEEN {
+        return damaged(format!(
+            "its primitives share vertices until there are {seen} of them; export it with vertices of their own"
+        ));
+    }
+    Ok(())
 }

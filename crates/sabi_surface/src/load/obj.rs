@@ -16,7 +16,7 @@ use super::error::Fault;
 use super::normals::{self, Missing};
 use super::piece::Piece;
 use super::tangents;
-use super::warnings::Warnings;
+use super::warnings::{TRIANGLES, VERTICES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, ModelMaterial};
 
@@ -57,6 +57,9 @@ pub(super) fn read(
         warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
     }
     if placed.triangles.is_empty() {
+        if warnings.is_empty() && !statements.positions.is_empty() {
+            warnings.add("it is a cloud of points without faces; make a mesh of them first");
+        }
         return Err(warnings.into_fault());
     }
     let mut library = Library::default();
@@ -144,20 +147,23 @@ fn complete(mut piece: Piece, warnings: &mut Warnings) -> Piece {
     let dropped = piece.drop_broken();
     if dropped > 0 {
         warnings.add(format!(
-            "{dropped} triangles touch positions that are no numbers and are left out."
+            "{} had positions that are no numbers and had to be left out.",
+            counted(dropped, TRIANGLES)
         ));
     }
     let repaired = piece.repair_attributes();
     if repaired > 0 {
         warnings.add(format!(
-            "{repaired} vertices have texture coordinates or colors that are no numbers; they were replaced."
+            "{} had texture coordinates or colors that are no numbers; these were replaced.",
+            counted(repaired, VERTICES)
         ));
     }
     let had_normals = !piece.normals.is_empty();
     let made = normals::complete(&mut piece, Missing::Crease);
     if had_normals && made > 0 {
         warnings.add(format!(
-            "{made} vertices have no normal, or one without a direction; they were made anew."
+            "{} had no normal, or one without a direction; these were made anew.",
+            counted(made, VERTICES)
         ));
     }
     tangents::complete(&mut piece, "the model", warnings);

@@ -236,6 +236,8 @@ pub(super) fn direction(vector: DVec3) -> Option<[f32; 3]> {
 fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
     let mut keep = keep.iter();
     values.retain(|_| keep.next().copied().unwrap_or(false));
+    // Primitives that share their vertices would each hold on to room for all of them.
+    values.shrink_to_fit();
 }
 
 fn repeat<T: Copy>(values: &mut Vec<T>, origins: &[u32]) {

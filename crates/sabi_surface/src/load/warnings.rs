@@ -12,6 +12,16 @@ pub(super) struct Warnings {
     left_out: usize,
 }
 
+/// `1 triangle`, `2 triangles`.
+pub(super) fn counted(count: usize, [one, more]: [&str; 2]) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}
+
+/// What is counted most.
+pub(super) const TRIANGLES: [&str; 2] = ["triangle", "triangles"];
+/// What is counted most.
+pub(super) const VERTICES: [&str; 2] = ["vertex", "vertices"];
+
 impl Warnings {
     /// Adds a sentence unless it was said before.
     pub(super) fn add(&mut self, sentence: impl Into<String>) {
@@ -24,6 +34,11 @@ impl Warnings {
         } else {
             self.left_out += 1;
         }
+    }
+
+    /// Whether nothing was said.
+    pub(super) fn is_empty(&self) -> bool {
+        self.sentences.is_empty()
     }
 
     /// Adds all of `other`.
@@ -40,8 +55,10 @@ impl Warnings {
             .sentences
             .into_iter()
             .take(3)
-            .fold(String::new(), |reasons, reason| reasons + "; " + &reason);
-        Fault::NoTriangles(reasons.trim_end_matches('.').to_string())
+            .fold(String::new(), |reasons, reason| {
+                reasons + "; " + reason.trim_end_matches('.')
+            });
+        Fault::NoTriangles(reasons)
     }
 
     /// The sentences, with a last one for those that were too many.

@@ -4,6 +4,7 @@ use sabi_surface::load::{LoadError, LoadOptions, load_bytes};
 use sabi_surface::model::Model;
 use serde_json::{Value, json};
 
+pub(crate) const I8: u32 = 5120;
 pub(crate) const U8: u32 = 5121;
 pub(crate) const I16: u32 = 5122;
 pub(crate) const U16: u32 = 5123;

@@ -39,7 +39,7 @@ fn normals_without_a_direction_are_made_anew() {
     assert_eq!(model.mesh.normals[2], [0.0, 0.0, 1.0]);
     assert_eq!(
         model.warnings,
-        ["2 vertices of mesh `fold` have normals without a direction; they were made anew."]
+        ["2 vertices of mesh `fold` had normals without a direction; these were made anew."]
     );
 }
 
@@ -150,7 +150,7 @@ fn triangles_at_positions_that_are_no_numbers_are_dropped() {
     assert_eq!(model.mesh.triangles, [[0, 1, 2]]);
     assert_eq!(
         model.warnings,
-        ["1 triangles of mesh `leaf` touch positions that are no numbers and are left out."]
+        ["1 triangle of mesh `leaf` had positions that are no numbers and had to be left out."]
     );
     file.json["nodes"][0]["scale"] = json!([1e38, 1e38, 1e38]);
     file.json["nodes"] = json!([{ "children": [1], "scale": [1e38, 1, 1] }, file.json["nodes"][0]]);
@@ -158,7 +158,7 @@ fn triangles_at_positions_that_are_no_numbers_are_dropped() {
         file.load()
             .unwrap_err()
             .to_string()
-            .contains("reach out of the range of numbers")
+            .contains("1 triangle reached out of the range of numbers")
     );
 }
 

@@ -163,7 +163,7 @@ fn what_is_left_out_is_said() {
             "Points and lines are left out.",
             "Faces name texture coordinates or normals that the file does not have.",
             "Some faces of material `a` have no UVs; their texture coordinates are all zero.",
-            "1 triangles touch positions that are no numbers and are left out.",
+            "1 triangle had positions that are no numbers and had to be left out.",
             "The material library gone.mtl cannot be read: there is no such file.",
             "Material `a` is in no material library that could be read; it gets plain values.",
         ]
@@ -197,6 +197,10 @@ fn each_fault_has_its_sentence() {
         ),
         ("f a b c\n", "the file is damaged: line 1: `a` is not an index"),
         ("hello\n", "it has no triangles"),
+        (
+            "v 0 0 0\nv 0 0 1\n",
+            "it has no triangles; it is a cloud of points without faces; make a mesh of them first",
+        ),
         (
             "v 0 0 0\nv 0 0 0\nl 1 2\n",
             "it has no triangles; Points and lines are left out",

@@ -105,16 +105,6 @@ fn meshes_without_nodes_are_taken_as_they_are() {
 }
 
 #[test]
-fn a_skinned_mesh_stays_where_it_is_bound() {
-    let mut file = Gltf::triangle();
-    file.json["nodes"][0]["translation"] = json!([5, 5, 5]);
-    file.json["nodes"][0]["skin"] = json!(0);
-    let model = file.model();
-    assert_eq!(model.mesh.positions[0], [0.0; 3]);
-    assert_eq!(model.warnings, ["The skin of `leaf` is left out: it is taken at rest."]);
-}
-
-#[test]
 fn a_chain_of_a_hundred_thousand_nodes_is_followed() {
     let mut file = Gltf::triangle();
     let last = 100_000;

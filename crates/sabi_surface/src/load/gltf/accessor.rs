@@ -5,10 +5,12 @@ use json::accessor::{ComponentType, Type};
 use json::validation::Checked;
 
 use super::primitive::Source;
+use super::storage::{Meaning, Storage};
 use crate::load::error::{Fault, damaged};
+use crate::load::warnings::Warnings;
 
-/// Elements that a file may ask for without storing a byte of them.
-const MOST_UNSTORED: u64 = 1 << 24;
+/// Elements that any file may ask for without storing a byte of them; a larger file may ask for one a byte.
+const UNSTORED: u64 = 1 << 16;
 
 /// The checked head of an accessor.
 struct Head<'a> {
@@ -17,9 +19,23 @@ struct Head<'a> {
     shape: Type,
     /// How messages name it.
     who: String,
+    /// What it holds, for sentences to the artist: `positions of mesh 3`.
+    what: String,
+}
+
+/// The numbers of corners.
+pub(super) struct Indices {
+    pub(super) corners: Vec<u32>,
+    /// The number that is no vertex but begins anew (glTF 2.0, 3.7.2.1: files are not to use it).
+    pub(super) restart: u32,
 }
 
 impl Source<'_> {
+    /// How many elements an accessor may have without storing them.
+    pub(super) fn most_unstored(&self) -> u64 {
+        UNSTORED.max(self.buffers.total_bytes())
+    }
+
     /// The number of elements that an accessor claims to have.
     pub(super) fn claimed_count(&self, index: usize) -> u64 {
         self.document
@@ -29,7 +45,13 @@ impl Source<'_> {
     }
 
     /// Numbers a file gives for each vertex; `N` of them, `what` in messages.
-    pub(super) fn floats<const N: usize>(&self, index: usize, what: &str) -> Result<Vec<[f32; N]>, Fault> {
+    pub(super) fn floats<const N: usize>(
+        &self,
+        index: usize,
+        meaning: Meaning,
+        what: &str,
+        warnings: &mut Warnings,
+    ) -> Result<Vec<[f32; N]>, Fault> {
         let head = self.head(index, what)?;
         let Head {
             component, shape, who, ..
@@ -37,29 +59,56 @@ impl Source<'_> {
         if shape.multiplicity() != N || matches!(shape, Type::Mat2) {
             return damaged(format!("{who} has elements of kind {shape:?}, not of {N} numbers"));
         }
-        if *component == ComponentType::U32 {
-            return damaged(format!(
-                "{who} is stored as 32-bit integers, which glTF allows for indices alone"
-            ));
-        }
-        let normalized = head.accessor.normalized;
-        self.values(&head, N, [0.0; N], |bytes| number::<N>(bytes, *component, normalized))
+        let marked = head.accessor.normalized;
+        let normalized = match meaning.storage(*component, marked) {
+            Storage::Plain => marked,
+            Storage::Quantized => {
+                if !self.document.names("KHR_mesh_quantization") {
+                    warnings.add(format!(
+                        "The {what} are stored as {}, for which the file should name KHR_mesh_quantization; they are read all the same.",
+                        kind(*component)
+                    ));
+                }
+                marked
+            }
+            Storage::Unmarked => {
+                warnings.add(format!(
+                    "The {what} are stored as {} without the mark that fractions of 1 are meant; they are read as such.",
+                    kind(*component)
+                ));
+                true
+            }
+            Storage::Forbidden => {
+                return damaged(format!(
+                    "{who} is stored as {}, which glTF does not allow for {}",
+                    kind(*component),
+                    meaning.plural()
+                ));
+            }
+        };
+        self.values(
+            &head,
+            N,
+            [0.0; N],
+            |bytes| number::<N>(bytes, *component, normalized),
+            warnings,
+        )
     }
 
     /// Vertex colors, RGB or RGBA.
-    pub(super) fn colors(&self, index: usize, what: &str) -> Result<Vec<[f32; 4]>, Fault> {
+    pub(super) fn colors(&self, index: usize, what: &str, warnings: &mut Warnings) -> Result<Vec<[f32; 4]>, Fault> {
         if self.head(index, what)?.shape == Type::Vec4 {
-            return self.floats(index, what);
+            return self.floats(index, Meaning::Color, what, warnings);
         }
         Ok(self
-            .floats::<3>(index, what)?
+            .floats::<3>(index, Meaning::Color, what, warnings)?
             .into_iter()
             .map(|[r, g, b]| [r, g, b, 1.0])
             .collect())
     }
 
     /// Vertex numbers.
-    pub(super) fn indices(&self, index: usize, what: &str) -> Result<Vec<u32>, Fault> {
+    pub(super) fn indices(&self, index: usize, what: &str, warnings: &mut Warnings) -> Result<Indices, Fault> {
         let head = self.head(index, what)?;
         let Head {
             component, shape, who, ..
@@ -67,10 +116,36 @@ impl Source<'_> {
         if *shape != Type::Scalar {
             return damaged(format!("{who} has elements of kind {shape:?}, not single numbers"));
         }
-        if !matches!(component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32) {
-            return damaged(format!("{who} is stored as {component:?}, not as unsigned integers"));
+        let restart = match component {
+            ComponentType::U8 => u32::from(u8::MAX),
+            ComponentType::U16 => u32::from(u16::MAX),
+            ComponentType::U32 => u32::MAX,
+            _ => {
+                return damaged(format!(
+                    "{who} is stored as {}, not as unsigned integers",
+                    kind(*component)
+                ));
+            }
+        };
+        if let Some(view) = head.accessor.buffer_view {
+            self.warn_of_stride(view.value(), what, warnings);
         }
-        self.values(&head, 1, 0, unsigned)
+        let corners = self.values(&head, 1, 0, unsigned, warnings)?;
+        Ok(Indices { corners, restart })
+    }
+
+    /// Only vertices may lie at a distance (glTF 2.0, 3.6.2.4); where others do, one can but guess what was meant.
+    fn warn_of_stride(&self, view: usize, what: &str, warnings: &mut Warnings) {
+        if self
+            .document
+            .views
+            .get(view)
+            .is_some_and(|view| view.byte_stride.is_some())
+        {
+            warnings.add(format!(
+                "The {what} are stored at a distance, which glTF keeps for vertices; they are read that way."
+            ));
+        }
     }
 
     fn head(&self, index: usize, what: &str) -> Result<Head<'_>, Fault> {
@@ -86,11 +161,19 @@ impl Source<'_> {
             component: component.0,
             shape,
             who,
+            what: what.to_string(),
         })
     }
 
     /// Base values or zeros, with the sparse ones on top.
-    fn values<T: Copy>(&self, head: &Head, parts: usize, zero: T, read: impl Fn(&[u8]) -> T) -> Result<Vec<T>, Fault> {
+    fn values<T: Copy>(
+        &self,
+        head: &Head,
+        parts: usize,
+        zero: T,
+        read: impl Fn(&[u8]) -> T,
+        warnings: &mut Warnings,
+    ) -> Result<Vec<T>, Fault> {
         let Head {
             accessor,
             component,
@@ -113,34 +196,72 @@ impl Source<'_> {
             {
                 return Err(refused);
             }
-            None if count > MOST_UNSTORED => {
+            None if count > self.most_unstored() => {
                 return damaged(format!("{who} asks for {count} elements and stores none of them"));
             }
             None => vec![zero; count as usize],
         };
-        let Some(sparse) = &accessor.sparse else {
-            return Ok(values);
+        if accessor.sparse.is_some() {
+            self.replace_sparse(head, size, &mut values, read, warnings)?;
+        }
+        Ok(values)
+    }
+
+    /// Puts the sparse elements of `size` bytes over `values`.
+    fn replace_sparse<T>(
+        &self,
+        head: &Head,
+        size: usize,
+        values: &mut [T],
+        read: impl Fn(&[u8]) -> T,
+        warnings: &mut Warnings,
+    ) -> Result<(), Fault> {
+        let Some(sparse) = &head.accessor.sparse else {
+            return Ok(());
         };
-        let who = format!("the sparse part of {who}");
+        let who = format!("the sparse part of {}", head.who);
+        let what = format!("sparse {}", head.what);
         let Checked::Valid(kind) = sparse.indices.component_type else {
             return damaged(format!("{who} has an unknown componentType"));
         };
+        let (count, more) = (values.len(), sparse.count.0);
+        if more > count as u64 {
+            return damaged(format!("{who} replaces {more} elements of {count}"));
+        }
         let (view, offset) = (sparse.indices.buffer_view.value(), sparse.indices.byte_offset.0);
+        self.warn_of_stride(view, &what, warnings);
         let places = self
             .buffers
-            .elements(self.document, &who, view, offset, kind.0.size(), sparse.count.0)?;
+            .elements(self.document, &who, view, offset, kind.0.size(), more)?;
         let (view, offset) = (sparse.values.buffer_view.value(), sparse.values.byte_offset.0);
-        let replaced = self
-            .buffers
-            .elements(self.document, &who, view, offset, size, sparse.count.0)?;
+        self.warn_of_stride(view, &what, warnings);
+        let replaced = self.buffers.elements(self.document, &who, view, offset, size, more)?;
+        let mut last = None;
         for (place, value) in places.iter().zip(replaced.iter()) {
             let place = unsigned(place) as usize;
             match values.get_mut(place) {
                 Some(slot) => *slot = read(value),
                 None => return damaged(format!("{who} replaces element {place} of {count}")),
             }
+            if last.replace(place).is_some_and(|last| last >= place) {
+                warnings.add(format!(
+                    "The {what} are out of order; where two meet, the later one counts."
+                ));
+            }
         }
-        Ok(values)
+        Ok(())
+    }
+}
+
+/// How sentences name a component type.
+fn kind(component: ComponentType) -> &'static str {
+    match component {
+        ComponentType::I8 => "signed bytes",
+        ComponentType::U8 => "bytes",
+        ComponentType::I16 => "signed 16-bit integers",
+        ComponentType::U16 => "16-bit integers",
+        ComponentType::U32 => "32-bit integers",
+        ComponentType::F32 => "floats",
     }
 }
 
@@ -155,6 +276,7 @@ fn unsigned(bytes: &[u8]) -> u32 {
 /// glTF 2.0, 3.6.2.2 and 3.11: normalized integers stand for 0..1 or -1..1, plain ones for themselves.
 fn number<const N: usize>(bytes: &[u8], component: ComponentType, normalized: bool) -> [f32; N] {
     let mut parts = bytes.chunks_exact(component.size());
+    // A mark on floats says nothing.
     std::array::from_fn(|_| {
         let part = parts.next().unwrap_or_default();
         let raw = unsigned(part);

@@ -8,6 +8,7 @@ use super::Resolve;
 use super::document::Document;
 use crate::load::error::{Fault, damaged};
 use crate::load::uri::Uri;
+use crate::load::warnings::Warnings;
 
 /// All buffers of a file. One that is missing is a fault only once something reads it.
 pub(super) struct Buffers<'a> {
@@ -48,9 +49,14 @@ impl<'a> Elements<'a> {
 
 impl<'a> Buffers<'a> {
     /// Fetches every buffer that the file names.
-    pub(super) fn gather(document: &Document, binary: Option<&'a [u8]>, resolve: &mut Resolve) -> Buffers<'a> {
+    pub(super) fn gather(
+        document: &Document,
+        binary: Option<&'a [u8]>,
+        resolve: &mut Resolve,
+        warnings: &mut Warnings,
+    ) -> Buffers<'a> {
         let mut fetched = BTreeMap::new();
-        let buffers = document
+        let buffers: Vec<Result<Bytes, Fault>> = document
             .buffers
             .iter()
             .enumerate()
@@ -62,7 +68,24 @@ impl<'a> Buffers<'a> {
                 })),
             })
             .collect();
+        for (index, (claimed, bytes)) in document.buffers.iter().zip(&buffers).enumerate() {
+            let (claimed, there) = (
+                claimed.byte_length.0,
+                bytes.as_ref().map_or(0, |bytes| bytes.get().len()),
+            );
+            if bytes.is_ok() && claimed > there as u64 {
+                warnings.add(format!(
+                    "buffers[{index}] should have {claimed} bytes and has {there}: it was cut off, or it belongs to another model."
+                ));
+            }
+        }
         Buffers { buffers }
+    }
+
+    /// How much the file brings altogether.
+    pub(super) fn total_bytes(&self) -> u64 {
+        let lengths = self.buffers.iter().flatten().map(|bytes| bytes.get().len() as u64);
+        lengths.sum()
     }
 
     /// The bytes of a buffer view.

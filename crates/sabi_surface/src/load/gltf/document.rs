@@ -17,6 +17,8 @@ pub(super) struct Document {
     pub(super) materials: Vec<json::Material>,
     pub(super) meshes: Vec<json::Mesh>,
     pub(super) nodes: Vec<json::Node>,
+    /// Unread: a broken skin is no reason to refuse the mesh.
+    pub(super) skins: Vec<Value>,
     pub(super) samplers: Vec<json::texture::Sampler>,
     pub(super) textures: Vec<json::Texture>,
     /// Root nodes of each scene.
@@ -28,9 +30,9 @@ pub(super) struct Document {
 
 impl Document {
     /// Splits a GLB container where there is one, and reads the JSON; also gives the binary chunk.
-    pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {
+    pub(super) fn parse<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<(Document, Option<&'a [u8]>), Fault> {
         let (text, binary) = if bytes.starts_with(b"glTF") {
-            chunks(bytes)?
+            chunks(bytes, warnings)?
         } else {
             (bytes, None)
         };
@@ -60,13 +62,20 @@ impl Document {
             materials: list(root, "materials", serde_json::from_value)?,
             meshes: list(root, "meshes", serde_json::from_value)?,
             nodes: list(root, "nodes", serde_json::from_value)?,
+            skins: list(root, "skins", Ok)?,
             samplers: list(root, "samplers", serde_json::from_value)?,
             textures: list(root, "textures", serde_json::from_value)?,
             scenes: list(root, "scenes", |scene| match scene.get("nodes") {
                 Some(nodes) => serde_json::from_value(nodes.clone()),
                 None => Ok(Vec::new()),
             })?,
-            default_scene: root.get("scene").and_then(Value::as_u64),
+            default_scene: match root.get("scene") {
+                None => None,
+                Some(scene) => match scene.as_u64() {
+                    None => return damaged(format!("its scene is {scene}, which is not the number of one")),
+                    index => index,
+                },
+            },
             used: list(root, "extensionsUsed", serde_json::from_value)?,
             required: list(root, "extensionsRequired", serde_json::from_value)?,
         };
@@ -79,8 +88,9 @@ impl Document {
             match name.as_str() {
                 "KHR_mesh_quantization" | "KHR_texture_transform" | "KHR_materials_emissive_strength" => {}
                 "EXT_texture_webp" => {}
+                "KHR_node_visibility" => {}
                 // These change what is drawn with the surface, not the surface.
-                "KHR_lights_punctual" | "KHR_animation_pointer" | "KHR_xmp_json_ld" | "KHR_node_visibility" => {}
+                "KHR_lights_punctual" | "KHR_animation_pointer" | "KHR_xmp_json_ld" => {}
                 "KHR_texture_basisu" | "MSFT_texture_dds" | "EXT_texture_avif" => {
                     warnings.add(format!("The file needs {name}: pictures stored that way are left out."));
                 }
@@ -96,6 +106,11 @@ impl Document {
             }
         }
         Ok(())
+    }
+
+    /// Whether the file says that it uses an extension.
+    pub(super) fn names(&self, extension: &str) -> bool {
+        self.used.iter().chain(&self.required).any(|name| name == extension)
     }
 
     /// The compression that would explain vertex data without bytes.
@@ -115,6 +130,14 @@ impl Document {
                 Some(name) if !name.is_empty() => format!("material `{name}`"),
                 _ => format!("material {index}"),
             },
+        }
+    }
+
+    /// A node as a message names it.
+    pub(super) fn node_label(&self, node: usize) -> String {
+        match self.nodes.get(node).and_then(|node| node.name.as_deref()) {
+            Some(name) if !name.is_empty() => format!("node `{name}`"),
+            _ => format!("node {node}"),
         }
     }
 
@@ -172,7 +195,7 @@ fn list<T>(
 }
 
 /// The JSON and binary chunks of a GLB container.
-fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
+fn chunks<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<(&'a [u8], Option<&'a [u8]>), Fault> {
     let word = |at: usize| {
         bytes
             .get(at..at + 4)
@@ -214,6 +237,8 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
             b"JSON" if text.is_none() => text = Some(chunk),
             b"BIN\0" if text.is_some() && binary.is_none() => binary = Some(chunk),
             _ if text.is_none() => return damaged("its first chunk is not JSON"),
+            b"JSON" | b"BIN\0" => warnings.add("The file has more than one chunk of a kind; the first one is read."),
+            // glTF 2.0, 4.4.3: others belong to extensions.
             _ => {}
         }
         at += 8 + size as usize;

@@ -22,6 +22,9 @@ const OTHER_SOURCES: [&str; 4] = [
     "MSFT_texture_dds",
 ];
 
+/// An older way to describe a material, which some files use instead of metallic-roughness.
+const SPECULAR_GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
+
 /// The materials that triangles use, numbered as they come up until [`Materials::finish`] puts them in file order.
 #[derive(Default)]
 pub(super) struct Materials {
@@ -95,13 +98,20 @@ impl Pictures<'_> {
     fn material(&mut self, index: usize, material: &json::Material) -> ModelMaterial {
         let pbr = &material.pbr_metallic_roughness;
         let label = self.source.document.material_label(Some(index));
-        let strength = material
-            .extensions
-            .as_ref()
-            .and_then(|extensions| extensions.emissive_strength.as_ref());
-        let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
+        let others = material.extensions.as_ref().map(|extensions| &extensions.others);
+        if others.is_some_and(|others| others.contains_key(SPECULAR_GLOSSINESS)) {
+            self.warnings.add(format!(
+                "The {label} is described by {SPECULAR_GLOSSINESS}, which is not read here; its metallic-roughness values are taken."
+            ));
+        }
         let normal = material.normal_texture.as_ref();
         let occlusion = material.occlusion_texture.as_ref();
+        let base_color_factor = self.within(pbr.base_color_factor.0, 1.0, "base color", &label);
+        let [metallic_factor] = self.within([pbr.metallic_factor.0], 1.0, "metallic factor", &label);
+        let [roughness_factor] = self.within([pbr.roughness_factor.0], 1.0, "roughness factor", &label);
+        let emission_factor = self.emission_factor(material, &label);
+        let strength_of_occlusion = occlusion.map_or(1.0, |occlusion| occlusion.strength.0);
+        let [occlusion_strength] = self.within([strength_of_occlusion], 1.0, "occlusion strength", &label);
         let mut info = |info: &Option<json::texture::Info>| info.as_ref().and_then(|info| self.info(&label, info));
         let base_color = info(&pbr.base_color_texture);
         let metallic_roughness = info(&pbr.metallic_roughness_texture);
@@ -109,13 +119,13 @@ impl Pictures<'_> {
         ModelMaterial {
             name: material.name.clone().unwrap_or_default(),
             file_index: Some(index),
-            base_color_factor: finite(pbr.base_color_factor.0, 1.0),
+            base_color_factor,
             ignores_alpha: matches!(material.alpha_mode, Checked::Valid(json::material::AlphaMode::Opaque)),
-            metallic_factor: finite([pbr.metallic_factor.0], 1.0)[0],
-            roughness_factor: finite([pbr.roughness_factor.0], 1.0)[0],
-            emission_factor: finite(material.emissive_factor.0.map(|factor| factor * strength), 0.0),
+            metallic_factor,
+            roughness_factor,
+            emission_factor,
             normal_scale: normal.map_or(1.0, |normal| finite([normal.scale], 1.0)[0]),
-            occlusion_strength: occlusion.map_or(1.0, |occlusion| finite([occlusion.strength.0], 1.0)[0]),
+            occlusion_strength,
             base_color,
             metallic_roughness,
             emission,
@@ -128,6 +138,30 @@ impl Pictures<'_> {
                 self.with_raw_transform(&label, occlusion.index.value(), occlusion.tex_coord, others)
             }),
         }
+    }
+
+    fn emission_factor(&mut self, material: &json::Material, label: &str) -> [f32; 3] {
+        // Brighter than glTF allows is what files had before there was an emission strength.
+        let factor = self.within(material.emissive_factor.0, f32::MAX, "emission", label);
+        let extensions = material.extensions.as_ref();
+        let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
+        let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
+        let [strength] = self.within([strength], f32::MAX, "emission strength", label);
+        finite(factor.map(|factor| factor * strength), 0.0)
+    }
+
+    /// Factors within 0 and `most`, with a warning for those that were not, rounding aside.
+    fn within<const N: usize>(&mut self, factors: [f32; N], most: f32, what: &str, label: &str) -> [f32; N] {
+        factors.map(|factor| {
+            let within = factor.clamp(0.0, most);
+            if (within - factor).abs() < 1e-3 {
+                return within;
+            }
+            let taken = if factor < 0.0 { 0.0 } else { 1.0 };
+            self.warnings
+                .add(format!("The {what} of {label} cannot be {factor}; {taken} is taken."));
+            taken
+        })
     }
 
     fn info(&mut self, label: &str, info: &json::texture::Info) -> Option<TextureRef> {
@@ -192,9 +226,16 @@ impl Pictures<'_> {
         };
         let next = self.slots.len();
         let image = *self.slots.entry(picture).or_insert(next);
-        let sampler = texture
-            .sampler
-            .and_then(|sampler| document.samplers.get(sampler.value()));
+        let sampler = texture.sampler.and_then(|sampler| {
+            let found = document.samplers.get(sampler.value());
+            if found.is_none() {
+                self.warnings.add(format!(
+                    "A texture of {label} is repeated: there is no samplers[{}] to say otherwise.",
+                    sampler.value()
+                ));
+            }
+            found
+        });
         Some(TextureRef {
             image,
             wrap: sampler.map_or([Wrap::Repeat; 2], |sampler| {

@@ -7,14 +7,16 @@ use json::mesh::{Mode, Semantic};
 use json::validation::Checked;
 use rayon::prelude::*;
 
+use super::accessor::Indices;
 use super::buffers::Buffers;
 use super::document::Document;
 use super::material::TextureSets;
+use super::storage::Meaning;
 use crate::load::error::{Fault, damaged};
 use crate::load::normals::{self, Missing};
 use crate::load::piece::Piece;
 use crate::load::tangents;
-use crate::load::warnings::Warnings;
+use crate::load::warnings::{TRIANGLES, VERTICES, Warnings, counted};
 use crate::model::TextureUvs;
 
 /// A file with the bytes it names.
@@ -54,6 +56,13 @@ impl Source<'_> {
             pieces.entry(mesh).or_default().push(outcome?);
         }
         Ok(pieces)
+    }
+
+    /// How many vertices a primitive claims to have, as far as the file could have them.
+    pub(super) fn vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
+        let positions = attribute(primitive, Semantic::Positions);
+        let claimed = positions.map_or(0, |index| self.claimed_count(index.value()));
+        claimed.min(self.most_unstored())
     }
 
     /// How many triangles a primitive claims to have.
@@ -98,29 +107,57 @@ impl Source<'_> {
                 .warnings
                 .add(format!("Morph targets of {label} are left out: it is taken at rest."));
         }
-        let piece = &mut outcome.piece;
-        piece.positions = self.floats(positions.value(), &format!("positions of {label}"))?;
-        let corners = match primitive.indices {
-            Some(index) => self.indices(index.value(), &format!("indices of {label}"))?,
-            None => (0..piece.positions.len() as u32).collect(),
-        };
-        let vertices = piece.positions.len();
-        if let Some(vertex) = corners.iter().find(|vertex| **vertex as usize >= vertices) {
-            return damaged(format!("{label} names vertex {vertex} of {vertices}"));
-        }
-        if mode == Mode::Triangles && corners.len() % 3 != 0 {
-            outcome
-                .warnings
-                .add(format!("{label} ends in the middle of a triangle, which is left out."));
-        }
-        piece.triangles = triangles(mode, &corners);
+        let Outcome { piece, warnings, .. } = &mut outcome;
+        piece.positions = self.floats(
+            positions.value(),
+            Meaning::Position,
+            &format!("positions of {label}"),
+            warnings,
+        )?;
+        piece.triangles = self.read_triangles(primitive, mode, &label, piece.positions.len(), warnings)?;
+        self.read_attributes(primitive, &label, piece, warnings)?;
         outcome.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
-        self.read_attributes(primitive, &label, piece)?;
         complete(&mut outcome, &label);
         Ok(outcome)
     }
 
-    fn read_attributes(&self, primitive: &json::mesh::Primitive, label: &str, piece: &mut Piece) -> Result<(), Fault> {
+    /// The triangles of a primitive of `vertices` vertices.
+    fn read_triangles(
+        &self,
+        primitive: &json::mesh::Primitive,
+        mode: Mode,
+        label: &str,
+        vertices: usize,
+        warnings: &mut Warnings,
+    ) -> Result<Vec<[u32; 3]>, Fault> {
+        let Some(index) = primitive.indices else {
+            let corners: Vec<u32> = (0..vertices as u32).collect();
+            return Ok(triangles(mode, &corners, label, warnings));
+        };
+        let Indices { corners, restart } = self.indices(index.value(), &format!("indices of {label}"), warnings)?;
+        let beyond = |vertex: &u32| *vertex as usize >= vertices && *vertex != restart;
+        if let Some(vertex) = corners.iter().copied().find(beyond) {
+            return damaged(format!("{label} names vertex {vertex} of {vertices}"));
+        }
+        if !corners.contains(&restart) {
+            return Ok(triangles(mode, &corners, label, warnings));
+        }
+        // What every graphics interface makes of it, in lists as well as in strips.
+        warnings.add(format!(
+            "The indices of {label} use {restart}, by which strips begin anew, as no vertex; no triangle reaches over it."
+        ));
+        let runs = corners.split(|vertex| *vertex == restart);
+        Ok(runs.flat_map(|run| triangles(mode, run, label, warnings)).collect())
+    }
+
+    fn read_attributes(
+        &self,
+        primitive: &json::mesh::Primitive,
+        label: &str,
+        piece: &mut Piece,
+        warnings: &mut Warnings,
+    ) -> Result<(), Fault> {
+        let what = |what: &str| format!("{what} of {label}");
         let mut tangents = Vec::new();
         let count = piece.positions.len();
         let check = |what: &str, length: usize| match length {
@@ -128,16 +165,16 @@ impl Source<'_> {
             length => damaged(format!("{label} has {count} positions and {length} {what}")),
         };
         if let Some(index) = attribute(primitive, Semantic::Normals) {
-            piece.normals = self.floats(index.value(), &format!("normals of {label}"))?;
+            piece.normals = self.floats(index.value(), Meaning::Direction, &what("normals"), warnings)?;
             check("normals", piece.normals.len())?;
             // Without normals, glTF has tangents ignored.
             if let Some(index) = attribute(primitive, Semantic::Tangents) {
-                tangents = self.floats(index.value(), &format!("tangents of {label}"))?;
+                tangents = self.floats(index.value(), Meaning::Direction, &what("tangents"), warnings)?;
                 check("tangents", tangents.len())?;
             }
         }
         if let Some(index) = attribute(primitive, Semantic::Colors(0)) {
-            piece.colors = self.colors(index.value(), &format!("colors of {label}"))?;
+            piece.colors = self.colors(index.value(), &what("colors"), warnings)?;
             check("colors", piece.colors.len())?;
         }
         let material = primitive.material.map(|index| index.value());
@@ -152,7 +189,8 @@ impl Source<'_> {
             let Some(index) = attribute(primitive, Semantic::TexCoords(set)) else {
                 continue;
             };
-            let uvs: Vec<[f32; 2]> = self.floats(index.value(), &format!("UV set {set} of {label}"))?;
+            let what = what(&format!("coordinates of UV set {set}"));
+            let uvs: Vec<[f32; 2]> = self.floats(index.value(), Meaning::TextureCoordinate, &what, warnings)?;
             check("texture coordinates", uvs.len())?;
             let mut own = || {
                 if set == framed_set {
@@ -182,13 +220,15 @@ fn complete(outcome: &mut Outcome, label: &str) {
     let dropped = piece.drop_broken();
     if dropped > 0 {
         warnings.add(format!(
-            "{dropped} triangles of {label} touch positions that are no numbers and are left out."
+            "{} of {label} had positions that are no numbers and had to be left out.",
+            counted(dropped, TRIANGLES)
         ));
     }
     let repaired = piece.repair_attributes();
     if repaired > 0 {
         warnings.add(format!(
-            "{repaired} vertices of {label} have texture coordinates or colors that are no numbers; they were replaced."
+            "{} of {label} had texture coordinates or colors that are no numbers; these were replaced.",
+            counted(repaired, VERTICES)
         ));
     }
     let had_normals = !piece.normals.is_empty();
@@ -196,7 +236,8 @@ fn complete(outcome: &mut Outcome, label: &str) {
     let made = normals::complete(piece, missing);
     if had_normals && made > 0 {
         warnings.add(format!(
-            "{made} vertices of {label} have normals without a direction; they were made anew."
+            "{} of {label} had normals without a direction; these were made anew.",
+            counted(made, VERTICES)
         ));
     }
     tangents::complete(piece, label, warnings);
@@ -234,7 +275,7 @@ fn attribute(primitive: &json::mesh::Primitive, semantic: Semantic) -> Option<js
 }
 
 /// glTF 2.0, 3.7.2.1: corners of triangles, strips and fans.
-fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
+fn triangles(mode: Mode, corners: &[u32], label: &str, warnings: &mut Warnings) -> Vec<[u32; 3]> {
     match mode {
         Mode::TriangleStrip => corners
             .windows(3)
@@ -251,6 +292,14 @@ fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
             [center, rim @ ..] => rim.windows(2).map(|v| [v[0], v[1], *center]).collect(),
             [] => Vec::new(),
         },
-        _ => corners.as_chunks().0.to_vec(),
+        _ => {
+            let (whole, rest) = corners.as_chunks();
+            if !rest.is_empty() {
+                warnings.add(format!(
+                    "The corners of {label} end in the middle of a triangle, which is left out."
+                ));
+            }
+            whole.to_vec()
+        }
     }
 }

@@ -2,10 +2,16 @@
 
 use glam::{DMat4, DQuat, DVec3, Vec3};
 use gltf::json;
+use serde_json::Value;
 
 use super::document::Document;
+use super::primitive::Source;
+use super::skin;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
+
+/// How far from unit length a quaternion may be by its digits alone: exporters keep as few as three.
+const ROUNDED: f64 = 2e-3;
 
 /// A mesh that a node places.
 pub(super) struct Instance {
@@ -14,69 +20,96 @@ pub(super) struct Instance {
     pub(super) file_from_mesh: DMat4,
 }
 
+/// A node on the way down from the roots.
+struct Step {
+    node: u64,
+    file_from_parent: DMat4,
+    is_hidden: bool,
+}
+
 /// The meshes of the file's scene, in the order of its nodes.
-pub(super) fn instances(document: &Document, warnings: &mut Warnings) -> Result<Vec<Instance>, Fault> {
-    let roots = roots(document)?;
-    let mut instances = Vec::new();
-    let mut seen = vec![false; document.nodes.len()];
+pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<Instance>, Fault> {
+    let document = source.document;
+    let mut shown = Vec::new();
+    let mut file_from_node: Vec<Option<DMat4>> = vec![None; document.nodes.len()];
     // A stack of our own: a chain of nodes may be as long as the file.
-    let mut stack: Vec<(u64, DMat4)> = roots.into_iter().rev().map(|node| (node, DMat4::IDENTITY)).collect();
-    while let Some((index, file_from_parent)) = stack.pop() {
-        let Some(node) = usize::try_from(index).ok().and_then(|index| document.nodes.get(index)) else {
-            return damaged(format!("its scene names nodes[{index}], which is not there"));
+    let mut stack: Vec<Step> = below(&roots(document)?, DMat4::IDENTITY, false).collect();
+    while let Some(step) = stack.pop() {
+        let Some((index, node)) = usize::try_from(step.node)
+            .ok()
+            .and_then(|index| Some((index, document.nodes.get(index)?)))
+        else {
+            return damaged(format!("its scene names nodes[{}], which is not there", step.node));
         };
-        if std::mem::replace(&mut seen[index as usize], true) {
+        let placed = step.file_from_parent * parent_from_node(node, &document.node_label(index), warnings);
+        if file_from_node[index].replace(placed).is_some() {
             return damaged(format!("nodes[{index}] is below itself or below two nodes"));
         }
-        let file_from_node = file_from_parent * parent_from_node(node);
+        let is_hidden = step.is_hidden || is_hidden(node);
         if let Some(mesh) = node.mesh.map(|mesh| mesh.value()) {
-            instances.push(instance(document, node, index, mesh, file_from_node, warnings)?);
+            if mesh >= document.meshes.len() {
+                return damaged(format!("nodes[{index}] shows meshes[{mesh}], which is not there"));
+            }
+            if is_hidden {
+                warnings.add("Nodes that the file hides (KHR_node_visibility) are left out.");
+            } else {
+                shown.push((index, mesh));
+            }
         }
         let children = node.children.as_deref().unwrap_or_default();
-        stack.extend(
-            children
-                .iter()
-                .rev()
-                .map(|child| (child.value() as u64, file_from_node)),
-        );
+        let children: Vec<u64> = children.iter().map(|child| child.value() as u64).collect();
+        stack.extend(below(&children, placed, is_hidden));
     }
-    if instances.is_empty() && !document.meshes.is_empty() {
+    if shown.is_empty() && !document.meshes.is_empty() {
         warnings.add("The file's scene shows no mesh; all meshes are taken as they are stored.");
-        for mesh in 0..document.meshes.len() {
-            let name = name(document, None, mesh);
-            instances.push(Instance {
+        return Ok((0..document.meshes.len())
+            .map(|mesh| Instance {
                 mesh,
-                name,
+                name: name(document, None, mesh),
                 file_from_mesh: DMat4::IDENTITY,
-            });
-        }
+            })
+            .collect());
     }
-    Ok(instances)
+    Ok(shown
+        .into_iter()
+        .map(|(node, mesh)| instance(source, node, mesh, &file_from_node, warnings))
+        .collect())
+}
+
+/// Steps in the order in which a stack gives them back.
+fn below(nodes: &[u64], file_from_parent: DMat4, is_hidden: bool) -> impl Iterator<Item = Step> {
+    nodes.iter().rev().map(move |node| Step {
+        node: *node,
+        file_from_parent,
+        is_hidden,
+    })
+}
+
+fn is_hidden(node: &json::Node) -> bool {
+    let others = node.extensions.as_ref().map(|extensions| &extensions.others);
+    let visible = others.and_then(|others| others.get("KHR_node_visibility")?.get("visible"));
+    visible.and_then(Value::as_bool) == Some(false)
 }
 
 fn instance(
-    document: &Document,
-    node: &json::Node,
-    index: u64,
+    source: &Source,
+    index: usize,
     mesh: usize,
-    file_from_node: DMat4,
+    file_from_node: &[Option<DMat4>],
     warnings: &mut Warnings,
-) -> Result<Instance, Fault> {
-    if mesh >= document.meshes.len() {
-        return damaged(format!("nodes[{index}] shows meshes[{mesh}], which is not there"));
-    }
+) -> Instance {
+    let document = source.document;
+    let node = &document.nodes[index];
     let name = name(document, node.name.as_deref(), mesh);
-    let mut file_from_mesh = file_from_node;
-    if node.skin.is_some() {
-        warnings.add(format!("The skin of `{name}` is left out: it is taken at rest."));
-        // glTF 2.0, 3.7.3.3: joints place a skinned mesh, its node does not.
-        file_from_mesh = DMat4::IDENTITY;
-    }
-    Ok(Instance {
+    let file_from_mesh = match &node.skin {
+        Some(skin) => skin::file_from_bound(source, skin.value(), &name, file_from_node, warnings),
+        None => file_from_node[index].unwrap_or(DMat4::IDENTITY),
+    };
+    Instance {
         mesh,
         name,
         file_from_mesh,
-    })
+    }
 }
 
 /// Root nodes of the default scene, else of the first one, else all nodes that are nobody's child.
@@ -114,8 +147,13 @@ fn name(document: &Document, node: Option<&str>, mesh: usize) -> String {
     named.map_or_else(|| format!("mesh {mesh}"), str::to_string)
 }
 
-fn parent_from_node(node: &json::Node) -> DMat4 {
+fn parent_from_node(node: &json::Node, label: &str, warnings: &mut Warnings) -> DMat4 {
     if let Some(matrix) = node.matrix {
+        if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
+            warnings.add(format!(
+                "The {label} has both a matrix and a translation, rotation or scale; the matrix is taken."
+            ));
+        }
         return DMat4::from_cols_array(&matrix.map(f64::from));
     }
     let scale = node.scale.map_or(DVec3::ONE, |scale| Vec3::from(scale).as_dvec3());
@@ -125,6 +163,11 @@ fn parent_from_node(node: &json::Node) -> DMat4 {
     let rotation = node.rotation.map_or(DQuat::IDENTITY, |rotation| {
         let quaternion = DQuat::from_array(rotation.0.map(f64::from));
         let length = quaternion.length();
+        if (length - 1.0).abs() > ROUNDED || !length.is_finite() {
+            warnings.add(format!(
+                "The rotation of the {label} is not of unit length; it is taken as if it were."
+            ));
+        }
         // Four zeros turn nothing.
         if length.is_finite() && length > 0.0 {
             quaternion / length

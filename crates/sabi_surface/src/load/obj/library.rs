@@ -39,7 +39,12 @@ impl Library {
     /// Reads what stands behind one `mtllib`: a name that may have spaces, or several names.
     pub(super) fn read(&mut self, names: &str, resolve: &mut Resolve, warnings: &mut Warnings) {
         let whole = resolve(names);
-        let all: Vec<&str> = names.split_ascii_whitespace().collect();
+        // A space in a name may stand behind a backslash.
+        let escaped = names.replace("\\ ", "\0");
+        let all: Vec<String> = escaped
+            .split_ascii_whitespace()
+            .map(|name| name.replace('\0', " "))
+            .collect();
         match whole {
             Ok(bytes) => self.parse(&bytes, warnings),
             Err(reason) if all.len() < 2 => {
@@ -47,7 +52,7 @@ impl Library {
             }
             Err(_) => {
                 for name in all {
-                    match resolve(name) {
+                    match resolve(&name) {
                         Ok(bytes) => self.parse(&bytes, warnings),
                         Err(reason) => warnings.add(format!("The material library {name} cannot be read: {reason}.")),
                     }

@@ -254,7 +254,7 @@ fn numbered(name: &str, known: &mut BTreeMap<String, u32>, names: &mut Vec<Strin
     number
 }
 
-/// Text in UTF-8, or in UTF-16 where it says so; what cannot be decoded becomes a replacement character.
+/// Text in UTF-8, or in UTF-16 where it says so, or else in Latin-1, which old programs write: names stay distinct.
 pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let wide = |from: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].as_chunks().0.iter().map(|unit| from(*unit)).collect();
@@ -264,7 +264,10 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
         [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
         [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
         [0xef, 0xbb, 0xbf, text @ ..] => String::from_utf8_lossy(text),
-        _ => String::from_utf8_lossy(bytes),
+        _ => match std::str::from_utf8(bytes) {
+            Ok(text) => Cow::Borrowed(text),
+            Err(_) => Cow::Owned(bytes.iter().map(|byte| char::from(*byte)).collect()),
+        },
     }
 }
 

@@ -1,0 +1,113 @@
+//! Skins: where a skeleton at rest holds the mesh that is bound to it.
+
+use glam::{DMat3, DMat4};
+use serde_json::Value;
+
+use super::primitive::Source;
+use super::storage::Meaning;
+use crate::load::warnings::Warnings;
+
+/// How far joints at rest may disagree by the digits that files keep, against the largest number involved.
+const SAME: f64 = 1e-3;
+
+/// Where the skin `skin` of the mesh instance `name` puts it as it was bound; no pose bends it.
+pub(super) fn file_from_bound(
+    source: &Source,
+    skin: usize,
+    name: &str,
+    file_from_node: &[Option<DMat4>],
+    warnings: &mut Warnings,
+) -> DMat4 {
+    let placements = match placements(source, skin, file_from_node, warnings) {
+        Ok(placements) => placements,
+        Err(reason) => {
+            warnings.add(format!(
+                "The skin of `{name}` cannot be read ({reason}); the mesh is taken as it is stored."
+            ));
+            return DMat4::IDENTITY;
+        }
+    };
+    let [first, others @ ..] = &placements[..] else {
+        return DMat4::IDENTITY;
+    };
+    if others.iter().all(|other| agree(first, other)) {
+        warnings.add(format!("The skin of `{name}` is left out: it is taken at rest."));
+    } else {
+        warnings.add(format!(
+            "The skeleton of `{name}` stands in a pose; the mesh is taken as it was bound, without it."
+        ));
+    }
+    first.file_from_mesh
+}
+
+/// What one joint makes of the mesh.
+struct Placement {
+    file_from_mesh: DMat4,
+    /// The largest length that went into it.
+    reach: f64,
+}
+
+/// glTF 2.0, 3.7.3: a joint places what is bound to it by its own place times its inverse bind matrix. At rest all joints
+/// agree, and the node of the mesh has no say.
+fn placements(
+    source: &Source,
+    index: usize,
+    file_from_node: &[Option<DMat4>],
+    warnings: &mut Warnings,
+) -> Result<Vec<Placement>, String> {
+    let skin = source
+        .document
+        .skins
+        .get(index)
+        .ok_or(format!("there is no skins[{index}]"))?;
+    let joints = skin
+        .get("joints")
+        .and_then(Value::as_array)
+        .map_or(&[][..], Vec::as_slice);
+    if joints.is_empty() {
+        return Err("it has no joints".into());
+    }
+    let matrices = match skin.get("inverseBindMatrices") {
+        None => vec![DMat4::IDENTITY.to_cols_array().map(|x| x as f32); joints.len()],
+        Some(accessor) => {
+            let accessor = accessor.as_u64().and_then(|accessor| usize::try_from(accessor).ok());
+            let accessor = accessor.ok_or("its inverse bind matrices are nowhere")?;
+            let read = source.floats::<16>(accessor, Meaning::Matrix, "inverse bind matrices", warnings);
+            read.map_err(|fault| fault.to_string())?
+        }
+    };
+    if matrices.len() < joints.len() {
+        return Err(format!(
+            "it has {} joints and {} matrices",
+            joints.len(),
+            matrices.len()
+        ));
+    }
+    joints
+        .iter()
+        .zip(matrices)
+        .map(|(joint, matrix)| {
+            let placed = joint
+                .as_u64()
+                .and_then(|joint| *file_from_node.get(usize::try_from(joint).ok()?)?);
+            let file_from_joint = placed.ok_or(format!("its joint {joint} is not in the scene"))?;
+            let joint_from_mesh = DMat4::from_cols_array(&matrix.map(f64::from));
+            let file_from_mesh = file_from_joint * joint_from_mesh;
+            if !file_from_mesh.is_finite() || DMat3::from_mat4(file_from_mesh).determinant() == 0.0 {
+                return Err(format!("its joint {joint} leaves nothing of it"));
+            }
+            let reach = file_from_joint.w_axis.truncate().length();
+            Ok(Placement { file_from_mesh, reach })
+        })
+        .collect()
+}
+
+fn agree(a: &Placement, b: &Placement) -> bool {
+    let [a_turns, b_turns] = [a, b].map(|placement| DMat3::from_mat4(placement.file_from_mesh));
+    let size = a_turns
+        .to_cols_array()
+        .into_iter()
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    let apart = a.file_from_mesh.w_axis - b.file_from_mesh.w_axis;
+    a_turns.abs_diff_eq(b_turns, SAME * size) && apart.length() <= SAME * (a.reach + b.reach)
+}

@@ -1,0 +1,57 @@
+//! How the numbers of a vertex may be stored: the tables of glTF 2.0 (3.7.2.1) and KHR_mesh_quantization.
+
+use gltf::json::accessor::ComponentType;
+
+/// What the numbers of an accessor stand for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Meaning {
+    Position,
+    /// A normal or a tangent.
+    Direction,
+    TextureCoordinate,
+    Color,
+    /// A 4 × 4 matrix, column by column.
+    Matrix,
+}
+
+/// What a file's choice of storage comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Storage {
+    /// As glTF has it.
+    Plain,
+    /// As KHR_mesh_quantization adds it.
+    Quantized,
+    /// As glTF has it but for the missing `normalized`, without which the numbers make no sense.
+    Unmarked,
+    /// What no reader could interpret.
+    Forbidden,
+}
+
+impl Meaning {
+    /// Judges a component type with its `normalized` mark.
+    pub(super) fn storage(self, component: ComponentType, normalized: bool) -> Storage {
+        use ComponentType::{F32, I8, I16, U8, U16, U32};
+        match (self, component) {
+            (_, F32) => Storage::Plain,
+            (_, U32) | (Meaning::Matrix, _) => Storage::Forbidden,
+            (Meaning::Color, U8 | U16) if normalized => Storage::Plain,
+            (Meaning::Color, U8 | U16) => Storage::Unmarked,
+            (Meaning::TextureCoordinate, U8 | U16) if normalized => Storage::Plain,
+            (Meaning::Position | Meaning::TextureCoordinate, _) => Storage::Quantized,
+            (Meaning::Direction, I8 | I16) if normalized => Storage::Quantized,
+            (Meaning::Direction, I8 | I16) => Storage::Unmarked,
+            (Meaning::Direction | Meaning::Color, _) => Storage::Forbidden,
+        }
+    }
+
+    /// How sentences name several of them.
+    pub(super) fn plural(self) -> &'static str {
+        match self {
+            Meaning::Position => "positions",
+            Meaning::Direction => "normals and tangents",
+            Meaning::TextureCoordinate => "texture coordinates",
+            Meaning::Color => "colors",
+            Meaning::Matrix => "matrices",
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Khronos's own verdicts on odd files, where they are at hand: what its validator calls an error is refused or said.
+
+use std::path::{Path, PathBuf};
+
+use sabi_surface::load::{LoadOptions, load_bytes};
+use sabi_surface::model::Model;
+use serde_json::{Value, json};
+
+use crate::builder::floats;
+use crate::promises;
+use crate::shared_data::data;
+
+/// Errors of the validator that leave nothing out here: code, a piece of the pointer, and why nothing has to be said.
+const UNREAD: &[(&str, &str, &str)] = &[
+    ("", "/animations/", "animations are not read"),
+    ("", "/cameras/", "cameras are not read"),
+    ("", "KHR_lights_punctual", "lights are not read"),
+    (
+        "",
+        "KHR_materials_variants",
+        "the material that a primitive has without variants is taken",
+    ),
+    (
+        "",
+        "KHR_materials_anisotropy",
+        "not among the channels of a material here",
+    ),
+    (
+        "",
+        "KHR_materials_dispersion",
+        "not among the channels of a material here",
+    ),
+    ("", "KHR_materials_ior", "not among the channels of a material here"),
+    (
+        "",
+        "KHR_materials_specular",
+        "not among the channels of a material here",
+    ),
+    ("", "KHR_materials_volume", "not among the channels of a material here"),
+    (
+        "UNEXPECTED_EXTENSION_OBJECT",
+        "",
+        "an extension where it has no meaning changes nothing",
+    ),
+    (
+        "ACCESSOR_MIN_MISMATCH",
+        "",
+        "bounds are measured, the file's are not read",
+    ),
+    (
+        "ACCESSOR_MAX_MISMATCH",
+        "",
+        "bounds are measured, the file's are not read",
+    ),
+    (
+        "ACCESSOR_ELEMENT_OUT_OF_",
+        "",
+        "bounds are measured, the file's are not read",
+    ),
+    (
+        "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
+        "",
+        "bounds are measured, the file's are not read",
+    ),
+    (
+        "ACCESSOR_NORMALIZED_INVALID",
+        "",
+        "a float is what it is, marked or not",
+    ),
+    ("EMPTY_ENTITY", "", "an empty list is a list without members"),
+    ("NODE_MATRIX_NON_TRS", "", "a sheared placement is applied as it is"),
+    ("DUPLICATE_ELEMENTS", "/extensions", "an extension named twice is named"),
+    (
+        "TYPE_MISMATCH",
+        "/extensions/",
+        "extensions of the whole file are not read",
+    ),
+];
+
+/// What Khronos has nothing against and is refused all the same, as a piece of the sentence.
+const REFUSED: &[&str] = &["it has no triangles", "names no file and is not the binary chunk"];
+
+/// Every input that has a verdict, and the verdict.
+fn judged(folder: &Path, found: &mut Vec<(PathBuf, Value)>) {
+    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    entries.sort();
+    for entry in entries {
+        if entry.is_dir() {
+            judged(&entry, found);
+        } else if let Some(input) = entry.to_str().and_then(|name| name.strip_suffix(".report.json")) {
+            let verdict = serde_json::from_slice(&std::fs::read(&entry).unwrap()).unwrap();
+            found.push((PathBuf::from(input), verdict));
+        }
+    }
+}
+
+/// The file with a triangle for each of its materials, so that no fault hides behind "it has no triangles". Files whose JSON
+/// is no glTF to begin with stay as they are.
+fn with_triangles(file: Vec<u8>) -> Vec<u8> {
+    let Ok(mut root) = serde_json::from_slice::<Value>(&file) else {
+        return file;
+    };
+    let bytes = floats(&[
+        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0,
+    ]);
+    let hexadecimal: String = bytes.iter().map(|byte| format!("%{byte:02x}")).collect();
+    let uri = format!("data:application/octet-stream,{hexadecimal}");
+    let materials = root["materials"].as_array().map_or(0, Vec::len);
+    let mut push = |list: &str, member: Value| {
+        let root = root.as_object_mut()?;
+        let list = root.entry(list).or_insert(json!([])).as_array_mut()?;
+        list.push(member);
+        Some(list.len() - 1)
+    };
+    let mut add = || {
+        let buffer = push("buffers", json!({ "byteLength": 60, "uri": uri }))?;
+        let view = push("bufferViews", json!({ "buffer": buffer, "byteLength": 60 }))?;
+        let accessor = |offset: usize, shape: &str| json!({ "bufferView": view, "byteOffset": offset, "componentType": 5126, "type": shape, "count": 3 });
+        let position = push("accessors", accessor(0, "VEC3"))?;
+        let uv = push("accessors", accessor(36, "VEC2"))?;
+        let mut primitives = vec![json!({ "attributes": { "POSITION": position, "TEXCOORD_0": uv } })];
+        for material in 0..materials {
+            let mut primitive = primitives[0].clone();
+            primitive["material"] = json!(material);
+            primitives.push(primitive);
+        }
+        let mesh = push("meshes", json!({ "primitives": primitives }))?;
+        push("nodes", json!({ "mesh": mesh }))
+    };
+    let Some(node) = add() else { return file };
+    for scene in root
+        .get_mut("scenes")
+        .and_then(Value::as_array_mut)
+        .into_iter()
+        .flatten()
+    {
+        if let Some(scene) = scene.as_object_mut()
+            && let Some(nodes) = scene.entry("nodes").or_insert(json!([])).as_array_mut()
+        {
+            nodes.push(json!(node));
+        }
+    }
+    root.to_string().into_bytes()
+}
+
+fn read(input: &Path) -> Result<Model, String> {
+    let bytes = with_triangles(std::fs::read(input).unwrap());
+    let folder = input.parent().unwrap();
+    let mut beside = |uri: &str| std::fs::read(folder.join(uri)).map_err(|_| "there is no such file".to_string());
+    let name = input.file_name().unwrap().to_string_lossy();
+    let loaded = load_bytes(&name, &bytes, &mut beside, &LoadOptions::default());
+    loaded.map_err(|error| error.fault.to_string())
+}
+
+/// The validator's errors on a file: code and place.
+fn errors(verdict: &Value) -> impl Iterator<Item = (&str, &str)> {
+    let messages = verdict["issues"]["messages"].as_array().into_iter().flatten();
+    messages.filter(|message| message["severity"] == 0).map(|message| {
+        (
+            message["code"].as_str().unwrap_or(""),
+            message["pointer"].as_str().unwrap_or(""),
+        )
+    })
+}
+
+#[test]
+fn what_khronos_calls_an_error_is_refused_or_said() {
+    let Some(data) = data() else { return };
+    let folder = data.join("hostile/gltf-validator");
+    let mut inputs = Vec::new();
+    judged(&folder, &mut inputs);
+    let mut silent = Vec::new();
+    for (input, verdict) in &inputs {
+        let name = input.strip_prefix(&folder).unwrap().display();
+        let model = match read(input) {
+            Ok(model) => model,
+            Err(sentence) => {
+                println!("{name}: refused, {sentence}");
+                let is_fair = errors(verdict).next().is_some();
+                if !is_fair && !REFUSED.iter().any(|known| sentence.contains(known)) {
+                    silent.push(format!(
+                        "{name} is refused and Khronos has nothing against it: {sentence}"
+                    ));
+                }
+                continue;
+            }
+        };
+        promises::check(&model);
+        println!("{name}: {:?}", model.warnings);
+        if !model.warnings.is_empty() {
+            continue;
+        }
+        for (code, place) in errors(verdict) {
+            let is_unread = UNREAD
+                .iter()
+                .any(|(known, part, _)| code.starts_with(known) && place.contains(part));
+            if !is_unread {
+                silent.push(format!("{name}: {code} at {place} passes without a word"));
+            }
+        }
+    }
+    assert!(inputs.len() > 100, "the verdicts are gone");
+    assert!(silent.is_empty(), "\n{}", silent.join("\n"));
+}
