@@ -12,6 +12,7 @@ use crate::decode::{MAX_DECODED_BYTES, check_size, damaged};
 use crate::{Declared, ImageError, Picture, Pixels};
 
 const FORMAT: &str = "OpenEXR";
+const DEEP: &str = "it holds deep samples, several for each pixel";
 /// Stands for what is infinite: the largest number of most files.
 const LARGEST_HALF: f32 = 65504.0;
 
@@ -19,6 +20,10 @@ type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
 /// What is shown is the display window; pixels of it that the file does not have are 0.
 pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+    // The flag of files with deep parts (OpenEXR file layout, version field, bit 11).
+    if bytes.get(5).is_some_and(|flags| flags & 0x08 != 0) {
+        return Err(unsupported(name, DEEP));
+    }
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| explain(name, error))?;
     if meta.headers.is_empty() {
         return Err(damaged(name, FORMAT, "it has no layer"));
@@ -74,7 +79,7 @@ fn unsupported(name: &str, feature: &str) -> ImageError {
 /// Refuses what is not read; gives the bytes that the layer takes.
 fn check_header(name: &str, header: &Header) -> Result<u64, ImageError> {
     if header.deep {
-        return Err(unsupported(name, "it holds deep samples, several for each pixel"));
+        return Err(unsupported(name, DEEP));
     }
     let window = header.shared_attributes.display_window.size;
     let data = header.layer_size;

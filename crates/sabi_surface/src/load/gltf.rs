@@ -4,6 +4,7 @@ mod accessor;
 mod buffers;
 mod document;
 mod material;
+mod picture;
 mod primitive;
 mod scene;
 mod skin;

@@ -141,6 +141,40 @@ fn pictures_come_from_data_from_views_and_from_files_with_spaces() {
 }
 
 #[test]
+fn a_picture_named_often_is_read_once_and_pictures_do_not_overlap() {
+    let mut file = Gltf::triangle();
+    let view = file.view(&[9; 64]);
+    let primitive = file.primitive().clone();
+    let mut primitives = Vec::new();
+    for number in 0..6 {
+        let image = if number < 3 {
+            json!({ "uri": "same.png" })
+        } else {
+            json!({ "bufferView": view })
+        };
+        file.push("images", image);
+        file.push("textures", json!({ "source": number }));
+        file.push("materials", json!({ "emissiveTexture": { "index": number } }));
+        let mut primitive = primitive.clone();
+        primitive["material"] = json!(number);
+        primitives.push(primitive);
+    }
+    file.json["meshes"][0]["primitives"] = json!(primitives);
+    let mut times = 0;
+    let mut beside = |_: &str| {
+        times += 1;
+        Ok(vec![1])
+    };
+    let model = load_bytes("test.glb", &file.glb(), &mut beside, &LoadOptions::default()).unwrap();
+    assert_eq!(times, 1);
+    let read: Vec<bool> = model.images.iter().map(|image| image.bytes.is_ok()).collect();
+    // 124 bytes have room for one picture of 64.
+    assert_eq!(read, [true, true, true, true, false, false]);
+    let sentence = "The picture image 4 of test.glb cannot be read: the pictures of the file overlap.";
+    assert_eq!(model.warnings[0], sentence);
+}
+
+#[test]
 fn a_broken_texture_takes_nothing_else_with_it() {
     let mut file = with_picture(json!({ "bufferView": 9 }));
     file.json["materials"][0]["normalTexture"] = json!({ "index": 7 });

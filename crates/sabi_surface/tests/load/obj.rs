@@ -171,6 +171,37 @@ fn what_is_left_out_is_said() {
 }
 
 #[test]
+fn a_line_that_goes_on_for_ever_is_not_waited_for() {
+    // Quadratic work on this would take a quarter of an hour.
+    let text = format!("{SQUARE}f 1 2 3 {}4\n", "\\\n".repeat(2_000_000));
+    assert_eq!(read(&text).unwrap().mesh.triangles.len(), 2);
+}
+
+#[test]
+fn text_of_an_old_program_keeps_its_names_apart() {
+    let text = [
+        SQUARE.as_bytes(),
+        &b"usemtl T\xfcr\nf 1 2 3\nusemtl T\xf6r\nf 1 2 3\n"[..],
+    ]
+    .concat();
+    let model = load_bytes("a.obj", &text, &mut crate::builder::nothing, &LoadOptions::default()).unwrap();
+    let names: Vec<&str> = model.materials.iter().map(|material| material.name.as_str()).collect();
+    assert_eq!(names, ["T\u{fc}r", "T\u{f6}r"]);
+}
+
+#[test]
+fn a_space_in_a_library_name_may_stand_behind_a_backslash() {
+    let mut asked = Vec::new();
+    let mut beside = |name: &str| {
+        asked.push(name.to_string());
+        Err("there is no such file".to_string())
+    };
+    let text = format!("mtllib a.mtl my\\ own.mtl\n{SQUARE}f 1 2 3\n");
+    load_bytes("a.obj", text.as_bytes(), &mut beside, &LoadOptions::default()).unwrap();
+    assert_eq!(asked[1..], ["a.mtl", "my own.mtl"]);
+}
+
+#[test]
 fn each_fault_has_its_sentence() {
     for (text, sentence) in [
         ("v 0 0\n", "the file is damaged: line 1: `v` needs 3 numbers"),

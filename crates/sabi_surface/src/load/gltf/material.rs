@@ -1,7 +1,6 @@
 //! Materials in use, their textures, and the pictures behind them.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use gltf::json;
 use json::texture::WrappingMode;
@@ -9,10 +8,10 @@ use json::validation::Checked;
 use serde_json::{Map, Value};
 
 use super::Resolve;
+use super::picture::Shelf;
 use super::primitive::Source;
-use crate::load::uri::Uri;
 use crate::load::warnings::Warnings;
-use crate::model::{Model, ModelImage, ModelMaterial, TextureRef, Wrap};
+use crate::model::{Model, ModelMaterial, TextureRef, Wrap};
 
 /// Extensions that keep a texture's picture elsewhere; the first is read.
 const OTHER_SOURCES: [&str; 4] = [
@@ -69,8 +68,9 @@ impl Materials {
         }
         let mut slots: Vec<_> = pictures.slots.into_iter().collect();
         slots.sort_unstable_by_key(|(_, slot)| *slot);
+        let mut shelf = Shelf::default();
         for ((image, unread), _) in slots {
-            let image = read_image(source, name, image, unread, resolve);
+            let image = shelf.read(source, name, image, unread, resolve);
             if let Err(sentence) = &image.bytes {
                 warnings.add(sentence.clone());
             }
@@ -323,38 +323,4 @@ fn wrap(mode: Checked<WrappingMode>) -> Wrap {
 
 fn finite<const N: usize>(values: [f32; N], otherwise: f32) -> [f32; N] {
     values.map(|value| if value.is_finite() { value } else { otherwise })
-}
-
-/// The encoded bytes of an image, `unread` being the extension it would need.
-fn read_image(
-    source: &Source,
-    model: &str,
-    index: usize,
-    unread: Option<&'static str>,
-    resolve: &mut Resolve,
-) -> ModelImage {
-    let image = &source.document.images[index];
-    let uri = image.uri.as_deref().map(Uri::parse);
-    let name = match &uri {
-        Some(Uri::Beside(path)) => path.rsplit(['/', '\\']).next().unwrap_or_default().to_string(),
-        _ => format!("image {index} of {model}"),
-    };
-    let bytes: Result<Arc<[u8]>, String> = match (unread, uri, image.buffer_view) {
-        (Some(extension), ..) => Err(format!("it is stored with {extension}, which is not read here")),
-        (_, Some(Uri::Data(bytes)), _) => Ok(bytes.into()),
-        (_, Some(Uri::Beside(path)), _) => {
-            let raw = image.uri.as_deref().unwrap_or_default();
-            resolve(&path)
-                .or_else(|reason| resolve(raw).map_err(|_| reason))
-                .map(Arc::from)
-        }
-        (_, Some(Uri::Unusable(reason)), _) => Err(reason),
-        (_, None, Some(view)) => match source.buffers.view(source.document, view.value()) {
-            Ok(bytes) => Ok(bytes.into()),
-            Err(fault) => Err(fault.to_string()),
-        },
-        (_, None, None) => Err("the file does not say where it is".to_string()),
-    };
-    let bytes = bytes.map_err(|reason| format!("The picture {name} cannot be read: {reason}."));
-    ModelImage { name, bytes }
 }

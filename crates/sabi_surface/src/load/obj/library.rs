@@ -13,8 +13,8 @@ use crate::model::{Model, ModelImage, ModelMaterial, TextureRef, Wrap};
 pub(super) struct Library {
     materials: Vec<ModelMaterial>,
     places: BTreeMap<String, usize>,
-    /// Paths of pictures as the library has them.
-    pictures: Vec<String>,
+    /// Paths of pictures as the library has them, and their numbers.
+    pictures: BTreeMap<String, usize>,
 }
 
 /// The material of faces that name none, or one that no library has: neither metal nor mirror.
@@ -131,10 +131,8 @@ impl Library {
         if path.is_empty() {
             return None;
         }
-        let image = self.pictures.iter().position(|known| known == path).unwrap_or_else(|| {
-            self.pictures.push(path.to_string());
-            self.pictures.len() - 1
-        });
+        let next = self.pictures.len();
+        let image = *self.pictures.entry(path.to_string()).or_insert(next);
         let transform = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         Some(TextureRef {
             image,
@@ -147,13 +145,19 @@ impl Library {
     /// Reads the pictures that the model's materials name, and numbers them anew.
     pub(super) fn read_images(&self, resolve: &mut Resolve, model: &mut Model, warnings: &mut Warnings) {
         let mut new_from_old = BTreeMap::new();
+        let mut paths: Vec<(usize, &str)> = self
+            .pictures
+            .iter()
+            .map(|(path, number)| (*number, path.as_str()))
+            .collect();
+        paths.sort_unstable();
         let used = model
             .materials
             .iter_mut()
             .flat_map(|material| [&mut material.base_color, &mut material.emission]);
         for used in used.flatten() {
             used.image = *new_from_old.entry(used.image).or_insert_with(|| {
-                let path = &self.pictures[used.image];
+                let (_, path) = paths[used.image];
                 let name = path.rsplit(['/', '\\']).next().unwrap_or_default().to_string();
                 let bytes: Result<Arc<[u8]>, String> = resolve(path)
                     .map(Arc::from)

@@ -11,6 +11,9 @@ use crate::load::warnings::Warnings;
 /// Stands for an index that a corner does not give.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// More material libraries than this are not looked for.
+const MOST_LIBRARIES: usize = 1000;
+
 /// One corner of a face, as indices from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Corner {
@@ -106,7 +109,13 @@ impl Statements {
                     group => group.parse().map_or(Smoothing::ByAngle, Smoothing::Group),
                 }
             }
-            "mtllib" if !self.libraries.iter().any(|library| library == rest) => self.libraries.push(rest.to_string()),
+            "mtllib" if self.libraries.iter().any(|library| library == rest) => {}
+            "mtllib" if self.libraries.len() == MOST_LIBRARIES => {
+                warnings.add(format!(
+                    "The file names more than {MOST_LIBRARIES} material libraries; the others are left out."
+                ));
+            }
+            "mtllib" => self.libraries.push(rest.to_string()),
             "l" | "p" => warnings.add("Points and lines are left out."),
             "curv" | "curv2" | "surf" => warnings.add("Curves and curved surfaces are left out."),
             _ => {}
@@ -286,9 +295,12 @@ pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, 
         loop {
             let (line, number) = lines.next()?;
             let mut line = Cow::Borrowed(line.trim_ascii());
-            while let Some(head) = line.strip_suffix('\\') {
+            while line.ends_with('\\') {
                 let next = lines.next().map_or("", |(next, _)| next.trim_ascii());
-                line = Cow::Owned(format!("{head} {next}"));
+                let whole = line.to_mut();
+                whole.pop();
+                whole.push(' ');
+                whole.push_str(next);
             }
             if !line.is_empty() && !line.starts_with('#') {
                 return Some((number, line));

@@ -1,0 +1,64 @@
+//! The encoded bytes of pictures: in the file, in a buffer view, or beside the model.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::Resolve;
+use super::primitive::Source;
+use crate::load::uri::Uri;
+use crate::model::ModelImage;
+
+/// Pictures that were read, so that a model that names one a thousand times takes its memory once.
+#[derive(Default)]
+pub(super) struct Shelf {
+    beside: BTreeMap<String, Result<Arc<[u8]>, String>>,
+    /// Bytes taken out of buffer views so far.
+    bytes_in_views: u64,
+}
+
+impl Shelf {
+    /// The picture `index` of the file, `unread` being the extension it would need.
+    pub(super) fn read(
+        &mut self,
+        source: &Source,
+        model: &str,
+        index: usize,
+        unread: Option<&'static str>,
+        resolve: &mut Resolve,
+    ) -> ModelImage {
+        let image = &source.document.images[index];
+        let uri = image.uri.as_deref().map(Uri::parse);
+        let name = match &uri {
+            Some(Uri::Beside(path)) => path.rsplit(['/', '\\']).next().unwrap_or_default().to_string(),
+            _ => format!("image {index} of {model}"),
+        };
+        let bytes: Result<Arc<[u8]>, String> = match (unread, uri, image.buffer_view) {
+            (Some(extension), ..) => Err(format!("it is stored with {extension}, which is not read here")),
+            (_, Some(Uri::Data(bytes)), _) => Ok(bytes.into()),
+            (_, Some(Uri::Beside(path)), _) => {
+                let raw = image.uri.as_deref().unwrap_or_default();
+                let read = || resolve(&path).or_else(|reason| resolve(raw).map_err(|_| reason));
+                let known = self.beside.entry(raw.to_string());
+                known.or_insert_with(|| read().map(Arc::from)).clone()
+            }
+            (_, Some(Uri::Unusable(reason)), _) => Err(reason),
+            (_, None, Some(view)) => self.in_view(source, view.value()),
+            (_, None, None) => Err("the file does not say where it is".to_string()),
+        };
+        let bytes = bytes.map_err(|reason| format!("The picture {name} cannot be read: {reason}."));
+        ModelImage { name, bytes }
+    }
+
+    /// Pictures lie side by side; where they take more than the file has, they lie over each other.
+    fn in_view(&mut self, source: &Source, view: usize) -> Result<Arc<[u8]>, String> {
+        let bytes = source
+            .buffers
+            .view(source.document, view)
+            .map_err(|fault| fault.to_string())?;
+        self.bytes_in_views += bytes.len() as u64;
+        if self.bytes_in_views > source.buffers.total_bytes() {
+            return Err("the pictures of the file overlap".into());
+        }
+        Ok(bytes.into())
+    }
+}
