@@ -79,7 +79,7 @@ fn every_color_type_and_depth_of_png_is_read_interlaced_or_not() {
     const RGBA: u8 = 6;
     for (color, channels) in [(GRAY, 1), (GRAY_ALPHA, 2), (RGB, 3), (RGBA, 4)] {
         for depth in [8, 16] {
-            let samples: Vec<u8> = (0..4 * channels * depth / 8).map(|at| at * 7 + 1).collect();
+            let samples: Vec<u8> = (0..4 * channels * (depth / 8)).map(|at| at * 7 + 1).collect();
             let rows = samples.split_at(samples.len() / 2);
             let expected = if depth == 8 {
                 Pixels::U8(samples.clone())

@@ -37,7 +37,7 @@ impl Shelf {
             (_, Some(Uri::Data(bytes)), _) => Ok(bytes.into()),
             (_, Some(Uri::Beside(path)), _) => {
                 let raw = image.uri.as_deref().unwrap_or_default();
-                let read = || resolve(&path).or_else(|reason| resolve(raw).map_err(|_| reason));
+                let mut read = || resolve(&path).or_else(|reason| resolve(raw).map_err(|_| reason));
                 let known = self.beside.entry(raw.to_string());
                 known.or_insert_with(|| read().map(Arc::from)).clone()
             }
