@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 use glam::{DMat3, DMat4, DVec3};
 
 pub use self::error::{Fault, LoadError};
+use self::format::{Format, format_of, refused_format};
 pub(crate) use self::piece::Piece;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
-use self::format::{Format, format_of, refused_format};
 use crate::model::Model;
 
 /// More triangles than this are refused before anything is allocated for them.

@@ -1,6 +1,6 @@
 //! Skins: where a skeleton at rest holds the mesh that is bound to it.
 
-use glam::{DMat3, DMat4};
+use glam::{DMat3, DMat4, DVec4};
 use serde_json::Value;
 
 use super::primitive::Source;
@@ -91,7 +91,10 @@ fn placements(
                 .as_u64()
                 .and_then(|joint| *file_from_node.get(usize::try_from(joint).ok()?)?);
             let file_from_joint = placed.ok_or(format!("its joint {joint} is not in the scene"))?;
-            let joint_from_mesh = DMat4::from_cols_array(&matrix.map(f64::from));
+            let mut joint_from_mesh = DMat4::from_cols_array(&matrix.map(f64::from)).transpose();
+            // Only the upper three rows say anything.
+            joint_from_mesh.w_axis = DVec4::W;
+            let joint_from_mesh = joint_from_mesh.transpose();
             let file_from_mesh = file_from_joint * joint_from_mesh;
             if !file_from_mesh.is_finite() || DMat3::from_mat4(file_from_mesh).determinant() == 0.0 {
                 return Err(format!("its joint {joint} leaves nothing of it"));
