@@ -8,70 +8,73 @@ use serde_json::json;
 use crate::builder::{Gltf, nothing};
 use crate::faults::said;
 
+/// Names and first bytes of files that are not read, and what is said.
+const OTHERS: &[(&str, &[u8], &str)] = &[
+    (
+        "a.FBX",
+        b"Kaydara",
+        ".fbx files are not read here: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
+    ),
+    (
+        "a.dae",
+        b"<?xml",
+        ".dae files are not read here: convert it with Assimp (`assimp export model.dae model.glb`), or open it in Blender up to 4.5 (File > Import > Collada) and export it with File > Export > glTF 2.0 (.glb)",
+    ),
+    (
+        "a.ply",
+        b"ply\n",
+        ".ply files are not read here: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
+    ),
+    (
+        "a.off",
+        b"OFF",
+        ".off files are not read here: convert it with Assimp (`assimp export` with its name and that of a new .glb file), or export it from its own program as glTF 2.0 (.glb) or OBJ",
+    ),
+    (
+        "a.obj",
+        b"Kaydara FBX Binary  ",
+        "this is a .fbx file under another name: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
+    ),
+    (
+        "a.glb",
+        b"PK\x03\x04",
+        "this is a .zip file under another name: unpack it and give the model inside",
+    ),
+    (
+        "a.glb",
+        b"version https://git-lfs.github.com/spec/v1\noid",
+        "this is a Git LFS pointer instead of the model itself; run `git lfs pull` where it came from",
+    ),
+    (
+        "a.usdz",
+        b"PK",
+        ".usdz files are not read here: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
+    ),
+    (
+        "a.blend",
+        b"BLENDER",
+        ".blend files are not read here: open it in Blender and export it with File > Export > glTF 2.0 (.glb)",
+    ),
+    (
+        "a.step",
+        b"ISO",
+        ".step files are not read here: tessellate it in its CAD program and export it as glTF 2.0 (.glb) or OBJ",
+    ),
+    (
+        "a.txt",
+        b"hello",
+        "this is not a model that is read here: give a .glb, .gltf or .obj file",
+    ),
+    (
+        "a",
+        b"hello",
+        "this is not a model that is read here: give a .glb, .gltf or .obj file",
+    ),
+];
+
 #[test]
 fn other_formats_are_refused_with_the_way_to_convert_them() {
-    for (name, bytes, sentence) in [
-        (
-            "a.FBX",
-            &b"Kaydara"[..],
-            ".fbx files are not read here: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
-        ),
-        (
-            "a.dae",
-            b"<?xml",
-            ".dae files are not read here: convert it with Assimp (`assimp export model.dae model.glb`), or open it in Blender up to 4.5 (File > Import > Collada) and export it with File > Export > glTF 2.0 (.glb)",
-        ),
-        (
-            "a.ply",
-            b"ply\n",
-            ".ply files are not read here: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
-        ),
-        (
-            "a.off",
-            b"OFF",
-            ".off files are not read here: convert it with Assimp (`assimp export` with its name and that of a new .glb file), or export it from its own program as glTF 2.0 (.glb) or OBJ",
-        ),
-        (
-            "a.obj",
-            b"Kaydara FBX Binary  ",
-            "this is a .fbx file under another name: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
-        ),
-        (
-            "a.glb",
-            b"PK\x03\x04",
-            "this is a .zip file under another name: unpack it and give the model inside",
-        ),
-        (
-            "a.glb",
-            b"version https://git-lfs.github.com/spec/v1\noid",
-            "this is a Git LFS pointer instead of the model itself; run `git lfs pull` where it came from",
-        ),
-        (
-            "a.usdz",
-            b"PK",
-            ".usdz files are not read here: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
-        ),
-        (
-            "a.blend",
-            b"BLENDER",
-            ".blend files are not read here: open it in Blender and export it with File > Export > glTF 2.0 (.glb)",
-        ),
-        (
-            "a.step",
-            b"ISO",
-            ".step files are not read here: tessellate it in its CAD program and export it as glTF 2.0 (.glb) or OBJ",
-        ),
-        (
-            "a.txt",
-            b"hello",
-            "this is not a model that is read here: give a .glb, .gltf or .obj file",
-        ),
-        (
-            "a",
-            b"hello",
-            "this is not a model that is read here: give a .glb, .gltf or .obj file",
-        ),
-    ] {
+    for (name, bytes, sentence) in OTHERS {
         assert_eq!(said(name, bytes), format!("{name}: {sentence}"));
     }
     let unnamed = load_bytes("model", &Gltf::triangle().glb(), &mut nothing, &LoadOptions::default());

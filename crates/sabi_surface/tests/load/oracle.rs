@@ -167,59 +167,10 @@ fn put_to_use(file: Vec<u8>) -> Vec<u8> {
     let Ok(mut root) = serde_json::from_slice::<Value>(&file) else {
         return file;
     };
-    let count = |root: &Value, list: &str| root.get(list).and_then(Value::as_array).map_or(0, Vec::len);
     let [meshes, skins, images] = ["meshes", "skins", "images"].map(|list| count(&root, list));
-    let accessors = root
-        .get("accessors")
-        .and_then(Value::as_array)
-        .cloned()
-        .unwrap_or_default();
-    let bytes = floats(&[
-        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0,
-    ]);
-    let hexadecimal: String = bytes.iter().map(|byte| format!("%{byte:02x}")).collect();
-    let buffer = json!({ "byteLength": 60, "uri": format!("data:application/octet-stream,{hexadecimal}") });
-    let add = || {
-        let buffer = push(&mut root, "buffers", buffer)?;
-        // Views that the file names and does not have must not be found in ours.
-        for _ in 0..4 {
-            push(&mut root, "bufferViews", json!({ "buffer": 9999, "byteLength": 1 }))?;
-        }
-        let view = push(&mut root, "bufferViews", json!({ "buffer": buffer, "byteLength": 60 }))?;
-        let accessor = |offset: usize, shape: &str| json!({ "bufferView": view, "byteOffset": offset, "componentType": 5126, "type": shape, "count": 3 });
-        let position = push(&mut root, "accessors", accessor(0, "VEC3"))?;
-        let uv = push(&mut root, "accessors", accessor(36, "VEC2"))?;
-        for image in 0..images {
-            push(&mut root, "textures", json!({ "source": image }))?;
-        }
-        for texture in 0..count(&root, "textures") {
-            push(
-                &mut root,
-                "materials",
-                json!({ "emissiveTexture": { "index": texture } }),
-            )?;
-        }
-        let mut primitives = vec![json!({ "attributes": { "POSITION": position, "TEXCOORD_0": uv } })];
-        for material in 0..count(&root, "materials") {
-            let mut primitive = primitives[0].clone();
-            primitive["material"] = json!(material);
-            primitives.push(primitive);
-        }
-        for (index, accessor) in accessors.iter().enumerate() {
-            if accessor["type"] == "VEC3" && accessor["componentType"] == 5126 {
-                primitives.push(json!({ "attributes": { "POSITION": index } }));
-            }
-        }
-        let mesh = push(&mut root, "meshes", json!({ "primitives": primitives }))?;
-        let mut nodes = vec![json!({ "mesh": mesh })];
-        nodes.extend((0..meshes).map(|mesh| json!({ "mesh": mesh })));
-        nodes.extend((0..skins).map(|skin| json!({ "mesh": mesh, "skin": skin })));
-        nodes
-            .into_iter()
-            .map(|node| push(&mut root, "nodes", node))
-            .collect::<Option<Vec<usize>>>()
+    let Some(nodes) = add_users(&mut root, [meshes, skins, images]) else {
+        return file;
     };
-    let Some(nodes) = add() else { return file };
     for scene in root
         .get_mut("scenes")
         .and_then(Value::as_array_mut)
@@ -232,6 +183,58 @@ fn put_to_use(file: Vec<u8>) -> Vec<u8> {
         }
     }
     root.to_string().into_bytes()
+}
+
+fn count(root: &Value, list: &str) -> usize {
+    root.get(list).and_then(Value::as_array).map_or(0, Vec::len)
+}
+
+/// Adds what uses the file's own meshes, skins and pictures; gives the new nodes.
+fn add_users(root: &mut Value, [meshes, skins, images]: [usize; 3]) -> Option<Vec<usize>> {
+    let accessors = root
+        .get("accessors")
+        .and_then(Value::as_array)
+        .cloned()
+        .unwrap_or_default();
+    let bytes = floats(&[
+        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0,
+    ]);
+    let hexadecimal: String = bytes.iter().map(|byte| format!("%{byte:02x}")).collect();
+    let buffer = json!({ "byteLength": 60, "uri": format!("data:application/octet-stream,{hexadecimal}") });
+    let buffer = push(root, "buffers", buffer)?;
+    // Views that the file names and does not have must not be found in ours.
+    for _ in 0..4 {
+        push(root, "bufferViews", json!({ "buffer": 9999, "byteLength": 1 }))?;
+    }
+    let view = push(root, "bufferViews", json!({ "buffer": buffer, "byteLength": 60 }))?;
+    let accessor = |offset: usize, shape: &str| json!({ "bufferView": view, "byteOffset": offset, "componentType": 5126, "type": shape, "count": 3 });
+    let position = push(root, "accessors", accessor(0, "VEC3"))?;
+    let uv = push(root, "accessors", accessor(36, "VEC2"))?;
+    for image in 0..images {
+        push(root, "textures", json!({ "source": image }))?;
+    }
+    for texture in 0..count(root, "textures") {
+        push(root, "materials", json!({ "emissiveTexture": { "index": texture } }))?;
+    }
+    let mut primitives = vec![json!({ "attributes": { "POSITION": position, "TEXCOORD_0": uv } })];
+    for material in 0..count(root, "materials") {
+        let mut primitive = primitives[0].clone();
+        primitive["material"] = json!(material);
+        primitives.push(primitive);
+    }
+    for (index, accessor) in accessors.iter().enumerate() {
+        if accessor["type"] == "VEC3" && accessor["componentType"] == 5126 {
+            primitives.push(json!({ "attributes": { "POSITION": index } }));
+        }
+    }
+    let mesh = push(root, "meshes", json!({ "primitives": primitives }))?;
+    let mut nodes = vec![json!({ "mesh": mesh })];
+    nodes.extend((0..meshes).map(|mesh| json!({ "mesh": mesh })));
+    nodes.extend((0..skins).map(|skin| json!({ "mesh": mesh, "skin": skin })));
+    nodes
+        .into_iter()
+        .map(|node| push(root, "nodes", node))
+        .collect::<Option<Vec<usize>>>()
 }
 
 /// Adds a member to a list and gives its index; `None` where the file has no list there.

@@ -160,10 +160,7 @@ impl Source<'_> {
         let what = |what: &str| format!("{what} of {label}");
         let mut tangents = Vec::new();
         let count = piece.positions.len();
-        let check = |what: &str, length: usize| match length {
-            length if length == count => Ok(()),
-            length => damaged(format!("{label} has {count} positions and {length} {what}")),
-        };
+        let check = |what: &str, length: usize| check_count(label, count, what, length);
         if let Some(index) = attribute(primitive, Semantic::Normals) {
             piece.normals = self.floats(index.value(), Meaning::Direction, &what("normals"), warnings)?;
             check("normals", piece.normals.len())?;
@@ -177,6 +174,19 @@ impl Source<'_> {
             piece.colors = self.colors(index.value(), &what("colors"), warnings)?;
             check("colors", piece.colors.len())?;
         }
+        self.read_uvs(primitive, label, tangents, piece, warnings)
+    }
+
+    /// The UV sets that count, each with the file's `tangents` where they are its own.
+    fn read_uvs(
+        &self,
+        primitive: &json::mesh::Primitive,
+        label: &str,
+        mut tangents: Vec<[f32; 4]>,
+        piece: &mut Piece,
+        warnings: &mut Warnings,
+    ) -> Result<(), Fault> {
+        let count = piece.positions.len();
         let material = primitive.material.map(|index| index.value());
         let material = material.and_then(|index| self.document.materials.get(index));
         let sets = material.map_or_else(TextureSets::default, TextureSets::of);
@@ -189,9 +199,9 @@ impl Source<'_> {
             let Some(index) = attribute(primitive, Semantic::TexCoords(set)) else {
                 continue;
             };
-            let what = what(&format!("coordinates of UV set {set}"));
+            let what = format!("coordinates of UV set {set} of {label}");
             let uvs: Vec<[f32; 2]> = self.floats(index.value(), Meaning::TextureCoordinate, &what, warnings)?;
-            check("texture coordinates", uvs.len())?;
+            check_count(label, count, "texture coordinates", uvs.len())?;
             let mut own = || {
                 if set == framed_set {
                     std::mem::take(&mut tangents)
@@ -211,6 +221,15 @@ impl Source<'_> {
             piece.tangents = tangents;
         }
         Ok(())
+    }
+}
+
+/// Every attribute has a value for each of the `count` positions.
+fn check_count(label: &str, count: usize, what: &str, length: usize) -> Result<(), Fault> {
+    if length == count {
+        Ok(())
+    } else {
+        damaged(format!("{label} has {count} positions and {length} {what}"))
     }
 }
 
