@@ -1,7 +1,8 @@
 //! `source/model → output/material` gives back the maps that the model came with.
 
 use sabi_image::{PngData, PngOptions, encode_png, srgb8_from_linear};
-use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};
+use sabi_tests::{MadeMesh, MadeTexture, MeshFile, OnMesh, Quad};
+use serde_json::{Value, json};
 
 const SIZE: u32 = 32;
 
@@ -36,7 +37,7 @@ fn colors() -> Codes {
 }
 
 /// Two faces at a right angle; the second one's texture coordinates are mirrored. Together they fill the unit square.
-fn folded() -> MeshFile {
+fn faces() -> Vec<Quad> {
     let upright = Quad {
         corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.5, 0.0], [0.0, 0.5, 0.0]],
         uvs: [[0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [0.0, 0.0]],
@@ -45,11 +46,15 @@ fn folded() -> MeshFile {
         corners: [[0.0, 0.0, 0.5], [1.0, 0.0, 0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
         uvs: [[1.0, 1.0], [0.0, 1.0], [0.0, 0.5], [1.0, 0.5]],
     };
+    vec![upright, mirrored]
+}
+
+fn folded() -> MeshFile {
     MeshFile {
-        quads: vec![upright, mirrored],
+        quads: faces(),
         base_color: Some(png(&colors())),
         normal: Some(png(&normals())),
-        picture_uvs: None,
+        ..MeshFile::default()
     }
 }
 
@@ -103,6 +108,140 @@ fn assert_comes_back(mesh: &MadeMesh) {
                 (was - is).abs() < 1.0 / 255.0,
                 "normal of pixel {pixel}: {was} became {is}"
             );
+        }
+    }
+}
+
+/// How a texture lies on the model, and the pixel of it that lies under a pixel of the unit square.
+struct Placing {
+    name: &'static str,
+    transform: Value,
+    sampler: Value,
+    source: fn(u32, u32) -> (u32, u32),
+}
+
+/// glTF's names of the wraps.
+const CLAMP: u32 = 33071;
+const MIRROR: u32 = 33648;
+
+fn placings() -> [Placing; 4] {
+    let offset = |u: f64, v: f64| json!({ "offset": [u, v] });
+    [
+        Placing {
+            name: "as it is",
+            transform: Value::Null,
+            sampler: json!({}),
+            source: |x, y| (x, y),
+        },
+        Placing {
+            name: "moved, repeating",
+            transform: offset(0.25, 0.5),
+            sampler: json!({}),
+            source: |x, y| ((x + SIZE / 4) % SIZE, (y + SIZE / 2) % SIZE),
+        },
+        Placing {
+            name: "moved, mirrored across and clamped down",
+            transform: offset(0.5, 0.5),
+            sampler: json!({ "wrapS": MIRROR, "wrapT": CLAMP }),
+            source: |x, y| {
+                let across = x + SIZE / 2;
+                let mirrored = if across < SIZE { across } else { 2 * SIZE - 1 - across };
+                (mirrored, (y + SIZE / 2).min(SIZE - 1))
+            },
+        },
+        Placing {
+            name: "turned by a right angle",
+            transform: json!({ "rotation": std::f64::consts::FRAC_PI_2 }),
+            sampler: json!({}),
+            // u becomes v, and v becomes -u.
+            source: |x, y| (y, SIZE - 1 - x),
+        },
+    ]
+}
+
+/// A picture of four channels that differs for each seed.
+fn rgba(seed: u32) -> Vec<u8> {
+    let code = |at: u32| ((at * 37 + seed * 101 + (at / 7) * (seed + 3)) % 256) as u8;
+    (0..4 * SIZE * SIZE).map(code).collect()
+}
+
+fn png_rgba(codes: &[u8]) -> Vec<u8> {
+    let options = PngOptions {
+        channels: 4,
+        bits: 8,
+        srgb_chunk: false,
+    };
+    encode_png(SIZE, SIZE, PngData::U8(codes), options).expect("a picture")
+}
+
+/// A model whose every map lies the same way, with a factor on each.
+fn mapped(placing: &Placing) -> MadeMesh {
+    let texture = |slot: &'static str, seed: u32, more: Value| {
+        let mut info = more;
+        if !placing.transform.is_null() {
+            info["extensions"]["KHR_texture_transform"] = placing.transform.clone();
+        }
+        MadeTexture {
+            slot,
+            png: png_rgba(&rgba(seed)),
+            info,
+            sampler: placing.sampler.clone(),
+        }
+    };
+    MeshFile {
+        quads: faces(),
+        textures: vec![
+            texture("/pbrMetallicRoughness/baseColorTexture", 1, json!({})),
+            texture("/pbrMetallicRoughness/metallicRoughnessTexture", 2, json!({})),
+            texture("/occlusionTexture", 3, json!({ "strength": 0.5 })),
+            texture("/emissiveTexture", 4, json!({})),
+        ],
+        factors: json!({
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [1.0, 0.5, 0.25, 0.75], "roughnessFactor": 0.8, "metallicFactor": 0.6,
+            },
+            "emissiveFactor": [1.0, 0.5, 1.0],
+            "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 0.5 } },
+            "alphaMode": "BLEND",
+        }),
+        ..MeshFile::default()
+    }
+    .write()
+}
+
+#[test]
+fn every_map_of_a_model_comes_back_however_it_wraps_and_is_transformed() {
+    let plain = |code: u8| f64::from(code) / 255.0;
+    let srgb = |code: u8| f64::from(sabi_image::linear_from_srgb(f32::from(code) / 255.0));
+    for placing in placings() {
+        let made = mapped(&placing);
+        let mut on_mesh = OnMesh::new(GRAPH, made.path(), SIZE);
+        let evaluated = on_mesh.evaluate("out");
+        let maps: [(&str, u32, usize, &dyn Fn(u8) -> f64); 10] = [
+            ("base_color.r", 1, 0, &srgb),
+            ("base_color.g", 1, 1, &|code| 0.5 * srgb(code)),
+            ("base_color.b", 1, 2, &|code| 0.25 * srgb(code)),
+            ("alpha", 1, 3, &|code| 0.75 * plain(code)),
+            ("roughness", 2, 1, &|code| 0.8 * plain(code)),
+            ("metallic", 2, 2, &|code| 0.6 * plain(code)),
+            ("occlusion", 3, 0, &|code| 1.0 + 0.5 * (plain(code) - 1.0)),
+            ("emission.r", 4, 0, &|code| 0.5 * srgb(code)),
+            ("emission.g", 4, 1, &|code| 0.25 * srgb(code)),
+            ("emission.b", 4, 2, &|code| 0.5 * srgb(code)),
+        ];
+        for (name, seed, component, expected) in maps {
+            let (codes, values) = (rgba(seed), evaluated.component(name));
+            for (index, pixel) in pixels(&on_mesh) {
+                let (x, y) = (placing.source)(pixel as u32 % SIZE, pixel as u32 / SIZE);
+                let expected = expected(codes[4 * (y * SIZE + x) as usize + component]);
+                let is = f64::from(values[index]);
+                // Stored as half floats: half a unit in the eleventh place, an eighth of an 8-bit step at most.
+                assert!(
+                    (is - expected).abs() <= expected / 2048.0 + 1e-6,
+                    "{name} of pixel {pixel}, {}: {expected} became {is}",
+                    placing.name
+                );
+            }
         }
     }
 }

@@ -34,7 +34,7 @@ fn stacked() -> MeshFile {
         quads: vec![square(0.0), square(1.0)],
         base_color: Some(png(|x, y| [(4 * x) as u8, (4 * y) as u8, 77])),
         normal: Some(png(|_, _| LEANING)),
-        picture_uvs: None,
+        ..MeshFile::default()
     }
 }
 

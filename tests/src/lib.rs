@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 pub use baked::Baked;
 pub use device::device;
-pub use meshes::{MadeMesh, MeshFile, Quad};
+pub use meshes::{MadeMesh, MadeTexture, MeshFile, Quad};
 pub use node_files::NodeFolder;
 pub use on_mesh::{Asked, Evaluated, OnMesh, flat_graph};
 pub use places::OnPage;

@@ -26,6 +26,25 @@ pub struct MeshFile {
     pub normal: Option<Vec<u8>>,
     /// A second set of texture coordinates, four a face, that the pictures are laid out by.
     pub picture_uvs: Option<Vec<[[f32; 2]; 4]>>,
+    /// More encoded pictures, each where the material's JSON has it: `/pbrMetallicRoughness/baseColorTexture`.
+    pub textures: Vec<MadeTexture>,
+    /// What else the material's JSON says, such as factors.
+    pub factors: Value,
+    /// Colors of the corners, four for each face; none for a model without.
+    pub colors: Vec<[f32; 4]>,
+}
+
+/// A picture of a model's material.
+#[derive(Clone, Debug)]
+pub struct MadeTexture {
+    /// The JSON pointer of its place in the material.
+    pub slot: &'static str,
+    /// The encoded picture.
+    pub png: Vec<u8>,
+    /// What else its place says: a strength, a transform.
+    pub info: Value,
+    /// How it wraps.
+    pub sampler: Value,
 }
 
 /// A model on disk, for as long as this lives.
@@ -70,6 +89,17 @@ impl Chunks {
         self.push("accessors", accessor)
     }
 
+    fn made_texture(&mut self, made: &MadeTexture) -> Value {
+        let mut place = self.texture(&made.png, 0);
+        let sampler = self.push("samplers", made.sampler.clone());
+        let last = self.json["textures"]
+            .as_array_mut()
+            .and_then(|textures| textures.last_mut());
+        last.expect("a texture")["sampler"] = json!(sampler);
+        merge(&mut place, &made.info);
+        place
+    }
+
     fn texture(&mut self, png: &[u8], set: u32) -> Value {
         let view = self.view(png);
         let image = self.push("images", json!({ "bufferView": view, "mimeType": "image/png" }));
@@ -93,6 +123,19 @@ impl Chunks {
     }
 }
 
+/// Puts what `from` says over what is there.
+fn merge(into: &mut Value, from: &Value) {
+    match from {
+        Value::Object(members) => {
+            for (name, member) in members {
+                merge(&mut into[name], member);
+            }
+        }
+        Value::Null => {}
+        other => *into = other.clone(),
+    }
+}
+
 fn normal([a, b, c, _]: [[f32; 3]; 4]) -> [f32; 3] {
     let [a, b, c] = [a, b, c].map(glam::Vec3::from);
     (b - a).cross(c - a).normalize().to_array()
@@ -112,7 +155,8 @@ impl MeshFile {
         let mut file = Chunks {
             json: json!({
                 "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
-                "bufferViews": [], "accessors": [], "images": [], "textures": [],
+                "bufferViews": [], "accessors": [], "images": [], "textures": [], "samplers": [],
+                "extensionsUsed": ["KHR_texture_transform", "KHR_materials_emissive_strength"],
             }),
             bytes: Vec::new(),
         };
@@ -128,6 +172,9 @@ impl MeshFile {
         if let Some(uvs) = &self.picture_uvs {
             attributes["TEXCOORD_1"] = json!(file.floats(uvs.as_flattened()));
         }
+        if !self.colors.is_empty() {
+            attributes["COLOR_0"] = json!(file.floats(&self.colors));
+        }
         let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
         let view = file.view(&bytes);
         let accessor = json!({ "bufferView": view, "componentType": 5123, "count": indices.len(), "type": "SCALAR" });
@@ -140,10 +187,17 @@ impl MeshFile {
         if let Some(png) = &self.normal {
             material["normalTexture"] = file.texture(png, set);
         }
+        merge(&mut material, &self.factors);
+        for made in &self.textures {
+            let texture = file.made_texture(made);
+            let (parent, name) = made.slot.rsplit_once('/').expect("a JSON pointer");
+            let place = material.pointer_mut(parent).expect("a place in the material");
+            merge(&mut place[name], &texture);
+        }
         file.json["materials"] = json!([material]);
         file.json["meshes"] =
             json!([{ "primitives": [{ "attributes": attributes, "indices": indices, "material": 0 }] }]);
-        for list in ["images", "textures"] {
+        for list in ["images", "textures", "samplers"] {
             if file.json[list].as_array().is_some_and(Vec::is_empty) {
                 file.json.as_object_mut().expect("an object").remove(list);
             }

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sabi_engine::{
-    AdapterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Prepared, Silent, Workpiece,
-    WorkpieceOptions,
+    AdapterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Pictures, Prepared, Silent,
+    Workpiece, WorkpieceOptions,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -68,6 +68,7 @@ fn opened(graph: &str) -> OpenGraph {
     OpenGraph {
         path: PathBuf::from("test.sabi"),
         text: graph.into(),
+        pictures: Pictures::default(),
         document: Document::from_json(graph).unwrap_or_else(|error| panic!("{error}\n{graph}")),
     }
 }

@@ -76,7 +76,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
         |node: &usize| workpiece.graph.nodes[*node].kind == OUTPUT_MASK || serving.outputs.contains(&Some(*node));
     let wanted = targets(outputs.iter().copied().filter(is_used));
     let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, workpiece.gpu.limits())?;
-    let mut run = workpiece.run(&plan, SUBMISSION, progress, None)?;
+    let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
     let sets = set_works(&workpiece.graph, &plan, sets, &serving.outputs);
     let mut encode = workpiece.times.encode;
     let map_writer = MapWriter {
@@ -138,6 +138,9 @@ fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<V
         *message = open.said(&message);
     }
     if let Err(faults) = refuse_faults(open, graph, kinds, &targets(found.iter().copied())) {
+        if messages.is_empty() {
+            return Err(faults);
+        }
         messages.extend(faults.messages);
     }
     if messages.is_empty() {

@@ -39,7 +39,8 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
     report.warnings.extend(nothing_comes_out(&graph));
     report.nodes = graph.nodes.len();
     let wanted = targets(outputs(&graph));
-    report.passes = planner(&graph, &kinds).plan(&wanted).0.passes();
+    let files = open.file_contents(&graph, &kinds, 0..graph.nodes.len());
+    report.passes = planner(&graph, &kinds, &files).plan(&wanted).0.passes();
     for variant in open.document.graph.variants().keys() {
         check_variant(&open, &kinds, variant, &mut report);
     }
@@ -49,7 +50,8 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
 /// What is wrong, and what has no effect.
 fn faults(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, Vec<String>) {
     let (mut errors, mut warnings) = (Vec::new(), Vec::new());
-    for error in planner(graph, kinds).resolve(&all_nodes(graph)).errors {
+    let files = open.file_contents(graph, kinds, 0..graph.nodes.len());
+    for error in planner(graph, kinds, &files).resolve(&all_nodes(graph)).errors {
         let found = if error.is_warning() { &mut warnings } else { &mut errors };
         found.extend(explained(open, kinds, &error));
     }

@@ -21,6 +21,7 @@ pub fn describe_mesh(prepared: &Prepared) -> Json {
         "parts": prepared.model.parts,
         "materials": sabi_export::set_names(&prepared.model),
         "unwrapped": prepared.unwrapped.as_ref().map(describe_unwrapping),
+        "vertex_colors": !mesh.colors.is_empty(),
         "largest_side": short(prepared.largest_side as f32),
         "size": prepared.atlas.size,
         "pages": prepared.atlas.pages,

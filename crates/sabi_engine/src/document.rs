@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_graph::{Document, FlatGraph, FlattenError, Overrides, flatten, locate};
-use sabi_plan::PlanError;
+use sabi_plan::{FileContents, PlanError};
 
 use crate::error::{EngineError, ErrorKind};
+use crate::kinds::Kinds;
+use crate::pictures::Pictures;
 
 /// Graph files larger than this are refused before they are read.
 const SIZE_LIMIT_BYTES: u64 = 64 << 20;
@@ -22,6 +24,8 @@ pub struct OpenGraph {
     pub document: Document,
     /// The file's text, to point into.
     pub text: Arc<str>,
+    /// The pictures that its nodes name, as far as they were opened.
+    pub pictures: Pictures,
 }
 
 impl OpenGraph {
@@ -35,12 +39,23 @@ impl OpenGraph {
             path: path.to_owned(),
             document,
             text: text.into(),
+            pictures: Pictures::default(),
         })
     }
 
     /// The folder that paths in the file start from.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// What is in the files that these nodes of the flat graph name.
+    pub(crate) fn file_contents(
+        &self,
+        graph: &FlatGraph,
+        kinds: &Kinds,
+        nodes: impl IntoIterator<Item = usize>,
+    ) -> FileContents {
+        self.pictures.contents(self.folder(), graph, kinds, nodes)
     }
 
     /// A sentence about the graph, with the file's path before it.

@@ -7,17 +7,14 @@ use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
 
-/// No kind names a file yet.
-static NO_FILES: FileContents = FileContents::new();
-
 /// A planner for a model that is not there: lengths are as written, and the adapter is a common one.
-pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds) -> Planner<'a> {
+pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds, files: &'a FileContents) -> Planner<'a> {
     Planner {
         graph,
         library: &kinds.library,
         sources: &kinds.sources,
         sinks: &kinds.sinks,
-        files: &NO_FILES,
+        files,
         lengths: Lengths {
             working_from: &|_| 1.0,
             extent: &|_| [0.0, 1.0],
@@ -58,6 +55,19 @@ pub(crate) fn explained(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> V
     std::iter::once(open.pointed(error, sentence)).chain(faults).collect()
 }
 
+/// Who can mend these errors.
+fn kind_of(errors: &[PlanError]) -> ErrorKind {
+    let all = |is: fn(&Problem) -> bool| errors.iter().all(|error| is(&error.problem));
+    if all(|problem| matches!(problem, Problem::NoSuchResult { .. })) {
+        // A result that is not there was asked for by name; the file is not to blame.
+        ErrorKind::Usage
+    } else if all(|problem| matches!(problem, Problem::BadFile(fault) if fault.is_missing)) {
+        ErrorKind::MissingInput
+    } else {
+        ErrorKind::BadInput
+    }
+}
+
 /// Refuses a graph in which something that the targets need is at fault, with a sentence for each fault. Gives the plan
 /// as it would be without a model.
 pub(crate) fn refuse_faults(
@@ -66,21 +76,15 @@ pub(crate) fn refuse_faults(
     kinds: &Kinds,
     targets: &[Target],
 ) -> Result<Plan, EngineError> {
-    let (plan, mut errors) = planner(graph, kinds).plan(targets);
+    let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
+    let files = open.file_contents(graph, kinds, graph.upstream(&wanted));
+    let (plan, mut errors) = planner(graph, kinds, &files).plan(targets);
     errors.retain(|error| !error.is_warning());
     if errors.is_empty() {
         return Ok(plan);
     }
-    // A result that is not there was asked for by name; the file is not to blame.
-    let is_asked = errors
-        .iter()
-        .all(|error| matches!(error.problem, Problem::NoSuchResult { .. }));
     Err(EngineError {
-        kind: if is_asked {
-            ErrorKind::Usage
-        } else {
-            ErrorKind::BadInput
-        },
+        kind: kind_of(&errors),
         messages: errors.iter().flat_map(|error| explained(open, kinds, error)).collect(),
     })
 }

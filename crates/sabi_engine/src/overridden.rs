@@ -1,7 +1,7 @@
 //! Values set from outside are held against the nodes: what the file alone gets right and they do not is theirs.
 
 use sabi_graph::{FlatGraph, Overrides};
-use sabi_plan::{PlanError, Problem};
+use sabi_plan::{FileContents, PlanError, Problem};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
@@ -38,7 +38,9 @@ pub(crate) fn refuse_bad_values(
 }
 
 fn problems(graph: &FlatGraph, kinds: &Kinds) -> Vec<PlanError> {
-    planner(graph, kinds).resolve(&all_nodes(graph)).errors
+    // What is wrong with a file is told with all that is wrong with the graph.
+    let files = FileContents::new();
+    planner(graph, kinds, &files).resolve(&all_nodes(graph)).errors
 }
 
 fn sentence(error: &PlanError) -> String {

@@ -128,6 +128,14 @@ pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<String> {
     })
 }
 
+/// What becomes of a material that no output serves.
+fn untouched(name: &str) -> String {
+    format!(
+        "the material '{name}' keeps the maps it has, since no output serves it; to bake it, list it in 'materials' of an \
+         output"
+    )
+}
+
 /// Which output each set's maps of a material come from.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Serving {
@@ -168,7 +176,6 @@ pub(crate) fn serve(
     left.retain(|&material| output_of(material).is_none());
     let gives = materials(graph, outputs);
     let has = quoted(names.iter().map(|[name, _]| *name));
-    let advice = "list it in 'materials' of an output";
     if found.iter().all(Option::is_none) && masks(graph, outputs).is_empty() {
         let left = quoted(left.iter().map(|&material| names_of(model, &stems, material)[0]));
         let why = format!(
@@ -191,7 +198,7 @@ pub(crate) fn serve(
         }
     } else if !gives.is_empty() {
         let without = left.iter().map(|&material| names_of(model, &stems, material)[0]);
-        warnings.extend(without.map(|name| format!("no output serves the model's material '{name}'; {advice}")));
+        warnings.extend(without.map(untouched));
     }
     Ok(Serving {
         outputs: found,

@@ -1,12 +1,12 @@
 //! A graph and a model brought together on a device.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables};
 use sabi_graph::{Fit, FlatGraph, Overrides};
-use sabi_plan::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, Target};
+use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Target};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
 use crate::document::OpenGraph;
@@ -14,10 +14,11 @@ use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
 use crate::overlap::Sharing;
 use crate::overridden::refuse_bad_values;
+use crate::pictures::{Pictures, files};
 use crate::prepare::{ModelOptions, Prepared};
 use crate::report::StageTimes;
 use crate::setting::read_typed;
-use crate::source::{Ground, Sources, kind_for};
+use crate::source::{Files, Ground, Sources, kinds_for};
 use crate::stages::{Progress, Stage};
 
 /// How a graph and a model are brought together.
@@ -54,6 +55,7 @@ pub struct Workpiece {
     pub times: StageTimes,
     /// What the artist should know.
     pub warnings: Vec<String>,
+    pictures: Pictures,
     tables: SurfaceTables,
     surface_key: [u8; 32],
     budget_bytes: u64,
@@ -108,8 +110,8 @@ impl Workpiece {
         let seed = options.overrides.seed.unwrap_or(open.document.seed);
         let tables = times.load.time(|| prepared.tables(&fit, seed));
         let surface = times.load.time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables))?;
-        let model_kind: SourceKind = kind_for(&prepared.model);
-        kinds.sources.insert(model_kind.id.clone(), model_kind);
+        let own = kinds_for(&prepared.model);
+        kinds.sources.extend(own.map(|kind| (kind.id.clone(), kind)));
         let mut warnings = prepared.model.warnings.clone();
         warnings.extend(prepared.atlas.report.warnings.iter().cloned());
         warnings.extend(Sharing::of(&prepared).warning(&prepared));
@@ -126,6 +128,7 @@ impl Workpiece {
             fit,
             times,
             warnings,
+            pictures: open.pictures.clone(),
             tables,
             surface_key,
             budget_bytes,
@@ -162,18 +165,28 @@ impl Workpiece {
         let groups = self.graph.nodes.iter().filter_map(|node| node.file.as_ref());
         let groups = groups.map(|file| open.folder().join(file));
         let model = self.prepared.model.files.iter().cloned();
-        std::iter::once(open.path.clone()).chain(groups).chain(model).collect()
+        let named = files(open.folder(), &self.graph, &self.kinds);
+        let own = std::iter::once(open.path.clone()).chain(groups);
+        own.chain(model).chain(named).collect()
+    }
+
+    /// The folder that paths in the graph start from.
+    fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
     }
 
     /// Plans what of the targets can be planned, and says what is at fault.
     pub fn try_plan(&self, targets: &[Target], mode: Mode, limits: Limits) -> (Plan, Vec<PlanError>) {
         let scale = self.prepared.working_from_model(&self.fit);
+        let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
+        let wanted = self.graph.upstream(&wanted);
+        let contents = self.pictures.contents(self.folder(), &self.graph, &self.kinds, wanted);
         let planner = Planner {
             graph: &self.graph,
             library: &self.kinds.library,
             sources: &self.kinds.sources,
             sinks: &self.kinds.sinks,
-            files: &FileContents::new(),
+            files: &contents,
             lengths: Lengths {
                 working_from: &|fit| scale / self.prepared.working_from_model(fit),
                 extent: &|direction| self.prepared.extent(&self.fit, direction),
@@ -185,6 +198,18 @@ impl Workpiece {
         planner.plan(targets)
     }
 
+    /// Runs the only plan of this work, and lets go of the pictures that its nodes name.
+    pub(crate) fn run_once(
+        &mut self,
+        plan: &Plan,
+        submission: Duration,
+        progress: &dyn Progress,
+    ) -> Result<Run, EngineError> {
+        let run = self.run(plan, submission, progress, None)?;
+        self.pictures.forget();
+        Ok(run)
+    }
+
     /// Runs a plan; `submission` is how long one piece of work may hold the device.
     pub fn run(
         &mut self,
@@ -193,11 +218,17 @@ impl Workpiece {
         progress: &dyn Progress,
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, EngineError> {
-        let mut sources = Sources::new(Ground {
+        let ground = Ground {
             model: &self.prepared.model,
             atlas: &self.prepared.atlas,
             tables: &self.tables,
-        });
+        };
+        let files = Files {
+            pictures: &self.pictures,
+            folder: self.folder(),
+            graph: &self.graph,
+        };
+        let mut sources = Sources::new(ground, files);
         let options = RunOptions {
             submission,
             is_canceled: &|| progress.is_canceled(),

@@ -165,9 +165,7 @@ impl fmt::Display for Sentence<'_> {
                     "parameter '{param}' of node '{node}' ({kind}) takes {takes}, not {given}"
                 )
             }
-            Problem::BadFile(FileFault { param, why, .. }) => {
-                write!(f, "parameter '{param}' of node '{node}' ({kind}): {why}")
-            }
+            Problem::BadFile(fault) => write!(f, "parameter '{}' of node '{node}' ({kind}): {fault}", fault.param),
             Problem::NoSuchResult {
                 output: Some(output),
                 known,

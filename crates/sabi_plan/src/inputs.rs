@@ -4,6 +4,7 @@ use sabi_graph::{FlatNode, PortType, Value};
 use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamType, ParamValue, Role};
 
 use crate::error::Problem;
+use crate::request::Planner;
 use crate::values::read_param;
 
 /// Parameter values of a node, in artist's units: what the file says, else the defaults.
@@ -14,6 +15,14 @@ pub(crate) fn read_params(params: &[Param], node: &FlatNode, problems: &mut Vec<
     };
     let values = params.iter().map(|param| read(param, written(param), problems));
     values.collect()
+}
+
+impl Planner<'_> {
+    /// What is wrong with the file that a node names.
+    pub(crate) fn file_fault(&self, node: usize) -> Option<Problem> {
+        let fault = self.files.get(&node)?.as_ref().err()?;
+        Some(Problem::BadFile(fault.clone()))
+    }
 }
 
 /// Values of a node's knobs by input; none where an input is no knob.

@@ -1,6 +1,7 @@
 //! What the planner is told.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use sabi_graph::{Fit, FlatGraph, PortType};
 use sabi_nodes::Library;
@@ -108,6 +109,12 @@ pub struct FileFault {
     pub why: String,
     /// Whether it is not there at all.
     pub is_missing: bool,
+}
+
+impl fmt::Display for FileFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.why)
+    }
 }
 
 /// Everything a plan depends on besides the targets.

@@ -175,9 +175,7 @@ impl<'a> Planner<'a> {
             Behavior::Shader(kind) => read_knobs(kind, node, &mut problems),
             Behavior::Source(_) | Behavior::Sink(_) => Vec::new(),
         };
-        if let Some(Err(fault)) = self.files.get(&index) {
-            problems.push(Problem::BadFile(fault.clone()));
-        }
+        problems.extend(self.file_fault(index));
         if !problems.is_empty() {
             return Err(problems.into_iter().map(at_fault).collect());
         }

@@ -40,6 +40,7 @@ fn a_model_is_described() {
     let run = place.sabi(&["mesh", "cube.glb", "--size", "64", "--json"]).good();
     let mesh = json(&run.stdout);
     assert_eq!((&mesh["triangles"], &mesh["charts"]), (&Json::from(12), &Json::from(6)));
+    assert_eq!(mesh["vertex_colors"], false);
     let coverage = mesh["coverage"].as_f64().unwrap();
     assert!(coverage > 0.0);
     assert_eq!(

@@ -8,6 +8,7 @@ mod bad_places;
 mod baking;
 mod copies;
 mod help;
+mod images;
 mod interruption;
 mod looking;
 mod model_options;

@@ -64,6 +64,36 @@ fn an_output_that_lists_the_material_wins_over_one_that_serves_all() {
 }
 
 #[test]
+fn each_of_three_materials_gets_its_own_output_or_keeps_its_maps() {
+    let three = "usemtl glass\nvt 0.95 0.95\nv 2 0 0\nf 2/2 5/5 4/4\n";
+    let cases = [
+        ("steel", "glass", "steel #ff0000, glass #0000ff", vec!["wood"]),
+        (
+            "steel, wood",
+            "glass",
+            "steel #ff0000, glass #0000ff, wood #ff0000",
+            vec![],
+        ),
+        ("glass", "*", "steel #0000ff, glass #ff0000, wood #0000ff", vec![]),
+        ("glass", "gla*", "glass #ff0000", vec!["wood", "steel"]),
+    ];
+    for (first, second, expected, kept) in cases {
+        let place = place(&[output("a", "red", first), output("b", "blue", second)]);
+        place.write("plates.obj", format!("{PLATES}{three}"));
+        let (mut found, warnings) = colors(&place, &[]);
+        let mut expected: Vec<&str> = expected.split(", ").collect();
+        expected.sort_unstable();
+        found.sort_unstable();
+        assert_eq!(found, expected, "{first} and {second}");
+        let told: Vec<&str> = warnings
+            .lines()
+            .filter_map(|line| line.strip_prefix("warning: the material '")?.split('\'').next())
+            .collect();
+        assert_eq!(told, kept, "{first} and {second}");
+    }
+}
+
+#[test]
 fn outputs_without_a_material_and_materials_without_an_output_are_told() {
     let place = place(&[
         output("idle", "blue", "wod"),
@@ -75,8 +105,9 @@ fn outputs_without_a_material_and_materials_without_an_output_are_told() {
         (
             vec!["steel #ff0000".to_owned()],
             "warning: output 'idle' serves no material: its 'materials' lists none of the model's, which are 'wood', \
-             'steel'\nwarning: output 'two' serves no material: other outputs serve all that it could\nwarning: no output \
-             serves the model's material 'wood'; list it in 'materials' of an output"
+             'steel'\nwarning: output 'two' serves no material: other outputs serve all that it could\nwarning: the \
+             material 'wood' keeps the maps it has, since no output serves it; to bake it, list it in 'materials' of an \
+             output"
                 .to_owned()
         )
     );

@@ -1,26 +1,41 @@
 //! Node kinds that are not WGSL: one file each.
 
+mod image;
+mod levels;
 mod model;
 mod output_mask;
 mod output_material;
+mod projection;
 mod sampler;
 mod texels;
 mod texture_set;
+mod vertex_color;
 
 use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
 
 use sabi_gpu::SourceFill;
+use sabi_graph::FlatGraph;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourceStep};
+use sabi_surface::model::Model;
 
-pub(crate) use model::kind_for;
+use crate::pictures::{OpenPicture, Pictures, path_of};
+
+pub(crate) use levels::Levels;
 pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 pub(crate) use texels::Ground;
 
-/// Kinds that give, by id. `source/model` learns its content once a model is loaded.
+/// Kinds that give, by id. Those that show the model learn their content once it is loaded.
 pub(crate) fn kinds() -> BTreeMap<String, SourceKind> {
-    by_id([model::kind()])
+    by_id([image::kind(), model::kind(), vertex_color::kind()])
+}
+
+/// Kinds that show the model, as they are for this one.
+pub(crate) fn kinds_for(model: &Model) -> [SourceKind; 2] {
+    [model::kind_for(model), vertex_color::kind_for(model)]
 }
 
 /// Kinds that take, by id.
@@ -32,9 +47,19 @@ fn by_id(kinds: impl IntoIterator<Item = SourceKind>) -> BTreeMap<String, Source
     kinds.into_iter().map(|kind| (kind.id.clone(), kind)).collect()
 }
 
+/// Where the files are that nodes name.
+#[derive(Clone, Copy)]
+pub(crate) struct Files<'a> {
+    pub(crate) pictures: &'a Pictures,
+    /// The graph's folder.
+    pub(crate) folder: &'a Path,
+    pub(crate) graph: &'a FlatGraph,
+}
+
 /// Fills the results of all kinds that give.
 pub(crate) struct Sources<'a> {
     ground: Ground<'a>,
+    files: Files<'a>,
     model: model::ModelSource<'a>,
     /// What cannot be shown, as sentences.
     pub(crate) warnings: Vec<String>,
@@ -42,19 +67,36 @@ pub(crate) struct Sources<'a> {
 
 impl<'a> Sources<'a> {
     /// Sources that have not opened anything yet.
-    pub(crate) fn new(ground: Ground<'a>) -> Sources<'a> {
+    pub(crate) fn new(ground: Ground<'a>, files: Files<'a>) -> Sources<'a> {
         Sources {
             ground,
+            files,
             model: model::ModelSource::default(),
             warnings: Vec::new(),
         }
     }
 }
 
+impl Files<'_> {
+    /// The picture of a `source/image`.
+    fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
+        let written = step.values.text("file");
+        let path = path_of(self.folder, &self.graph.nodes[step.node], written);
+        let opened = self.pictures.open(&path, written);
+        opened.map_err(|(why, _)| format!("node '{}' ({}): {why}", step.id, step.kind))
+    }
+}
+
 impl SourceFill for Sources<'_> {
     fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String> {
+        let (ground, warnings) = (&self.ground, &mut self.warnings);
         match step.kind.as_str() {
-            model::NAME => Ok(self.model.plane(&self.ground, output, plane, &mut self.warnings)),
+            image::NAME => {
+                let picture = self.files.picture(step)?;
+                Ok(image::plane(ground, &picture, step, output, plane, warnings))
+            }
+            model::NAME => Ok(self.model.plane(ground, output, plane, warnings)),
+            vertex_color::NAME => Ok(vertex_color::plane(ground, &step.id, plane, warnings)),
             other => Err(format!(
                 "node '{}' is of kind '{other}', which nobody fills; this is a mistake in Sabi",
                 step.id

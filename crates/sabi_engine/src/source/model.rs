@@ -1,11 +1,15 @@
 //! `source/model`: the model's own textures and factors, brought onto the atlas.
 
+use std::sync::Arc;
+
 use sabi_graph::PortType;
+use sabi_image::Picture;
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort};
 use sabi_surface::model::{Model, ModelMaterial, TextureRef, TextureUvs};
 
+use super::levels::Levels;
 use super::sampler::Sampler;
 use super::texels::{Ground, Spot};
 
@@ -54,8 +58,32 @@ pub(crate) fn kind() -> SourceKind {
 /// A texture of a material.
 struct Texture<'a> {
     sampler: Sampler,
+    /// Of its own, on top of the coordinates.
+    transform: [[f64; 3]; 2],
     /// The set that it is laid out by; none where that is the one of the atlas.
     other: Option<&'a TextureUvs>,
+}
+
+impl<'a> Texture<'a> {
+    /// A texture for an atlas of `size` texels for one unit of its UV set.
+    fn new(
+        picture: Picture,
+        texture: &TextureRef,
+        other: Option<&'a TextureUvs>,
+        is_srgb: bool,
+        size: u32,
+    ) -> Texture<'a> {
+        let transform = texture.transform.map(|row| row.map(f64::from));
+        let [u, v] = [0, 1].map(|axis: usize| transform[0][axis].hypot(transform[1][axis]));
+        // Laid out like the atlas, it is read at no level whose pixels are larger than a texel.
+        let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
+        let levels = Levels::new(Arc::new(picture), is_srgb, least as u32);
+        Texture {
+            sampler: Sampler::new(Arc::new(levels), texture.wrap),
+            transform,
+            other,
+        }
+    }
 }
 
 /// The textures of one material; a picture is decoded when it is first asked for.
@@ -78,10 +106,11 @@ struct At<'a> {
 impl At<'_> {
     /// Linear RGBA of a picture; white where there is none.
     fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
-        let Some(Texture { sampler, other }) = texture else {
+        let Some(texture) = texture else {
             return [1.0; 4];
         };
-        sampler.sample(&self.ground.footprint(self.spot, *other))
+        let footprint = self.ground.footprint(self.spot, texture.other);
+        texture.sampler.sample(&footprint.through(&texture.transform))
     }
 }
 
@@ -180,7 +209,7 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
 }
 
 /// Decodes the pictures that the materials use. What cannot be shown is added to `warnings`.
-fn open_materials<'a>(model: &'a Model, warnings: &mut Vec<String>) -> Vec<MaterialTextures<'a>> {
+fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -> Vec<MaterialTextures<'a>> {
     let mut open = |texture: &Option<TextureRef>, what: &str, is_srgb: bool| {
         let texture = texture.as_ref()?;
         let image = model.images.get(texture.image)?;
@@ -195,10 +224,8 @@ fn open_materials<'a>(model: &'a Model, warnings: &mut Vec<String>) -> Vec<Mater
         let bytes = image.bytes.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
         let decoded = sabi_image::decode(&image.name, bytes);
         let told = decoded.map_err(|why| warnings.push(format!("{why}; the factor is used alone")));
-        Some(Texture {
-            sampler: Sampler::new(told.ok()?, texture, is_srgb),
-            other: model.mesh.texture_uvs.iter().find(|other| other.set == set),
-        })
+        let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
+        Some(Texture::new(told.ok()?, texture, other, is_srgb, size))
     };
     let open_material = |material: &'a ModelMaterial| MaterialTextures {
         material,
@@ -227,7 +254,7 @@ impl<'a> ModelSource<'a> {
         plane: Plane,
         warnings: &mut Vec<String>,
     ) -> Vec<u8> {
-        let open = || open_materials(ground.model, warnings);
+        let open = || open_materials(ground.model, ground.atlas.size, warnings);
         let materials = &*self.materials.get_or_insert_with(open);
         let material_of = &ground.model.mesh.triangle_material;
         ground.texels(plane, |spot| {

@@ -66,6 +66,18 @@ impl Ground<'_> {
         })
     }
 
+    /// The point itself, in working units.
+    pub(crate) fn position(&self, spot: &Spot) -> [f64; 3] {
+        let geometry = &self.tables.geometry[6 * spot.triangle..];
+        self.affine(spot, [&geometry[0], &geometry[1], &geometry[2]])
+    }
+
+    /// What a step of one texel along u and along v is in space, in working units.
+    pub(crate) fn texel_sides(&self, spot: &Spot) -> [[f64; 3]; 2] {
+        let geometry = &self.tables.geometry[6 * spot.triangle..];
+        [1, 2].map(|row: usize| std::array::from_fn(|axis| f64::from(geometry[row][axis])))
+    }
+
     /// The shading frame at a point.
     pub(crate) fn frame(&self, spot: &Spot) -> Frame {
         let geometry = &self.tables.geometry[6 * spot.triangle..];

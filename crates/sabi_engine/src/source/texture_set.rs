@@ -40,7 +40,7 @@ impl Ground<'_> {
     }
 
     /// Weights of the second and third corner at a place of the atlas' layout; none for a triangle without area there.
-    fn weights(&self, spot: &Spot, uv: [f64; 2]) -> [f64; 2] {
+    pub(super) fn weights(&self, spot: &Spot, uv: [f64; 2]) -> [f64; 2] {
         let [a, b, c] = self
             .corners(spot)
             .map(|corner| self.model.mesh.uvs[corner].map(f64::from));

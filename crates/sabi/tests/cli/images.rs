@@ -1,0 +1,103 @@
+//! Pictures that a graph names: where they are looked for, and what is said when they cannot be had.
+
+use crate::place::{Place, graph};
+
+/// A picture of 2 by 2 pixels, all of one gray.
+fn bmp(gray: u8) -> Vec<u8> {
+    let mut bytes = b"BM".to_vec();
+    for word in [70_u32, 0, 54, 40, 2, 2, 1 | 24 << 16, 0, 16, 2835, 2835, 0, 0] {
+        bytes.extend(word.to_le_bytes());
+    }
+    // Two rows of two pixels, each filled up to four bytes.
+    bytes.extend([gray, gray, gray, gray, gray, gray, 0, 0].repeat(2));
+    bytes
+}
+
+fn image(file: &str) -> String {
+    graph(&format!(
+        r#""img": {{ "kind": "source/image", "params": {{ "file": "{file}" }} }},
+    "out": {{ "kind": "output/mask", "inputs": {{ "source": "img.mask" }} }}"#
+    ))
+    .replace("clouds.", "img.")
+}
+
+/// What the map holds, which is the same all over.
+fn constant(place: &Place, graph: &str, more: &[&str]) -> f64 {
+    let run = place
+        .bake(graph, "cube.glb", &[more, &["--json", "--force"]].concat())
+        .good();
+    let report: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    report["constants"][0]["value"]
+        .as_f64()
+        .unwrap_or_else(|| panic!("{report:#}"))
+}
+
+#[test]
+fn a_picture_is_found_from_the_file_that_names_it() {
+    let place = Place::new();
+    std::fs::create_dir_all(place.path("group/art")).unwrap();
+    place.write("plain.bmp", bmp(51));
+    place.write("group/art/inner.bmp", bmp(102));
+    place.write("absolute.bmp", bmp(153));
+    place.write("beside.sabi", image("plain.bmp"));
+    assert!((constant(&place, "beside.sabi", &[]) - 0.2).abs() < 1e-3);
+    let absolute = place.path("absolute.bmp").to_string_lossy().replace('\\', "/");
+    let set = format!("img.file={absolute}");
+    assert!((constant(&place, "beside.sabi", &["--set", &set]) - 0.6).abs() < 1e-3);
+    let inner = r#"{ "format": "sabi", "version": 1, "outputs": { "wear": "img.mask" }, "nodes": {
+        "img": { "kind": "source/image", "params": { "file": "art/inner.bmp" } } } }"#;
+    place.write("group/worn.sabi", inner);
+    let outer = r#"{ "format": "sabi", "version": 1, "nodes": {
+        "g": { "kind": "graph/group", "group": "group/worn.sabi" },
+        "out": { "kind": "output/mask", "inputs": { "source": "g.wear" } } } }"#;
+    place.write("outer.sabi", outer);
+    assert!((constant(&place, "outer.sabi", &[]) - 0.4).abs() < 1e-3);
+}
+
+#[test]
+fn a_picture_that_cannot_be_had_is_named_with_node_path_and_advice() {
+    let place = Place::new();
+    place.write("damaged.bmp", &bmp(9)[..60]);
+    place.write("text.png", "no picture");
+    let words = |file: &str| match file {
+        "" => "no picture is chosen; give the path of one, relative to the file that the node is in".to_owned(),
+        "." => ". is a folder; give the path of a picture in it".to_owned(),
+        "gone.png" => "there is no file gone.png; check the path, relative to the file that the node is in".to_owned(),
+        "text.png" => {
+            "text.png is no picture of a known kind, which Sabi does not read; save it as PNG, JPEG, WebP, TGA, \
+                       BMP, HDR or OpenEXR and use that file"
+                .to_owned()
+        }
+        other => panic!("{other}"),
+    };
+    for (file, code) in [("", 66), (".", 66), ("gone.png", 66), ("text.png", 65)] {
+        place.write("image.sabi", image(file));
+        let run = place.bake("image.sabi", "cube.glb", &[]).fails(code);
+        let told = format!("parameter 'file' of node 'img' (source/image): {}", words(file));
+        assert!(run.stderr.starts_with("error: image.sabi:"), "{}", run.stderr);
+        assert!(run.stderr.trim_end().ends_with(&told), "{}", run.stderr);
+        assert!(!place.path("out").exists());
+        let check = place.sabi(&["check", "image.sabi"]).fails(65);
+        assert!(format!("{}{}", check.stdout, check.stderr).contains(&told), "{check:?}");
+    }
+    place.write("image.sabi", image("damaged.bmp"));
+    let run = place.bake("image.sabi", "cube.glb", &[]).fails(65);
+    assert!(
+        run.stderr.contains("damaged.bmp is a damaged BMP file"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn a_picture_that_is_read_is_never_written_over() {
+    let place = Place::new();
+    let texture = bmp(77);
+    place.write("cube_mask.png", &texture);
+    place.write("image.sabi", image("cube_mask.png"));
+    let all = ["-o", ".", "--force", "--all-maps"];
+    let run = place.bake("image.sabi", "cube.glb", &all).fails(73);
+    let words = "cube_mask.png is read by this very bake and would be replaced by its own result; choose another folder with -o";
+    assert!(run.stderr.trim_end().ends_with(words), "{}", run.stderr);
+    assert_eq!(place.read("cube_mask.png"), texture);
+}

@@ -1,0 +1,202 @@
+//! A picture and its halves, in linear numbers.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use sabi_image::{Picture, Pixels, linear_from_srgb};
+
+/// A picture in linear numbers, with copies of half, a quarter… its size whose pixels are exact averages over the area.
+pub(crate) struct Levels {
+    picture: Arc<Picture>,
+    /// Linear values of 8-bit codes.
+    code_table: Option<[f32; 256]>,
+    is_srgb: bool,
+    smaller: Vec<Level>,
+}
+
+/// One of the smaller copies, linear RGBA.
+struct Level {
+    size: [u32; 2],
+    pixels: Vec<[f32; 4]>,
+}
+
+impl Levels {
+    /// The levels of a picture; with `is_srgb` the sRGB curve is undone on everything but alpha. They are made down to the
+    /// first one that has at most `least` pixels along both sides.
+    pub(crate) fn new(picture: Arc<Picture>, is_srgb: bool, least: u32) -> Levels {
+        let linear = |code: usize| {
+            let value = code as f32 / 255.0;
+            if is_srgb { linear_from_srgb(value) } else { value }
+        };
+        let code_table = matches!(picture.pixels, Pixels::U8(_)).then(|| std::array::from_fn(linear));
+        let mut levels = Levels {
+            picture,
+            code_table,
+            is_srgb,
+            smaller: Vec::new(),
+        };
+        while levels.size(levels.last()).iter().any(|side| *side > least.max(1)) {
+            let half = levels.half();
+            levels.smaller.push(half);
+        }
+        levels
+    }
+
+    /// Number of the smallest level; 0 is the picture itself.
+    pub(crate) fn last(&self) -> usize {
+        self.smaller.len()
+    }
+
+    /// Pixels across and down of a level.
+    pub(crate) fn size(&self, level: usize) -> [u32; 2] {
+        match level.checked_sub(1) {
+            None => [self.picture.width, self.picture.height],
+            Some(at) => self.smaller[at].size,
+        }
+    }
+
+    /// Linear RGBA of a pixel of a level; gray is repeated, a missing alpha is 1.
+    pub(crate) fn pixel(&self, level: usize, x: usize, y: usize) -> [f32; 4] {
+        let across = self.size(level)[0] as usize;
+        if let Some(at) = level.checked_sub(1) {
+            return self.smaller[at].pixels[y * across + x];
+        }
+        let channels = usize::from(self.picture.channels);
+        let start = (y * across + x) * channels;
+        let raw = |at: usize| self.value(start + at, at);
+        match channels {
+            1 => [raw(0), raw(0), raw(0), 1.0],
+            2 => [raw(0), raw(0), raw(0), raw(1)],
+            3 => [raw(0), raw(1), raw(2), 1.0],
+            _ => [raw(0), raw(1), raw(2), raw(3)],
+        }
+    }
+
+    /// One sample, linear; the last of two or four is alpha, which is never encoded. What is no number counts as 0.
+    fn value(&self, index: usize, channel: usize) -> f32 {
+        let is_alpha = matches!((self.picture.channels, channel), (2, 1) | (4, 3));
+        let decode = |value: f32| {
+            if self.is_srgb && !is_alpha {
+                linear_from_srgb(value)
+            } else {
+                value
+            }
+        };
+        match &self.picture.pixels {
+            Pixels::U8(codes) => match &self.code_table {
+                Some(table) if !is_alpha => table[usize::from(codes[index])],
+                _ => f32::from(codes[index]) / 255.0,
+            },
+            Pixels::U16(codes) => decode(f32::from(codes[index]) / 65_535.0),
+            Pixels::F32(values) if values[index].is_finite() => decode(values[index]),
+            Pixels::F32(_) => 0.0,
+        }
+    }
+
+    /// The last level at half its size.
+    fn half(&self) -> Level {
+        let level = self.last();
+        let from = self.size(level);
+        let size = from.map(|side| (side / 2).max(1));
+        let columns: Vec<Share> = (0..size[0]).map(|at| Share::new(at, size[0], from[0])).collect();
+        let pixels = (0..size[1]).into_par_iter().flat_map_iter(|row| {
+            let rows = Share::new(row, size[1], from[1]);
+            let average = move |columns: &Share| {
+                let mut sum = [0.0_f32; 4];
+                for (y, down) in rows.parts() {
+                    for (x, across) in columns.parts() {
+                        let pixel = self.pixel(level, x, y);
+                        for (sum, value) in sum.iter_mut().zip(pixel) {
+                            *sum += value * (down * across);
+                        }
+                    }
+                }
+                sum
+            };
+            columns.iter().map(average).collect::<Vec<_>>()
+        });
+        Level {
+            size,
+            pixels: pixels.collect(),
+        }
+    }
+}
+
+/// Which pixels of a row lie under one pixel of a smaller row: at most four, each with its share.
+#[derive(Clone, Copy)]
+struct Share {
+    first: usize,
+    weights: [f32; 4],
+}
+
+impl Share {
+    /// Pixel `at` of a row of `size`, over a row of `from` pixels, at most three times and a bit as many.
+    fn new(at: u32, size: u32, from: u32) -> Share {
+        let ratio = f64::from(from) / f64::from(size);
+        let (low, high) = (f64::from(at) * ratio, f64::from(at + 1) * ratio);
+        let first = low.floor();
+        let weight = |part: usize| {
+            let left = first + part as f64;
+            ((left + 1.0).min(high) - left.max(low)).max(0.0) / ratio
+        };
+        Share {
+            first: first as usize,
+            weights: std::array::from_fn(|part| {
+                // Rounding must not reach for a pixel behind the last one.
+                if first + (part as f64) < f64::from(from) {
+                    weight(part) as f32
+                } else {
+                    0.0
+                }
+            }),
+        }
+    }
+
+    fn parts(self) -> impl Iterator<Item = (usize, f32)> {
+        let parts = (0..4).map(move |part| (self.first + part, self.weights[part]));
+        parts.filter(|(_, weight)| *weight > 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_image::Declared;
+
+    use super::*;
+
+    fn gray(size: [u32; 2], value: impl Fn(u32, u32) -> f32) -> Arc<Picture> {
+        let samples = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
+        Arc::new(Picture {
+            width: size[0],
+            height: size[1],
+            channels: 1,
+            pixels: Pixels::F32(samples.map(|(x, y)| value(x, y)).collect()),
+            color_space: Declared::Linear,
+        })
+    }
+
+    #[test]
+    fn every_level_has_the_mean_of_the_picture_whatever_its_size() {
+        for size in [[64, 64], [37, 5], [1, 9], [3, 3], [1, 1]] {
+            let picture = gray(size, |x, y| ((x * 7 + y * 13) % 11) as f32);
+            let levels = Levels::new(picture, false, 1);
+            let mean = |level: usize| {
+                let [across, down] = levels.size(level).map(|side| side as usize);
+                let all = (0..down).flat_map(|y| (0..across).map(move |x| (x, y)));
+                let sum: f64 = all.map(|(x, y)| f64::from(levels.pixel(level, x, y)[0])).sum();
+                sum / (across * down) as f64
+            };
+            assert_eq!(levels.size(levels.last()), [1, 1]);
+            for level in 1..=levels.last() {
+                // Rounding of single precision, over a few levels.
+                assert!((mean(level) - mean(0)).abs() < 1e-5, "level {level} of {size:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_counts_as_nothing() {
+        let levels = Levels::new(gray([2, 1], |x, _| if x == 0 { f32::NAN } else { 4.0 }), false, 1);
+        assert_eq!(levels.pixel(1, 0, 0)[0], 2.0);
+    }
+}

@@ -1,0 +1,272 @@
+//! How a picture lies on a surface: along texture coordinates, from three sides, or pressed on from one.
+
+use sabi_plan::SourceValues;
+
+use super::sampler::Footprint;
+use super::texels::{Frame, Ground, Spot};
+
+/// Radians over which a decal fades out where the surface turns away.
+const FACING_FADE: f64 = 10.0 * std::f64::consts::PI / 180.0;
+/// Share of a decal's depth over which it fades out.
+const DEPTH_FADE: f64 = 0.1;
+
+/// How a picture lies on a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Projection {
+    way: Way,
+    /// Cosine and sine of the picture's turn, counter-clockwise to the eye.
+    turn: [f64; 2],
+    /// In tiles, to the right and up.
+    offset: [f64; 2],
+    /// Height of a tile over its width.
+    aspect: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Way {
+    Uv { tiles: [f64; 2] },
+    Triplanar { size: f64, sharpness: f64 },
+    Decal(Decal),
+}
+
+/// A picture pressed onto the surface. Lengths and places in working units.
+#[derive(Clone, Copy, Debug)]
+struct Decal {
+    size: f64,
+    middle: [f64; 3],
+    plane: Plane,
+    toward: [f64; 3],
+    depth: f64,
+    facing: f64,
+}
+
+/// Unit vectors in model space along which a picture's right and upper side point.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    right: [f64; 3],
+    up: [f64; 3],
+}
+
+/// The picture at a point of the surface, once for each side from which it comes.
+pub(crate) struct View {
+    pub(crate) footprint: Footprint,
+    /// Share in the result; those of all views of a point add up to 1.
+    pub(crate) weight: f32,
+    /// How much of the picture is there: 1, or less where a decal ends.
+    pub(crate) cover: f32,
+    lies: Lies,
+}
+
+enum Lies {
+    /// In the model's own tangent frame.
+    AlongTangents,
+    On(Plane),
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn unit(v: [f64; 3], otherwise: [f64; 3]) -> [f64; 3] {
+    let length = dot(v, v).sqrt();
+    if length > 1e-12 {
+        v.map(|x| x / length)
+    } else {
+        otherwise
+    }
+}
+
+impl Projection {
+    /// As the parameters of `source/image` want it; `pixels` is the picture's size.
+    pub(crate) fn new(values: &SourceValues, pixels: [u32; 2]) -> Projection {
+        let size = f64::from(values.number("size"));
+        let (sin, cos) = f64::from(values.number("rotate")).sin_cos();
+        let way = match values.index("projection") {
+            0 => Way::Uv {
+                tiles: values.numbers::<2>("tiles").map(f64::from),
+            },
+            1 => Way::Triplanar {
+                size,
+                sharpness: f64::from(values.number("sharpness")),
+            },
+            _ => Way::Decal(Decal::new(values, size)),
+        };
+        Projection {
+            way,
+            turn: [cos, sin],
+            offset: values.numbers::<2>("offset").map(f64::from),
+            aspect: f64::from(pixels[1]) / f64::from(pixels[0].max(1)),
+        }
+    }
+
+    /// Whether the picture repeats.
+    pub(crate) fn repeats(&self) -> bool {
+        !matches!(self.way, Way::Decal(_))
+    }
+
+    /// The picture at a point.
+    pub(crate) fn views(&self, ground: &Ground<'_>, spot: &Spot) -> [Option<View>; 3] {
+        match &self.way {
+            Way::Uv { tiles } => [Some(self.along_uv(*tiles, ground, spot)), None, None],
+            Way::Triplanar { size, sharpness } => self.triplanar(*size, *sharpness, ground, spot),
+            Way::Decal(decal) => [Some(self.pressed_on(decal, ground, spot)), None, None],
+        }
+    }
+
+    /// The surface gradient in model space that a normal of the picture stands for, as it lies in a view.
+    pub(crate) fn slope(&self, view: &View, frame: &Frame, normal: [f32; 3]) -> [f32; 3] {
+        let [cos, sin] = self.turn;
+        let [x, y, z] = normal.map(f64::from);
+        match view.lies {
+            Lies::AlongTangents => frame.slope([(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, z as f32]),
+            Lies::On(plane) => {
+                // The gradient in space of a height that is the same all along the way it is projected (Mikkelsen 2020,
+                // "Surface Gradient-Based Bump Mapping Framework"), and what of it lies in the surface.
+                let steep = z.max(1e-3 * (x * x + y * y + z * z).sqrt()).max(1e-30);
+                let plane = self.turned(plane);
+                let gradient: [f64; 3] =
+                    std::array::from_fn(|axis| -(x * plane.right[axis] + y * plane.up[axis]) / steep);
+                let up = unit(frame.normal, [0.0; 3]);
+                let away = dot(gradient, up);
+                std::array::from_fn(|axis| (gradient[axis] - away * up[axis]) as f32)
+            }
+        }
+    }
+
+    fn along_uv(&self, tiles: [f64; 2], ground: &Ground<'_>, spot: &Spot) -> View {
+        let texel = 1.0 / f64::from(ground.atlas.size);
+        // Texture coordinates grow downward, angles count upward.
+        let turned = |u: f64, v: f64| {
+            let [x, y] = [u * tiles[0], -v * tiles[1]];
+            let [cos, sin] = self.turn;
+            [cos * x + sin * y, sin * x - cos * y]
+        };
+        let [u, v] = turned(spot.uv[0] - 0.5, spot.uv[1] - 0.5);
+        View {
+            footprint: Footprint {
+                uv: [u + 0.5 * tiles[0] - self.offset[0], v + 0.5 * tiles[1] + self.offset[1]],
+                steps: [turned(texel, 0.0), turned(0.0, texel)],
+            },
+            weight: 1.0,
+            cover: 1.0,
+            lies: Lies::AlongTangents,
+        }
+    }
+
+    fn triplanar(&self, size: f64, sharpness: f64, ground: &Ground<'_>, spot: &Spot) -> [Option<View>; 3] {
+        let normal = unit(ground.frame(spot).normal, [0.0, 1.0, 0.0]);
+        let weights = normal.map(|x| x.abs().powf(sharpness));
+        let sum: f64 = weights.iter().sum();
+        std::array::from_fn(|axis| {
+            let weight = weights[axis] / sum.max(1e-30);
+            // The picture faces outward on both sides; where it changes sides its weight is 0.
+            let side = if normal[axis] < 0.0 { -1.0 } else { 1.0 };
+            let plane = match axis {
+                0 => Plane {
+                    right: [0.0, 0.0, -side],
+                    up: [0.0, 1.0, 0.0],
+                },
+                1 => Plane {
+                    right: [side, 0.0, 0.0],
+                    up: [0.0, 0.0, -1.0],
+                },
+                _ => Plane {
+                    right: [side, 0.0, 0.0],
+                    up: [0.0, 1.0, 0.0],
+                },
+            };
+            (weight > 1e-6).then(|| View {
+                footprint: self.on_plane(plane, [0.0; 3], size, ground, spot),
+                weight: weight as f32,
+                cover: 1.0,
+                lies: Lies::On(plane),
+            })
+        })
+    }
+
+    fn pressed_on(&self, decal: &Decal, ground: &Ground<'_>, spot: &Spot) -> View {
+        let footprint = self.on_plane(decal.plane, decal.middle, decal.size, ground, spot);
+        let share = |x: f64| x.clamp(0.0, 1.0);
+        // The part of the texel that lies on the picture, as far as it can be told from the texel's extent.
+        let inside = |axis: usize| {
+            let extent = footprint.steps[0][axis].abs() + footprint.steps[1][axis].abs();
+            let at = footprint.uv[axis];
+            share(0.5 + at.min(1.0 - at) / extent.max(1e-9))
+        };
+        let place = ground.position(spot);
+        let away = dot(
+            std::array::from_fn(|axis| place[axis] - decal.middle[axis]),
+            decal.toward,
+        )
+        .abs();
+        let deep = share((decal.depth - away) / (DEPTH_FADE * decal.depth).max(1e-9));
+        let normal = unit(ground.frame(spot).normal, decal.toward);
+        let angle = dot(normal, decal.toward).clamp(-1.0, 1.0).acos();
+        let faces = share((decal.facing - angle) / FACING_FADE);
+        View {
+            weight: 1.0,
+            cover: (inside(0) * inside(1) * deep * faces) as f32,
+            lies: Lies::On(decal.plane),
+            footprint,
+        }
+    }
+
+    fn turned(&self, plane: Plane) -> Plane {
+        let [cos, sin] = self.turn;
+        Plane {
+            right: std::array::from_fn(|axis| cos * plane.right[axis] + sin * plane.up[axis]),
+            up: std::array::from_fn(|axis| cos * plane.up[axis] - sin * plane.right[axis]),
+        }
+    }
+
+    /// Where a texel lies on a picture whose middle is at `middle`.
+    fn on_plane(&self, plane: Plane, middle: [f64; 3], size: f64, ground: &Ground<'_>, spot: &Spot) -> Footprint {
+        let plane = self.turned(plane);
+        let seen = |v: [f64; 3]| [dot(v, plane.right) / size, -dot(v, plane.up) / (size * self.aspect)];
+        let place = ground.position(spot);
+        let [u, v] = seen(std::array::from_fn(|axis| place[axis] - middle[axis]));
+        Footprint {
+            uv: [u + 0.5 - self.offset[0], v + 0.5 + self.offset[1]],
+            steps: ground.texel_sides(spot).map(seen),
+        }
+    }
+}
+
+impl Decal {
+    fn new(values: &SourceValues, size: f64) -> Decal {
+        let toward = unit(values.numbers::<3>("toward").map(f64::from), [0.0, 0.0, 1.0]);
+        let up = values.numbers::<3>("up").map(f64::from);
+        // Where up says nothing, the axis across which the picture is seen best does.
+        let otherwise = if toward[1].abs() < 0.9 {
+            [0.0, 1.0, 0.0]
+        } else {
+            [0.0, 0.0, -1.0]
+        };
+        let right = cross(up, toward);
+        let right = if dot(right, right) > 1e-12 {
+            right
+        } else {
+            cross(otherwise, toward)
+        };
+        let right = unit(right, [1.0, 0.0, 0.0]);
+        Decal {
+            size,
+            middle: values.numbers::<3>("position").map(f64::from),
+            plane: Plane {
+                right,
+                up: cross(toward, right),
+            },
+            toward,
+            depth: f64::from(values.number("depth")),
+            facing: f64::from(values.number("facing")),
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! `source/vertex_color`: the colors of the model's vertices.
+
+use sabi_graph::PortType;
+use sabi_nodes::link::Plane;
+use sabi_plan::{SourceKind, SourcePort};
+use sabi_surface::model::Model;
+
+use super::texels::Ground;
+
+/// Id of the kind.
+pub(crate) const NAME: &str = "source/vertex_color";
+
+/// The kind as the planner and the reference see it.
+pub(crate) fn kind() -> SourceKind {
+    let port = |name: &str, ty, doc: &str| SourcePort {
+        name: name.to_owned(),
+        ty,
+        doc: doc.to_owned(),
+        channels: Vec::new(),
+    };
+    SourceKind {
+        id: NAME.to_owned(),
+        label: "Vertex color".to_owned(),
+        summary: "The colors of the model's vertices.".to_owned(),
+        aliases: ["painted", "attribute", "vertices"].map(str::to_owned).to_vec(),
+        params: Vec::new(),
+        inputs: Vec::new(),
+        outputs: vec![
+            port(
+                "color",
+                PortType::Color,
+                "The color, mixed between the corners; white without any.",
+            ),
+            port(
+                "alpha",
+                PortType::Mask,
+                "The colors' fourth component, 1 where there is none.",
+            ),
+        ],
+        content: [0; 32],
+    }
+}
+
+/// The kind for a model: with a hash of its colors.
+pub(crate) fn kind_for(model: &Model) -> SourceKind {
+    let mut hash = blake3::Hasher::new();
+    for color in &model.mesh.colors {
+        hash.update(color.map(f32::to_le_bytes).as_flattened());
+    }
+    SourceKind {
+        content: *hash.finalize().as_bytes(),
+        ..kind()
+    }
+}
+
+/// A plane of a result. A model without colors is told in `warnings`.
+pub(crate) fn plane(ground: &Ground<'_>, node: &str, plane: Plane, warnings: &mut Vec<String>) -> Vec<u8> {
+    let mesh = &ground.model.mesh;
+    if mesh.colors.is_empty() {
+        let why =
+            format!("node '{node}' ({NAME}) gives white: the model has no vertex colors; paint some in its program");
+        if !warnings.contains(&why) {
+            warnings.push(why);
+        }
+    }
+    ground.texels(plane, |spot| {
+        // A texel's middle may lie outside of its triangle, but no color lies outside of the corners'.
+        let [second, third] = ground.weights(spot, spot.uv).map(|weight| weight.max(0.0));
+        let sum = (second + third).max(1.0);
+        let weights = [1.0 - (second + third) / sum, second / sum, third / sum].map(|weight| weight as f32);
+        let corners = mesh.triangles[spot.triangle].iter().zip(weights);
+        let mut sum = [0.0_f32; 4];
+        for (vertex, weight) in corners {
+            let color = mesh.colors.get(*vertex as usize).copied().unwrap_or([1.0; 4]);
+            for (sum, value) in sum.iter_mut().zip(color) {
+                *sum += weight * value;
+            }
+        }
+        match plane {
+            Plane::Mask => [sum[3], 0.0, 0.0, 1.0],
+            _ => [sum[0], sum[1], sum[2], 1.0],
+        }
+    })
+}
