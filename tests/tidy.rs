@@ -191,7 +191,11 @@ fn dependencies_point_down() {
         for dependency in dependencies_of(&manifest_of(&format!("crates/{name}/Cargo.toml"))) {
             let is_ruled = dependency.starts_with("sabi") || is_owned(&dependency);
             let is_granted = ALSO.contains(&(name, dependency.as_str()));
-            if is_ruled && !is_granted && !ours.contains(&dependency.as_str()) && !outside.contains(&dependency.as_str()) {
+            if is_ruled
+                && !is_granted
+                && !ours.contains(&dependency.as_str())
+                && !outside.contains(&dependency.as_str())
+            {
                 faults.push(format!(
                     "{name} names {dependency}, which is not its to name (it may name {ours:?} and owns {outside:?}): \
                      ask the crate that owns it for what is needed, or change ARCHITECTURE.md and this table first."

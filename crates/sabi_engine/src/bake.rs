@@ -1,12 +1,13 @@
 //! The main job: a graph on a model becomes a PBR set.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use sabi_export::{BakeWriter, Committed, Padding, SetOptions, preset};
 use sabi_gpu::{Run, RunOptions};
-use sabi_graph::FlatGraph;
-use sabi_plan::{Mode, Plan, PlannedResult};
+use sabi_graph::{Fit, FlatGraph, FlatNode};
+use sabi_plan::{Mode, Plan, PlannedResult, Target};
 use serde_json::{Map, Value as Json, json};
 
 use crate::describe::describe_unwrapping;
@@ -20,8 +21,8 @@ use crate::modelless::{refuse_faults, targets};
 use crate::outputs::{clashes, nothing_comes_out, outputs};
 use crate::overlap::Sharing;
 use crate::report::{BakeReport, StageTime, StageTimes};
-use crate::sets::{TextureSet, bare_materials, serve, texture_sets};
-use crate::source::{OUTPUT_MASK, mask_name};
+use crate::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
+use crate::source::{OUTPUT_MASK, SOURCE_MODEL, mask_name};
 use crate::stages::Progress;
 use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
 
@@ -71,13 +72,13 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
     let mut serving = serve(&open, &workpiece.graph, &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &workpiece.prepared, &sets, &mut serving, &mut writer)?;
-    workpiece.warn(serving.warnings);
-    let is_used =
-        |node: &usize| workpiece.graph.nodes[*node].kind == OUTPUT_MASK || serving.outputs.contains(&Some(*node));
-    let wanted = targets(outputs.iter().copied().filter(is_used));
+    workpiece.warn(std::mem::take(&mut serving.warnings));
+    let own_looks = serving.model.map(|_| models_own(workpiece.fit));
+    workpiece.graph.nodes.extend(own_looks);
+    let wanted = wanted(&workpiece.graph, &outputs, &serving);
     let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, workpiece.gpu.limits())?;
     let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
-    let sets = set_works(&workpiece.graph, &plan, sets, &serving.outputs);
+    let sets = set_works(&workpiece.graph, &plan, sets, &serving.nodes);
     let mut encode = workpiece.times.encode;
     let map_writer = MapWriter {
         workpiece: &workpiece,
@@ -164,19 +165,46 @@ fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(),
     Err(EngineError::new(ErrorKind::CannotWrite, why))
 }
 
+/// What is to be evaluated: outputs that serve a set, and masks.
+fn wanted(graph: &FlatGraph, outputs: &[usize], serving: &Serving) -> Vec<Target> {
+    let is_served = |node: usize| serving.nodes.iter().any(|nodes| nodes.values().any(|of| *of == node));
+    let is_used = |node: &usize| graph.nodes[*node].kind == OUTPUT_MASK || is_served(*node);
+    targets(outputs.iter().copied().filter(is_used).chain(serving.model))
+}
+
+/// A node that shows the model's own looks. No node of a file can have its id.
+fn models_own(fit: Fit) -> FlatNode {
+    FlatNode {
+        id: "(model)".to_owned(),
+        kind: SOURCE_MODEL.to_owned(),
+        version: 1,
+        params: BTreeMap::new(),
+        inputs: BTreeMap::new(),
+        muted: false,
+        seeds: Vec::new(),
+        length_scale: 1.0,
+        fit,
+        file: None,
+    }
+}
+
 /// Which planned results go into which set.
 fn set_works<'p>(
     graph: &FlatGraph,
     plan: &'p Plan,
     sets: Vec<TextureSet>,
-    serving: &[Option<usize>],
+    serving: &[BTreeMap<u32, usize>],
 ) -> Vec<SetWork<'p>> {
     let is_mask = |result: &&PlannedResult| graph.nodes[result.target.node].kind == OUTPUT_MASK;
     let masks = || plan.results.iter().filter(is_mask);
-    let work = |(set, output): (TextureSet, &Option<usize>)| SetWork {
+    let result = |node: usize| plan.results.iter().find(|result| result.target.node == node);
+    let work = |(set, nodes): (TextureSet, &BTreeMap<u32, usize>)| SetWork {
         key: set.key,
         name: set.name,
-        material: output.and_then(|node| plan.results.iter().find(|result| result.target.node == node)),
+        materials: nodes
+            .iter()
+            .filter_map(|(material, node)| Some((*material, result(*node)?)))
+            .collect(),
         masks: masks()
             .map(|result| (mask_name(&graph.nodes[result.target.node]), result))
             .collect(),

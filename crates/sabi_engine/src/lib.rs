@@ -11,6 +11,7 @@ mod error;
 mod folder;
 mod kinds;
 mod maps;
+mod mixing;
 mod model_copy;
 mod modelless;
 mod outputs;

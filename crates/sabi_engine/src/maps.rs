@@ -1,5 +1,7 @@
 //! Results become maps: read back, brought into the model's own layout, and written.
 
+use std::collections::BTreeMap;
+
 use sabi_export::{
     BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, Padding, PaddingMap, SetKey, SetLayout,
     SetOptions,
@@ -11,6 +13,7 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
 use crate::error::EngineError;
+use crate::mixing::Mixing;
 use crate::prepare::{Overlap, Prepared};
 use crate::stages::{Progress, Stage};
 use crate::workpiece::{Workpiece, stop_if_canceled};
@@ -21,8 +24,8 @@ pub(crate) struct SetWork<'p> {
     pub(crate) key: SetKey,
     /// Stem of its files.
     pub(crate) name: String,
-    /// The material, if an output serves it.
-    pub(crate) material: Option<&'p PlannedResult>,
+    /// By material of the model, the result that serves it; empty if none does.
+    pub(crate) materials: BTreeMap<u32, &'p PlannedResult>,
     /// More maps by name.
     pub(crate) masks: Vec<(String, &'p PlannedResult)>,
 }
@@ -85,7 +88,7 @@ impl MapWriter<'_> {
         };
         maps.of = sets
             .iter()
-            .map(|set| set.masks.len() + set.material.map_or(0, |_| MAPS.len() + 1))
+            .map(|set| set.masks.len() + if set.materials.is_empty() { 0 } else { MAPS.len() + 1 })
             .sum();
         for together in sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)) {
             let open: Vec<OpenSet<'_>> = together
@@ -94,14 +97,23 @@ impl MapWriter<'_> {
                     let layout = set_layout(&self.workpiece.prepared, work.key);
                     OpenSet {
                         work,
+                        mixing: Mixing::new(atlas, &work.materials),
                         padding: PaddingMap::new(&layout, self.padding),
                         layout,
                     }
                 })
                 .collect();
             for result in &self.plan.results {
-                maps.material(run, result, &open)?;
+                let is_served = |set: &&OpenSet<'_>| match set.mixing.results[..] {
+                    [served] => std::ptr::eq(served, result),
+                    _ => false,
+                };
+                let served: Vec<&OpenSet<'_>> = open.iter().filter(is_served).collect();
+                maps.material(run, &[result], &served)?;
                 maps.masks(run, result, &open)?;
+            }
+            for set in open.iter().filter(|set| set.mixing.results.len() > 1) {
+                maps.material(run, &set.mixing.results, &[set])?;
             }
         }
         let mut written = maps.written;
@@ -123,6 +135,7 @@ impl MapWriter<'_> {
 /// A texture set with its layout at hand.
 struct OpenSet<'a> {
     work: &'a SetWork<'a>,
+    mixing: Mixing<'a>,
     layout: SetLayout,
     padding: PaddingMap,
 }
@@ -138,15 +151,17 @@ struct Maps<'a> {
 }
 
 impl Maps<'_> {
-    /// The maps of all sets that a material result serves.
-    fn material(&mut self, run: &mut Run, result: &PlannedResult, sets: &[OpenSet<'_>]) -> Result<(), EngineError> {
-        let is_served = |set: &&OpenSet<'_>| set.work.material.is_some_and(|served| std::ptr::eq(served, result));
-        let sets: Vec<&OpenSet<'_>> = sets.iter().filter(is_served).collect();
+    /// The maps of a material, of all sets that take them from the same results.
+    fn material(
+        &mut self,
+        run: &mut Run,
+        results: &[&PlannedResult],
+        sets: &[&OpenSet<'_>],
+    ) -> Result<(), EngineError> {
         if sets.is_empty() {
             return Ok(());
         }
         let workpiece = self.from.workpiece;
-        let slot = |channel| slot_of(result, Plane::Material(channel));
         let file_from_working = workpiece.prepared.file_from_working(&workpiece.fit) as f32;
         for (stored, channels) in MAPS {
             let scale = if stored == Stored::Height {
@@ -154,43 +169,62 @@ impl Maps<'_> {
             } else {
                 1.0
             };
-            let plane = slot(stored).map(|slot| self.from.read(run, slot)).transpose()?;
-            for set in &sets {
+            let plane = |result: &&PlannedResult| {
+                let slot = slot_of(result, Plane::Material(stored));
+                slot.map(|slot| self.from.read(run, slot)).transpose()
+            };
+            let planes = results.iter().map(plane).collect::<Result<Vec<_>, EngineError>>()?;
+            for set in sets {
                 for (channel, first) in channels {
-                    self.channel(set, channel, plane.as_ref(), *first, |[x, y, z, w]| {
+                    self.channel(set, channel, &planes, *first, |[x, y, z, w]| {
                         [x * scale, y * scale, z * scale, w * scale]
                     })?;
                 }
                 self.advance();
             }
         }
-        let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));
-        let mut normals = None;
-        if height.is_some() || slope.is_some() {
-            self.written.finish_passes += 1;
-            let gpu = &workpiece.gpu;
-            normals = Some(gpu.normals(&workpiece.surface, run, height, slope, &self.from.run_options)?);
+        let mut normals = Vec::new();
+        for result in results {
+            normals.push(self.normals(run, result)?);
         }
-        for set in &sets {
-            self.channel(set, &Channel::Normal, normals.as_ref(), 0, |normal| normal)?;
+        for set in sets {
+            self.channel(set, &Channel::Normal, &normals, 0, |normal| normal)?;
             self.advance();
         }
         Ok(())
     }
 
+    /// The normals of a result; none where it is flat.
+    fn normals(&mut self, run: &mut Run, result: &PlannedResult) -> Result<Option<PlaneData>, EngineError> {
+        let slot = |channel| slot_of(result, Plane::Material(channel));
+        let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));
+        if height.is_none() && slope.is_none() {
+            return Ok(None);
+        }
+        self.written.finish_passes += 1;
+        let Workpiece { gpu, surface, .. } = self.from.workpiece;
+        Ok(Some(gpu.normals(
+            surface,
+            run,
+            height,
+            slope,
+            &self.from.run_options,
+        )?))
+    }
+
     /// The maps that mask outputs add to every set.
     fn masks(&mut self, run: &Run, result: &PlannedResult, sets: &[OpenSet<'_>]) -> Result<(), EngineError> {
-        let mut plane = None;
+        let mut planes = Vec::new();
         for set in sets {
             let named = set.work.masks.iter().filter(|(_, mask)| std::ptr::eq(*mask, result));
             for (name, _) in named {
-                if plane.is_none() {
+                if planes.is_empty() {
                     // A mask or color has one plane.
-                    plane = Some(self.from.read(run, result.slots[0])?);
+                    planes.push(Some(self.from.read(run, result.slots[0])?));
                 }
                 let is_color = result.stored.ty == PortType::Color;
                 let gray = |[r, g, b, _]: [f32; 4]| if is_color { [luminance([r, g, b]); 4] } else { [r; 4] };
-                self.channel(set, &Channel::Mask(name.clone()), plane.as_ref(), 0, gray)?;
+                self.channel(set, &Channel::Mask(name.clone()), &planes, 0, gray)?;
                 self.advance();
             }
         }
@@ -202,22 +236,32 @@ impl Maps<'_> {
         self.progress.advance(Stage::Encode, self.done, self.of);
     }
 
-    /// Writes one channel; without a plane, what the channel is where nothing sets it.
+    /// Writes one channel; without a plane, what the channel is where nothing sets it. Planes are one for each result of the
+    /// set, or one for all of it.
     fn channel(
         &mut self,
         set: &OpenSet<'_>,
         channel: &Channel,
-        plane: Option<&PlaneData>,
+        planes: &[Option<PlaneData>],
         first: usize,
         value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
     ) -> Result<(), EngineError> {
         // A large map takes seconds to encode.
         stop_if_canceled(self.progress)?;
-        let mut pixels = match plane {
-            Some(plane) => set
-                .padding
-                .gather(&set.layout, channel, first, |index| value(plane.texel(index))),
-            None => ChannelPixels::neutral(channel, set.padding.source.len()),
+        let texel = |index| match set.mixing.texel(planes, index) {
+            Some(stored) => value(stored),
+            None => {
+                let mut values = [0.0; 4];
+                for (value, neutral) in values.iter_mut().skip(first).zip(channel.neutral()) {
+                    *value = *neutral;
+                }
+                values
+            }
+        };
+        let mut pixels = if planes.iter().all(Option::is_none) {
+            ChannelPixels::neutral(channel, set.padding.source.len())
+        } else {
+            set.padding.gather(&set.layout, channel, first, texel)
         };
         if *channel == Channel::Normal && !set.layout.shared.is_empty() {
             // The mean of unit vectors is shorter than one.

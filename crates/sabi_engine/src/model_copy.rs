@@ -29,8 +29,8 @@ pub(crate) fn open_copy(
         return Err(EngineError::new(ErrorKind::BadInput, why));
     }
     let model = &prepared.model;
-    let served = sets.iter().zip(&serving.outputs);
-    let served: Vec<&TextureSet> = served.filter_map(|(set, output)| output.map(|_| set)).collect();
+    let served = sets.iter().zip(&serving.nodes).filter(|(_, nodes)| !nodes.is_empty());
+    let served: Vec<&TextureSet> = served.map(|(set, _)| set).collect();
     refuse_tiles(&served)?;
     let baked: BTreeSet<u32> = served.iter().map(|set| set.key.material).collect();
     let options = &request.workpiece.model;

@@ -1,6 +1,6 @@
 //! The texture sets of a model, and what of the graph goes into them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_export::{SetKey, set_keys, set_names};
 use sabi_graph::FlatGraph;
@@ -136,16 +136,20 @@ fn untouched(name: &str) -> String {
     )
 }
 
-/// Which output each set's maps of a material come from.
+/// Which nodes each set's maps of a material come from.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Serving {
-    /// By set, the output node; none for a material that no output serves.
-    pub(crate) outputs: Vec<Option<usize>>,
+    /// By set, and there by material of the model, the node: an output, or [`Serving::model`]. Empty for a set that no
+    /// output serves.
+    pub(crate) nodes: Vec<BTreeMap<u32, usize>>,
+    /// A node that the graph does not have yet, at its end, where a part of a sheet is to show the model's own looks.
+    pub(crate) model: Option<usize>,
     /// What is probably not meant.
     pub(crate) warnings: Vec<String>,
 }
 
-/// Finds the outputs that serve the sets; `outputs` are those of the graph.
+/// Finds the outputs that serve the sets; `outputs` are those of the graph. On a sheet, materials that no output serves
+/// keep their own looks.
 pub(crate) fn serve(
     open: &OpenGraph,
     graph: &FlatGraph,
@@ -158,50 +162,39 @@ pub(crate) fn serve(
     let used = used_materials(atlas);
     let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
     let by_material = served(graph, outputs, &names);
-    let output_of = |material: u32| {
-        let at = used.iter().position(|&index| index == material)?;
-        by_material[at]
-    };
-    let of_sheet = model
-        .mesh
-        .is_one_sheet
-        .then(|| by_material.iter().copied().flatten().min());
-    let of_set = |set: &TextureSet| of_sheet.unwrap_or_else(|| output_of(set.key.material));
-    let found: Vec<Option<usize>> = sets.iter().map(of_set).collect();
-    let mut left: Vec<u32> = match of_sheet {
-        Some(_) => used.clone(),
-        None => sets.iter().map(|set| set.key.material).collect(),
+    let found = used.iter().zip(&by_material);
+    let found: BTreeMap<u32, usize> = found.filter_map(|(&index, &output)| Some((index, output?))).collect();
+    let is_one_sheet = model.mesh.is_one_sheet;
+    let mut left: Vec<u32> = match is_one_sheet {
+        true => used.clone(),
+        false => sets.iter().map(|set| set.key.material).collect(),
     };
     left.dedup();
-    left.retain(|&material| output_of(material).is_none());
-    let gives = materials(graph, outputs);
-    let has = quoted(names.iter().map(|[name, _]| *name));
-    if found.iter().all(Option::is_none) && masks(graph, outputs).is_empty() {
-        let left = quoted(left.iter().map(|&material| names_of(model, &stems, material)[0]));
+    left.retain(|material| !found.contains_key(material));
+    let shows_model = is_one_sheet && !found.is_empty() && !left.is_empty();
+    let own = shows_model.then_some(graph.nodes.len());
+    let of_set = |set: &TextureSet| -> BTreeMap<u32, usize> {
+        let own = left.iter().filter_map(|&material| Some((material, own?)));
+        let found = found.iter().map(|(&material, &output)| (material, output));
+        let is_there = |(material, _): &(u32, usize)| is_one_sheet || *material == set.key.material;
+        found.chain(own).filter(is_there).collect()
+    };
+    let nodes: Vec<BTreeMap<u32, usize>> = sets.iter().map(of_set).collect();
+    let name = |&material: &u32| names_of(model, &stems, material)[0];
+    if nodes.iter().all(BTreeMap::is_empty) && masks(graph, outputs).is_empty() {
+        let (left, has) = (quoted(left.iter().map(name)), quoted(used.iter().map(name)));
         let why = format!(
             "no output serves {left}, so there is nothing to bake; the model has {has}: list one of them in 'materials' of an output"
         );
         return Err(EngineError::new(ErrorKind::BadInput, open.said(why)));
     }
     let mut warnings = idle(graph, outputs, &names);
-    if let Some(Some(chosen)) = of_sheet {
-        let others = used
-            .iter()
-            .zip(&by_material)
-            .filter(|(_, output)| **output != Some(chosen));
-        let others = quoted(others.map(|(&material, _)| names_of(model, &stems, material)[0]));
-        if !others.is_empty() {
-            warnings.push(format!(
-                "the model's materials share one sheet, and all of it is served by the output '{}', {others} as well",
-                graph.nodes[chosen].id
-            ));
-        }
-    } else if !gives.is_empty() {
-        let without = left.iter().map(|&material| names_of(model, &stems, material)[0]);
-        warnings.extend(without.map(untouched));
+    if !materials(graph, outputs).is_empty() {
+        warnings.extend(left.iter().map(name).map(untouched));
     }
     Ok(Serving {
-        outputs: found,
+        nodes,
+        model: own,
         warnings,
     })
 }

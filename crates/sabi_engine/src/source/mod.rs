@@ -24,6 +24,7 @@ use sabi_surface::model::Model;
 use crate::pictures::{OpenPicture, Pictures, path_of};
 
 pub(crate) use levels::Levels;
+pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 pub(crate) use texels::Ground;
