@@ -9,6 +9,7 @@ mod marks;
 mod materials;
 mod model_copy;
 mod noise;
+mod one_sheet;
 mod predecessor;
 mod predecessor_maps;
 mod reexport;

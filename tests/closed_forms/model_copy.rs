@@ -1,18 +1,20 @@
 //! A copy of a model that uses its new maps shows what was baked: `source/model → output/material` on the copy gives the
-//! maps that it was made of.
+//! maps that it was made of. So do copies of models that were unwrapped, whose triangles stay where they are.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Prepared, Silent, WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, DEFAULT_BUDGET_BYTES, ModelOptions, Overlap, Overrides, Prepared, Silent,
+    WorkpieceOptions, bake,
 };
-use sabi_export::{Cover, layouts};
+use sabi_export::{Cover, layouts, set_names};
 use sabi_image::{Pixels, decode};
-use sabi_tests::{device, project};
+use sabi_surface::model::Model;
+use sabi_tests::{MeshFile, Quad, device, project};
 use serde_json::Value as Json;
 
-const SIZE: u32 = 128;
+pub(crate) const SIZE: u32 = 128;
 
 /// Everything varies: two layers of noise on a plain material.
 const WORN: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
@@ -32,16 +34,16 @@ const MODEL: &str = r#"{ "format": "sabi", "version": 1, "nodes": {
     "model": { "kind": "source/model" },
     "out": { "kind": "output/material", "inputs": { "material": "model" } } } }"#;
 
-fn bake_to(folder: &Path, graph: &str, model: &Path, copies_model: bool) -> Json {
+pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_model: bool) -> Json {
     // Says what to do where there is no software driver.
     device();
-    fs::create_dir_all(folder).unwrap();
+    fs::create_dir_all(folder).expect("a folder");
     let path = folder.join("graph.sabi");
-    fs::write(&path, graph).unwrap();
+    fs::write(&path, graph).expect("a graph");
     let request = BakeRequest {
         graph: path,
         workpiece: WorkpieceOptions {
-            model: ModelOptions::new(model, SIZE),
+            model,
             overrides: Overrides::default(),
             fit: None,
             adapter: AdapterChoice::Cpu,
@@ -60,21 +62,22 @@ fn bake_to(folder: &Path, graph: &str, model: &Path, copies_model: bool) -> Json
 }
 
 /// Codes of a map, as a part of the highest one.
-fn codes(path: &Path) -> Vec<f64> {
+pub(crate) fn codes(path: &Path) -> Vec<f64> {
     let name = path.display().to_string();
     let bytes = fs::read(path).unwrap_or_else(|error| panic!("{name}: {error}"));
-    match decode(&name, &bytes).unwrap().pixels {
+    match decode(&name, &bytes).expect("a map").pixels {
         Pixels::U8(codes) => codes.into_iter().map(|code| f64::from(code) / 255.0).collect(),
         Pixels::U16(codes) => codes.into_iter().map(|code| f64::from(code) / 65535.0).collect(),
         Pixels::F32(values) => values.into_iter().map(f64::from).collect(),
     }
 }
 
-/// Where charts have their own texels: rings and padding may show what a picture is over its edge.
-fn owned(model: &Path) -> Vec<bool> {
-    let prepared = Prepared::open(&ModelOptions::new(model, SIZE), &Silent).unwrap();
-    let layout = layouts(&prepared.atlas).remove(0);
-    layout.cover.iter().map(|cover| *cover == Cover::Owned).collect()
+/// By material, where charts have their own texels: rings and padding may show what a picture is over its edge.
+fn owned(model: &Prepared) -> Vec<Vec<bool>> {
+    let of_layout = layouts(&model.atlas).into_iter();
+    of_layout
+        .map(|layout| layout.cover.iter().map(|cover| *cover == Cover::Owned).collect())
+        .collect()
 }
 
 /// The largest difference of two maps where charts have their own texels.
@@ -90,7 +93,7 @@ fn furthest(owned: &[bool], files: [PathBuf; 2]) -> f64 {
 }
 
 fn constants(report: &Json) -> Vec<String> {
-    let entries = report["constants"].as_array().unwrap().iter();
+    let entries = report["constants"].as_array().into_iter().flatten();
     entries
         .map(|entry| format!("{} {}", entry["channel"], entry["value"]))
         .collect()
@@ -98,14 +101,29 @@ fn constants(report: &Json) -> Vec<String> {
 
 /// Bakes a graph on a model and the copy's own looks on the copy: the folders of the maps, and the two reports.
 fn there_and_back(folder: &Path, graph: &str, model: &Path) -> ([PathBuf; 2], [Json; 2]) {
-    let first = bake_to(&folder.join("first"), graph, model, true);
-    let copy = folder.join("first/out").join(first["model"]["path"].as_str().unwrap());
-    let second = bake_to(&folder.join("second"), MODEL, &copy, false);
+    let first = bake_to(&folder.join("first"), graph, ModelOptions::new(model, SIZE), true);
+    let copy = folder
+        .join("first/out")
+        .join(first["model"]["path"].as_str().expect("a copy"));
+    let second = bake_to(&folder.join("second"), MODEL, ModelOptions::new(&copy, SIZE), false);
     (
         ["first/out", "second/out"].map(|part| folder.join(part)),
         [first, second],
     )
 }
+
+/// How far a channel of a copy may be from the map, in steps of 8 bits. A copy's maps are 8 bit: half a step when they were
+/// made, and half a step of rounding now; dithering moves a value by a step. A normal's length is lost with its last digits,
+/// which moves its parts by half a step more. A code of emission stands for four times as much light in the copy as in the
+/// map.
+const STEPS: [(&str, f64); 6] = [
+    ("base_color", 1.0),
+    ("opacity", 1.0),
+    ("roughness", 2.0),
+    ("metallic", 2.0),
+    ("normal", 1.5),
+    ("emission", 3.0),
+];
 
 #[test]
 fn a_copied_model_shows_the_maps_that_were_baked() {
@@ -117,19 +135,10 @@ fn a_copied_model_shows_the_maps_that_were_baked() {
             "channel": "occlusion", "material": "bench", "value": 1.0
         }])
     );
-    let owned = owned(&project("assets/meshes/bench.glb"));
+    let model = ModelOptions::new(&project("assets/meshes/bench.glb"), SIZE);
+    let owned = owned(&Prepared::open(&model, &Silent).unwrap()).remove(0);
     let both = |file: &str| [&first, &second].map(|folder| folder.join(file));
-    // A copy's maps are 8 bit: half a step when they were made, and half a step of rounding now; dithering moves a value
-    // by a step. A normal's length is lost with its last digits, which moves its parts by half a step more. A code of
-    // emission stands for four times as much light in the copy as in the map.
-    for (channel, steps) in [
-        ("base_color", 1.0),
-        ("opacity", 1.0),
-        ("roughness", 2.0),
-        ("metallic", 2.0),
-        ("normal", 1.5),
-        ("emission", 3.0),
-    ] {
+    for (channel, steps) in STEPS {
         let furthest = furthest(&owned, both(&format!("bench_{channel}.png")));
         assert!(furthest <= steps / 255.0 + 1e-6, "{channel}: {furthest}");
     }
@@ -147,4 +156,133 @@ fn a_copied_model_has_the_very_values_of_constant_channels() {
     let [was, is] = reports.each_ref().map(constants);
     assert!(was.contains(&"\"roughness\" 0.7".to_owned()), "{was:?}");
     assert_eq!(was, is);
+}
+
+/// A sculpture of two materials with vertex colors and without texture coordinates: a lumpy ring.
+fn ring() -> String {
+    let (around, across) = (14, 9);
+    let turn = |at: usize, of: usize| (at % of) as f64 / of as f64 * std::f64::consts::TAU;
+    let mut text = "o ring\n".to_owned();
+    for i in 0..around {
+        for j in 0..across {
+            let (a, b) = (turn(i, around), turn(j, across));
+            let radius = 1.0 + (0.35 + 0.05 * (3.0 * a).sin() * (2.0 * b).cos()) * b.cos();
+            let place = [radius * a.cos(), 0.4 * b.sin(), radius * a.sin()];
+            let color = [a.cos().abs(), b.sin().abs(), 0.5];
+            let numbers: Vec<String> = place.iter().chain(&color).map(f64::to_string).collect();
+            text += &format!("v {}\n", numbers.join(" "));
+        }
+    }
+    for i in 0..around {
+        if i % (around / 2) == 0 {
+            text += ["usemtl wood\n", "usemtl steel\n"][i / (around / 2)];
+        }
+        for j in 0..across {
+            let at = |i: usize, j: usize| 1 + (i % around) * across + j % across;
+            let corners = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)].map(|at| at.to_string());
+            text += &format!("f {}\n", corners.join(" "));
+        }
+    }
+    text
+}
+
+/// Two squares with the same texture coordinates.
+fn stacked() -> Vec<u8> {
+    let square = |z: f32| Quad {
+        corners: [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]],
+        uvs: [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
+    };
+    MeshFile::new(vec![square(0.0), square(1.0)]).glb()
+}
+
+/// What a copy has to keep of every triangle, as exact bits: material, positions, vertex colors and texture coordinates.
+fn triangles(model: &Model) -> Vec<(String, Vec<u32>)> {
+    let mesh = &model.mesh;
+    let of = |(corners, material): (&[u32; 3], &u32)| {
+        let values = corners.iter().flat_map(|&at| {
+            let at = at as usize;
+            let color = mesh.colors.get(at).into_iter().flatten();
+            let uv = mesh.uvs.get(at).into_iter().flatten();
+            mesh.positions[at]
+                .iter()
+                .chain(color)
+                .chain(uv)
+                .map(|value| value.to_bits())
+        });
+        (model.materials[*material as usize].name.clone(), values.collect())
+    };
+    let mut all: Vec<_> = mesh.triangles.iter().zip(&mesh.triangle_material).map(of).collect();
+    all.sort_unstable();
+    all
+}
+
+/// Holds the maps of each material of a copy against those of the sheet.
+fn assert_shows(folder: &Path, stem: &str, copy: &Prepared) {
+    let names = set_names(&copy.model);
+    assert_eq!(owned(copy).len(), names.len());
+    for (owned, of_set) in owned(copy).iter().zip(&names) {
+        for (channel, steps) in STEPS {
+            let files = [
+                folder.join(format!("first/out/{stem}_{channel}.png")),
+                folder.join(format!("second/out/{of_set}_{channel}.png")),
+            ];
+            let furthest = furthest(owned, files);
+            assert!(
+                furthest <= steps / 255.0 + 1e-6,
+                "{stem} {of_set} {channel}: {furthest}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_copy_of_an_unwrapped_model_shows_the_maps_that_were_baked_and_keeps_its_triangles() {
+    let bench = fs::read(project("assets/meshes/bench.glb")).unwrap();
+    // Named so, it is an attribute of the file's own that nobody knows.
+    let mut bare = bench.clone();
+    let names: Vec<usize> = (0..bare.len() - 9)
+        .filter(|&at| bare[at..].starts_with(b"\"TEXCOORD_"))
+        .collect();
+    names.into_iter().for_each(|at| bare[at + 1] = b'_');
+    let cases = [
+        ("ring.obj", ring().into_bytes(), Overlap::First, 0),
+        ("bare.glb", bare, Overlap::First, 0),
+        ("stacked.glb", stacked(), Overlap::Unwrap, 1),
+    ];
+    for (name, bytes, overlap, uv) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        let options = ModelOptions {
+            overlap,
+            ..ModelOptions::new(&path, SIZE)
+        };
+        let first = bake_to(&folder.path().join("first"), WORN, options, true);
+        assert_eq!(first["mesh"]["unwrapped"]["uv_set"], uv, "{name}");
+        let copy = folder
+            .path()
+            .join("first/out")
+            .join(first["model"]["path"].as_str().unwrap());
+        let of_copy = |uv| ModelOptions {
+            uv,
+            ..ModelOptions::new(&copy, SIZE)
+        };
+        bake_to(&folder.path().join("second"), MODEL, of_copy(uv), false);
+        let prepared = Prepared::open(&of_copy(uv), &Silent).unwrap();
+        assert_eq!(prepared.unwrapped, None, "{name}");
+        assert_shows(folder.path(), name.split('.').next().unwrap(), &prepared);
+        // The sets that the model had are still there, before the new one.
+        let [mut was, mut is] =
+            [&path, &copy].map(|path| Prepared::load_model(&ModelOptions::new(path, SIZE)).unwrap());
+        if uv == 0 {
+            for model in [&mut was, &mut is] {
+                model.mesh.uvs.clear();
+            }
+        }
+        assert_eq!(was.parts, is.parts, "{name}");
+        assert!(triangles(&was) == triangles(&is), "{name}");
+        assert_eq!(is.mesh.colors.is_empty(), name != "ring.obj");
+        // One picture of each kind, however many materials: color and opacity, packed, normal, emission.
+        assert_eq!(is.images.len(), 4, "{name}");
+    }
 }

@@ -23,18 +23,21 @@ pub(crate) fn open_copy(
     if !request.model {
         return Ok(None);
     }
-    if prepared.unwrapped.is_some() {
-        let why = "--model cannot be done for a model that was unwrapped anew: copies keep the UVs of the file; bake \
-                   without --model, or unwrap the model in the program that made it";
-        return Err(EngineError::new(ErrorKind::BadInput, why));
-    }
     let model = &prepared.model;
     let served = sets.iter().zip(&serving.nodes).filter(|(_, nodes)| !nodes.is_empty());
     let served: Vec<&TextureSet> = served.map(|(set, _)| set).collect();
     refuse_tiles(&served)?;
-    let baked: BTreeSet<u32> = served.iter().map(|set| set.key.material).collect();
+    let baked: BTreeSet<u32> = if model.mesh.is_one_sheet && !served.is_empty() {
+        (0..model.materials.len() as u32).collect()
+    } else {
+        served.iter().map(|set| set.key.material).collect()
+    };
     let options = &request.workpiece.model;
-    let copy = ModelCopy::open(&options.path, model, options.uv, &baked)?;
+    let uv_set = prepared
+        .unwrapped
+        .as_ref()
+        .map_or(options.uv, |unwrapped| unwrapped.uv_set);
+    let copy = ModelCopy::open(&options.path, model, uv_set, &baked)?;
     // Known to be refused now, and not after the work.
     writer.check(&copy.file_name())?;
     writer.keep_model_maps();

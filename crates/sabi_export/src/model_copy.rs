@@ -1,10 +1,13 @@
 //! A glTF copy of the model that uses the new maps: only what the baked materials look like is changed, on the JSON and
-//! the buffers themselves, so that animations, skins, extensions and all else that Sabi does not know stay as they were.
+//! the buffers themselves, so that animations, skins, extensions and all else that Sabi does not know stay as they were. Of
+//! a model that is no glTF or was unwrapped, one written anew from the loaded mesh.
 
 mod container;
 mod edit;
 mod extensions;
 mod from_mesh;
+mod left_out;
+mod look;
 mod maps;
 mod pictures;
 mod references;
@@ -53,9 +56,13 @@ pub struct ModelCopy {
     /// By material of the model.
     materials: Vec<CopiedMaterial>,
     uv_set: u32,
+    /// Whether one set of maps is for all materials.
+    is_one_sheet: bool,
     stem: String,
     container: Container,
     document: Json,
+    /// What a copy made anew does not have.
+    warnings: Vec<String>,
 }
 
 /// A material of the model, as the copy has to know it.
@@ -69,24 +76,35 @@ struct CopiedMaterial {
 
 impl ModelCopy {
     /// Reads the file anew: `model` is what was loaded from it, with `uv_set` as the set of the maps. Models that are no
-    /// glTF are copied as they were loaded: turned, scaled, triangulated; `baked` are their materials that get maps.
+    /// glTF, and those on one sheet ([`sabi_surface::model::Mesh::is_one_sheet`]), are copied as they were loaded: turned,
+    /// scaled, triangulated; `baked` are their materials that get maps.
     pub fn open(path: &Path, model: &Model, uv_set: u32, baked: &BTreeSet<u32>) -> Result<ModelCopy, ExportError> {
         let refuse = |reason: String| ExportError::Model {
             path: path.to_owned(),
             reason,
         };
         let bytes = std::fs::read(path).map_err(|error| refuse(error.to_string()))?;
-        let is_made = !container::looks_like_gltf(&bytes);
-        let (container, document) = if is_made {
-            from_mesh::glb(model, baked)
-        } else {
-            Container::split(&bytes).map_err(refuse)?
-        };
-        let there = document["materials"].as_array().map_or(0, Vec::len);
-        let named = model.materials.iter().filter_map(|material| material.file_index);
-        if named.max().is_some_and(|last| last >= there) {
-            return Err(refuse("it was changed while it was read".to_owned()));
+        let is_one_sheet = model.mesh.is_one_sheet;
+        let mut file = None;
+        if container::looks_like_gltf(&bytes) {
+            let (container, document) = Container::split(&bytes).map_err(refuse)?;
+            let there = document["materials"].as_array().map_or(0, Vec::len);
+            let named = model.materials.iter().filter_map(|material| material.file_index);
+            if named.max().is_some_and(|last| last >= there) {
+                return Err(refuse("it was changed while it was read".to_owned()));
+            }
+            file = Some((container, document));
         }
+        let is_made = is_one_sheet || file.is_none();
+        let mut warnings = Vec::new();
+        let (container, document) = match file {
+            Some(file) if !is_one_sheet => file,
+            other => {
+                let file = other.map(|(_, document)| document);
+                warnings.extend(file.as_ref().and_then(left_out::left_out));
+                from_mesh::glb(model, baked, uv_set, file.as_ref())
+            }
+        };
         let stem = match file_stem(&model.stem) {
             stem if stem.is_empty() => "model".to_owned(),
             stem => stem,
@@ -99,9 +117,11 @@ impl ModelCopy {
             path: path.to_owned(),
             materials: model.materials.iter().enumerate().map(copied).collect(),
             uv_set,
+            is_one_sheet,
             stem,
             container,
             document,
+            warnings,
         })
     }
 
@@ -111,9 +131,16 @@ impl ModelCopy {
         format!("{}.{ending}", self.stem)
     }
 
-    /// The copy, with these maps on these materials of the model. Maps of a `.glb` go into it; those of a `.gltf` stay
+    /// The copy, with these maps on these materials of the model; the one set of a sheet, of material 0, goes on all. Maps of a `.glb` go into it; those of a `.gltf` stay
     /// beside it. `taken` are file names, in lower case, that the bake has given away already.
-    pub fn finish(mut self, baked: BTreeMap<u32, MaterialMaps>, taken: &BTreeSet<String>) -> FinishedCopy {
+    pub fn finish(mut self, mut baked: BTreeMap<u32, MaterialMaps>, taken: &BTreeSet<String>) -> FinishedCopy {
+        if self.is_one_sheet
+            && let Some(maps) = baked.remove(&0)
+        {
+            baked = (0..self.materials.len() as u32)
+                .map(|material| (material, maps.clone()))
+                .collect();
+        }
         let known = extensions::present(&self.document);
         let mut materials = Vec::new();
         for (material, maps) in baked {
@@ -125,10 +152,15 @@ impl ModelCopy {
             edit::strip(&mut self.document["materials"][*index]);
         }
         pictures.find_free(&self.document);
+        // Materials on one sheet share their textures.
+        let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
         for (index, wrap, maps) in materials {
-            let mut place = |document: &mut Json, map: MapFile| TextureUse {
-                index: pictures.add(document, &mut self.container, map, wrap),
-                uv_set: self.uv_set,
+            let mut place = |document: &mut Json, map: MapFile| {
+                let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
+                TextureUse {
+                    index: *shared.entry((map.name.clone(), wrap)).or_insert_with(add),
+                    uv_set: self.uv_set,
+                }
             };
             edit::dress(&mut self.document, index, maps, &mut place);
         }
@@ -136,7 +168,7 @@ impl ModelCopy {
         self.container.forget(&mut self.document, &placed.dead);
         extensions::keep_lists_true(&mut self.document, &known);
         let mut beside = placed.files;
-        let mut warnings = Vec::new();
+        let mut warnings = std::mem::take(&mut self.warnings);
         self.bring_along(&placed.new, taken.clone(), &mut beside, &mut warnings);
         let copy = CopiedFile {
             name: self.file_name(),

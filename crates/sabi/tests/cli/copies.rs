@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use crate::place::Place;
+use crate::place::{Place, graph};
 
 #[test]
 fn a_copy_of_the_model_lies_beside_the_maps_and_in_the_report() {
@@ -57,15 +57,50 @@ fn udim_tiles_cannot_be_one_picture_of_a_copy() {
 }
 
 #[test]
-fn a_model_that_was_unwrapped_has_no_copy_and_says_so() {
+fn a_copy_of_an_unwrapped_model_says_what_of_the_file_it_does_not_have() {
     let place = Place::new();
-    place.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    place.refuses(
-        "rust.sabi",
-        "bare.obj",
-        &["--model"],
-        65,
-        "--model cannot be done for a model that was unwrapped anew: copies keep the UVs of the file; bake without \
-         --model, or unwrap the model in the program that made it",
+    let corners = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    place.write("bare.bin", corners.map(f32::to_le_bytes).as_flattened());
+    place.write(
+        "bare.gltf",
+        r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+            "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                            "min": [0, 0, 0], "max": [1, 1, 0] }],
+            "bufferViews": [{ "buffer": 0, "byteLength": 36 }], "buffers": [{ "uri": "bare.bin", "byteLength": 36 }],
+            "animations": [{ "channels": [], "samplers": [], "name": "wave" }] }"#,
     );
+    let run = place.bake("rust.sabi", "bare.gltf", &["--model"]).good();
+    let words = "warning: the copy of the model was written anew from its unwrapped mesh, with each node's place applied, \
+                 and does not have the file's animations; unwrap the model in the program that made it to keep them\n";
+    assert!(run.stderr.contains(words), "{}", run.stderr);
+    let mesh = place.sabi(&["mesh", "out/bare.glb", "--json"]).good();
+    assert!(!mesh.stderr.contains("unwrapped"), "{}", mesh.stderr);
+}
+
+#[test]
+fn outputs_for_materials_on_one_sheet_share_its_maps() {
+    let place = Place::new();
+    place.write(
+        "two.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nusemtl wood\nf 1 2 3\nusemtl steel\nf 2 4 3\n",
+    );
+    let nodes = |steel: &str| {
+        graph(&format!(
+            r##"    "clouds": {{ "kind": "noise/simplex" }},
+    "red": {{ "kind": "source/material", "params": {{ "color": "#ff0000", "roughness": 0.5 }} }},
+    "blue": {{ "kind": "source/material", "params": {{ "color": "#0000ff", "roughness": {steel} }} }},
+    "wood": {{ "kind": "output/material", "params": {{ "materials": "wood" }}, "inputs": {{ "material": "red" }} }},
+    "steel": {{ "kind": "output/material", "params": {{ "materials": "steel" }}, "inputs": {{ "material": "blue" }} }}"##
+        ))
+    };
+    for (roughness, maps) in [("0.5", vec!["base_color"]), ("0.6", vec!["base_color", "roughness"])] {
+        place.write("two.sabi", nodes(roughness));
+        let run = place.bake("two.sabi", "two.obj", &["--json", "-o", roughness]).good();
+        assert!(!run.stderr.contains("output"), "{}", run.stderr);
+        let report: Json = serde_json::from_str(&run.stdout).unwrap();
+        let outputs = report["outputs"].as_array().unwrap().iter();
+        let channels: Vec<&str> = outputs.map(|output| output["channel"].as_str().unwrap()).collect();
+        assert_eq!(channels, maps);
+    }
 }

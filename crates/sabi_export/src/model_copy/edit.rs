@@ -12,7 +12,7 @@ pub(super) struct TextureUse {
 
 impl TextureUse {
     /// As materials write it: the first set goes without saying.
-    fn to_json(&self) -> Json {
+    pub(super) fn to_json(&self) -> Json {
         match self.uv_set {
             0 => json!({ "index": self.index }),
             uv_set => json!({ "index": self.index, "texCoord": uv_set }),

@@ -1,0 +1,75 @@
+//! What a glTF file has that a copy written anew from the loaded mesh does not.
+
+use serde_json::Value as Json;
+
+use super::extensions;
+
+/// Extensions whose meaning is in the loaded mesh, or that new maps take the place of.
+const READ: [&str; 5] = [
+    "EXT_texture_webp",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+];
+
+/// A sentence for the artist, where anything is left out.
+pub(super) fn left_out(document: &Json) -> Option<String> {
+    let has = |list: &&str| document[*list].as_array().is_some_and(|entries| !entries.is_empty());
+    let lists = ["animations", "skins", "cameras"].into_iter().filter(has);
+    let mut found: Vec<String> = lists.map(str::to_owned).collect();
+    if any(document, &|key, value| {
+        key == "targets" && value.as_array().is_some_and(|targets| !targets.is_empty())
+    }) {
+        found.push("morph targets".to_owned());
+    }
+    if any(document, &|key, _| key == "extras") {
+        found.push("extras".to_owned());
+    }
+    let extensions = extensions::present(document).into_iter();
+    found.extend(extensions.filter(|name| !READ.contains(&name.as_str())));
+    if found.is_empty() {
+        return None;
+    }
+    Some(format!(
+        "the copy of the model was written anew from its unwrapped mesh, with each node's place applied, and does not have \
+         the file's {}; unwrap the model in the program that made it to keep them",
+        found.join(", ")
+    ))
+}
+
+/// Whether any entry of any object is so.
+fn any(value: &Json, is_so: &dyn Fn(&str, &Json) -> bool) -> bool {
+    match value {
+        Json::Object(entries) => entries
+            .iter()
+            .any(|(key, value)| is_so(key, value) || any(value, is_so)),
+        Json::Array(values) => values.iter().any(|value| any(value, is_so)),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn what_a_new_copy_does_not_have_is_named() {
+        let plain = json!({ "asset": { "version": "2.0" }, "skins": [], "meshes": [{ "primitives": [{ "targets": [] }] }],
+            "materials": [{ "extensions": { "KHR_materials_emissive_strength": {} } }] });
+        let rich = json!({ "animations": [{}], "skins": [{}], "cameras": [{}], "nodes": [{ "extras": { "id": 1 } }],
+            "meshes": [{ "primitives": [{ "targets": [{}] }] }],
+            "materials": [{ "extensions": { "KHR_materials_sheen": {}, "KHR_materials_emissive_strength": {} } }] });
+        assert_eq!(left_out(&plain), None);
+        assert_eq!(
+            left_out(&rich).as_deref(),
+            Some(
+                "the copy of the model was written anew from its unwrapped mesh, with each node's place applied, and does \
+                 not have the file's animations, skins, cameras, morph targets, extras, KHR_materials_sheen; unwrap the \
+                 model in the program that made it to keep them"
+            )
+        );
+    }
+}

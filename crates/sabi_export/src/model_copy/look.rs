@@ -1,0 +1,137 @@
+//! What a material of a loaded model looks like, written as glTF.
+
+use std::collections::BTreeMap;
+
+use sabi_surface::model::{Model, ModelMaterial, TextureRef, Wrap};
+use serde_json::{Value as Json, json};
+
+use super::container::Container;
+use super::edit::{TextureUse, push};
+use crate::record::short;
+
+const NO_TRANSFORM: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+fn exact(values: &[f32]) -> Json {
+    values.iter().map(|value| short(*value)).collect()
+}
+
+/// Gives a material the factors and textures of its file; `place` adds a texture and gives its use.
+pub(super) fn look(
+    material: &ModelMaterial,
+    entry: &mut Json,
+    place: &mut dyn FnMut(&Option<TextureRef>) -> Option<Json>,
+) {
+    entry["pbrMetallicRoughness"] = json!({
+        "baseColorFactor": exact(&material.base_color_factor),
+        "metallicFactor": short(material.metallic_factor),
+        "roughnessFactor": short(material.roughness_factor),
+    });
+    let highest = material.emission_factor.into_iter().fold(1.0, f32::max);
+    if material.emission_factor != [0.0; 3] {
+        entry["emissiveFactor"] = exact(&material.emission_factor.map(|factor| factor / highest));
+    }
+    if highest > 1.0 {
+        entry["extensions"]["KHR_materials_emissive_strength"] = json!({ "emissiveStrength": short(highest) });
+    }
+    if material.base_color_factor[3] < 1.0 {
+        entry["alphaMode"] = json!("BLEND");
+    }
+    for (key, texture) in [
+        ("baseColorTexture", &material.base_color),
+        ("metallicRoughnessTexture", &material.metallic_roughness),
+    ] {
+        if let Some(texture) = place(texture) {
+            entry["pbrMetallicRoughness"][key] = texture;
+        }
+    }
+    for (key, texture, strength) in [
+        (
+            "normalTexture",
+            &material.normal,
+            Some(("scale", material.normal_scale)),
+        ),
+        (
+            "occlusionTexture",
+            &material.occlusion,
+            Some(("strength", material.occlusion_strength)),
+        ),
+        ("emissiveTexture", &material.emission, None),
+    ] {
+        let Some(mut texture) = place(texture) else { continue };
+        if let Some((name, value)) = strength.filter(|(_, value)| *value != 1.0) {
+            texture[name] = short(value);
+        }
+        entry[key] = texture;
+    }
+}
+
+/// The model's own pictures, on their way into a copy.
+pub(super) struct Textures<'m> {
+    model: &'m Model,
+    /// Places in the copy by picture of the model.
+    images: BTreeMap<usize, usize>,
+}
+
+impl<'m> Textures<'m> {
+    pub(super) fn new(model: &'m Model) -> Textures<'m> {
+        Textures {
+            model,
+            images: BTreeMap::new(),
+        }
+    }
+
+    /// Adds a texture and gives its use; none for pictures that glTF cannot hold, and for those that are laid out by a set
+    /// that the mesh does not have.
+    pub(super) fn place(&mut self, used: &TextureRef, document: &mut Json, container: &mut Container) -> Option<Json> {
+        self.model.mesh.set(used.uv_set)?;
+        let image = self.image(used.image, document, container)?;
+        let wrap = used.wrap.map(|wrap| match wrap {
+            Wrap::Repeat => 10497,
+            Wrap::Clamp => 33071,
+            Wrap::Mirror => 33648,
+        });
+        let sampler = json!({ "wrapS": wrap[0], "wrapT": wrap[1] });
+        let sampler = push(document, "samplers", sampler);
+        let texture = json!({ "sampler": sampler, "source": image });
+        let texture = TextureUse {
+            index: push(document, "textures", texture),
+            uv_set: used.uv_set,
+        };
+        let mut texture = texture.to_json();
+        if used.transform != NO_TRANSFORM {
+            texture["extensions"]["KHR_texture_transform"] = transform(used.transform);
+        }
+        Some(texture)
+    }
+
+    fn image(&mut self, image: usize, document: &mut Json, container: &mut Container) -> Option<usize> {
+        if let Some(place) = self.images.get(&image) {
+            return Some(*place);
+        }
+        let picture = self.model.images.get(image)?;
+        let bytes = picture.bytes.as_ref().ok()?;
+        let kind = match &bytes[..] {
+            [0x89, b'P', b'N', b'G', ..] => "image/png",
+            [0xff, 0xd8, 0xff, ..] => "image/jpeg",
+            _ => return None,
+        };
+        let view = container.put(bytes)?;
+        let view = push(document, "bufferViews", view);
+        let entry = json!({ "name": picture.name, "mimeType": kind, "bufferView": view });
+        let place = push(document, "images", entry);
+        self.images.insert(image, place);
+        Some(place)
+    }
+}
+
+/// A matrix as KHR_texture_transform has it: scaled, turned by an angle θ, moved. Its columns are (cos θ, −sin θ) and
+/// (sin θ, cos θ) times a scale each.
+fn transform([[a, b, u], [c, d, v]]: [[f32; 3]; 2]) -> Json {
+    let angle = (-c).atan2(a);
+    let (sin, cos) = angle.sin_cos();
+    json!({
+        "offset": exact(&[u, v]),
+        "rotation": short(angle),
+        "scale": exact(&[a.hypot(c), b * sin + d * cos]),
+    })
+}
