@@ -167,6 +167,9 @@ fn place<'a>(
 /// Primitives may share their vertices, but each takes a look at all of them: more looks than this take minutes.
 const MOST_VERTICES_SEEN: u64 = 1 << 31;
 
+/// Coordinates in UV sets besides the chosen one: as many as the largest model has corners, twice.
+const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
+
 /// Adds up what the file claims before anything is allocated for it.
 fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
     let claims: Vec<u64> = source
@@ -186,6 +189,31 @@ fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
     if seen > MOST_VERTICES_SEEN {
         return damaged(format!(
             "its primitives share vertices until there are {seen} of them; export it with vertices of their own"
+        ));
+    }
+    check_sets(source, instances)
+}
+
+/// Every vertex of the model has coordinates in every set that any material's textures are laid out by.
+fn check_sets(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
+    let meshes = &source.document.meshes;
+    // Vertices without a triangle are left out.
+    let vertices = |p| source.vertices(p).min(source.claim(p).saturating_mul(3));
+    let claims: Vec<u64> = meshes
+        .par_iter()
+        .map(|mesh| mesh.primitives.iter().map(vertices).sum())
+        .collect();
+    let used: BTreeSet<usize> = instances.iter().map(|instance| instance.mesh).collect();
+    let primitives = used.iter().flat_map(|&mesh| &meshes[mesh].primitives);
+    let mut sets: BTreeSet<u32> = primitives.flat_map(|p| source.texture_sets(p)).collect();
+    sets.remove(&source.uv_set);
+    let sets = sets.len() as u64;
+    let vertices: u64 = instances.iter().map(|instance| claims[instance.mesh]).sum();
+    if vertices.saturating_mul(sets) > MOST_TEXTURE_UVS {
+        return damaged(format!(
+            "its materials use {sets} UV sets besides {}, too many for {vertices} vertices; export it with all textures in one \
+             UV set",
+            source.uv_set
         ));
     }
     Ok(())

@@ -259,6 +259,38 @@ fn a_tree_of_instances_cannot_grow_beyond_the_limit() {
 }
 
 #[test]
+fn uv_sets_cannot_multiply_beyond_the_limit() {
+    let mut file = Gltf::new();
+    // 101 sets besides the first for 3 030 000 vertices, the most being 300 million in all.
+    let vertices = 30_000u64;
+    let positions = file.push(
+        "accessors",
+        json!({ "componentType": F32, "type": "VEC3", "count": vertices }),
+    );
+    let uvs = file.push(
+        "accessors",
+        json!({ "componentType": F32, "type": "VEC2", "count": vertices }),
+    );
+    file.push("textures", json!({}));
+    for set in 1..=101 {
+        let texture = json!({ "index": 0, "texCoord": set });
+        let material = file.push(
+            "materials",
+            json!({ "pbrMetallicRoughness": { "baseColorTexture": texture } }),
+        );
+        let mut attributes = json!({ "POSITION": positions });
+        attributes[format!("TEXCOORD_{set}")] = json!(uvs);
+        file.place("leaf", json!({ "attributes": attributes, "material": material }));
+    }
+    let error = file.load().unwrap_err();
+    assert_eq!(
+        error.fault.to_string(),
+        "the file is damaged: its materials use 101 UV sets besides 0, too many for 3030000 vertices; export it with all \
+         textures in one UV set"
+    );
+}
+
+#[test]
 fn a_missing_uv_set_names_those_there_are() {
     let options = |uv_set| LoadOptions {
         uv_set,

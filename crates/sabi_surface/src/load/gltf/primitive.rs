@@ -76,6 +76,15 @@ impl Source<'_> {
         }
     }
 
+    /// The UV sets of a primitive that its material's textures are laid out by.
+    pub(super) fn texture_sets(&self, primitive: &json::mesh::Primitive) -> BTreeSet<u32> {
+        let material = primitive.material.map(|index| index.value());
+        let material = material.and_then(|index| self.document.materials.get(index));
+        let mut sets = material.map_or_else(BTreeSet::new, |material| TextureSets::of(material).all);
+        sets.retain(|set| attribute(primitive, Semantic::TexCoords(*set)).is_some());
+        sets
+    }
+
     fn read(&self, mesh: usize, number: usize) -> Result<Outcome, Fault> {
         let primitive = &self.document.meshes[mesh].primitives[number];
         let label = self.document.mesh_label(mesh);
