@@ -12,16 +12,22 @@ struct Surface {
     chart: u32,
     /// Normal of the triangle, unit length.
     face_normal: vec3f,
-    /// Number of the part of the model.
+    /// Number of the part of the model, an object of its file.
     part: u32,
     /// Direction of growing u along the surface, unit length; `w` of MikkTSpace in `tangent.w`.
     tangent: vec4f,
     /// Texture coordinates that maps are laid out by: the model's own of the chosen set, or of the sheet it was unwrapped to.
     uv: vec2f,
-    /// A random value for each part.
+    /// A random number for each piece.
     seed: u32,
     /// Number of the model's material.
     material: u32,
+    /// The place in the piece's own box: from its middle, x along its longest side, z along its shortest.
+    piece_position: vec3f,
+    /// Number of the piece: what hangs together inside a part, such as one plank of a bench.
+    piece: u32,
+    /// Normal of the triangle along the sides of that box, unit length.
+    piece_normal: vec3f,
     /// Texel of the atlas: x, y, page. Only `lib/surface` reads it.
     texel: vec3i,
 }

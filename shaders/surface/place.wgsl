@@ -5,6 +5,8 @@ const GHOST_BIT: u32 = 0x80000000u;
 // Rows of four floats a triangle has in `geometry` and in `frames`.
 const GEOMETRY_ROWS: u32 = 6u;
 const FRAME_ROWS: u32 = 4u;
+// Rows of four floats a piece has in `pieces`.
+const PIECE_ROWS: u32 = 3u;
 
 struct Pass {
     // First tile of this dispatch in the tile list, and one past the last.
@@ -37,6 +39,7 @@ struct GhostLink {
 @group(0) @binding(3) var<storage, read> geometry: array<vec4f>;
 @group(0) @binding(4) var<storage, read> frames: array<vec4f>;
 @group(0) @binding(5) var<storage, read> ghosts: array<GhostLink>;
+@group(0) @binding(6) var<storage, read> pieces: array<vec4f>;
 
 fn texel_of(group: vec3u, local: vec3u) -> vec3i {
     let index = dispatch.first_tile + group.y * dispatch.row_length + group.x;
@@ -105,8 +108,10 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
         length(along_u.xyz * axes.z + along_v.xyz * axes.w),
     );
     let texel_size = select(abs(along_v.w), across, (owner & GHOST_BIT) != 0u);
+    let position = origin.xyz + along_u.xyz * step.x + along_v.xyz * step.y;
+    let piece = bitcast<u32>(chart.w);
     return Surface(
-        origin.xyz + along_u.xyz * step.x + along_v.xyz * step.y,
+        position,
         texel_size,
         shading,
         bitcast<u32>(chart.z),
@@ -116,8 +121,22 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
         (spot.point - chart.xy) / dispatch.size,
         bitcast<u32>(normal_u.w),
         bitcast<u32>(normal_v.w),
+        along_sides(piece, position - piece_middle(piece)),
+        piece,
+        along_sides(piece, face),
         texel,
     );
+}
+
+fn piece_middle(piece: u32) -> vec3f {
+    let row = piece * PIECE_ROWS;
+    return vec3f(pieces[row].w, pieces[row + 1u].w, pieces[row + 2u].w);
+}
+
+// A vector along the sides of a piece's own box.
+fn along_sides(piece: u32, v: vec3f) -> vec3f {
+    let row = piece * PIECE_ROWS;
+    return vec3f(dot(pieces[row].xyz, v), dot(pieces[row + 1u].xyz, v), dot(pieces[row + 2u].xyz, v));
 }
 
 fn stored_material(color: vec4f, surface: vec4f, height: f32, slope: vec3f, emission: vec3f) -> Material {

@@ -18,3 +18,4 @@ mod relief_seams;
 mod texture_sets;
 mod vertex_color;
 mod waves;
+mod wood;

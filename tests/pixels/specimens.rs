@@ -84,7 +84,7 @@ pub(crate) fn for_each(mut check: impl FnMut(&Specimen) -> Result<(), String>) {
 }
 
 /// Lengths of a pattern, which grow together.
-const SIZES: [&str; 4] = ["size", "spacing", "length", "width"];
+const SIZES: [&str; 5] = ["size", "spacing", "length", "width", "rings"];
 
 fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
     let mut nodes = Map::new();

@@ -19,6 +19,7 @@ pub fn describe_mesh(prepared: &Prepared) -> Json {
         "triangles": mesh.triangles.len(),
         "vertices": mesh.positions.len(),
         "parts": prepared.model.parts,
+        "pieces": prepared.pieces.boxes.len(),
         "materials": sabi_export::set_names(&prepared.model),
         "unwrapped": prepared.unwrapped.as_ref().map(describe_unwrapping),
         "vertex_colors": !mesh.colors.is_empty(),

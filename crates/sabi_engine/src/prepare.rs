@@ -7,6 +7,7 @@ use sabi_graph::Fit;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
 use sabi_surface::load::{LoadOptions, Up, load};
 use sabi_surface::model::Model;
+use sabi_surface::pieces::Pieces;
 use sabi_surface::unwrap::{UnwrapOptions, UnwrapReport, unwrap_cached};
 
 use crate::error::{EngineError, ErrorKind};
@@ -72,6 +73,8 @@ pub struct Prepared {
     pub overlap: Overlap,
     /// Its linked atlas.
     pub atlas: Atlas,
+    /// What hangs together inside its parts.
+    pub pieces: Pieces,
     /// Whether the atlas was found on disk.
     pub atlas_was_cached: bool,
     /// The largest side of the box around it, model units.
@@ -142,12 +145,15 @@ impl Prepared {
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(with_advice(&error)))?;
         progress.advance(Stage::Atlas, 1, 1);
         let largest_side = largest_side(&model);
+        // After the atlas, which has refused meshes that are not whole.
+        let pieces = Pieces::of(&model.mesh);
         Ok(Prepared {
             model,
             unwrapped,
             overlap: options.overlap,
             atlas,
             atlas_was_cached,
+            pieces,
             largest_side,
             scale: f64::from(options.scale),
         })
@@ -169,7 +175,8 @@ impl Prepared {
 
     /// The tables that kernels read, in working units.
     pub fn tables(&self, fit: &Fit, seed: u32) -> SurfaceTables {
-        SurfaceTables::new(&self.model.mesh, &self.atlas, self.working_from_model(fit), seed)
+        let scale = self.working_from_model(fit);
+        SurfaceTables::new(&self.model.mesh, &self.pieces, &self.atlas, scale, seed)
     }
 
     /// Lowest and highest `dot(vertex, direction)` in working units.

@@ -263,7 +263,7 @@ fn surface_key(prepared: &Prepared, tables: &SurfaceTables) -> [u8; 32] {
         &prepared.model.mesh,
         &AtlasOptions::new(prepared.atlas.size),
     ));
-    for row in tables.geometry.iter().chain(&tables.frames) {
+    for row in tables.geometry.iter().chain(&tables.frames).chain(&tables.pieces) {
         hash.update(row.map(f32::to_le_bytes).as_flattened());
     }
     *hash.finalize().as_bytes()

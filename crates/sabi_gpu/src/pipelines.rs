@@ -115,6 +115,7 @@ impl Pipelines {
                 read_entry(3),
                 read_entry(4),
                 read_entry(5),
+                read_entry(6),
             ],
         });
         Pipelines {

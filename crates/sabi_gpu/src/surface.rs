@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 use sabi_surface::atlas::{Atlas, Ghost, TILE};
 use sabi_surface::model::Mesh;
+use sabi_surface::pieces::Pieces;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -13,22 +14,37 @@ use crate::pool::{Extent, array_view};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceTables {
     /// Six rows a triangle: origin, its two steps a texel, and the same of the normal. The fourth column holds the
-    /// reference texel (x, y), the texel's width (negative on mirrored charts), the part's number, its seed, and the
+    /// reference texel (x, y), the texel's width (negative on mirrored charts), the part's number, the piece's seed, and the
     /// material's number; numbers and seed are bit patterns.
     pub geometry: Vec<[f32; 4]>,
     /// Four rows a triangle: tangent and its two steps a texel, then the chart's place and, as a bit pattern, its number.
-    /// The fourth column of the first row holds the sign of the bitangent.
+    /// The fourth column of the first row holds the sign of the bitangent, that of the last the piece's number.
     pub frames: Vec<[f32; 4]>,
+    /// Three rows a piece: the axes of its box, longest side first, and in the fourth column the box's middle.
+    pub pieces: Vec<[f32; 4]>,
 }
 
 impl SurfaceTables {
-    /// The tables for a mesh scaled by `working_from_model`.
-    pub fn new(mesh: &Mesh, atlas: &Atlas, working_from_model: f64, seed: u32) -> SurfaceTables {
+    /// The tables for a mesh and its pieces, scaled by `working_from_model`.
+    pub fn new(mesh: &Mesh, pieces: &Pieces, atlas: &Atlas, working_from_model: f64, seed: u32) -> SurfaceTables {
         let rows: Vec<TriangleRows> = (0..mesh.triangles.len())
             .into_par_iter()
-            .map(|triangle| triangle_rows(mesh, atlas, triangle, working_from_model, seed))
+            .map(|triangle| {
+                let piece = pieces.triangle_piece[triangle];
+                triangle_rows(mesh, piece, atlas, triangle, working_from_model, seed)
+            })
             .collect();
-        let mut tables = SurfaceTables::default();
+        let piece_rows = pieces.boxes.iter().flat_map(|piece| {
+            let middle = piece.center.map(|x| (f64::from(x) * working_from_model) as f32);
+            [0, 1, 2].map(|at| {
+                let [x, y, z] = piece.axes[at];
+                [x, y, z, middle[at]]
+            })
+        });
+        let mut tables = SurfaceTables {
+            pieces: piece_rows.collect(),
+            ..SurfaceTables::default()
+        };
         tables.geometry.reserve(6 * rows.len());
         tables.frames.reserve(4 * rows.len());
         for (geometry, frames) in rows {
@@ -66,7 +82,14 @@ fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
     [[d / determinant, -c / determinant], [-b / determinant, a / determinant]]
 }
 
-fn triangle_rows(mesh: &Mesh, atlas: &Atlas, triangle: usize, working_from_model: f64, seed: u32) -> TriangleRows {
+fn triangle_rows(
+    mesh: &Mesh,
+    piece: u32,
+    atlas: &Atlas,
+    triangle: usize,
+    working_from_model: f64,
+    seed: u32,
+) -> TriangleRows {
     let corners = mesh.triangles[triangle].map(|vertex| vertex as usize);
     let texels = atlas.triangle_texels[triangle];
     let inverse = edge_inverse(texels);
@@ -91,7 +114,7 @@ fn triangle_rows(mesh: &Mesh, atlas: &Atlas, triangle: usize, working_from_model
         row(position[1], texels[0][1]),
         row(position[2], signed_width as f32),
         row(normal[0], f32::from_bits(part)),
-        row(normal[1], f32::from_bits(sabi_plan::pcg(seed ^ sabi_plan::pcg(part)))),
+        row(normal[1], f32::from_bits(sabi_plan::pcg(seed ^ sabi_plan::pcg(piece)))),
         row(normal[2], f32::from_bits(mesh.triangle_material[triangle])),
     ];
     let [offset_u, offset_v] = chart.texel_from_uv;
@@ -103,7 +126,7 @@ fn triangle_rows(mesh: &Mesh, atlas: &Atlas, triangle: usize, working_from_model
             offset_u as f32,
             offset_v as f32,
             f32::from_bits(atlas.triangle_chart[triangle]),
-            0.0,
+            f32::from_bits(piece),
         ],
     ];
     (geometry, frames)
@@ -135,6 +158,7 @@ pub struct GpuSurface {
     pub(crate) owners: wgpu::TextureView,
     pub(crate) geometry: wgpu::Buffer,
     pub(crate) frames: wgpu::Buffer,
+    pub(crate) pieces: wgpu::Buffer,
     pub(crate) ghosts: wgpu::Buffer,
     pub(crate) ghost_count: u32,
     /// Room for one value a ghost, on its way from where it is gathered to where it is written.
@@ -190,6 +214,7 @@ impl GpuSurface {
             owners,
             geometry: buffer("the triangles", bytemuck::cast_slice(&tables.geometry))?,
             frames: buffer("the tangent frames", bytemuck::cast_slice(&tables.frames))?,
+            pieces: buffer("the pieces", bytemuck::cast_slice(&tables.pieces))?,
             ghost_count: ghosts.len() as u32,
             ghosts: buffer("the links over seams", bytemuck::cast_slice(&ghosts))?,
             ghost_values: storage_buffer(gpu, "the values over seams", 16 * ghosts.len() as u64, limit)?,

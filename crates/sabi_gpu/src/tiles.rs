@@ -42,6 +42,7 @@ impl<'a> Slices<'a> {
             surface.geometry.as_entire_binding(),
             surface.frames.as_entire_binding(),
             surface.ghosts.as_entire_binding(),
+            surface.pieces.as_entire_binding(),
         ];
         let group = gpu.bind(&gpu.pipelines.surface_layout, resources);
         Slices {

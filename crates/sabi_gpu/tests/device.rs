@@ -19,6 +19,7 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{FileContents, Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, SourceValues, Target};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
+use sabi_surface::pieces::Pieces;
 
 const INSTALL: &str = "these tests need a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
 
@@ -63,7 +64,7 @@ impl Bench {
         let gpu = gpu();
         let mesh = square();
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(size)).unwrap();
-        let tables = SurfaceTables::new(&mesh, &atlas, 1.0, 0);
+        let tables = SurfaceTables::new(&mesh, &Pieces::of(&mesh), &atlas, 1.0, 0);
         let surface = GpuSurface::upload(&gpu, &atlas, &tables).unwrap();
         Bench {
             gpu,

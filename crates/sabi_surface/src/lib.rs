@@ -5,4 +5,5 @@ pub mod bvh;
 mod disk;
 pub mod load;
 pub mod model;
+pub mod pieces;
 pub mod unwrap;

@@ -14,7 +14,8 @@ pub struct Model {
     pub materials: Vec<ModelMaterial>,
     /// Encoded pictures that the materials name.
     pub images: Vec<ModelImage>,
-    /// Names of the parts (mesh instances), indexed by [`Mesh::triangle_part`].
+    /// Names of the parts (mesh instances), indexed by [`Mesh::triangle_part`]. What hangs together inside a part is a piece:
+    /// see [`crate::pieces`].
     pub parts: Vec<String>,
     /// Files that it was read from: the model's own, buffers, pictures, material libraries. Empty when read from memory.
     pub files: Vec<PathBuf>,

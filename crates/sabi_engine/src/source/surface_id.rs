@@ -1,0 +1,306 @@
+//! `surface/id`: what belongs together on the model: parts, materials, charts, names, pieces.
+
+use std::collections::BTreeMap;
+
+use sabi_graph::{PortType, nearest};
+use sabi_nodes::kind::Param;
+use sabi_nodes::link::Plane;
+use sabi_plan::{SourceKind, SourcePort, SourceStep, pcg};
+use sabi_surface::pieces::{PieceBox, boxes};
+
+use super::texels::Ground;
+
+/// Id of the kind.
+pub(crate) const NAME: &str = "surface/id";
+
+/// Words of `by`, in the order of [`By`].
+const WORDS: [&str; 5] = ["part", "material", "chart", "name", "piece"];
+/// Names that a warning lists at most.
+const LISTED: usize = 12;
+
+/// The kind.
+pub(crate) fn kind() -> SourceKind {
+    let port = |name: &str, ty, doc: &str| SourcePort {
+        name: name.to_owned(),
+        ty,
+        doc: doc.to_owned(),
+        channels: Vec::new(),
+    };
+    SourceKind {
+        id: NAME.to_owned(),
+        label: "Parts".to_owned(),
+        summary: "Tells the parts of the model apart, or picks some of them.".to_owned(),
+        aliases: ["part", "object", "select", "pick", "piece", "plank", "random", "island"]
+            .map(str::to_owned)
+            .to_vec(),
+        params: vec![
+            Param::choice(
+                "by",
+                &WORDS,
+                "What belongs together: the parts of the model, its materials, its UV charts, parts of the same name, or \
+                 the pieces that hang together inside a part, such as single planks.",
+            ),
+            Param::text(
+                "pick",
+                "",
+                "Numbers (from 0) or names of what is picked, separated by commas; a * at the end stands for anything: \
+                 leg*. Empty picks everything. 'sabi mesh' lists the names.",
+            ),
+        ],
+        inputs: Vec::new(),
+        outputs: vec![
+            port("mask", PortType::Mask, "1 on what is picked, 0 elsewhere."),
+            port(
+                "id",
+                PortType::Mask,
+                "A random value for each. By name it hangs on the name alone, so it stays when the model's parts change \
+                 their order.",
+            ),
+            port(
+                "position",
+                PortType::Vector,
+                "The place in the own box of each: from its middle, x along its longest side.",
+            ),
+        ],
+        content: [0; 32],
+    }
+}
+
+/// The model's triangles in groups.
+struct Groups {
+    /// What one of them is called in sentences.
+    noun: &'static str,
+    /// Group of each triangle.
+    of_triangle: Vec<u32>,
+    /// Names of each group; none where groups have numbers only.
+    names: Vec<Vec<String>>,
+    /// A random number for each group.
+    random: Vec<u32>,
+}
+
+impl Groups {
+    /// `by` is an index into [`WORDS`].
+    fn new(ground: &Ground<'_>, by: usize) -> Groups {
+        let mesh = &ground.model.mesh;
+        let (noun, of_triangle, names) = match by {
+            1 => {
+                let files = sabi_export::set_names(ground.model);
+                let own = ground.model.materials.iter().map(|material| material.name.clone());
+                let names = own.zip(files).map(|(own, file)| vec![own, file]);
+                ("material", mesh.triangle_material.clone(), names.collect())
+            }
+            2 => ("chart", ground.atlas.triangle_chart.clone(), Vec::new()),
+            3 => return Groups::by_name(ground),
+            4 => ("piece", ground.pieces.triangle_piece.clone(), Vec::new()),
+            _ => {
+                let names = ground.model.parts.iter().map(|name| vec![name.clone()]);
+                ("part", mesh.triangle_part.clone(), names.collect())
+            }
+        };
+        let last = of_triangle.iter().max().map_or(0, |last| *last + 1);
+        // Groups of different sorts that have one number have nothing in common.
+        let random = (0..last).map(|number| pcg(pcg(number) ^ by as u32)).collect();
+        Groups {
+            noun,
+            of_triangle,
+            names,
+            random,
+        }
+    }
+
+    fn by_name(ground: &Ground<'_>) -> Groups {
+        let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();
+        for name in &ground.model.parts {
+            let next = numbers.len() as u32;
+            numbers.entry(name).or_insert(next);
+        }
+        let group_of = |part: &u32| {
+            let name = ground.model.parts.get(*part as usize);
+            name.and_then(|name| numbers.get(name.as_str())).copied().unwrap_or(0)
+        };
+        let mut sorted: Vec<(&str, u32)> = numbers.iter().map(|(name, number)| (*name, *number)).collect();
+        sorted.sort_by_key(|(_, number)| *number);
+        Groups {
+            noun: "name",
+            of_triangle: ground.model.mesh.triangle_part.iter().map(group_of).collect(),
+            names: sorted.iter().map(|(name, _)| vec![(*name).to_owned()]).collect(),
+            random: sorted
+                .iter()
+                .map(|(name, _)| name.bytes().fold(0, |hash, byte| pcg(hash ^ u32::from(byte))))
+                .collect(),
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.random.len()
+    }
+
+    /// Which groups `pick` means, and what of it means none.
+    fn picked<'p>(&self, pick: &'p str) -> (Vec<bool>, Vec<&'p str>) {
+        let whole = pick.trim();
+        if whole.is_empty() {
+            return (vec![true; self.count()], Vec::new());
+        }
+        let mut picked = vec![false; self.count()];
+        // A name may hold a comma itself.
+        if self.mark(whole, &mut picked) {
+            return (picked, Vec::new());
+        }
+        let words = whole.split(',').map(str::trim).filter(|word| !word.is_empty());
+        let unknown = words.filter(|word| !self.mark(word, &mut picked)).collect();
+        (picked, unknown)
+    }
+
+    /// Marks the groups of one name, of names that begin alike, or of a number; whether there are any.
+    fn mark(&self, word: &str, picked: &mut [bool]) -> bool {
+        if word == "*" {
+            picked.fill(true);
+            return true;
+        }
+        let is_meant = |name: &String| match word.strip_suffix('*') {
+            Some(start) => name.starts_with(start),
+            None => name == word,
+        };
+        let mut found = false;
+        for (group, names) in self.names.iter().enumerate() {
+            if names.iter().any(is_meant)
+                && let Some(mark) = picked.get_mut(group)
+            {
+                *mark = true;
+                found = true;
+            }
+        }
+        if !found
+            && let Ok(number) = word.parse::<usize>()
+            && let Some(mark) = picked.get_mut(number)
+        {
+            *mark = true;
+            found = true;
+        }
+        found
+    }
+
+    /// A sentence about a word of a pick that means nothing here.
+    fn unknown(&self, node: &str, word: &str) -> String {
+        let (noun, count) = (self.noun, self.count());
+        let mut known: Vec<&str> = self.names.iter().flatten().map(String::as_str).collect();
+        known.retain(|name| !name.is_empty());
+        known.dedup();
+        let mut sentence = format!("node '{node}' picks '{word}', and the model has no such {noun}");
+        if let Some(near) = nearest(word.trim_end_matches('*'), known.iter().copied()) {
+            sentence += &format!("; is it '{near}'?");
+        } else if known.is_empty() {
+            sentence += &format!("; they are numbered from 0 to {}", count.saturating_sub(1));
+        } else {
+            let more = known.len().saturating_sub(LISTED);
+            known.truncate(LISTED);
+            sentence += &format!("; there are {}", known.join(", "));
+            if more > 0 {
+                sentence += &format!(" and {more} more");
+            }
+        }
+        sentence
+    }
+}
+
+/// A plane of a result. What is picked and is not there is added to `warnings`.
+pub(crate) fn plane(
+    ground: &Ground<'_>,
+    step: &SourceStep,
+    output: &str,
+    plane: Plane,
+    warnings: &mut Vec<String>,
+) -> Vec<u8> {
+    let groups = Groups::new(ground, step.values.index("by"));
+    let of_group: Vec<f32> = match output {
+        "position" => {
+            let boxes = boxes(&ground.model.mesh, &groups.of_triangle, groups.count());
+            return ground.texels(plane, |spot| {
+                let own = &boxes[groups.of_triangle[spot.triangle] as usize];
+                let [x, y, z] = place_in(own, ground.working_from_model, ground.position(spot));
+                [x, y, z, 1.0]
+            });
+        }
+        "id" => {
+            let unit = |bits: &u32| (bits >> 8) as f32 / 16_777_216.0;
+            groups.random.iter().map(unit).collect()
+        }
+        _ => {
+            let (picked, unknown) = groups.picked(step.values.text("pick"));
+            warnings.extend(unknown.iter().map(|word| groups.unknown(&step.id, word)));
+            picked.iter().map(|is_picked| f32::from(u8::from(*is_picked))).collect()
+        }
+    };
+    ground.texels(plane, |spot| {
+        let group = groups.of_triangle[spot.triangle] as usize;
+        [of_group[group], 0.0, 0.0, 1.0]
+    })
+}
+
+/// A place in working units, told along the sides of a box, from its middle.
+fn place_in(own: &PieceBox, working_from_model: f64, place: [f64; 3]) -> [f32; 3] {
+    let away: [f64; 3] = std::array::from_fn(|axis| place[axis] - f64::from(own.center[axis]) * working_from_model);
+    own.axes.map(|side| {
+        let along: f64 = side.iter().zip(away).map(|(side, away)| f64::from(*side) * away).sum();
+        along as f32
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Groups;
+
+    fn groups(names: &[&str]) -> Groups {
+        Groups {
+            noun: "part",
+            of_triangle: Vec::new(),
+            names: names.iter().map(|name| vec![(*name).to_owned()]).collect(),
+            random: vec![0; names.len()],
+        }
+    }
+
+    #[test]
+    fn a_pick_takes_names_numbers_beginnings_and_lists_of_them() {
+        let model = groups(&["seat", "leg left", "leg right", "bolt, long", "7"]);
+        let cases: [(&str, &[usize], &[&str]); 10] = [
+            ("", &[0, 1, 2, 3, 4], &[]),
+            (" ", &[0, 1, 2, 3, 4], &[]),
+            ("*", &[0, 1, 2, 3, 4], &[]),
+            ("seat", &[0], &[]),
+            ("1", &[1], &[]),
+            ("leg*", &[1, 2], &[]),
+            ("seat, leg right", &[0, 2], &[]),
+            ("bolt, long", &[3], &[]),
+            // A name wins over a number.
+            ("7", &[4], &[]),
+            ("seat, arm, 9", &[0], &["arm", "9"]),
+        ];
+        for (pick, expected, unknown) in cases {
+            let (picked, left) = model.picked(pick);
+            let picked: Vec<usize> = (0..picked.len()).filter(|group| picked[*group]).collect();
+            assert_eq!((picked.as_slice(), left.as_slice()), (expected, unknown), "'{pick}'");
+        }
+    }
+
+    #[test]
+    fn a_pick_of_nothing_says_what_there_is() {
+        let model = groups(&["seat", "leg"]);
+        assert_eq!(
+            model.unknown("tint", "seet"),
+            "node 'tint' picks 'seet', and the model has no such part; is it 'seat'?"
+        );
+        assert_eq!(
+            model.unknown("tint", "roof*"),
+            "node 'tint' picks 'roof*', and the model has no such part; there are seat, leg"
+        );
+        let numbered = Groups {
+            noun: "chart",
+            names: Vec::new(),
+            ..model
+        };
+        assert_eq!(
+            numbered.unknown("tint", "12"),
+            "node 'tint' picks '12', and the model has no such chart; they are numbered from 0 to 1"
+        );
+    }
+}

@@ -1,0 +1,86 @@
+//! Pieces of a model: what hangs together inside a part, and the box that each piece stands in.
+//!
+//! A bench of one mesh is one part and many pieces, a plank each. `connect` says which triangles hang together, `tightest`
+//! finds the box.
+
+mod connect;
+mod moments;
+#[cfg(test)]
+mod tests;
+mod tightest;
+
+use rayon::prelude::*;
+
+use crate::atlas::topology::Topology;
+use crate::model::Mesh;
+
+/// The connected pieces of a mesh, numbered by their first triangle.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pieces {
+    /// Piece of each triangle, an index into [`Pieces::boxes`].
+    pub triangle_piece: Vec<u32>,
+    /// The box of each piece.
+    pub boxes: Vec<PieceBox>,
+}
+
+/// A box around a piece, turned as the piece stands.
+///
+/// Pieces that are equal but for how they are turned have equal boxes, as far as their shape tells the axes apart: sides
+/// whose lengths differ by less than 2 % are in the order of the model's axes that they are nearest to, and the first two
+/// axes point the way in which their largest component grows. A piece that no turned box fits better than an upright one
+/// by 2 %, such as a cube or a ball, has the upright one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PieceBox {
+    /// Part that the piece belongs to, an index into [`crate::model::Model::parts`].
+    pub part: u32,
+    /// Middle of the box, model units.
+    pub center: [f32; 3],
+    /// Directions of the sides in model space, longest side first: unit length, right-handed.
+    pub axes: [[f32; 3]; 3],
+    /// Lengths of the sides, model units.
+    pub size: [f32; 3],
+}
+
+impl Pieces {
+    /// Finds the pieces of a mesh whose triangles name vertices that are there and have a part each.
+    ///
+    /// Triangles that share an edge in space are one piece if they are of one part. Solids that only touch stay apart,
+    /// even where edges of both lie in one place.
+    pub fn of(mesh: &Mesh) -> Pieces {
+        let triangle_piece = connect::triangle_pieces(mesh, &Topology::new(mesh));
+        let count = triangle_piece.iter().max().map_or(0, |last| *last as usize + 1);
+        let boxes = boxes(mesh, &triangle_piece, count);
+        Pieces { triangle_piece, boxes }
+    }
+}
+
+/// The boxes of `count` groups of triangles, whatever makes them groups; `triangle_group` has one for each triangle.
+pub fn boxes(mesh: &Mesh, triangle_group: &[u32], count: usize) -> Vec<PieceBox> {
+    let (starts, sorted) = by_group(triangle_group, count);
+    (0..count)
+        .into_par_iter()
+        .map(|group| {
+            let triangles = &sorted[starts[group] as usize..starts[group + 1] as usize];
+            tightest::piece_box(mesh, triangles)
+        })
+        .collect()
+}
+
+/// Where each group's triangles begin in the second list, which has them group by group in the order of the mesh.
+fn by_group(triangle_group: &[u32], count: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; count + 1];
+    for group in triangle_group {
+        starts[*group as usize + 1] += 1;
+    }
+    for group in 0..count {
+        starts[group + 1] += starts[group];
+    }
+    let mut next = starts.clone();
+    let mut sorted = vec![0; triangle_group.len()];
+    for (triangle, group) in triangle_group.iter().enumerate() {
+        let at = &mut next[*group as usize];
+        sorted[*at as usize] = triangle as u32;
+        *at += 1;
+    }
+    (starts, sorted)
+}

@@ -1,0 +1,174 @@
+//! Which triangles hang together.
+
+use glam::{DVec3, Vec3};
+
+use crate::atlas::topology::{NO_TWIN, Topology};
+use crate::model::Mesh;
+
+/// Sets of triangles; a set is known by its first triangle.
+struct Sets {
+    parents: Vec<u32>,
+}
+
+impl Sets {
+    fn first(&mut self, mut triangle: u32) -> u32 {
+        loop {
+            let parent = self.parents[triangle as usize];
+            if parent == triangle {
+                return triangle;
+            }
+            let above = self.parents[parent as usize];
+            self.parents[triangle as usize] = above;
+            triangle = above;
+        }
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.first(a), self.first(b));
+        self.parents[a.max(b) as usize] = a.min(b);
+    }
+}
+
+/// Piece of each triangle, numbered by first triangles.
+pub(super) fn triangle_pieces(mesh: &Mesh, topology: &Topology) -> Vec<u32> {
+    let count = mesh.triangles.len() as u32;
+    let mut sets = Sets {
+        parents: (0..count).collect(),
+    };
+    let part = |triangle: u32| mesh.triangle_part[triangle as usize];
+    for (edge, &twin) in topology.twins.iter().enumerate() {
+        let (own, other) = (edge as u32 / 3, twin / 3);
+        if twin != NO_TWIN && part(own) == part(other) {
+            sets.join(own, other);
+        }
+    }
+    join_crowds(mesh, topology, &mut sets);
+    join_lines(mesh, topology, &mut sets);
+    let mut numbers = vec![0; count as usize];
+    let mut next = 0;
+    for triangle in 0..count {
+        let first = sets.first(triangle);
+        if first == triangle {
+            numbers[triangle as usize] = next;
+            next += 1;
+        } else {
+            numbers[triangle as usize] = numbers[first as usize];
+        }
+    }
+    numbers
+}
+
+fn is_line(topology: &Topology, triangle: usize) -> bool {
+    let corners = &topology.corners[3 * triangle..3 * triangle + 3];
+    corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]
+}
+
+/// Joins triangles at edges that more than two of a part share, where solids touch: the two that have the same solid
+/// between them.
+fn join_crowds(mesh: &Mesh, topology: &Topology, sets: &mut Sets) {
+    let mut open: Vec<(u32, u64, u32)> = Vec::new();
+    for (edge, &twin) in topology.twins.iter().enumerate() {
+        let triangle = edge / 3;
+        if twin == NO_TWIN && !is_line(topology, triangle) {
+            let [low, high] = ends(topology, edge as u32);
+            let key = (u64::from(low) << 32) | u64::from(high);
+            open.push((mesh.triangle_part[triangle], key, edge as u32));
+        }
+    }
+    open.sort_unstable();
+    for crowd in open.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let sides: Vec<Side> = crowd
+            .iter()
+            .filter_map(|&(.., edge)| Side::new(mesh, topology, edge))
+            .collect();
+        for side in &sides {
+            let facing = sides.iter().filter(|other| other.forward != side.forward);
+            let nearest = facing.min_by(|a, b| side.turn_to(a).total_cmp(&side.turn_to(b)));
+            if let Some(other) = nearest {
+                sets.join(side.triangle, other.triangle);
+            }
+        }
+    }
+}
+
+/// Welded vertices of an edge, the lesser first.
+fn ends(topology: &Topology, edge: u32) -> [u32; 2] {
+    let triangle = edge / 3 * 3;
+    let (from, to) = (
+        topology.corners[edge as usize],
+        topology.corners[(triangle + (edge + 1) % 3) as usize],
+    );
+    [from.min(to), from.max(to)]
+}
+
+/// A triangle as seen along an edge that it shares with many.
+struct Side {
+    triangle: u32,
+    /// Whether it runs along the edge from the lesser vertex to the greater.
+    forward: bool,
+    /// From the edge into the triangle, unit length.
+    across: DVec3,
+    /// Against the triangle's normal: into the solid.
+    inward: DVec3,
+}
+
+impl Side {
+    /// None for a triangle without area.
+    fn new(mesh: &Mesh, topology: &Topology, edge: u32) -> Option<Side> {
+        let [low, high] = ends(topology, edge);
+        let triangle = edge / 3;
+        let place = |vertex: u32| Vec3::from(mesh.positions[vertex as usize]).as_dvec3();
+        let third = topology.corners[(3 * triangle + (edge + 2) % 3) as usize];
+        let along = (place(high) - place(low)).try_normalize()?;
+        let leg = place(third) - place(low);
+        let across = (leg - along * leg.dot(along)).try_normalize()?;
+        let forward = topology.corners[edge as usize] == low;
+        let normal = along.cross(across) * if forward { 1.0 } else { -1.0 };
+        Some(Side {
+            triangle,
+            forward,
+            across,
+            inward: -normal,
+        })
+    }
+
+    /// How far one turns about the edge, first into the solid, to come from this triangle to another: above 0 to 4, in
+    /// quarters that are even in their tangents only, which keeps the order and needs no arc tangent.
+    fn turn_to(&self, other: &Side) -> f64 {
+        let (x, y) = (other.across.dot(self.across), other.across.dot(self.inward));
+        let part = y.abs() / (x.abs() + y.abs()).max(1e-300);
+        let turn = match (x >= 0.0, y >= 0.0) {
+            (true, true) => part,
+            (false, true) => 2.0 - part,
+            (false, false) => 2.0 + part,
+            (true, false) => 4.0 - part,
+        };
+        // Two that lie on each other are a full turn apart: the solids are on their other sides.
+        if turn < 1e-4 { 4.0 } else { turn }
+    }
+}
+
+/// Triangles that are lines have no sides to share; each goes with the first triangle at one of its corners.
+fn join_lines(mesh: &Mesh, topology: &Topology, sets: &mut Sets) {
+    let count = mesh.triangles.len();
+    if !(0..count).any(|triangle| is_line(topology, triangle)) {
+        return;
+    }
+    let mut first_at = vec![u32::MAX; mesh.positions.len()];
+    for triangle in (0..count).filter(|triangle| !is_line(topology, *triangle)) {
+        for corner in &topology.corners[3 * triangle..3 * triangle + 3] {
+            let first = &mut first_at[*corner as usize];
+            *first = (*first).min(triangle as u32);
+        }
+    }
+    for triangle in (0..count).filter(|triangle| is_line(topology, *triangle)) {
+        let neighbors = topology.corners[3 * triangle..3 * triangle + 3]
+            .iter()
+            .map(|corner| first_at[*corner as usize]);
+        let mut neighbors = neighbors.filter(|first| *first != u32::MAX);
+        let part = mesh.triangle_part[triangle];
+        if let Some(first) = neighbors.find(|first| mesh.triangle_part[*first as usize] == part) {
+            sets.join(triangle as u32, first);
+        }
+    }
+}

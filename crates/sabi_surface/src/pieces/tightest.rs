@@ -1,0 +1,130 @@
+//! The tightest of a few boxes around a piece.
+
+use glam::{DMat3, DVec3, Vec3};
+
+use super::PieceBox;
+use super::moments::{Cross, Moments};
+use crate::model::Mesh;
+
+/// Lengths and areas that differ by less are taken as equal, so that neither noise nor another compiler flips an axis.
+const SLACK: f64 = 1.02;
+
+/// The box of a piece, given by its triangles.
+pub(super) fn piece_box(mesh: &Mesh, triangles: &[u32]) -> PieceBox {
+    let place = |vertex: u32| Vec3::from(mesh.positions[vertex as usize]).as_dvec3();
+    let origin = triangles
+        .first()
+        .map_or(DVec3::ZERO, |first| place(mesh.triangles[*first as usize][0]));
+    let corners = |triangle: &u32| mesh.triangles[*triangle as usize].map(|vertex| place(vertex) - origin);
+    let mut moments = Moments::default();
+    for triangle in triangles {
+        moments.add(corners(triangle));
+    }
+    let mut frames = vec![DMat3::IDENTITY];
+    if let Some([spread, normals]) = moments.axes() {
+        let mut cross = Cross::new(spread.lone());
+        for triangle in triangles {
+            cross.add(corners(triangle));
+        }
+        // Sides that stand at right angles say best how the piece stands; the spread helps where there are none.
+        frames.extend(cross.axes());
+        frames.extend([normals.directions, spread.directions]);
+    }
+    let mut reaches = vec![Reach::default(); frames.len()];
+    for corner in triangles.iter().flat_map(corners) {
+        for (frame, reach) in frames.iter().zip(&mut reaches) {
+            reach.take(frame.mul_transpose_vec3(corner));
+        }
+    }
+    // A group may have no triangle at all.
+    if triangles.is_empty() {
+        reaches[0].take(DVec3::ZERO);
+    }
+    let mut best = 0;
+    for at in 1..frames.len() {
+        if reaches[at].face() * SLACK < reaches[best].face() {
+            best = at;
+        }
+    }
+    let reach = reaches[best];
+    let frame = frames[best];
+    let axes = ordered(frame, reach.size());
+    let center = origin + frame * reach.middle();
+    PieceBox {
+        part: triangles.first().map_or(0, |first| mesh.triangle_part[*first as usize]),
+        center: center.as_vec3().to_array(),
+        axes: axes.map(|(axis, _)| axis.as_vec3().to_array()),
+        size: axes.map(|(_, length)| length as f32),
+    }
+}
+
+/// Lowest and highest coordinates in a frame.
+#[derive(Clone, Copy)]
+struct Reach {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Reach {
+            low: DVec3::INFINITY,
+            high: DVec3::NEG_INFINITY,
+        }
+    }
+}
+
+impl Reach {
+    fn take(&mut self, at: DVec3) {
+        self.low = self.low.min(at);
+        self.high = self.high.max(at);
+    }
+
+    fn size(&self) -> DVec3 {
+        self.high - self.low
+    }
+
+    fn middle(&self) -> DVec3 {
+        (self.low + self.high) * 0.5
+    }
+
+    /// Half the surface of the box: unlike its volume it tells boxes around flat pieces apart.
+    fn face(&self) -> f64 {
+        let DVec3 { x, y, z } = self.size();
+        x * y + y * z + z * x
+    }
+}
+
+/// Axes and lengths in their order and with their signs, as [`PieceBox`] describes them.
+fn ordered(frame: DMat3, size: DVec3) -> [(DVec3, f64); 3] {
+    let mut left: Vec<(DVec3, f64)> = (0..3).map(|at| (frame.col(at), size[at])).collect();
+    // A little off the model's axes, so that a turn by half a right angle leaves no tie.
+    let mut take = |toward: DVec3| {
+        let nearness = |axis: &(DVec3, f64)| axis.0.dot(toward).abs();
+        let most = (1..left.len()).fold(0, |most, at| {
+            if nearness(&left[at]) > nearness(&left[most]) { at } else { most }
+        });
+        left.remove(most)
+    };
+    let x = take(DVec3::new(1.0, 0.03, 0.009));
+    let y = take(DVec3::new(0.009, 1.0, 0.03));
+    let z = take(DVec3::new(0.03, 0.009, 1.0));
+    let mut axes = [x, y, z];
+    for (earlier, later) in [(0, 1), (1, 2), (0, 1)] {
+        if axes[later].1 > SLACK * axes[earlier].1 {
+            axes.swap(earlier, later);
+        }
+    }
+    let [first, second] = [axes[0].0, axes[1].0].map(grows);
+    axes[0].0 = first;
+    axes[1].0 = second;
+    axes[2].0 = first.cross(second);
+    axes
+}
+
+/// The axis with the sign that makes its largest component positive; of components as good as equal the first counts.
+fn grows(axis: DVec3) -> DVec3 {
+    let weighed = axis.abs() * DVec3::new(1.0, 0.97, 0.94);
+    let largest = (1..3).fold(0, |most, at| if weighed[at] > weighed[most] { at } else { most });
+    if axis[largest] < 0.0 { -axis } else { axis }
+}
