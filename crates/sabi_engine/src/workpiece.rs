@@ -222,6 +222,8 @@ impl Workpiece {
             model: &self.prepared.model,
             atlas: &self.prepared.atlas,
             tables: &self.tables,
+            pieces: &self.prepared.pieces,
+            working_from_model: self.prepared.working_from_model(&self.fit),
         };
         let files = Files {
             pictures: &self.pictures,

@@ -97,17 +97,18 @@ fn wood_at(at: Surface, position: vec3f, params: Params) -> Wood {
     );
     let across = place.yz - beside - 0.09 * lean.xy * place.x - 0.45 * wander;
 
-    let bump = simplex_noise(vec3f(place.x / 36.0, place.yz / 6.0), key + vec3u(2u));
-    let ripple = simplex_noise(vec3f(place.x / 9.0, place.yz / 1.7), key + vec3u(3u));
+    let bump = simplex_noise(vec3f(place.x / 36.0, place.yz / 9.0), key + vec3u(2u));
+    let ripple = simplex_noise(vec3f(place.x / 10.0, place.yz / 2.8), key + vec3u(3u));
     let taper = 0.02 * lean.z * place.x;
-    var year = length(across) + taper + 0.35 * bump + 0.09 * ripple;
+    var year = length(across) + taper + 0.4 * bump + 0.08 * ripple;
     let branch = nearest_branch(place.x, across, -beside, key, params.knots);
     year -= branch.swell;
     // Trunk and branch grow as one: a smooth minimum of when they came.
     let share = clamp(0.5 + (year - branch.year) / 1.1, 0.0, 1.0);
     year = mix(year, branch.year, share) - 0.55 * share * (1.0 - share);
+    // A little more than the way over a texel, since texels are squares and stand at an angle.
     let outward = vec3f(0.02 * lean.z, across / max(length(across), 1e-6));
-    let blur = texel * mix(steepness(at, position, outward, params), 4.0, share);
+    let blur = 1.2 * texel * mix(steepness(at, position, outward, params), 4.0, share);
 
     let along = vec3f(place.x, place.yz - branch.aside);
     let fiber = 0.5 * streaks(along, 9.0, 0.5, key + vec3u(4u), texel)

@@ -7,6 +7,7 @@ mod output_mask;
 mod output_material;
 mod projection;
 mod sampler;
+mod surface_id;
 mod texels;
 mod texture_set;
 mod vertex_color;
@@ -31,7 +32,7 @@ pub(crate) use texels::Ground;
 
 /// Kinds that give, by id. Those that show the model learn their content once it is loaded.
 pub(crate) fn kinds() -> BTreeMap<String, SourceKind> {
-    by_id([image::kind(), model::kind(), vertex_color::kind()])
+    by_id([image::kind(), model::kind(), surface_id::kind(), vertex_color::kind()])
 }
 
 /// Kinds that show the model, as they are for this one.
@@ -97,6 +98,7 @@ impl SourceFill for Sources<'_> {
                 Ok(image::plane(ground, &picture, step, output, plane, warnings))
             }
             model::NAME => Ok(self.model.plane(ground, output, plane, warnings)),
+            surface_id::NAME => Ok(surface_id::plane(ground, step, output, plane, warnings)),
             vertex_color::NAME => Ok(vertex_color::plane(ground, &step.id, plane, warnings)),
             other => Err(format!(
                 "node '{}' is of kind '{other}', which nobody fills; this is a mistake in Sabi",

@@ -6,6 +6,7 @@ use sabi_gpu::SurfaceTables;
 use sabi_nodes::link::{Format, Plane};
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 use sabi_surface::model::Model;
+use sabi_surface::pieces::Pieces;
 
 /// Texels that are filled in one go.
 const CHUNK: usize = 4096;
@@ -16,6 +17,9 @@ pub(crate) struct Ground<'a> {
     pub(crate) model: &'a Model,
     pub(crate) atlas: &'a Atlas,
     pub(crate) tables: &'a SurfaceTables,
+    pub(crate) pieces: &'a Pieces,
+    /// Factor from model units to working units.
+    pub(crate) working_from_model: f64,
 }
 
 /// A point of the surface: its triangle, where it lies on its chart's page, and its texture coordinates.

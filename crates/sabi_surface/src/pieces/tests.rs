@@ -9,8 +9,7 @@ fn mesh(triangles: &[(u32, [DVec3; 3])]) -> Mesh {
     let mut mesh = Mesh::default();
     for (part, corners) in triangles {
         let first = mesh.positions.len() as u32;
-        mesh.positions
-            .extend(corners.map(|corner| corner.as_vec3().to_array()));
+        mesh.positions.extend(corners.map(|corner| corner.as_vec3().to_array()));
         mesh.triangles.push([first, first + 1, first + 2]);
         mesh.triangle_part.push(*part);
     }
@@ -73,7 +72,14 @@ fn ball(rings: usize) -> Vec<[DVec3; 3]> {
     };
     let steps = (0..rings).flat_map(|ring| (0..2 * rings).map(move |step| (ring, step)));
     steps
-        .flat_map(|(ring, step)| quad([at(ring, step), at(ring, step + 1), at(ring + 1, step + 1), at(ring + 1, step)]))
+        .flat_map(|(ring, step)| {
+            quad([
+                at(ring, step),
+                at(ring, step + 1),
+                at(ring + 1, step + 1),
+                at(ring + 1, step),
+            ])
+        })
         .collect()
 }
 
@@ -92,8 +98,18 @@ fn the_box_stands_as_the_piece_does() {
         ("cube", solid(-DVec3::ONE, DVec3::ONE, 1), [x, y, z], DVec3::splat(2.0)),
         ("ball", ball(12), [x, y, z], DVec3::splat(2.0)),
         ("board", board(upright), [x, y, z], BOARD),
-        ("board along y", solid(DVec3::ZERO, dvec3(0.1, 1.0, 0.025), 1), [y, x, -z], BOARD),
-        ("board along z", solid(DVec3::ZERO, dvec3(0.025, 0.1, 1.0), 1), [z, y, -x], BOARD),
+        (
+            "board along y",
+            solid(DVec3::ZERO, dvec3(0.1, 1.0, 0.025), 1),
+            [y, x, -z],
+            BOARD,
+        ),
+        (
+            "board along z",
+            solid(DVec3::ZERO, dvec3(0.025, 0.1, 1.0), 1),
+            [z, y, -x],
+            BOARD,
+        ),
         ("board at 37°", board(turn(37.0, 0.0)), turn(37.0, 0.0).to_cols(), BOARD),
         // Of the second axis' equal components the first counts, so it points down.
         (
@@ -102,7 +118,12 @@ fn the_box_stands_as_the_piece_does() {
             [turn(45.0, 0.0) * x, turn(45.0, 0.0) * -y, -z],
             BOARD,
         ),
-        ("board at 37° and 20°", board(turn(37.0, 20.0)), turn(37.0, 20.0).to_cols(), BOARD),
+        (
+            "board at 37° and 20°",
+            board(turn(37.0, 20.0)),
+            turn(37.0, 20.0).to_cols(),
+            BOARD,
+        ),
         (
             "square bar at 30° and 20°",
             turned(solid(-square_bar, square_bar, 1), turn(30.0, 20.0)),
@@ -110,7 +131,12 @@ fn the_box_stands_as_the_piece_does() {
             2.0 * square_bar,
         ),
         ("flat", flat(upright), [x, y, z], dvec3(4.0, 1.0, 0.0)),
-        ("flat at 20° and 30°", flat(turn(20.0, 30.0)), turn(20.0, 30.0).to_cols(), dvec3(4.0, 1.0, 0.0)),
+        (
+            "flat at 20° and 30°",
+            flat(turn(20.0, 30.0)),
+            turn(20.0, 30.0).to_cols(),
+            dvec3(4.0, 1.0, 0.0),
+        ),
     ];
     for (name, triangles, axes, size) in cases {
         let found = pieces(triangles);
@@ -122,7 +148,11 @@ fn the_box_stands_as_the_piece_does() {
         let off = (Vec3::from(around.size).as_dvec3() - size).length();
         assert!(off < size_slack, "{name}: {:?}, not {size}", around.size);
         for (at, axis) in axes.into_iter().enumerate() {
-            assert!(near(around.axes[at].into(), axis), "{name}: {:?}, not {axes:?}", around.axes);
+            assert!(
+                near(around.axes[at].into(), axis),
+                "{name}: {:?}, not {axes:?}",
+                around.axes
+            );
         }
     }
 }
@@ -190,9 +220,21 @@ fn what_hangs_together_is_one_piece_and_what_only_touches_is_not() {
     let cases: Vec<(&str, Vec<(u32, [DVec3; 3])>, usize)> = vec![
         ("one", block(0.0, 0), 1),
         ("two apart", join(vec![block(0.0, 0), block(2.0, 0)]), 2),
-        ("two that share a whole face in space", join(vec![block(0.0, 0), block(1.0, 0)]), 2),
-        ("three in a row", join(vec![block(0.0, 0), block(1.0, 0), block(2.0, 0)]), 3),
-        ("two parts that share a face", join(vec![block(0.0, 0), block(1.0, 1)]), 2),
+        (
+            "two that share a whole face in space",
+            join(vec![block(0.0, 0), block(1.0, 0)]),
+            2,
+        ),
+        (
+            "three in a row",
+            join(vec![block(0.0, 0), block(1.0, 0), block(2.0, 0)]),
+            3,
+        ),
+        (
+            "two parts that share a face",
+            join(vec![block(0.0, 0), block(1.0, 1)]),
+            2,
+        ),
         (
             "two that share an edge only",
             join(vec![

@@ -102,7 +102,11 @@ fn ordered(frame: DMat3, size: DVec3) -> [(DVec3, f64); 3] {
     let mut take = |toward: DVec3| {
         let nearness = |axis: &(DVec3, f64)| axis.0.dot(toward).abs();
         let most = (1..left.len()).fold(0, |most, at| {
-            if nearness(&left[at]) > nearness(&left[most]) { at } else { most }
+            if nearness(&left[at]) > nearness(&left[most]) {
+                at
+            } else {
+                most
+            }
         });
         left.remove(most)
     };
