@@ -33,7 +33,7 @@ pub(super) fn piece_box(mesh: &Mesh, triangles: &[u32]) -> PieceBox {
     let mut reaches = vec![Reach::default(); frames.len()];
     for corner in triangles.iter().flat_map(corners) {
         for (frame, reach) in frames.iter().zip(&mut reaches) {
-            reach.take(frame.mul_transpose_vec3(corner));
+            reach.take(frame.transpose_mul_vec3(corner));
         }
     }
     // A group may have no triangle at all.
