@@ -57,8 +57,14 @@ const EXEMPT: [(&str, &str); 7] = [
     ("noise/cells.id", "a map of steps"),
     ("noise/white", "a map of steps"),
     ("noise/white.id", "a map of steps"),
-    ("noise/wood", "its years end and its pores begin within less than a texel"),
-    ("noise/wood.height", "its years end and its pores begin within less than a texel"),
+    (
+        "noise/wood",
+        "its years end and its pores begin within less than a texel",
+    ),
+    (
+        "noise/wood.height",
+        "its years end and its pores begin within less than a texel",
+    ),
     ("surface/direction", "the cube's normals turn at its edges"),
 ];
 

@@ -213,8 +213,9 @@ fn ring_tone(time: f32, blur: f32, key: vec3u) -> f32 {
 // The branch that matters most here. They leave the pith in cells of its length, mostly toward the piece.
 fn nearest_branch(along: f32, across: vec2f, toward: vec2f, key: vec3u, knots: f32) -> Knot {
     var nearest = Knot(1e6, 0.0, vec2f(0.0));
-    let spacing = 9.0;
-    let cell = i32(floor(clamp(along / spacing, -1e6, 1e6)));
+    let spacing = 12.0;
+    // Branches rise alike, within a tenth: the cell is that from which one comes here.
+    let cell = i32(floor(clamp((along - 0.3 * length(across)) / spacing, -1e6, 1e6)));
     let ahead = toward / max(length(toward), 1e-6);
     for (var i = -1; i < 2; i++) {
         let random = pcg3d(bitcast<vec3u>(vec3i(cell + i, 1, 0)) + key);
@@ -223,17 +224,17 @@ fn nearest_branch(along: f32, across: vec2f, toward: vec2f, key: vec3u, knots: f
         if chance.x >= knots {
             continue;
         }
-        let turn = turn_of(vec3f(1.6 * (chance.y - 0.5), 0.0, 0.0));
+        let turn = turn_of(vec3f(1.3 * (chance.y - 0.5), 0.0, 0.0));
         let side = vec2f(
             ahead.x * turn.cosine.x - ahead.y * turn.sine.x,
             ahead.x * turn.sine.x + ahead.y * turn.cosine.x,
         );
-        let rise = 0.15 + 0.35 * more.x;
+        let rise = 0.25 + 0.1 * more.x;
         let axis = vec3f(rise, side) * inverseSqrt(1.0 + rise * rise);
         let away = vec3f(along - spacing * (f32(cell + i) + chance.z), across);
         let branch = branch_at(away, axis, 0.2 + 0.14 * more.y);
         nearest.swell = max(nearest.swell, branch.swell);
-        nearest.aside = select(nearest.aside, branch.aside, branch.year < nearest.year);
+        nearest.aside += branch.aside;
         nearest.year = min(nearest.year, branch.year);
     }
     return nearest;
@@ -249,9 +250,11 @@ fn branch_at(away: vec3f, axis: vec3f, thick: f32) -> Knot {
     let lead = 0.42 * grown / (1.0 + grown / 10.0);
     let year = abs(out) - lead + distance / thick;
     let radius = thick * lead;
-    let reach = 2.2 * radius + 0.25;
-    let stretched = length(vec3f(0.45 * beside.x, beside.yz)) / reach;
-    let near = 1.0 / (1.0 + stretched * stretched);
+    // Ends three reaches away, before a cell that was not looked at could matter.
+    let reach = min(2.2 * radius + 0.25, 1.2);
+    let stretched = vec3f(0.45 * beside.x, beside.yz) / (3.0 * reach);
+    let left = max(1.0 - dot(stretched, stretched), 0.0);
+    let near = left * left * left;
     let lateral = beside.yz;
     let width = length(lateral);
     let push = min(radius * near, 0.7 * width);

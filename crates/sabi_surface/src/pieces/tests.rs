@@ -83,8 +83,10 @@ fn ball(rings: usize) -> Vec<[DVec3; 3]> {
         .collect()
 }
 
-#[test]
-fn the_box_stands_as_the_piece_does() {
+/// What, its triangles, and the axes and side lengths of its box.
+type Case = (&'static str, Vec<[DVec3; 3]>, [DVec3; 3], DVec3);
+
+fn cases() -> Vec<Case> {
     let upright = DMat3::IDENTITY;
     let board = |turn: DMat3| turned(solid(-BOARD / 2.0, BOARD / 2.0, 1), turn);
     let [x, y, z] = DVec3::AXES;
@@ -92,9 +94,8 @@ fn the_box_stands_as_the_piece_does() {
         let corners = [[-2.0, -0.5], [2.0, -0.5], [2.0, 0.5], [-2.0, 0.5]].map(|[x, y]| turn * dvec3(x, y, 0.0));
         quad(corners).to_vec()
     };
-    // What, its triangles, axes and side lengths. Tolerances are those of positions in f32.
     let square_bar = dvec3(1.0, 0.1, 0.1);
-    let cases: Vec<(&str, Vec<[DVec3; 3]>, [DVec3; 3], DVec3)> = vec![
+    vec![
         ("cube", solid(-DVec3::ONE, DVec3::ONE, 1), [x, y, z], DVec3::splat(2.0)),
         ("ball", ball(12), [x, y, z], DVec3::splat(2.0)),
         ("board", board(upright), [x, y, z], BOARD),
@@ -137,8 +138,13 @@ fn the_box_stands_as_the_piece_does() {
             turn(20.0, 30.0).to_cols(),
             dvec3(4.0, 1.0, 0.0),
         ),
-    ];
-    for (name, triangles, axes, size) in cases {
+    ]
+}
+
+#[test]
+fn the_box_stands_as_the_piece_does() {
+    // Tolerances are those of positions in f32.
+    for (name, triangles, axes, size) in cases() {
         let found = pieces(triangles);
         assert_eq!(found.boxes.len(), 1, "{name}");
         let around = found.boxes[0];
