@@ -148,13 +148,16 @@ fn rings_are_as_wide_as_asked_for() {
             .map(|(index, _)| mask[index])
             .collect();
         assert!(line.len() > 1000, "{} texels", line.len());
-        // A year ends where the tone, having been dark, is light again; twenty texels are a ring.
-        let (mut ends, mut is_dark) = (0.0, false);
-        for tone in &line {
-            if is_dark && *tone < 0.2 {
+        // A year ends where the tone falls by much of what it rose; twenty texels are a ring.
+        let (mut ends, mut turn, mut is_rising) = (0.0, line[0], true);
+        for tone in line.iter().copied() {
+            if is_rising && tone < turn - 0.12 {
                 ends += 1.0;
+                (turn, is_rising) = (tone, false);
+            } else if !is_rising && tone > turn + 0.12 {
+                (turn, is_rising) = (tone, true);
             }
-            is_dark = *tone > 0.24 || (is_dark && *tone >= 0.2);
+            turn = if is_rising { turn.max(tone) } else { turn.min(tone) };
         }
         let rings = 50.0 * line.len() as f64 / 1024.0;
         // Trunks are not round: by 0.4 rings at each end in the mean, and a year may end 0.2 rings later.
