@@ -4,8 +4,12 @@ use super::tightest::piece_box;
 use super::{PieceBox, Pieces};
 use crate::model::Mesh;
 
+/// A triangle and its part.
+type Loose = (u32, [DVec3; 3]);
+type Soup = Vec<Loose>;
+
 /// A mesh from loose triangles; every corner is a vertex of its own, as hard edges make them.
-fn mesh(triangles: &[(u32, [DVec3; 3])]) -> Mesh {
+fn mesh(triangles: &[Loose]) -> Mesh {
     let mut mesh = Mesh::default();
     for (part, corners) in triangles {
         let first = mesh.positions.len() as u32;
@@ -39,7 +43,7 @@ fn solid(low: DVec3, high: DVec3, cuts: usize) -> Vec<[DVec3; 3]> {
     triangles
 }
 
-fn of_part(part: u32, triangles: Vec<[DVec3; 3]>) -> Vec<(u32, [DVec3; 3])> {
+fn of_part(part: u32, triangles: Vec<[DVec3; 3]>) -> Soup {
     triangles.into_iter().map(|corners| (part, corners)).collect()
 }
 
@@ -221,9 +225,9 @@ fn what_hangs_together_is_one_piece_and_what_only_touches_is_not() {
         let [a, b, c, d] = corners;
         of_part(0, quad(if over { corners } else { [a, d, c, b] }).to_vec())
     };
-    let join = |many: Vec<Vec<(u32, [DVec3; 3])>>| many.concat();
+    let join = |many: Vec<Soup>| many.concat();
     let line = vec![(0, [DVec3::ZERO, dvec3(1.0, 0.0, 0.0), DVec3::ZERO])];
-    let cases: Vec<(&str, Vec<(u32, [DVec3; 3])>, usize)> = vec![
+    let cases: Vec<(&str, Soup, usize)> = vec![
         ("one", block(0.0, 0), 1),
         ("two apart", join(vec![block(0.0, 0), block(2.0, 0)]), 2),
         (
