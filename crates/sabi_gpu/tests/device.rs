@@ -42,6 +42,7 @@ fn square() -> Mesh {
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         triangle_material: vec![0; 2],
         triangle_part: vec![0; 2],
+        ..Mesh::default()
     }
 }
 
