@@ -81,15 +81,39 @@ fn join_crowds(mesh: &Mesh, topology: &Topology, sets: &mut Sets) {
             .iter()
             .filter_map(|&(.., edge)| Side::new(mesh, topology, edge))
             .collect();
-        for side in &sides {
-            let facing = sides.iter().filter(|other| other.forward != side.forward);
-            let nearest = facing.min_by(|a, b| side.turn_to(a).total_cmp(&side.turn_to(b)));
-            if let Some(other) = nearest {
-                sets.join(side.triangle, other.triangle);
+        join_crowd(&sides, sets);
+    }
+}
+
+/// Joins every side with the first that faces it, turning about the edge into its solid. Sorted by their turn, so that a
+/// hundred thousand sides of one edge take no longer than elsewhere.
+fn join_crowd(sides: &[Side], sets: &mut Sets) {
+    let Some(first) = sides.first() else { return };
+    let turns: Vec<f64> = sides.iter().map(|side| first.turn_to(side)).collect();
+    for forward in [false, true] {
+        // The solid of a side that runs backward lies counter-clockwise of it, of one that runs forward clockwise.
+        let turn = |side: usize| {
+            if forward {
+                (4.0 - turns[side]) % 4.0
+            } else {
+                turns[side]
+            }
+        };
+        let (own, mut facing): (Vec<usize>, Vec<usize>) =
+            (0..sides.len()).partition(|&side| sides[side].forward == forward);
+        facing.sort_unstable_by(|&a, &b| turn(a).total_cmp(&turn(b)).then(a.cmp(&b)));
+        for side in own {
+            let from = (turn(side) + SAME_TURN) % 4.0;
+            let next = facing.partition_point(|&other| turn(other) <= from);
+            if let Some(&other) = facing.get(next).or(facing.first()) {
+                sets.join(sides[side].triangle, sides[other].triangle);
             }
         }
     }
 }
+
+/// Sides that are no further apart lie on each other: a full turn apart, since the solids are on their other sides.
+const SAME_TURN: f64 = 1e-4;
 
 /// Welded vertices of an edge, the lesser first.
 fn ends(topology: &Topology, edge: u32) -> [u32; 2] {
@@ -108,8 +132,8 @@ struct Side {
     forward: bool,
     /// From the edge into the triangle, unit length.
     across: DVec3,
-    /// Against the triangle's normal: into the solid.
-    inward: DVec3,
+    /// A quarter turn on from `across`, counter-clockwise about the edge.
+    onward: DVec3,
 }
 
 impl Side {
@@ -123,19 +147,18 @@ impl Side {
         let leg = place(third) - place(low);
         let across = (leg - along * leg.dot(along)).try_normalize()?;
         let forward = topology.corners[edge as usize] == low;
-        let normal = along.cross(across) * if forward { 1.0 } else { -1.0 };
         Some(Side {
             triangle,
             forward,
             across,
-            inward: -normal,
+            onward: along.cross(across),
         })
     }
 
-    /// How far one turns about the edge, first into the solid, to come from this triangle to another: above 0 to 4, in
-    /// quarters that are even in their tangents only, which keeps the order and needs no arc tangent.
+    /// How far one turns counter-clockwise about the edge to come from this triangle to another: 0 to below 4, in quarters
+    /// that are even in their tangents only, which keeps the order and needs no arc tangent.
     fn turn_to(&self, other: &Side) -> f64 {
-        let (x, y) = (other.across.dot(self.across), other.across.dot(self.inward));
+        let (x, y) = (other.across.dot(self.across), other.across.dot(self.onward));
         let part = y.abs() / (x.abs() + y.abs()).max(1e-300);
         let turn = match (x >= 0.0, y >= 0.0) {
             (true, true) => part,
@@ -143,8 +166,7 @@ impl Side {
             (false, false) => 2.0 + part,
             (true, false) => 4.0 - part,
         };
-        // Two that lie on each other are a full turn apart: the solids are on their other sides.
-        if turn < 1e-4 { 4.0 } else { turn }
+        turn % 4.0
     }
 }
 

@@ -264,3 +264,34 @@ fn what_hangs_together_is_one_piece_and_what_only_touches_is_not() {
         }
     }
 }
+
+/// Wedges around one edge that reach from each angle to the next but one, with so many triangles on each of their faces.
+fn fan(wedges: u32, layers: u32) -> Vec<[DVec3; 3]> {
+    let place = |at: u32| {
+        let (sine, cosine) = (std::f64::consts::TAU * f64::from(at) / f64::from(2 * wedges)).sin_cos();
+        dvec3(cosine, sine, 0.5)
+    };
+    let face = |at: u32| match at % 2 {
+        0 => [DVec3::Z, DVec3::ZERO, place(at)],
+        _ => [DVec3::ZERO, DVec3::Z, place(at)],
+    };
+    (0..2 * wedges)
+        .flat_map(|at| std::iter::repeat_n(face(at), layers as usize))
+        .collect()
+}
+
+#[test]
+fn wedges_around_an_edge_stay_apart_however_many_triangles_share_it() {
+    // Each wedge has its solid between an even face and the odd one after it; compared in pairs the last row takes minutes.
+    for (wedges, layers) in [(2, 1), (3, 1), (500, 1), (500, 100)] {
+        let pieces = pieces(fan(wedges, layers));
+        assert_eq!(pieces.boxes.len(), wedges as usize, "{wedges} wedges, {layers} layers");
+        for (triangle, &piece) in pieces.triangle_piece.iter().enumerate() {
+            assert_eq!(
+                piece,
+                triangle as u32 / (2 * layers),
+                "triangle {triangle} of {wedges} wedges"
+            );
+        }
+    }
+}
