@@ -7,6 +7,7 @@ mod bad_models;
 mod bad_places;
 mod baking;
 mod copies;
+mod examples;
 mod help;
 mod images;
 mod interruption;

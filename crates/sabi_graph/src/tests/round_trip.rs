@@ -83,3 +83,13 @@ proptest! {
         prop_assert!(Document::from_json(&NEWEST[..at]).is_err());
     }
 }
+
+#[test]
+fn the_example_graphs_are_as_a_save_leaves_them() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "sabi")) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(Document::from_json(&text).unwrap().to_json(), text, "{}", path.display());
+    }
+}

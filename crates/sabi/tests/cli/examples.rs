@@ -1,0 +1,56 @@
+//! The example graphs: each is good, bakes on the model it was made for, and every variant of it looks different.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value as Json;
+
+use crate::place::Place;
+
+fn examples() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs");
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut graphs: Vec<PathBuf> = files
+        .filter(|path| path.extension().is_some_and(|ending| ending == "sabi"))
+        .collect();
+    graphs.sort();
+    assert!(graphs.len() >= 6, "only {} example graphs were found", graphs.len());
+    graphs
+}
+
+#[test]
+fn every_example_is_good() {
+    let place = Place::new();
+    for graph in examples() {
+        let run = place.sabi(&["check", graph.to_str().unwrap()]).good();
+        assert!(run.stdout.contains(": good, ") && run.stderr.is_empty(), "{run:?}");
+    }
+}
+
+#[test]
+fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
+    let place = Place::new();
+    for graph in examples() {
+        let text = fs::read_to_string(&graph).unwrap();
+        let document: Json = serde_json::from_str(&text).unwrap();
+        let mesh = graph.parent().unwrap().join(document["preview"]["mesh"].as_str().unwrap());
+        let variants = document["variants"].as_object().unwrap().keys();
+        let looks: Vec<Option<&String>> = std::iter::once(None).chain(variants.map(Some)).collect();
+        let mut seen = BTreeSet::new();
+        for look in &looks {
+            let mut more = vec!["--force", "--all-maps"];
+            if let Some(variant) = look {
+                more.extend(["--variant", variant]);
+            }
+            let run = place.bake(graph.to_str().unwrap(), mesh.to_str().unwrap(), &more).good();
+            // What a map this small cannot show is not the graph's fault.
+            let warnings = run.stderr.lines().filter(|line| line.starts_with("warning") && !line.contains("UV chart"));
+            assert_eq!(warnings.count(), 0, "{}", run.stderr);
+            let maps = run.stdout.lines().filter(|path| path.ends_with(".png"));
+            let bytes: Vec<u8> = maps.flat_map(|path| fs::read(place.path(path)).unwrap()).collect();
+            seen.insert(bytes);
+        }
+        assert_eq!(seen.len(), looks.len(), "variants of {} look the same", graph.display());
+    }
+}
