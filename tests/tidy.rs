@@ -116,7 +116,10 @@ fn collect(folder: &str, found: &mut Vec<String>) -> io::Result<()> {
         };
         if !entry.file_type()?.is_dir() {
             found.push(path);
-        } else if !matches!(path.as_str(), "target" | "out" | ".git") {
+        } else if !matches!(
+            path.as_str(),
+            "target" | "out" | ".git" | "fuzz/target" | "fuzz/corpus" | "fuzz/artifacts"
+        ) {
             collect(&path, found)?;
         }
     }

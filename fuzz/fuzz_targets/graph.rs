@@ -1,52 +1,6 @@
-//! Any text is a document or a fault; a document survives being saved, inlined and planned.
 #![no_main]
 
-use std::collections::BTreeMap;
-use std::sync::LazyLock;
+#[path = "../bodies/graph.rs"]
+mod graph;
 
-use libfuzzer_sys::fuzz_target;
-use sabi_graph::{Document, FlatGraph, Overrides, flatten};
-use sabi_nodes::Library;
-use sabi_plan::{Lengths, Limits, Mode, Planner, Target};
-
-static LIBRARY: LazyLock<Library> = LazyLock::new(Library::builtin);
-
-fuzz_target!(|text: &str| {
-    let Ok(document) = Document::from_json(text) else {
-        return;
-    };
-    let saved = document.to_json();
-    let again = Document::from_json(&saved).expect("what was saved can be read");
-    assert_eq!(saved, again.to_json(), "saving again changes nothing");
-    let flat = flatten(&document, &Overrides::default(), &mut |path| {
-        Err(format!("{path} is not there"))
-    });
-    if let Ok(graph) = flat {
-        plan(&graph);
-    }
-});
-
-/// Plans every node in both ways of cutting.
-fn plan(graph: &FlatGraph) {
-    let nothing = BTreeMap::new();
-    let targets: Vec<Target> = (0..graph.nodes.len()).map(|node| Target { node, port: None }).collect();
-    for mode in [Mode::Interactive, Mode::Bake { fuse: true }] {
-        let planner = Planner {
-            graph,
-            library: &LIBRARY,
-            sources: &nothing,
-            sinks: &nothing,
-            lengths: Lengths {
-                working_from: &|_| 1.0,
-                extent: &|_| [0.0, 1.0],
-            },
-            surface_key: [0; 32],
-            mode,
-            limits: Limits::default(),
-        };
-        let (_plan, errors) = planner.plan(&targets);
-        for error in errors {
-            assert!(!error.to_string().is_empty());
-        }
-    }
-}
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| graph::survives(bytes));

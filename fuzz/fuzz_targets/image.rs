@@ -1,18 +1,6 @@
-//! Any bytes are a picture as large as it says, or a fault.
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use sabi_image::{Pixels, decode};
+#[path = "../bodies/image.rs"]
+mod image;
 
-fuzz_target!(|bytes: &[u8]| {
-    let Ok(picture) = decode("picture", bytes) else {
-        return;
-    };
-    let samples = match &picture.pixels {
-        Pixels::U8(values) => values.len(),
-        Pixels::U16(values) => values.len(),
-        Pixels::F32(values) => values.len(),
-    };
-    let pixels = picture.width as usize * picture.height as usize;
-    assert_eq!(samples, pixels * usize::from(picture.channels));
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| image::survives(bytes));

@@ -34,7 +34,10 @@ fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
     for graph in examples() {
         let text = fs::read_to_string(&graph).unwrap();
         let document: Json = serde_json::from_str(&text).unwrap();
-        let mesh = graph.parent().unwrap().join(document["preview"]["mesh"].as_str().unwrap());
+        let mesh = graph
+            .parent()
+            .unwrap()
+            .join(document["preview"]["mesh"].as_str().unwrap());
         let variants = document["variants"].as_object().unwrap().keys();
         let looks: Vec<Option<&String>> = std::iter::once(None).chain(variants.map(Some)).collect();
         let mut seen = BTreeSet::new();
@@ -43,9 +46,14 @@ fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
             if let Some(variant) = look {
                 more.extend(["--variant", variant]);
             }
-            let run = place.bake(graph.to_str().unwrap(), mesh.to_str().unwrap(), &more).good();
+            let run = place
+                .bake(graph.to_str().unwrap(), mesh.to_str().unwrap(), &more)
+                .good();
             // What a map this small cannot show is not the graph's fault.
-            let warnings = run.stderr.lines().filter(|line| line.starts_with("warning") && !line.contains("UV chart"));
+            let warnings = run
+                .stderr
+                .lines()
+                .filter(|line| line.starts_with("warning") && !line.contains("UV chart"));
             assert_eq!(warnings.count(), 0, "{}", run.stderr);
             let maps = run.stdout.lines().filter(|path| path.ends_with(".png"));
             let bytes: Vec<u8> = maps.flat_map(|path| fs::read(place.path(path)).unwrap()).collect();

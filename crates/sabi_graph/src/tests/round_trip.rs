@@ -90,6 +90,11 @@ fn the_example_graphs_are_as_a_save_leaves_them() {
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "sabi")) {
         let text = std::fs::read_to_string(&path).unwrap();
-        assert_eq!(Document::from_json(&text).unwrap().to_json(), text, "{}", path.display());
+        assert_eq!(
+            Document::from_json(&text).unwrap().to_json(),
+            text,
+            "{}",
+            path.display()
+        );
     }
 }

@@ -1,0 +1,36 @@
+//! Any bytes are a whole model or a fault. What follows a line of five dashes is the file beside it: the buffer of a
+//! `.gltf`, the material library of an `.obj`.
+
+use sabi_surface::load::{LoadOptions, load_bytes};
+
+use crate::promises;
+
+const BREAK: &[u8] = b"\n-----\n";
+
+#[allow(dead_code, reason = "each target calls one of the two")]
+pub fn survives_as_gltf(bytes: &[u8]) {
+    if bytes.starts_with(b"glTF") {
+        survives("model.glb", bytes, &[]);
+    } else {
+        with_the_file_beside("model.gltf", bytes);
+    }
+}
+
+#[allow(dead_code, reason = "each target calls one of the two")]
+pub fn survives_as_obj(bytes: &[u8]) {
+    with_the_file_beside("model.obj", bytes);
+}
+
+fn with_the_file_beside(name: &str, bytes: &[u8]) {
+    match bytes.windows(BREAK.len()).position(|window| window == BREAK) {
+        Some(at) => survives(name, &bytes[..at], &bytes[at + BREAK.len()..]),
+        None => survives(name, bytes, &[]),
+    }
+}
+
+fn survives(name: &str, file: &[u8], beside: &[u8]) {
+    let mut resolve = |_: &str| Ok(beside.to_vec());
+    if let Ok(model) = load_bytes(name, file, &mut resolve, &LoadOptions::default()) {
+        promises::check(&model);
+    }
+}

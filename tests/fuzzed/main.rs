@@ -1,0 +1,74 @@
+//! What the fuzz targets do, done on their seeds and on a damaged copy of each: it keeps the targets compiling, and
+//! what they promise holds on every machine, if only from near.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+#![allow(unreachable_pub, reason = "the bodies belong to another crate")]
+
+#[path = "../../fuzz/bodies/graph.rs"]
+mod graph;
+#[path = "../../fuzz/bodies/image.rs"]
+mod image;
+#[path = "../../fuzz/bodies/model.rs"]
+mod model;
+#[path = "../../fuzz/bodies/node.rs"]
+mod node;
+#[path = "../../crates/sabi_surface/tests/load/promises.rs"]
+mod promises;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sabi_tests::project;
+
+/// Every file below a folder, in order.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    entries.sort();
+    let below = |path: PathBuf| if path.is_dir() { files(&path) } else { vec![path] };
+    entries.into_iter().flat_map(below).collect()
+}
+
+/// Calls `survives` with each file below a folder, and with copies of it that are cut off or have bytes changed.
+fn on_all(folder: &str, damages: usize, survives: fn(&[u8])) {
+    let seeds = files(&project(folder));
+    assert!(!seeds.is_empty(), "{folder} is empty");
+    for seed in seeds {
+        let whole = fs::read(&seed).unwrap();
+        survives(&whole);
+        for damage in 0..damages {
+            let at = whole.len() * damage / damages;
+            survives(&whole[..at]);
+            let mut changed = whole.clone();
+            changed[at] ^= 1 << (damage % 8);
+            survives(&changed);
+        }
+    }
+}
+
+#[test]
+fn graphs_survive() {
+    on_all("graphs", 40, graph::survives);
+}
+
+#[test]
+fn nodes_survive() {
+    on_all("shaders/nodes", 12, node::survives);
+}
+
+#[test]
+fn gltf_files_survive() {
+    on_all("fuzz/seeds/gltf", 400, model::survives_as_gltf);
+}
+
+#[test]
+fn obj_files_survive() {
+    on_all("fuzz/seeds/obj", 200, model::survives_as_obj);
+}
+
+#[test]
+fn pictures_survive() {
+    on_all("fuzz/seeds/image", 100, image::survives);
+}
