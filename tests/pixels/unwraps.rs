@@ -52,9 +52,12 @@ fn points() -> Vec<[f64; 3]> {
 }
 
 /// Results that jump, so that no two grids of texels agree, each with its reason.
-const EXEMPT: [(&str, &str); 7] = [
+const EXEMPT: [(&str, &str); 10] = [
     ("adjust/threshold", "its border is narrower than a texel"),
     ("noise/cells.id", "a map of steps"),
+    ("noise/cracks.id", "a map of steps"),
+    ("noise/dots.id", "a map of steps"),
+    ("noise/scratches.id", "a map of steps"),
     ("noise/white", "a map of steps"),
     ("noise/white.id", "a map of steps"),
     (
@@ -67,6 +70,14 @@ const EXEMPT: [(&str, &str); 7] = [
     ),
     ("surface/direction", "the cube's normals turn at its edges"),
 ];
+
+/// Marks whose borders are about a texel wide, as thin lines and crisp disks have to be: between its texels, each grid
+/// reads another way across a border. The seams' own tests hold them as strictly as any other result.
+const MARKS: [&str; 4] = ["noise/cracks", "noise/cracks.height", "noise/dots", "noise/scratches"];
+/// Root mean square of the difference, as a share of the range: of results in general, and of marks. The most that was
+/// seen of marks is 3.3 %, of dots.
+const TOLERANCE: f64 = 0.01;
+const TOLERANCE_OF_MARKS: f64 = 0.04;
 
 /// How far inside of its face a point of the cube lies.
 fn depth(on_mesh: &OnMesh, triangle: u32, weights: [f64; 3]) -> f64 {
@@ -141,7 +152,9 @@ fn two_unwraps_give_the_same_at_the_same_points() {
             // What half floats round.
             let rounding = f64::from(low.abs().max(high.abs())) / 2048.0;
             let [rms, _] = differences([&one, &other], [first, second]);
-            if rms > 0.01 * range([low, high]) + rounding {
+            let is_mark = MARKS.contains(&specimen.name().as_str());
+            let tolerance = if is_mark { TOLERANCE_OF_MARKS } else { TOLERANCE };
+            if rms > tolerance * range([low, high]) + rounding {
                 return Err(format!("{name} differs by {rms:.5}"));
             }
         }
