@@ -1,6 +1,8 @@
 //! A copy of a model that uses its new maps shows what was baked: `source/model → output/material` on the copy gives the
 //! maps that it was made of. So do copies of models that were unwrapped, whose triangles stay where they are.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot bake has failed")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -88,7 +88,7 @@ pub(crate) fn write_copy(
 ) -> Result<(), EngineError> {
     let Some(copy) = copy else { return Ok(()) };
     let maps = writer.take_model_maps();
-    let finished = copy.finish(maps, writer.names());
+    let finished = copy.finish(maps, writer.names())?;
     written.warnings.extend(finished.warnings);
     let mut stage = |file: &CopiedFile| -> Result<Json, EngineError> {
         writer.extra_file(&file.name, &file.bytes)?;

@@ -66,6 +66,17 @@ pub enum ExportError {
         /// What stands in the way.
         reason: String,
     },
+    /// The copy of the model does not fit into a GLB file.
+    #[error(
+        "the copy of {} would have {bytes} bytes, and a .glb file cannot have more than {}; bake with a smaller --size, or \
+         save the model as .gltf, whose copy keeps its maps beside it", path.display(), u32::MAX
+    )]
+    CopyTooLarge {
+        /// The model's file.
+        path: PathBuf,
+        /// Bytes of its copy.
+        bytes: u64,
+    },
     /// The number of values does not fit the texture set.
     #[error("channel {channel} has {given} values for a texture set of {expected}; this is a defect of Sabi")]
     WrongSize {
@@ -152,5 +163,14 @@ mod tests {
             "two maps would be written to a.png; rename the material or the mask output that one of them belongs to"
         );
         assert!(!same.is_cannot_write());
+        let large = ExportError::CopyTooLarge {
+            path: "a.glb".into(),
+            bytes: 1 << 32,
+        };
+        assert_eq!(
+            large.to_string(),
+            "the copy of a.glb would have 4294967296 bytes, and a .glb file cannot have more than 4294967295; bake with a \
+             smaller --size, or save the model as .gltf, whose copy keeps its maps beside it"
+        );
     }
 }

@@ -90,31 +90,36 @@ pub fn set_keys(atlas: &Atlas) -> Vec<SetKey> {
 /// All layouts at once, in the order of [`set_keys`]. Five bytes a pixel each: with many materials rather build them one by
 /// one.
 pub fn layouts(atlas: &Atlas) -> Vec<SetLayout> {
-    set_keys(atlas)
-        .into_iter()
-        .map(|key| SetLayout::new(atlas, key))
-        .collect()
+    let keys = set_keys(atlas).into_iter();
+    keys.map(|key| SetLayout::new(atlas, key)).collect()
 }
 
 impl SetLayout {
     /// The layout of one set. Owned texels go before ghosts, lower charts before higher ones. Ghosts outside the tile are
     /// dropped; an owned texel outside goes to the tile it falls in where that has a set, else it wraps.
     pub fn new(atlas: &Atlas, key: SetKey) -> SetLayout {
-        let mut layout = SetLayout::merged(atlas, key);
-        layout.shared = Vec::new();
-        layout
+        SetLayout::gather(atlas, key, false)
     }
 
     /// As [`SetLayout::new`], with all texels of pixels that several charts claim, for the mean of them.
     pub fn merged(atlas: &Atlas, key: SetKey) -> SetLayout {
-        let siblings: BTreeSet<[i32; 2]> = match key.udim {
-            Some(_) => set_keys(atlas)
-                .iter()
-                .filter(|other| other.material == key.material)
-                .map(|k| k.uv_tile)
-                .collect(),
-            None => BTreeSet::new(),
+        let mut layout = SetLayout::gather(atlas, key, true);
+        let SetLayout { shared, cover, .. } = &mut layout;
+        shared.retain(|&(pixel, texel)| {
+            claim(atlas, texel as usize).is_some_and(|(_, how)| how == cover[pixel as usize])
+        });
+        shared.sort_unstable();
+        layout
+    }
+
+    /// Goes over all texels; with `shares`, those that find their pixel taken, or lose it, are listed as they come.
+    fn gather(atlas: &Atlas, key: SetKey, shares: bool) -> SetLayout {
+        let siblings = match key.udim {
+            Some(_) => set_keys(atlas),
+            None => Vec::new(),
         };
+        let siblings = siblings.iter().filter(|other| other.material == key.material);
+        let siblings = siblings.map(|other| other.uv_tile).collect();
         let pixels = atlas.size as usize * atlas.size as usize;
         let mut layout = SetLayout {
             key,
@@ -130,15 +135,11 @@ impl SetLayout {
             for y in first_y..(first_y + TILE as usize).min(height) {
                 let row = (tile.page as usize * height + y) * width;
                 for x in first_x..(first_x + TILE as usize).min(width) {
-                    layout.place(atlas, &siblings, row + x, [x as i64, y as i64]);
+                    let loser = layout.place(atlas, &siblings, row + x, [x as i64, y as i64]);
+                    layout.shared.extend(loser.filter(|_| shares));
                 }
             }
         }
-        let SetLayout { shared, cover, .. } = &mut layout;
-        shared.retain(|&(pixel, texel)| {
-            claim(atlas, texel as usize).is_some_and(|(_, how)| how == cover[pixel as usize])
-        });
-        shared.sort_unstable();
         layout
     }
 
@@ -155,15 +156,18 @@ impl SetLayout {
             .map(|texel| texel as usize)
     }
 
-    fn place(&mut self, atlas: &Atlas, siblings: &BTreeSet<[i32; 2]>, texel: usize, [x, y]: [i64; 2]) {
-        let Some((chart_index, cover)) = claim(atlas, texel) else {
-            return;
-        };
-        let Some(chart) = atlas.charts.get(chart_index as usize) else {
-            return;
-        };
+    /// Gives a texel its pixel, unless one that goes before it has it: that pixel, and which of the two did not get it.
+    fn place(
+        &mut self,
+        atlas: &Atlas,
+        siblings: &BTreeSet<[i32; 2]>,
+        texel: usize,
+        [x, y]: [i64; 2],
+    ) -> Option<(u32, u32)> {
+        let (chart_index, cover) = claim(atlas, texel)?;
+        let chart = atlas.charts.get(chart_index as usize)?;
         if chart.sheet != self.key.material {
-            return;
+            return None;
         }
         let size = i64::from(self.size);
         let plane = [
@@ -183,24 +187,20 @@ impl SetLayout {
             !several || chart.uv_tile == self.key.uv_tile
         };
         if !here {
-            return;
+            return None;
         }
         let pixel = inside[1] * self.size as usize + inside[0];
-        let before = (
-            self.cover[pixel],
-            claim(atlas, self.source[pixel] as usize).map(|(chart, _)| chart),
-        );
+        let holder = claim(atlas, self.source[pixel] as usize).map(|(chart, _)| chart);
+        let before = (self.cover[pixel], holder);
         let taken = before.0 == Cover::Owned && cover == Cover::Owned;
         self.collisions += u64::from(taken);
         let wins = cover > before.0 || (cover == before.0 && before.1.is_some_and(|other| chart_index < other));
-        if before.0 != Cover::Empty {
-            let loser = if wins { self.source[pixel] } else { texel as u32 };
-            self.shared.push((pixel as u32, loser));
-        }
+        let loser = if wins { self.source[pixel] } else { texel as u32 };
         if wins {
             self.source[pixel] = texel as u32;
             self.cover[pixel] = cover;
         }
+        (before.0 != Cover::Empty).then_some((pixel as u32, loser))
     }
 }
 

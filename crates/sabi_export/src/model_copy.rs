@@ -83,10 +83,10 @@ impl ModelCopy {
             path: path.to_owned(),
             reason,
         };
-        let bytes = std::fs::read(path).map_err(|error| refuse(error.to_string()))?;
         let is_one_sheet = model.mesh.is_one_sheet;
         let mut file = None;
-        if container::looks_like_gltf(&bytes) {
+        if model.is_gltf {
+            let bytes = std::fs::read(path).map_err(|error| refuse(error.to_string()))?;
             let (container, document) = Container::split(&bytes).map_err(refuse)?;
             let there = document["materials"].as_array().map_or(0, Vec::len);
             let named = model.materials.iter().filter_map(|material| material.file_index);
@@ -102,20 +102,26 @@ impl ModelCopy {
             other => {
                 let file = other.map(|(_, document)| document);
                 warnings.extend(file.as_ref().and_then(left_out::left_out));
-                from_mesh::glb(model, baked, uv_set, file.as_ref())
+                from_mesh::glb(model, baked, uv_set, file.as_ref(), &mut warnings)
             }
         };
         let stem = match file_stem(&model.stem) {
             stem if stem.is_empty() => "model".to_owned(),
             stem => stem,
         };
-        let copied = |(index, material): (usize, &ModelMaterial)| CopiedMaterial {
+        let copied = |((index, material), wrap): ((usize, &ModelMaterial), u32)| CopiedMaterial {
             file_index: if is_made { Some(index) } else { material.file_index },
-            wrap: wrap(model, index as u32),
+            wrap,
         };
         Ok(ModelCopy {
             path: path.to_owned(),
-            materials: model.materials.iter().enumerate().map(copied).collect(),
+            materials: model
+                .materials
+                .iter()
+                .enumerate()
+                .zip(wraps(model))
+                .map(copied)
+                .collect(),
             uv_set,
             is_one_sheet,
             stem,
@@ -131,9 +137,14 @@ impl ModelCopy {
         format!("{}.{ending}", self.stem)
     }
 
-    /// The copy, with these maps on these materials of the model; the one set of a sheet, of material 0, goes on all. Maps of a `.glb` go into it; those of a `.gltf` stay
+    /// The copy, with these maps on these materials of the model; the one set of a sheet, of material 0, goes on all. Maps
+    /// of a `.glb` go into its binary chunk; those of a `.gltf`, or of a `.glb` whose first buffer is no such chunk, stay
     /// beside it. `taken` are file names, in lower case, that the bake has given away already.
-    pub fn finish(mut self, mut baked: BTreeMap<u32, MaterialMaps>, taken: &BTreeSet<String>) -> FinishedCopy {
+    pub fn finish(
+        mut self,
+        mut baked: BTreeMap<u32, MaterialMaps>,
+        taken: &BTreeSet<String>,
+    ) -> Result<FinishedCopy, ExportError> {
         if self.is_one_sheet
             && let Some(maps) = baked.remove(&0)
         {
@@ -170,11 +181,11 @@ impl ModelCopy {
         let mut beside = placed.files;
         let mut warnings = std::mem::take(&mut self.warnings);
         self.bring_along(&placed.new, taken.clone(), &mut beside, &mut warnings);
-        let copy = CopiedFile {
-            name: self.file_name(),
-            bytes: self.container.join(&mut self.document),
-        };
-        FinishedCopy { copy, beside, warnings }
+        let name = self.file_name();
+        let joined = self.container.join(&mut self.document);
+        let bytes = joined.map_err(|bytes| ExportError::CopyTooLarge { path: self.path, bytes })?;
+        let copy = CopiedFile { name, bytes };
+        Ok(FinishedCopy { copy, beside, warnings })
     }
 
     /// The place of a material in the file; the default material, which a file does not list, is added to it.
@@ -191,7 +202,7 @@ impl ModelCopy {
         index
     }
 
-    /// Copies the buffers and pictures that a `.gltf` names in files of their own.
+    /// Copies the buffers and pictures that the file names in files of their own, as far as they lie in its folder.
     fn bring_along(
         &mut self,
         new: &BTreeSet<usize>,
@@ -217,6 +228,11 @@ impl ModelCopy {
                     Some(Err(reason)) => warnings.push(format!(
                         "the copy of the model names {uri} as the model does, but it was not copied: {reason}"
                     )),
+                    // A model from elsewhere must not gather what else lies on this machine.
+                    Some(Ok((_, file))) if !is_beside(&self.path, &file) => warnings.push(format!(
+                        "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the \
+                         model's folder; copy it by hand if it belongs to the model"
+                    )),
                     Some(Ok((bytes, file))) => {
                         let name = free_name(&file, list, &self.stem, &mut taken);
                         entry["uri"] = json!(pictures::uri_of(&name));
@@ -226,6 +242,18 @@ impl ModelCopy {
                 }
             }
         }
+    }
+}
+
+/// Whether a file lies in the model's folder or below, wherever links and `..` lead.
+fn is_beside(model: &Path, file: &Path) -> bool {
+    let folder = match model.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    match (folder.canonicalize(), file.canonicalize()) {
+        (Ok(folder), Ok(file)) => file.starts_with(folder),
+        _ => false,
     }
 }
 
@@ -257,17 +285,19 @@ const EDGE: f32 = 1e-4;
 const CLAMP_TO_EDGE: u32 = 33071;
 const REPEAT: u32 = 10497;
 
-/// Maps repeat where UVs leave the unit square. Where they do not, repeating would only let opposite edges bleed into
-/// each other.
-fn wrap(model: &Model, material: u32) -> u32 {
+/// By material. Maps repeat where UVs leave the unit square. Where they do not, repeating would only let opposite edges
+/// bleed into each other.
+fn wraps(model: &Model) -> Vec<u32> {
     let mesh = &model.mesh;
-    let of_material = mesh.triangles.iter().zip(&mesh.triangle_material);
-    let inside = of_material
-        .filter(|(_, of)| **of == material)
-        .flat_map(|(corners, _)| corners)
-        .filter_map(|vertex| mesh.uvs.get(*vertex as usize))
-        .all(|uv| uv.iter().all(|at| (-EDGE..=1.0 + EDGE).contains(at)));
-    if inside { CLAMP_TO_EDGE } else { REPEAT }
+    let mut wraps = vec![CLAMP_TO_EDGE; model.materials.len()];
+    for (corners, material) in mesh.triangles.iter().zip(&mesh.triangle_material) {
+        let mut uvs = corners.iter().filter_map(|vertex| mesh.uvs.get(*vertex as usize));
+        let leaves = uvs.any(|uv| !uv.iter().all(|at| (-EDGE..=1.0 + EDGE).contains(at)));
+        if let Some(wrap) = wraps.get_mut(*material as usize).filter(|_| leaves) {
+            *wrap = REPEAT;
+        }
+    }
+    wraps
 }
 
 #[cfg(test)]

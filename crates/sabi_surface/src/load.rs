@@ -111,7 +111,7 @@ pub fn load_bytes(
         Err(Fault::Damaged("it is empty".into()))
     } else if options.scale.is_finite() && options.scale > 0.0 {
         match format_of(name, bytes) {
-            Ok(Format::Gltf) => gltf::read(name, bytes, resolve, options),
+            Ok(Format::Gltf) => gltf::read(name, bytes, resolve, options).map(|model| Model { is_gltf: true, ..model }),
             Ok(Format::Obj) => obj::read(name, bytes, resolve, options),
             Err(fault) => Err(fault),
         }

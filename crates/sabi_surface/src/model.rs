@@ -19,6 +19,8 @@ pub struct Model {
     pub parts: Vec<String>,
     /// Files that it was read from: the model's own, buffers, pictures, material libraries. Empty when read from memory.
     pub files: Vec<PathBuf>,
+    /// Whether the file is glTF, text or binary; a copy of any other is made from what was loaded.
+    pub is_gltf: bool,
     /// What of it has no UVs of the chosen set although other triangles have: materials as warnings name them.
     pub without_uvs: Vec<String>,
     /// What was repaired, reduced or left out, as sentences for the artist.

@@ -4,6 +4,8 @@ use serde_json::{Value as Json, json};
 
 /// Cuts keep the alignment of what stands behind them: a multiple of every element size that glTF knows.
 const ALIGNMENT: usize = 16;
+/// Chunks of a GLB file are filled up to a multiple of this.
+const ALIGNMENT_OF_CHUNKS: usize = 4;
 const JSON_CHUNK: &[u8] = b"JSON";
 const BINARY_CHUNK: &[u8] = b"BIN\0";
 
@@ -11,15 +13,10 @@ const BINARY_CHUNK: &[u8] = b"BIN\0";
 #[derive(Debug)]
 pub(super) struct Container {
     is_glb: bool,
-    /// The binary chunk, which is buffer 0; none where the file has none.
+    /// The binary chunk where it is buffer 0; none where the file has none, or a first buffer in a file of its own.
     binary: Option<Vec<u8>>,
     /// Chunks of other kinds, headers included.
     others: Vec<u8>,
-}
-
-/// Whether bytes without a telling name are a glTF file.
-pub(super) fn looks_like_gltf(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"glTF") || without_mark(bytes).trim_ascii_start().starts_with(b"{")
 }
 
 fn without_mark(bytes: &[u8]) -> &[u8] {
@@ -50,6 +47,7 @@ impl Container {
             others: Vec::new(),
         };
         let mut text = bytes;
+        let mut binary = None;
         if container.is_glb {
             let cut_off = || "it is cut off".to_owned();
             let end = word(bytes, 8).filter(|end| *end <= bytes.len()).ok_or_else(cut_off)?;
@@ -61,7 +59,7 @@ impl Container {
                 let chunk = chunk.ok_or_else(cut_off)?;
                 match &bytes[at + 4..at + 8] {
                     JSON_CHUNK if text.is_empty() => text = chunk,
-                    BINARY_CHUNK if container.binary.is_none() => container.binary = Some(chunk.to_vec()),
+                    BINARY_CHUNK if binary.is_none() => binary = Some(chunk),
                     _ => container.others.extend_from_slice(&bytes[at..at + 8 + size]),
                 }
                 at += 8 + size;
@@ -71,12 +69,30 @@ impl Container {
         if !document.is_object() {
             return Err("its JSON is not an object".to_owned());
         }
-        // The chunk may have up to three bytes more than its buffer.
-        let claimed = document["buffers"][0]["byteLength"].as_u64().unwrap_or(u64::MAX);
-        if let Some(binary) = &mut container.binary {
-            binary.truncate(usize::try_from(claimed).unwrap_or(usize::MAX));
+        if let Some(chunk) = binary {
+            container.take_binary(chunk, &document["buffers"][0]);
         }
         Ok((container, document))
+    }
+
+    /// Keeps the binary chunk as the first buffer, or as a chunk that nothing is said about.
+    fn take_binary(&mut self, chunk: &[u8], buffer: &Json) {
+        if !buffer.is_object() || !buffer["uri"].is_null() {
+            // The chunk stands right behind the JSON, whatever else there is.
+            let size = (chunk.len() as u32).to_le_bytes();
+            self.others.splice(0..0, [&size, BINARY_CHUNK, chunk].concat());
+            return;
+        }
+        // Up to three zeros fill the chunk up. A buffer that claims less than that is wrong, and views reach behind it.
+        let claimed = buffer["byteLength"]
+            .as_u64()
+            .and_then(|size| usize::try_from(size).ok());
+        let is_filler = |filler: &[u8]| filler.len() < ALIGNMENT_OF_CHUNKS && filler.iter().all(|byte| *byte == 0);
+        let parts = claimed.and_then(|size| chunk.split_at_checked(size));
+        let held = parts
+            .filter(|(_, filler)| is_filler(filler))
+            .map_or(chunk, |(held, _)| held);
+        self.binary = Some(held.to_vec());
     }
 
     /// Whether it is a `.glb` file.
@@ -107,21 +123,16 @@ impl Container {
             // An extension may keep places in the buffer of its own.
             return;
         };
-        let live: Vec<[usize; 2]> = views.iter().filter_map(range).collect();
-        let mut cuts: Vec<[usize; 2]> = dead
-            .iter()
-            .filter_map(range)
-            .filter(|[from, to]| *to <= binary.len() && live.iter().all(|[start, end]| to <= start || end <= from))
-            .map(|[from, to]| [from, from + (to - from) / ALIGNMENT * ALIGNMENT])
-            .collect();
-        cuts.sort_unstable();
-        cuts.dedup_by(|next, kept| next[0] < kept[1]);
-        let moved = |at: usize| -> usize {
-            cuts.iter()
-                .filter(|[_, to]| *to <= at)
-                .map(|[from, to]| to - from)
-                .sum()
-        };
+        let mut cuts = cuts(views.iter().filter_map(range).collect(), dead);
+        cuts.retain(|[_, to]| *to <= binary.len());
+        // By cut: all bytes cut out up to its end.
+        let mut sum = 0;
+        let mut cut_before = vec![0];
+        for [from, to] in &cuts {
+            sum += to - from;
+            cut_before.push(sum);
+        }
+        let moved = |at: usize| cut_before[cuts.partition_point(|[_, to]| *to <= at)];
         for view in views.iter_mut() {
             if let Some([at, _]) = range(view)
                 && moved(at) > 0
@@ -129,29 +140,57 @@ impl Container {
                 view["byteOffset"] = json!(at - moved(at));
             }
         }
-        for [from, to] in cuts.into_iter().rev() {
-            binary.drain(from..to);
+        let mut kept = 0;
+        let mut from = 0;
+        for [start, end] in cuts.into_iter().chain([[binary.len(); 2]]) {
+            binary.copy_within(from..start, kept);
+            kept += start - from;
+            from = end;
         }
+        binary.truncate(kept);
     }
 
-    /// The file.
-    pub(super) fn join(self, document: &mut Json) -> Vec<u8> {
+    /// The file; or the number of its bytes where a GLB file cannot have so many.
+    pub(super) fn join(self, document: &mut Json) -> Result<Vec<u8>, u64> {
         if let Some(binary) = &self.binary {
             document["buffers"][0]["byteLength"] = json!(binary.len());
         }
         if !self.is_glb {
-            return format!("{document:#}\n").into_bytes();
+            return Ok(format!("{document:#}\n").into_bytes());
         }
-        let mut file = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
-        chunk(&mut file, JSON_CHUNK, document.to_string().into_bytes(), b' ');
+        let text = document.to_string().into_bytes();
+        let size = |chunk: &[u8]| 8 + chunk.len().next_multiple_of(ALIGNMENT_OF_CHUNKS) as u64;
+        let total = 12 + size(&text) + self.binary.as_deref().map_or(0, size) + self.others.len() as u64;
+        let mut file = b"glTF\x02\0\0\0".to_vec();
+        file.extend_from_slice(&length(total)?);
+        chunk(&mut file, JSON_CHUNK, text, b' ')?;
         if let Some(binary) = self.binary {
-            chunk(&mut file, BINARY_CHUNK, binary, 0);
+            chunk(&mut file, BINARY_CHUNK, binary, 0)?;
         }
         file.extend_from_slice(&self.others);
-        let length = file.len() as u32;
-        file[8..12].copy_from_slice(&length.to_le_bytes());
-        file
+        Ok(file)
     }
+}
+
+/// What only the `dead` buffer views held, in multiples of [`ALIGNMENT`]: rising and apart from each other.
+fn cuts(mut live: Vec<[usize; 2]>, dead: &[Json]) -> Vec<[usize; 2]> {
+    live.sort_unstable();
+    // Joined where they overlap, so that not only starts rise but ends as well.
+    live.dedup_by(|next, kept| {
+        let joins = next[0] <= kept[1];
+        kept[1] = if joins { kept[1].max(next[1]) } else { kept[1] };
+        joins
+    });
+    let is_dead = |[from, to]: &[usize; 2]| {
+        let behind = live.partition_point(|[_, end]| end <= from);
+        live.get(behind).is_none_or(|[start, _]| to <= start)
+    };
+    let whole = |[from, to]: [usize; 2]| [from, from + (to - from) / ALIGNMENT * ALIGNMENT];
+    let dead = dead.iter().filter_map(range).filter(is_dead);
+    let mut cuts: Vec<[usize; 2]> = dead.map(whole).filter(|[from, to]| from < to).collect();
+    cuts.sort_unstable();
+    cuts.dedup_by(|next, kept| next[0] < kept[1]);
+    cuts
 }
 
 /// First byte of a view of buffer 0, and the one behind its last.
@@ -164,9 +203,18 @@ fn range(view: &Json) -> Option<[usize; 2]> {
     Some([from, from.checked_add(usize::try_from(number("byteLength")?).ok()?)?])
 }
 
-fn chunk(file: &mut Vec<u8>, kind: &[u8], mut bytes: Vec<u8>, filler: u8) {
-    bytes.resize(bytes.len().next_multiple_of(4), filler);
-    file.extend_from_slice(&(bytes.len() as u32).to_le_bytes());
+/// A length as GLB files say it; or what it is, where they cannot.
+fn length(bytes: u64) -> Result<[u8; 4], u64> {
+    u32::try_from(bytes).map(u32::to_le_bytes).map_err(|_| bytes)
+}
+
+fn chunk(file: &mut Vec<u8>, kind: &[u8], mut bytes: Vec<u8>, filler: u8) -> Result<(), u64> {
+    bytes.resize(bytes.len().next_multiple_of(ALIGNMENT_OF_CHUNKS), filler);
+    file.extend_from_slice(&length(bytes.len() as u64)?);
     file.extend_from_slice(kind);
     file.extend_from_slice(&bytes);
+    Ok(())
 }
+
+#[cfg(test)]
+pub(super) mod tests;

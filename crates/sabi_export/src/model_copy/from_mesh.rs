@@ -22,8 +22,15 @@ const DRAWN: [&str; 3] = ["alphaMode", "alphaCutoff", "doubleSided"];
 const MOST_SETS: u32 = 16;
 
 /// The document and its container, with the mesh's texture coordinates as `TEXCOORD` number `uv_set`. Materials that are
-/// `baked` get no looks of their own; how they are drawn is taken from the `file`, where that is a glTF.
-pub(super) fn glb(model: &Model, baked: &BTreeSet<u32>, uv_set: u32, file: Option<&Json>) -> (Container, Json) {
+/// `baked` get no looks of their own; how they are drawn is taken from the `file`, where that is a glTF. `warnings` gets a
+/// sentence for each picture of the others that glTF cannot hold.
+pub(super) fn glb(
+    model: &Model,
+    baked: &BTreeSet<u32>,
+    uv_set: u32,
+    file: Option<&Json>,
+    warnings: &mut Vec<String>,
+) -> (Container, Json) {
     let sets = uv_sets(&model.mesh, uv_set);
     let mut arrays = Arrays::default();
     let mut document = json!({
@@ -70,6 +77,7 @@ pub(super) fn glb(model: &Model, baked: &BTreeSet<u32>, uv_set: u32, file: Optio
         }
         push(&mut document, "materials", entry);
     }
+    warnings.extend(textures.warnings());
     extensions::keep_lists_true(&mut document, &BTreeSet::new());
     (container, document)
 }

@@ -1,6 +1,6 @@
 //! What a material of a loaded model looks like, written as glTF.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_surface::model::{Model, ModelMaterial, TextureRef, Wrap};
 use serde_json::{Value as Json, json};
@@ -70,6 +70,8 @@ pub(super) struct Textures<'m> {
     model: &'m Model,
     /// Places in the copy by picture of the model.
     images: BTreeMap<usize, usize>,
+    /// Pictures of the model that glTF cannot hold.
+    left_out: BTreeSet<usize>,
 }
 
 impl<'m> Textures<'m> {
@@ -77,7 +79,20 @@ impl<'m> Textures<'m> {
         Textures {
             model,
             images: BTreeMap::new(),
+            left_out: BTreeSet::new(),
         }
+    }
+
+    /// A sentence for each picture that was left out.
+    pub(super) fn warnings(&self) -> impl Iterator<Item = String> {
+        let pictures = self.left_out.iter().filter_map(|image| self.model.images.get(*image));
+        pictures.map(|picture| {
+            format!(
+                "the copy of the model does not show {}, a picture of a material that was not baked: glTF has PNG and JPEG \
+                 alone; save the picture as PNG and name that in the model",
+                picture.name
+            )
+        })
     }
 
     /// Adds a texture and gives its use; none for pictures that glTF cannot hold, and for those that are laid out by a set
@@ -113,7 +128,10 @@ impl<'m> Textures<'m> {
         let kind = match &bytes[..] {
             [0x89, b'P', b'N', b'G', ..] => "image/png",
             [0xff, 0xd8, 0xff, ..] => "image/jpeg",
-            _ => return None,
+            _ => {
+                self.left_out.insert(image);
+                return None;
+            }
         };
         let view = container.put(bytes)?;
         let view = push(document, "bufferViews", view);

@@ -6,6 +6,8 @@ use sabi_surface::model::Wrap;
 
 use super::*;
 
+mod faithful;
+
 /// Bytes that stand for a picture: only their place matters here.
 fn picture(name: &str) -> Vec<u8> {
     [b"\x89PNG", name.repeat(40).as_bytes()].concat()
@@ -93,7 +95,7 @@ fn document() -> (Json, Vec<u8>) {
 
 fn glb() -> Vec<u8> {
     let (mut document, binary) = document();
-    Container::glb(binary).join(&mut document)
+    Container::glb(binary).join(&mut document).unwrap()
 }
 
 fn map(name: &str, is_written: bool) -> Option<MapFile> {
@@ -132,7 +134,7 @@ fn copied(name: &str, files: &[(&str, &[u8])], maps: &[(u32, MaterialMaps)]) -> 
     let model = load(&path, &LoadOptions::default()).unwrap();
     let baked = maps.iter().map(|(material, _)| *material).collect();
     let copy = ModelCopy::open(&path, &model, 0, &baked).unwrap();
-    copy.finish(maps.iter().cloned().collect(), &BTreeSet::new())
+    copy.finish(maps.iter().cloned().collect(), &BTreeSet::new()).unwrap()
 }
 
 /// A file's document and the bytes of a buffer view.
@@ -301,7 +303,7 @@ fn opacity_shows_in_the_alpha_mode_that_the_model_has_or_in_blend() {
         if let Some(mode) = mode {
             document["materials"][1]["alphaMode"] = json!(mode);
         }
-        let before = Container::glb(binary).join(&mut document);
+        let before = Container::glb(binary).join(&mut document).unwrap();
         let finished = copied("it.glb", &[("it.glb", &before)], &[(1, all_maps())]);
         assert_eq!(parts(&finished.copy.bytes).0["materials"][1]["alphaMode"], expected);
     }

@@ -1,0 +1,128 @@
+//! What of a file must come through a copy, and what must not come along.
+
+use super::super::container::tests::glb;
+use super::*;
+
+#[test]
+fn a_buffer_that_claims_too_little_loses_nothing() {
+    let (mut document, binary) = document();
+    document["buffers"][0]["byteLength"] = json!(120);
+    let finished = copied("it.glb", &[("it.glb", &glb(&document, &binary))], &[(1, all_maps())]);
+    let (_, is_view) = parts(&finished.copy.bytes);
+    assert_eq!((is_view(1), is_view(4)), (triangle(), picture("glass")));
+}
+
+#[test]
+fn maps_lie_beside_a_glb_whose_first_buffer_is_a_file() {
+    let (mut document, binary) = document();
+    document["buffers"][0]["uri"] = json!("far.bin");
+    let file = glb(&document, b"what nobody asks for");
+    let finished = copied("it.glb", &[("it.glb", &file), ("far.bin", &binary)], &[(1, all_maps())]);
+    let (is, _) = parts(&finished.copy.bytes);
+    assert_eq!(is["bufferViews"], document["bufferViews"], "no view is new");
+    let buffer = json!({ "byteLength": binary.len(), "uri": "it.bin" });
+    assert_eq!(is["buffers"], json!([buffer]));
+    assert_eq!(is["images"][0]["uri"], "new%20color.png");
+    let beside: Vec<&str> = finished.beside.iter().map(|file| file.name.as_str()).collect();
+    assert_eq!(beside, ["new packed.png", "new normal.png", "it.bin"]);
+    assert!(finished.copy.bytes.ends_with(b"\x14\0\0\0BIN\0what nobody asks for"));
+}
+
+#[test]
+fn only_files_in_the_folder_of_the_model_come_along() {
+    let outside = tempfile::tempdir().unwrap();
+    let folder = outside.path().join("model");
+    fs::create_dir_all(folder.join("maps")).unwrap();
+    let (mut document, binary) = document();
+    let secret = outside.path().join("secret.png");
+    for (path, bytes) in [
+        (secret.clone(), picture("secret")),
+        (folder.join("maps/in.png"), picture("in")),
+        (folder.join("it.bin"), binary),
+    ] {
+        fs::write(path, bytes).unwrap();
+    }
+    let mut uris = vec![
+        "../secret.png".to_owned(),
+        "%2e%2e/secret.png".to_owned(),
+        "maps/../../secret.png".to_owned(),
+        secret.to_str().unwrap().to_owned(),
+    ];
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&secret, folder.join("link.png")).unwrap();
+        uris.push("link.png".to_owned());
+    }
+    let inside = ["maps/in.png", "maps/../maps/in.png"];
+    document["buffers"][0]["uri"] = json!("it.bin");
+    let first = document["images"].as_array().unwrap().len();
+    for uri in uris.iter().map(String::as_str).chain(inside) {
+        edit::push(&mut document, "images", json!({ "uri": uri }));
+    }
+    let path = folder.join("it.gltf");
+    fs::write(&path, document.to_string()).unwrap();
+    let model = load(&path, &LoadOptions::default()).unwrap();
+    let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new()).unwrap();
+    let finished = copy.finish(BTreeMap::new(), &BTreeSet::new()).unwrap();
+    let is: Json = serde_json::from_slice(&finished.copy.bytes).unwrap();
+    for (at, uri) in uris.iter().enumerate() {
+        assert_eq!(is["images"][first + at]["uri"], *uri);
+        let sentence = format!(
+            "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the model's \
+             folder; copy it by hand if it belongs to the model"
+        );
+        assert_eq!(finished.warnings[at], sentence);
+    }
+    assert_eq!(finished.warnings.len(), uris.len());
+    let beside: Vec<&str> = finished.beside.iter().map(|file| file.name.as_str()).collect();
+    assert_eq!(beside, ["it.bin", "in.png", "in_2.png"]);
+    assert!(finished.beside.iter().all(|file| file.bytes != picture("secret")));
+}
+
+#[test]
+fn a_model_is_gltf_where_its_reader_said_so() {
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\nf 1/1 2/2 3/3\n";
+    // What no line of OBJ begins with is left out by its reader.
+    let file = format!("{{ left by a program }}\n{obj}");
+    let finished = copied("it.obj", &[("it.obj", file.as_bytes())], &[]);
+    assert_eq!(finished.copy.name, "it.glb");
+}
+
+#[test]
+fn a_picture_that_gltf_cannot_hold_is_named() {
+    let obj =
+        "mtllib it.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\nusemtl wood\nf 1/1 2/2 3/3\n";
+    let files: [(&str, &[u8]); 3] = [
+        ("it.obj", obj.as_bytes()),
+        ("it.mtl", b"newmtl wood\nmap_Kd wood.bmp\n"),
+        ("wood.bmp", b"BM and so on"),
+    ];
+    let warnings = copied("it.obj", &files, &[]).warnings;
+    let [warning] = &warnings[..] else {
+        panic!("{warnings:?}");
+    };
+    assert!(
+        warning
+            .starts_with("the copy of the model does not show wood.bmp, a picture of a material that was not baked: "),
+        "{warning}"
+    );
+    assert!(copied("it.obj", &files, &[(0, all_maps())]).warnings.is_empty());
+}
+
+#[test]
+fn maps_repeat_on_the_materials_whose_uvs_leave_the_square() {
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0 1.5\nusemtl in\nf 1/1 2/2 3/3\nusemtl out\nf 1/1 2/2 3/3\n\
+               f 1/1 2/2 3/4\nusemtl in\nf 1/1 2/2 3/3\n";
+    let finished = copied(
+        "it.obj",
+        &[("it.obj", obj.as_bytes())],
+        &[(0, all_maps()), (1, all_maps())],
+    );
+    let (is, _) = parts(&finished.copy.bytes);
+    let wraps = |material: usize| {
+        let texture = &is["materials"][material]["normalTexture"]["index"];
+        let texture = &is["textures"][texture.as_u64().unwrap() as usize];
+        is["samplers"][texture["sampler"].as_u64().unwrap() as usize]["wrapS"].clone()
+    };
+    assert_eq!([wraps(0), wraps(1)], [json!(CLAMP_TO_EDGE), json!(REPEAT)]);
+}
