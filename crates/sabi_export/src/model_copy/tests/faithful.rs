@@ -126,3 +126,29 @@ fn maps_repeat_on_the_materials_whose_uvs_leave_the_square() {
     };
     assert_eq!([wraps(0), wraps(1)], [json!(CLAMP_TO_EDGE), json!(REPEAT)]);
 }
+
+#[test]
+fn numbers_come_out_as_they_went_in() {
+    // Of 16 and 17 digits: more than 53 bits hold, so that the quick way to read most of them is off in the last digit.
+    let numbers = json!([
+        0.30000000000000004,
+        0.0009221885624698875,
+        393.35362306983956,
+        9.200864349327219,
+        0.00020548525770076122,
+        0.00018078399346030394,
+        0.00043165554714977484
+    ]);
+    let (mut document, binary) = document();
+    document["extensions"]["EXT_unheard_of"] = numbers.clone();
+    let finished = copied("it.glb", &[("it.glb", &glb(&document, &binary))], &[(1, all_maps())]);
+    let text = numbers.to_string();
+    assert!(
+        finished
+            .copy
+            .bytes
+            .windows(text.len())
+            .any(|bytes| bytes == text.as_bytes()),
+        "{text}"
+    );
+}
