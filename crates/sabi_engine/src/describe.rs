@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use crate::kinds::Kinds;
 use crate::overlap::Sharing;
-use crate::prepare::{Prepared, Unwrapping};
+use crate::prepare::Prepared;
 
 /// A model and its atlas.
 pub fn describe_mesh(prepared: &Prepared) -> Json {
@@ -21,7 +21,7 @@ pub fn describe_mesh(prepared: &Prepared) -> Json {
         "parts": prepared.model.parts,
         "pieces": prepared.pieces.boxes.len(),
         "materials": sabi_export::set_names(&prepared.model),
-        "unwrapped": prepared.unwrapped.as_ref().map(describe_unwrapping),
+        "unwrapped": describe_unwrapping(prepared),
         "vertex_colors": !mesh.colors.is_empty(),
         "largest_side": short(prepared.largest_side as f32),
         "size": prepared.atlas.size,
@@ -45,8 +45,11 @@ pub fn describe_mesh(prepared: &Prepared) -> Json {
     })
 }
 
-/// How a model was unwrapped.
-pub(crate) fn describe_unwrapping(unwrapping: &Unwrapping) -> Json {
+/// How a model was unwrapped; null if it was not.
+pub(crate) fn describe_unwrapping(prepared: &Prepared) -> Json {
+    let Some(unwrapping) = &prepared.unwrapped else {
+        return Json::Null;
+    };
     let report = &unwrapping.report;
     let [pieces, distinct] = report.pieces;
     json!({
@@ -57,7 +60,7 @@ pub(crate) fn describe_unwrapping(unwrapping: &Unwrapping) -> Json {
         "coverage": short(report.coverage),
         "stretch": short(report.stretch),
         "worst_stretch": short(report.worst_stretch),
-        "gap_texels": short(report.gap),
+        "gap_texels": short(report.gap_at(prepared.atlas.size)),
     })
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_export::{set_keys, set_names};
-use sabi_surface::atlas::Chart;
+use sabi_surface::atlas::{Chart, PAIRS_LIMIT};
 use serde_json::{Value as Json, json};
 
 use crate::prepare::{Overlap, Prepared};
@@ -31,6 +31,8 @@ pub(crate) struct Sharing {
     by_material: BTreeMap<u32, Shared>,
     /// Share of the owned texels whose place another chart claims as well.
     share: f64,
+    /// Whether there are more pairs than the atlas lists, so that the numbers of them are the least there are.
+    is_cut: bool,
 }
 
 impl Sharing {
@@ -75,7 +77,11 @@ impl Sharing {
             atlas.report.overlap_texels
         };
         let share = texels as f64 / owned.max(1) as f64;
-        Sharing { by_material, share }
+        Sharing {
+            by_material,
+            share,
+            is_cut: atlas.report.overlapping_charts.len() >= PAIRS_LIMIT,
+        }
     }
 
     /// The worst first.
@@ -119,6 +125,7 @@ impl Sharing {
         } else {
             prepared.atlas.report.overlap_texels
         });
+        report["more_than_counted"] = json!(self.is_cut);
         report["share"] = json!((self.share * 10_000.0).round() / 10_000.0);
         report["materials"] = self.worst().into_iter().take(MATERIALS).map(of_material).collect();
         report
@@ -139,6 +146,7 @@ impl Sharing {
             .filter(|(count, _)| *count > 0)
             .map(|(count, word)| format!("{count} {word}"))
             .collect();
+        let least = if self.is_cut { "at least " } else { "" };
         let names = set_names(&prepared.model);
         let name = names.get(material as usize).map_or("", String::as_str);
         let share = match self.share {
@@ -147,27 +155,47 @@ impl Sharing {
             share => format!("UV charts overlap on {:.1} % of the surface", 100.0 * share),
         };
         let copies = total.tiling == 0 && total.partial == 0;
-        let (hold, advice) = match prepared.overlap {
-            Overlap::Merge if copies => (
-                "the mean of all results",
-                "--overlap unwrap gives each a place of its own",
-            ),
-            Overlap::Merge => (
-                "the mean of all results",
-                "--overlap unwrap suits it better: each gets a place of its own",
-            ),
-            Overlap::First | Overlap::Unwrap if copies => (
-                "the first one's result",
-                "--overlap merge takes the mean of all, --overlap unwrap gives each a place of its own",
-            ),
-            Overlap::First | Overlap::Unwrap => (
-                "the first one's result",
-                "--overlap unwrap gives each a place of its own",
-            ),
-        };
+        let (hold, advice) = advice(prepared.overlap, prepared.unwrapped.is_some(), copies);
         Some(format!(
-            "{share} ({}), most of all in '{name}': maps hold {hold} there; {advice}",
+            "{share} ({least}{}), most of all in '{name}': maps hold {hold} there; {advice}",
             kinds.join(", ")
         ))
+    }
+}
+
+/// What maps hold where charts share a place, and what to do about it.
+fn advice(overlap: Overlap, was_unwrapped: bool, copies: bool) -> (&'static str, &'static str) {
+    let hold = match overlap {
+        Overlap::Merge => "the mean of all results",
+        Overlap::First | Overlap::Unwrap => "the first one's result",
+    };
+    let advice = match overlap {
+        _ if was_unwrapped => {
+            "the model was unwrapped already, so a larger --size helps, or UVs that are made in a modeling program"
+        }
+        Overlap::Merge if copies => "--overlap unwrap gives each a place of its own",
+        Overlap::Merge => "--overlap unwrap suits it better: each gets a place of its own",
+        Overlap::First | Overlap::Unwrap if copies => {
+            "--overlap merge takes the mean of all, --overlap unwrap gives each a place of its own"
+        }
+        Overlap::First | Overlap::Unwrap => "--overlap unwrap gives each a place of its own",
+    };
+    (hold, advice)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_model_with_uvs_of_its_own_is_advised_to_be_unwrapped() {
+        for overlap in [Overlap::First, Overlap::Merge, Overlap::Unwrap] {
+            for copies in [false, true] {
+                let told = |was_unwrapped| advice(overlap, was_unwrapped, copies).1;
+                assert!(told(false).contains("--overlap unwrap"), "{overlap:?}");
+                assert!(!told(true).contains("--overlap"), "{overlap:?}");
+                assert!(told(true).contains("a larger --size"), "{overlap:?}");
+            }
+        }
     }
 }

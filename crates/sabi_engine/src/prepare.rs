@@ -8,7 +8,7 @@ use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
 use sabi_surface::load::{LoadOptions, Up, load};
 use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
-use sabi_surface::unwrap::{UnwrapOptions, UnwrapReport, unwrap_cached};
+use sabi_surface::unwrap::{UnwrapReport, unwrap_cached};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::stages::{Progress, Stage};
@@ -220,8 +220,7 @@ fn needs_unwrapping(model: &mut Model) -> bool {
 /// Puts the unwrapped mesh in the place of the model's own.
 fn unwrap_model(model: &mut Model, options: &ModelOptions) -> Result<Unwrapping, String> {
     let folder = options.cache_folder();
-    let unwrap_options = UnwrapOptions { size: options.size };
-    let found = unwrap_cached(folder.as_deref(), &model.mesh, &unwrap_options);
+    let found = unwrap_cached(folder.as_deref(), &model.mesh);
     let (unwrapped, was_cached) = found.map_err(|error| error.to_string())?;
     model.mesh = unwrapped.mesh;
     model.warnings.extend(unwrapped.report.warnings.iter().cloned());

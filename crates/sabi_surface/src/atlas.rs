@@ -44,6 +44,9 @@ pub const TILE: u32 = 8;
 /// Rings of ghost texels around a chart.
 pub const RINGS: u32 = 2;
 
+/// Pairs of overlapping charts that a report lists; more would tell nobody more.
+pub const PAIRS_LIMIT: usize = 10_000;
+
 /// What an atlas is built for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AtlasOptions {

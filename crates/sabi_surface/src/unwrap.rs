@@ -19,15 +19,14 @@ pub use self::error::UnwrapError;
 use self::flatten::Flattened;
 use crate::model::Mesh;
 
-/// How a mesh is unwrapped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnwrapOptions {
-    /// Texels along a side of the maps that the sheet is for, 16 to 16384.
-    pub size: u32,
-}
-
-/// Texels that stay free between two charts at [`UnwrapOptions::size`]; half of it along the sheet's border.
+/// Texels that stay free between two charts on maps of 1024 × 1024, twice as many at 2048 and so on; half of it along the
+/// sheet's border. The layout is the same for maps of all sizes.
 pub const GAP: u32 = 4;
+
+/// Texels along a side of the sheet while it is packed.
+const PACKED_SIZE: u32 = 1024;
+/// The same where there are too many charts for that, however many there are.
+const FINEST_SIZE: u32 = 16_384;
 
 /// A mesh on one sheet.
 ///
@@ -59,35 +58,38 @@ pub struct UnwrapReport {
     pub stretch: f32,
     /// The same at its worst, among the triangles with 99.9 % of the area.
     pub worst_stretch: f32,
-    /// Texels between charts: [`GAP`], unless there are too many charts for it.
+    /// Texels between charts on maps of 1024 × 1024: [`GAP`], unless there are too many charts for it.
     pub gap: f32,
     /// Sentences for the artist.
     pub warnings: Vec<String>,
 }
 
-/// Unwraps a mesh: the same bytes for the same mesh and options, with any number of threads.
+impl UnwrapReport {
+    /// Texels between charts on maps of `size` × `size`.
+    pub fn gap_at(&self, size: u32) -> f32 {
+        self.gap * size as f32 / PACKED_SIZE as f32
+    }
+}
+
+/// Unwraps a mesh: the same bytes for the same mesh, with any number of threads.
 ///
 /// Texture coordinates that the mesh has stay in [`Mesh::texture_uvs`], and its normal maps with the frames they were made
 /// for; [`Mesh::tangents`] are made anew.
-pub fn unwrap(mesh: &Mesh, options: &UnwrapOptions) -> Result<Unwrapped, UnwrapError> {
-    finish(mesh, lay_out(mesh, options)?)
+pub fn unwrap(mesh: &Mesh) -> Result<Unwrapped, UnwrapError> {
+    finish(mesh, lay_out(mesh)?)
 }
 
 /// As [`unwrap`], from the cache where it is there and whole, else written there. The second value says whether it came
 /// from the cache; one that cannot be written is a warning in the report.
-pub fn unwrap_cached(
-    cache_dir: Option<&Path>,
-    mesh: &Mesh,
-    options: &UnwrapOptions,
-) -> Result<(Unwrapped, bool), UnwrapError> {
+pub fn unwrap_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(Unwrapped, bool), UnwrapError> {
     let Some(folder) = cache_dir else {
-        return Ok((unwrap(mesh, options)?, false));
+        return Ok((unwrap(mesh)?, false));
     };
-    let key = keep::key(mesh, options);
+    let key = keep::key(mesh);
     if let Some(sheet) = keep::read(folder, &key, mesh.triangles.len()) {
         return Ok((finish(mesh, sheet)?, true));
     }
-    let mut sheet = lay_out(mesh, options)?;
+    let mut sheet = lay_out(mesh)?;
     if let Some(warning) = keep::write(folder, &key, &sheet) {
         sheet.report.warnings.push(warning);
     }
@@ -101,11 +103,16 @@ struct Sheet {
     report: UnwrapReport,
 }
 
-fn lay_out(mesh: &Mesh, options: &UnwrapOptions) -> Result<Sheet, UnwrapError> {
-    error::check(mesh, options)?;
+fn lay_out(mesh: &Mesh) -> Result<Sheet, UnwrapError> {
+    error::check(mesh)?;
     let pieces = pieces::pieces(mesh);
-    let Flattened { charts, distinct } = flatten::flatten(mesh, &pieces);
-    let mut sheet = sheet::pack(mesh, &charts, options.size);
+    let Flattened {
+        charts,
+        distinct,
+        warnings,
+    } = flatten::flatten(mesh, &pieces);
+    let mut sheet = sheet::pack(mesh, &charts, [PACKED_SIZE, FINEST_SIZE])?;
+    sheet.report.warnings.splice(0..0, warnings);
     sheet.report.pieces = [pieces.len() as u32, distinct];
     Ok(sheet)
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use crate::place::{Place, graph};
+use crate::place::{Place, done, graph};
 
 /// A cube of two materials without texture coordinates; of the second, one face has some.
 const BARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
@@ -42,16 +42,59 @@ fn a_model_without_uvs_is_baked_onto_one_sheet_for_all_its_materials() {
     let report = json(std::str::from_utf8(&place.read("out/report.json")).unwrap());
     let unwrapped = &report["mesh"]["unwrapped"];
     assert_eq!(unwrapped["uv_set"], 0);
-    assert_eq!(unwrapped["gap_texels"].as_f64(), Some(4.0));
+    // Four texels at 1024, so a quarter of one at 64.
+    assert_eq!(unwrapped["gap_texels"].as_f64(), Some(0.25));
+    assert_eq!(report["unwrapping_cached"], false);
     assert_eq!(report["mesh"]["overlap"]["texels"], 0);
-    // Again, from the disk cache, and with one thread.
+    // Again, from the disk cache, and anew with one thread.
     let before = place.read("out/bare_base_color.png");
-    place.bake("rust.sabi", "bare.obj", &["-o", "again"]).good();
+    let bake = |threads: &str, more: &[&str]| {
+        let arguments = [
+            &[
+                "bake",
+                "rust.sabi",
+                "--mesh",
+                "bare.obj",
+                "--adapter",
+                "cpu",
+                "--size",
+                "64",
+                "--json",
+            ],
+            more,
+        ];
+        let mut command = place.command(&arguments.concat());
+        json(
+            &done(command.env("RAYON_NUM_THREADS", threads).output().unwrap())
+                .good()
+                .stdout,
+        )
+    };
+    assert_eq!(bake("2", &["-o", "again"])["unwrapping_cached"], true);
     assert_eq!(place.read("again/bare_base_color.png"), before);
-    place
-        .bake("rust.sabi", "bare.obj", &["-o", "anew", "--no-cache"])
-        .good();
+    assert_eq!(bake("1", &["-o", "anew", "--no-cache"])["unwrapping_cached"], false);
     assert_eq!(place.read("anew/bare_base_color.png"), before);
+}
+
+#[test]
+fn pairs_beyond_those_that_are_counted_are_told() {
+    let place = Place::new();
+    let quad = |at: u32| {
+        let corners = ["0 0", "1 0", "1 1", "0 1"].map(|corner| format!("v {corner} {at}\n"));
+        corners.concat() + "f -4/1 -3/2 -2/3 -1/4\n"
+    };
+    let quads: String = (0..150).map(quad).collect();
+    place.write(
+        "many.obj",
+        format!("vt 0.1 0.1\nvt 0.9 0.1\nvt 0.9 0.9\nvt 0.1 0.9\n{quads}"),
+    );
+    let run = place.sabi(&["mesh", "many.obj", "--size", "16", "--json"]).good();
+    let overlap = &json(&run.stdout)["overlap"];
+    assert_eq!(
+        (&overlap["stacked"], &overlap["more_than_counted"]),
+        (&Json::from(10_000), &Json::from(true))
+    );
+    assert!(run.stderr.contains("(at least 10000 stacked)"), "{}", run.stderr);
 }
 
 #[test]

@@ -4,13 +4,11 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use super::Chart;
 use super::charts::Partition;
 use super::fixed::{UNIT, Uvs};
 use super::mask::{Mask, for_each_run};
+use super::{Chart, PAIRS_LIMIT};
 
-/// Pairs that are listed; more would tell nobody more.
-const PAIRS_LIMIT: usize = 10_000;
 /// Pairs that are looked at in the hope of listing them.
 const CANDIDATES_LIMIT: usize = 200_000;
 

@@ -1,6 +1,5 @@
 //! Why a mesh cannot be unwrapped.
 
-use super::UnwrapOptions;
 use crate::model::Mesh;
 
 /// Why a mesh cannot be unwrapped, as a sentence to the person who can change it.
@@ -21,20 +20,19 @@ pub enum UnwrapError {
         /// What does not fit.
         what: String,
     },
-    /// Size outside of what is supported.
-    #[error("a size of {size} texels was asked for, but it has to be between 16 and 16384")]
-    SizeOutOfRange {
-        /// Texels asked for.
-        size: u32,
+    /// More charts than have room on a sheet.
+    #[error(
+        "the model falls into {charts} pieces that can be laid flat, and one sheet has no room for so many; join its \
+         triangles, reduce it or split it in your modeling program"
+    )]
+    TooManyCharts {
+        /// How many there are.
+        charts: usize,
     },
 }
 
 /// Refuses what no step after this could work with.
-pub(super) fn check(mesh: &Mesh, options: &UnwrapOptions) -> Result<(), UnwrapError> {
-    let size = options.size;
-    if !(16..=16384).contains(&size) {
-        return Err(UnwrapError::SizeOutOfRange { size });
-    }
+pub(super) fn check(mesh: &Mesh) -> Result<(), UnwrapError> {
     let triangles = mesh.triangles.len();
     if triangles == 0 {
         return Err(UnwrapError::NoTriangles);

@@ -1,9 +1,11 @@
 //! Pieces cut into charts and laid flat, by the crate `uvunwrap`.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::pieces::Piece;
-use super::sheet::area;
+use super::sheet::{area, flat_area};
 use crate::model::Mesh;
 
 /// Charts of pieces with more triangles than this are kept small: to lay one flat takes time that grows faster than it.
@@ -24,21 +26,28 @@ pub(super) struct Flattened {
     pub(super) charts: Vec<FlatChart>,
     /// Pieces that were worked out; the others are copies of those.
     pub(super) distinct: u32,
+    /// Sentences about pieces that could not be laid flat as they are.
+    pub(super) warnings: Vec<String>,
 }
 
 /// Lays all pieces flat, those that are alike once. Triangles without area are on no chart.
 pub(super) fn flatten(mesh: &Mesh, pieces: &[Piece]) -> Flattened {
     let is_first = |&index: &usize| pieces[index].like.0 == index;
     let firsts: Vec<usize> = (0..pieces.len()).filter(is_first).collect();
-    let worked_out: Vec<Vec<LocalChart>> = firsts
+    let worked_out: Vec<(Vec<LocalChart>, Option<String>)> = firsts
         .par_iter()
         .map(|&index| charts_of(mesh, &pieces[index]))
         .collect();
     let mut charts = Vec::new();
+    let mut failed: BTreeMap<&str, usize> = BTreeMap::new();
     for piece in pieces {
         let (first, factor) = piece.like;
         let Ok(at) = firsts.binary_search(&first) else { continue };
-        charts.extend(worked_out[at].iter().map(|(members, corners)| {
+        let (local, failure) = &worked_out[at];
+        if let Some(reason) = failure {
+            *failed.entry(reason).or_default() += 1;
+        }
+        charts.extend(local.iter().map(|(members, corners)| {
             FlatChart {
                 triangles: members.iter().map(|&member| piece.triangles[member as usize]).collect(),
                 corners: corners
@@ -51,21 +60,33 @@ pub(super) fn flatten(mesh: &Mesh, pieces: &[Piece]) -> Flattened {
     Flattened {
         charts,
         distinct: firsts.len() as u32,
+        warnings: failed.iter().map(|(reason, &count)| torn(reason, count)).collect(),
     }
+}
+
+fn torn(reason: &str, count: usize) -> String {
+    let pieces = if count == 1 { "piece" } else { "pieces" };
+    format!(
+        "{count} {pieces} could not be laid flat as a whole, so each triangle there is a chart of its own: {reason}"
+    )
 }
 
 /// Places in a piece's list of triangles, and their corners.
 type LocalChart = (Vec<u32>, Vec<[[f64; 2]; 3]>);
 
-fn charts_of(mesh: &Mesh, piece: &Piece) -> Vec<LocalChart> {
+/// The charts of a piece, and why it was torn into its triangles if it was.
+fn charts_of(mesh: &Mesh, piece: &Piece) -> (Vec<LocalChart>, Option<String>) {
     // One triangle needs no solver, and a soup of a million of them no million calls.
     if let [triangle] = piece.triangles[..] {
-        return one_by_one(mesh, &[triangle]);
+        return (one_by_one(mesh, &[triangle]), None);
     }
-    unwrapped(mesh, piece).unwrap_or_else(|| one_by_one(mesh, &piece.triangles))
+    match unwrapped(mesh, piece) {
+        Ok(charts) => (charts, None),
+        Err(reason) => (one_by_one(mesh, &piece.triangles), Some(reason)),
+    }
 }
 
-fn unwrapped(mesh: &Mesh, piece: &Piece) -> Option<Vec<LocalChart>> {
+fn unwrapped(mesh: &Mesh, piece: &Piece) -> Result<Vec<LocalChart>, String> {
     let positions: Vec<[f32; 3]> = piece
         .vertices
         .iter()
@@ -101,10 +122,11 @@ fn unwrapped(mesh: &Mesh, piece: &Piece) -> Option<Vec<LocalChart>> {
         scale: scale as f32,
         ..uvunwrap::MeshInput::new(&positions, &piece.corners)
     };
-    let found = uvunwrap::generate(&[input], &options).ok()?;
+    let found = uvunwrap::generate(&[input], &options).map_err(|error| error.to_string())?;
     let unit = 1.0 / (f64::from(TEXELS) * f64::from(scale as f32));
     let page = [f64::from(found.width) * unit, f64::from(found.height) * unit];
-    charts(mesh, piece, found.meshes.first()?, page)
+    let whole = found.meshes.first().and_then(|found| charts(mesh, piece, found, page));
+    whole.ok_or_else(|| "the result has no place for some of its vertices".to_owned())
 }
 
 /// Resolution in which the crate hands over its charts, texels for the longest side of a piece; they are not rounded to it.
@@ -112,7 +134,7 @@ const TEXELS: f32 = 512.0;
 
 /// The crate's result sorted by chart. Its triangles have a positive area in (u, v), which is clockwise in a picture.
 fn charts(mesh: &Mesh, piece: &Piece, found: &uvunwrap::OutputMesh, page: [f64; 2]) -> Option<Vec<LocalChart>> {
-    let mut by_chart: std::collections::BTreeMap<u32, LocalChart> = std::collections::BTreeMap::new();
+    let mut by_chart: BTreeMap<u32, LocalChart> = BTreeMap::new();
     for (member, corners) in found.indices.as_chunks::<3>().0.iter().enumerate() {
         let vertices = corners.map(|corner| found.vertices.get(corner as usize));
         let [Some(a), Some(b), Some(c)] = vertices else {
@@ -123,11 +145,15 @@ fn charts(mesh: &Mesh, piece: &Piece, found: &uvunwrap::OutputMesh, page: [f64; 
         }
         let place =
             |vertex: &uvunwrap::OutputVertex| [f64::from(vertex.uv[0]) * page[0], -f64::from(vertex.uv[1]) * page[1]];
-        // Too thin for the solver: it lies on a chart's border, without area.
         let Some(chart) = a.chart else { continue };
+        let corners = [a, b, c].map(place);
+        // Too thin for the solver: it shrank to a point or a line.
+        if flat_area(corners) <= 0.0 {
+            continue;
+        }
         let entry = by_chart.entry(chart).or_default();
         entry.0.push(member as u32);
-        entry.1.push([a, b, c].map(place));
+        entry.1.push(corners);
     }
     Some(by_chart.into_values().collect())
 }

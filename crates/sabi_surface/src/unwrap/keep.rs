@@ -2,23 +2,21 @@
 
 use std::path::Path;
 
-use super::{Sheet, UnwrapOptions, UnwrapReport};
+use super::{Sheet, UnwrapReport};
 use crate::disk::{self, Kind};
 use crate::model::Mesh;
 
 /// Rises whenever unwrapping or the bytes change.
-const FORMAT_VERSION: u32 = 1;
+const FORMAT_VERSION: u32 = 2;
 const KIND: Kind = Kind {
     magic: b"sabi sheet\r\n",
     prefix: "sheet",
 };
 
 /// A name for a sheet: a hash of everything that can change it.
-pub(super) fn key(mesh: &Mesh, options: &UnwrapOptions) -> [u8; 32] {
+pub(super) fn key(mesh: &Mesh) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new_derive_key("sabi unwrapped sheet");
-    for number in [FORMAT_VERSION, options.size] {
-        hasher.update(&number.to_le_bytes());
-    }
+    hasher.update(&FORMAT_VERSION.to_le_bytes());
     let mut list = |bytes: &[u8]| {
         hasher.update(&(bytes.len() as u64).to_le_bytes());
         hasher.update(bytes);

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::flatten::FlatChart;
-use super::{GAP, Sheet, UnwrapReport};
+use super::{GAP, Sheet, UnwrapError, UnwrapReport};
 use crate::atlas::fixed::UNIT;
 use crate::atlas::mask::Mask;
 use crate::atlas::pack::Packer;
@@ -18,8 +18,8 @@ const MANY: usize = 10_000;
 const STEPS: u32 = 7;
 /// Share of the sheet that charts never cover together.
 const TOO_FULL: f64 = 0.95;
-/// The sheet is packed as if it had at most this many texels, however many charts there are.
-const FINEST: u32 = 16_384;
+/// Texels of the boxes around all charts, as far as memory is taken for them: 256 MB.
+const MOST_BOXED: f64 = (1u64 << 31) as f64;
 
 /// Area of a triangle in space, 0 where it has none beyond what rounding its positions could make.
 pub(super) fn area(mesh: &Mesh, triangle: u32) -> f64 {
@@ -133,27 +133,22 @@ struct Packing {
     places: Vec<(u32, [f64; 2])>,
 }
 
-/// Packs charts as large as they fit with [`GAP`] texels between them at `size`. Where there are too many of them for
-/// that, the gaps get narrower.
-pub(super) fn pack(mesh: &Mesh, charts: &[FlatChart], size: u32) -> Sheet {
+/// Packs charts as large as they fit with [`GAP`] texels between them on a sheet of `size` texels. Where there are too many
+/// of them for that, it has more texels, up to `finest`, so that the gaps get narrower.
+pub(super) fn pack(mesh: &Mesh, charts: &[FlatChart], [size, finest]: [u32; 2]) -> Result<Sheet, UnwrapError> {
     let shapes: Vec<Shape> = charts.par_iter().map(Shape::new).collect();
     let total: f64 = charts
         .iter()
         .flat_map(|chart| &chart.corners)
         .map(|&corners| flat_area(corners))
         .sum();
-    let mut virtual_size = size;
+    let mut packed_size = size;
     let packing = loop {
-        match largest(&shapes, total, virtual_size) {
+        match largest(&shapes, total, packed_size) {
             Some(packing) => break packing,
-            None if virtual_size < FINEST => virtual_size *= 2,
-            // Nothing that a computer holds in memory gets here with area left; all the same there is an answer.
+            None if packed_size < finest => packed_size *= 2,
             None => {
-                break Packing {
-                    scale: 0.0,
-                    size: virtual_size,
-                    places: vec![(0, [0.0; 2]); shapes.len()],
-                };
+                return Err(UnwrapError::TooManyCharts { charts: charts.len() });
             }
         }
     };
@@ -175,7 +170,7 @@ pub(super) fn pack(mesh: &Mesh, charts: &[FlatChart], size: u32) -> Sheet {
     };
     (report.stretch, report.worst_stretch) = stretch(mesh, charts);
     report.warnings = warnings(mesh, charts, &report, size);
-    Sheet { corners, report }
+    Ok(Sheet { corners, report })
 }
 
 /// The largest scale at which all shapes fit, as far as it is looked for.
@@ -210,6 +205,13 @@ fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
         .iter()
         .any(|shape| shape.side[0].max(shape.side[1]) * scale > room)
     {
+        return None;
+    }
+    let boxed = |shape: &Shape| {
+        let [width, height] = shape.texels(scale).map(|texels| f64::from(texels + GAP));
+        width * height
+    };
+    if shapes.iter().map(boxed).sum::<f64>() > MOST_BOXED {
         return None;
     }
     let (cell, limit) = cells(shapes.len(), size);
@@ -260,7 +262,8 @@ fn turns(mask: Mask, cell: u32) -> [Mask; 4] {
     [mask, once, twice, thrice].map(|mask| mask.cells(cell))
 }
 
-fn flat_area([a, b, c]: [[f64; 2]; 3]) -> f64 {
+/// Area of a triangle in the plane.
+pub(super) fn flat_area([a, b, c]: [[f64; 2]; 3]) -> f64 {
     ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs() / 2.0
 }
 
@@ -308,7 +311,7 @@ fn warnings(mesh: &Mesh, charts: &[FlatChart], report: &UnwrapReport, size: u32)
     let mut warnings = Vec::new();
     if report.gap < GAP as f32 {
         warnings.push(format!(
-            "{} charts are too many for gaps of {GAP} texels at size {size}; theirs are {} wide, so a larger size would help",
+            "{} charts are too many for gaps of {GAP} texels at size {size}; theirs are {} wide there, so a larger size would help",
             report.charts, report.gap
         ));
     }

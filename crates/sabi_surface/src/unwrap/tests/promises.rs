@@ -3,12 +3,13 @@
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasOptions, Owner};
 use crate::model::{Mesh, TextureUvs};
-use crate::unwrap::{GAP, UnwrapOptions, Unwrapped, unwrap, unwrap_cached};
+use crate::unwrap::{GAP, UnwrapError, Unwrapped, flatten, pieces, sheet, unwrap, unwrap_cached};
 
-const SIZE: u32 = 256;
+/// The size that gaps are counted at.
+const SIZE: u32 = 1024;
 
 fn unwrapped(mesh: &Mesh, size: u32) -> (Unwrapped, Atlas) {
-    let found = unwrap(mesh, &UnwrapOptions { size }).unwrap();
+    let found = unwrap(mesh).unwrap();
     let atlas = Atlas::build(&found.mesh, &AtlasOptions::new(size)).unwrap();
     (found, atlas)
 }
@@ -26,7 +27,7 @@ fn shapes() -> [(&'static str, Mesh); 5] {
 }
 
 fn area_in_space(mesh: &Mesh, triangle: usize) -> f64 {
-    super::super::sheet::area(mesh, triangle as u32)
+    sheet::area(mesh, triangle as u32)
 }
 
 /// Twice the signed area in UV; negative is not mirrored, since v grows downward.
@@ -142,7 +143,7 @@ fn one_thread_and_two_give_the_same_bytes() {
     join(&mut mesh, &cube(), [8.0, 0.0, 0.0], 1);
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| unwrap(&mesh, &UnwrapOptions { size: SIZE }).unwrap())
+        pool.install(|| unwrap(&mesh).unwrap())
     };
     assert_eq!(with(1), with(2));
 }
@@ -214,8 +215,7 @@ fn broken_triangles_take_nothing_else_with_them() {
 
 #[test]
 fn what_cannot_be_unwrapped_is_a_sentence() {
-    let options = UnwrapOptions { size: SIZE };
-    let said = |mesh: &Mesh| unwrap(mesh, &options).unwrap_err().to_string();
+    let said = |mesh: &Mesh| unwrap(mesh).unwrap_err().to_string();
     assert!(said(&Mesh::default()).starts_with("the model has no triangles"));
     let line = mesh(vec![[0.0; 3], [1.0; 3], [2.0; 3]], vec![[0, 1, 2]]);
     assert!(said(&line).starts_with("no triangle of the model has an area"));
@@ -228,45 +228,80 @@ fn what_cannot_be_unwrapped_is_a_sentence() {
     let mut endless = cube();
     endless.positions[0][1] = f32::NAN;
     assert!(said(&endless).contains("a position is no number"));
-    let error = unwrap(&cube(), &UnwrapOptions { size: 8 }).unwrap_err();
-    assert!(error.to_string().contains("between 16 and 16384"));
+}
+
+/// So many single triangles, packed at sizes of a first and a last.
+fn packed(triangles: u32, sizes: [u32; 2]) -> Result<crate::unwrap::Sheet, UnwrapError> {
+    let alone = mesh(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]);
+    let mut many = alone.clone();
+    for at in 1..triangles {
+        join(&mut many, &alone, [2.0 * at as f32, 0.0, 0.0], 0);
+    }
+    sheet::pack(&many, &flatten::flatten(&many, &pieces::pieces(&many)).charts, sizes)
 }
 
 #[test]
 fn so_many_charts_that_the_gaps_get_narrow_still_fit() {
-    let alone = mesh(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]);
-    let mut many = alone.clone();
-    for at in 1..400 {
-        join(&mut many, &alone, [2.0 * at as f32, 0.0, 0.0], 0);
-    }
-    let found = unwrap(&many, &UnwrapOptions { size: 32 }).unwrap();
-    assert!(
-        found.report.gap < GAP as f32 && found.report.coverage > 0.01,
-        "{:?}",
-        found.report
+    let report = packed(400, [32, 1024]).unwrap().report;
+    assert!(report.gap < GAP as f32 && report.coverage > 0.01, "{report:?}");
+    assert_eq!(
+        report.warnings,
+        [
+            "400 charts are too many for gaps of 4 texels at size 32; theirs are 1 wide there, so a larger size would help"
+        ]
     );
+}
+
+#[test]
+fn more_charts_than_a_sheet_has_room_for_are_refused_by_their_number() {
+    assert_eq!(
+        packed(400, [32, 64]).unwrap_err().to_string(),
+        "the model falls into 400 pieces that can be laid flat, and one sheet has no room for so many; join its triangles, \
+         reduce it or split it in your modeling program"
+    );
+}
+
+#[test]
+fn a_triangle_that_shrinks_to_a_point_on_the_sheet_is_told() {
+    // The last one is as flat as a ten millionth of its length: too thin for the solver, with area all the same.
+    let places = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.5, -1e-7, 0.0]];
+    let thin = mesh(places, vec![[0, 1, 2], [1, 0, 3]]);
+    assert!(area_in_space(&thin, 1) > 0.0);
+    let found = unwrap(&thin).unwrap();
+    assert_eq!(turned(&found.mesh, 1), 0.0);
     assert_eq!(
         found.report.warnings,
-        ["400 charts are too many for gaps of 4 texels at size 32; theirs are 1 wide, so a larger size would help"]
+        ["1 triangle is too thin to have a place on the sheet"]
     );
+}
+
+#[test]
+fn a_piece_that_the_solver_refuses_is_torn_into_triangles_and_told() {
+    let mut tiny = torus();
+    // Lengths whose inverse is no number any more.
+    tiny.positions.iter_mut().flatten().for_each(|value| *value *= 1e-40);
+    let found = unwrap(&tiny).unwrap();
+    assert_eq!(found.report.charts as usize, tiny.triangles.len());
+    let [warning] = &found.report.warnings[..] else {
+        panic!("{:?}", found.report.warnings)
+    };
+    let told = "1 piece could not be laid flat as a whole, so each triangle there is a chart of its own: ";
+    assert!(warning.len() > told.len() && warning.starts_with(told), "{warning}");
 }
 
 #[test]
 fn a_sheet_comes_back_from_disk_as_it_was() {
     let folder = tempfile::tempdir().unwrap();
-    let options = UnwrapOptions { size: SIZE };
-    let (built, from_disk) = unwrap_cached(Some(folder.path()), &torus(), &options).unwrap();
+    let (built, from_disk) = unwrap_cached(Some(folder.path()), &torus()).unwrap();
     assert!(!from_disk);
-    let (read, from_disk) = unwrap_cached(Some(folder.path()), &torus(), &options).unwrap();
+    let (read, from_disk) = unwrap_cached(Some(folder.path()), &torus()).unwrap();
     assert!(from_disk);
     assert_eq!(built, read);
-    assert_eq!(built, unwrap(&torus(), &options).unwrap());
-    let (_, from_disk) = unwrap_cached(Some(folder.path()), &torus(), &UnwrapOptions { size: 128 }).unwrap();
-    assert!(!from_disk, "another size is another sheet");
+    assert_eq!(built, unwrap(&torus()).unwrap());
     let mut files = std::fs::read_dir(folder.path())
         .unwrap()
         .map(|entry| entry.unwrap().path());
     let file = files.next().unwrap();
     std::fs::write(&file, b"sabi sheet\r\n").unwrap();
-    assert_eq!(unwrap_cached(Some(folder.path()), &torus(), &options).unwrap().0, built);
+    assert_eq!(unwrap_cached(Some(folder.path()), &torus()).unwrap().0, built);
 }
