@@ -1,12 +1,12 @@
 //! A graph file and the files it stands among.
 
 use std::fmt;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_graph::{Document, FlatGraph, FlattenError, Overrides, flatten, locate};
 use sabi_plan::{FileContents, PlanError};
+use sabi_surface::load::{Unread, read_plain};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
@@ -115,29 +115,20 @@ impl OpenGraph {
 }
 
 fn read_text(path: &Path) -> Result<String, EngineError> {
-    let missing = |error: std::io::Error| {
-        let why = match error.kind() {
-            std::io::ErrorKind::NotFound => "there is no such file; check the path".to_owned(),
-            _ => format!("the file cannot be read: {error}"),
-        };
-        EngineError::new(ErrorKind::MissingInput, why)
-    };
-    let metadata = fs::metadata(path).map_err(missing)?;
-    if metadata.is_dir() {
-        return Err(EngineError::new(
-            ErrorKind::MissingInput,
-            "this is a folder; name a .sabi file",
-        ));
-    }
-    if metadata.len() > SIZE_LIMIT_BYTES {
-        let why = format!(
-            "the file has {} MiB; graphs have at most {}",
-            metadata.len() >> 20,
-            SIZE_LIMIT_BYTES >> 20
-        );
-        return Err(EngineError::new(ErrorKind::BadInput, why));
-    }
-    let bytes = fs::read(path).map_err(missing)?;
+    let bytes = read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| {
+        let missing = |why: &str| EngineError::new(ErrorKind::MissingInput, why);
+        match unread {
+            Unread::Missing => missing("there is no such file; check the path"),
+            Unread::Folder => missing("this is a folder; name a .sabi file"),
+            Unread::NotPlain => missing("this is a pipe or a device; name a .sabi file"),
+            Unread::Other(reason) => missing(&format!("the file cannot be read: {reason}")),
+            Unread::TooLarge(bytes) => {
+                let [has, most] = [bytes, SIZE_LIMIT_BYTES].map(|bytes| bytes >> 20);
+                let why = format!("the file has {has} MiB; graphs have at most {most}");
+                EngineError::new(ErrorKind::BadInput, why)
+            }
+        }
+    })?;
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         EngineError::new(

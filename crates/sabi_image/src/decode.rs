@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
-use crate::decode_exr::decode_exr;
+use crate::decode_exr::{check_exr, decode_exr};
 use crate::{Declared, ImageError, Picture, Pixels};
 
 /// Longest side that is read, pixels.
@@ -22,14 +22,29 @@ const TGA_PIXELS_A_BYTE: u64 = 64;
 /// The picture in the bytes of a PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR file, recognized by its content (TGA,
 /// which has no mark, by the name's ending). `name` stands in messages. Sizes are checked before memory is taken.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
-    let format = recognize(name, bytes)?;
-    // The decoders are careful but not ours: a slip in one of them must not take the program along.
-    catch_unwind(AssertUnwindSafe(|| match format {
+    guarded(name, bytes, |format| match format {
         Format::Png => decode_png(name, bytes),
         Format::Exr => decode_exr(name, bytes),
         Format::Other(format) => decode_other(name, bytes, format),
-    }))
-    .unwrap_or_else(|_| Err(damaged(name, format.name(), "its contents contradict each other")))
+    })
+}
+
+/// Whether [`decode`] would take the bytes on, as far as their header says: no pixel is looked at. What it answers with
+/// are sentences of [`decode`].
+pub fn check_header(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
+    guarded(name, bytes, |format| match format {
+        Format::Png => open_png(name, bytes).map(drop),
+        Format::Exr => check_exr(name, bytes),
+        Format::Other(format) => open_other(name, bytes, format).map(drop),
+    })
+}
+
+/// What `read` makes of the bytes in their format. The decoders are careful but not ours: a slip in one of them must not
+/// take the program along.
+fn guarded<T>(name: &str, bytes: &[u8], read: impl FnOnce(Format) -> Result<T, ImageError>) -> Result<T, ImageError> {
+    let format = recognize(name, bytes)?;
+    catch_unwind(AssertUnwindSafe(|| read(format)))
+        .unwrap_or_else(|_| Err(damaged(name, format.name(), "its contents contradict each other")))
 }
 
 #[derive(Clone, Copy)]
@@ -137,7 +152,8 @@ pub(crate) fn check_size(name: &str, width: u64, height: u64, pixel_bytes: u64) 
     }
 }
 
-fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+/// A PNG before its pixels.
+fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<Cursor<&'b [u8]>>, ImageError> {
     let damaged = |error: png::DecodingError| damaged(name, "PNG", error);
     let limits = png::Limits {
         bytes: MAX_DECODED_BYTES as usize,
@@ -148,23 +164,37 @@ fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     let header = decoder.read_header_info().map_err(damaged)?;
     let (width, height) = (header.width, header.height);
     check_size(name, width.into(), height.into(), header.bytes_per_pixel() as u64)?;
-    let mut reader = decoder.read_info().map_err(damaged)?;
-    let color_space = declared_by_png(reader.info());
+    let reader = decoder.read_info().map_err(damaged)?;
     let (color, depth) = reader.output_color_type();
-    let channels = color.samples() as u8;
-    let sample_bytes = if depth == png::BitDepth::Sixteen { 2 } else { 1 };
-    check_size(name, width.into(), height.into(), u64::from(channels) * sample_bytes)?;
+    let pixel_bytes = color.samples() as u64 * sample_bytes(depth);
+    check_size(name, width.into(), height.into(), pixel_bytes)?;
     // A pixel of the file may be a single bit.
     let least_bytes = u64::from(width) * u64::from(height) / 8 / DEFLATE_BEST_RATIO;
     if (bytes.len() as u64) < least_bytes {
         return Err(self::damaged(name, "PNG", "the file ends too early"));
     }
+    Ok(reader)
+}
+
+/// Bytes of a sample, once expanded.
+fn sample_bytes(depth: png::BitDepth) -> u64 {
+    if depth == png::BitDepth::Sixteen { 2 } else { 1 }
+}
+
+fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+    let mut reader = open_png(name, bytes)?;
+    let (width, height) = (reader.info().width, reader.info().height);
+    let color_space = declared_by_png(reader.info());
+    let (color, depth) = reader.output_color_type();
+    let channels = color.samples() as u8;
     let size = reader
         .output_buffer_size()
-        .ok_or_else(|| self::damaged(name, "PNG", "its size makes no sense"))?;
+        .ok_or_else(|| damaged(name, "PNG", "its size makes no sense"))?;
     let mut samples = vec![0u8; size];
-    reader.next_frame(&mut samples).map_err(damaged)?;
-    let pixels = if sample_bytes == 2 {
+    reader
+        .next_frame(&mut samples)
+        .map_err(|error| damaged(name, "PNG", error))?;
+    let pixels = if sample_bytes(depth) == 2 {
         Pixels::U16(
             samples
                 .chunks_exact(2)
@@ -206,16 +236,22 @@ fn declared_by_png(info: &png::Info<'_>) -> Declared {
     }
 }
 
-fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture, ImageError> {
-    let format_name = Format::Other(format).name();
-    let explain = |error: image::ImageError| match error {
+/// Why one of the `image` crate's decoders failed.
+fn explain_other(name: &str, format: ImageFormat, error: image::ImageError) -> ImageError {
+    let format = Format::Other(format).name();
+    match error {
         image::ImageError::Unsupported(what) => ImageError::Feature {
             name: name.into(),
-            format: format_name,
+            format,
             feature: what.to_string(),
         },
-        error => damaged(name, format_name, error),
-    };
+        error => damaged(name, format, error),
+    }
+}
+
+/// A picture of another format before its pixels.
+fn open_other<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<impl ImageDecoder + 'b, ImageError> {
+    let format_name = Format::Other(format).name();
     if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
         return Err(damaged(name, format_name, "the file ends too early"));
     }
@@ -224,7 +260,9 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     let mut limits = image::Limits::no_limits();
     limits.max_alloc = Some(2 * MAX_DECODED_BYTES);
     reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(explain)?;
+    let decoder = reader
+        .into_decoder()
+        .map_err(|error| explain_other(name, format, error))?;
     let (width, height) = decoder.dimensions();
     check_size(
         name,
@@ -243,11 +281,17 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     if (bytes.len() as u64) < u64::from(width) * u64::from(height) / pixels_a_byte {
         return Err(damaged(name, format_name, "the file ends too early"));
     }
-    let picture = DynamicImage::from_decoder(decoder).map_err(explain)?;
+    Ok(decoder)
+}
+
+fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture, ImageError> {
+    let decoder = open_other(name, bytes, format)?;
+    let picture = DynamicImage::from_decoder(decoder).map_err(|error| explain_other(name, format, error))?;
+    let (width, height) = (picture.width(), picture.height());
     let channels = picture.color().channel_count();
     let pixels = samples_of(picture).map_err(|feature| ImageError::Feature {
         name: name.into(),
-        format: format_name,
+        format: Format::Other(format).name(),
         feature,
     })?;
     let color_space = if format == ImageFormat::Hdr {

@@ -18,8 +18,8 @@ const LARGEST_HALF: f32 = 65504.0;
 
 type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
-/// What is shown is the display window; pixels of it that the file does not have are 0.
-pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+/// Refuses what is not read, by the headers alone.
+pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
     // The flag of files with deep parts (OpenEXR file layout, version field, bit 11).
     if bytes.get(5).is_some_and(|flags| flags & 0x08 != 0) {
         return Err(unsupported(name, DEEP));
@@ -36,6 +36,21 @@ pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError
     if all_bytes > MAX_DECODED_BYTES {
         return Err(unsupported(name, "its layers take more than 1 GiB together"));
     }
+    let channels = |header: &Header| {
+        header
+            .channels
+            .list
+            .iter()
+            .map(|channel| channel.name.to_string())
+            .collect()
+    };
+    let names: Vec<Vec<String>> = meta.headers.iter().map(channels).collect();
+    picked_of(name, &names).map(drop)
+}
+
+/// What is shown is the display window; pixels of it that the file does not have are 0.
+pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+    check_exr(name, bytes)?;
     // One thread: a slip in a worker of the decoder could not be caught.
     let image: Image<Layers<AnyChannels<FlatSamples>>> = exr::prelude::read()
         .no_deep_data()
@@ -47,13 +62,7 @@ pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError
         .from_buffered(Cursor::new(bytes))
         .map_err(|error| explain(name, error))?;
     let names: Vec<Vec<String>> = image.layer_data.iter().map(channel_names).collect();
-    let (layer, picked) = pick_layer(&names).ok_or_else(|| {
-        let all: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
-        unsupported(
-            name,
-            &format!("none of its channels ({}) is R, G, B or Y", all.join(", ")),
-        )
-    })?;
+    let (layer, picked) = picked_of(name, &names)?;
     Ok(compose(
         &image.layer_data[layer],
         image.attributes.display_window,
@@ -106,6 +115,17 @@ fn check_header(name: &str, header: &Header) -> Result<u64, ImageError> {
 fn channel_names(layer: &FlatLayer) -> Vec<String> {
     let channels = layer.channel_data.list.iter();
     channels.map(|channel| channel.name.to_string()).collect()
+}
+
+/// The layer and its channels that make the picture.
+fn picked_of(name: &str, names: &[Vec<String>]) -> Result<(usize, Vec<usize>), ImageError> {
+    pick_layer(names).ok_or_else(|| {
+        let all: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+        unsupported(
+            name,
+            &format!("none of its channels ({}) is R, G, B or Y", all.join(", ")),
+        )
+    })
 }
 
 /// The first layer in color, else the first that makes a picture at all (depth often comes first), with its channels.

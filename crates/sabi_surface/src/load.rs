@@ -9,6 +9,7 @@ mod gltf;
 mod normals;
 mod obj;
 mod piece;
+mod plain_file;
 mod tangents;
 mod uri;
 mod warnings;
@@ -20,11 +21,14 @@ use glam::{DMat3, DMat4, DVec3};
 pub use self::error::{Fault, LoadError};
 use self::format::{Format, format_of, refused_format};
 pub(crate) use self::piece::Piece;
+pub use self::plain_file::{Unread, read_plain};
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
 use crate::model::Model;
 
 /// More triangles than this are refused before anything is allocated for them.
 pub const MAX_TRIANGLES: u64 = 50_000_000;
+/// Room for the vertices and corners of that many triangles, written out as text.
+const MAX_FILE_BYTES: u64 = 32 << 30;
 
 /// How a model is to be read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,10 +86,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
         let there = path.exists();
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
-    let bytes = read_file(path).map_err(|reason| match reason {
-        Unread::Missing => fault(Fault::NoFile),
-        Unread::Other(reason) => fault(Fault::Unreadable(reason)),
-    })?;
+    let bytes = read_file(path).map_err(|unread| fault(reason(unread).map_or(Fault::NoFile, Fault::Unreadable)))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut files = vec![path.to_owned()];
     let mut resolve = |uri: &str| {
@@ -149,21 +150,19 @@ fn stem(name: &str) -> String {
         .to_string()
 }
 
-enum Unread {
-    Missing,
-    Other(String),
+/// The bytes of a model's file.
+fn read_file(path: &Path) -> Result<Vec<u8>, Unread> {
+    read_plain(path, MAX_FILE_BYTES)
 }
 
-/// The bytes of a plain file: a pipe or a device could go on for ever.
-fn read_file(path: &Path) -> Result<Vec<u8>, Unread> {
-    let unread = |error: std::io::Error| match error.kind() {
-        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => Unread::Missing,
-        _ => Unread::Other(error.to_string()),
-    };
-    if !std::fs::metadata(path).map_err(unread)?.is_file() {
-        return Err(Unread::Other("it is a folder or a device, not a file".into()));
+/// Why a model's file was not read; `None` when it is not there.
+fn reason(unread: Unread) -> Option<String> {
+    match unread {
+        Unread::Missing => None,
+        Unread::Folder | Unread::NotPlain => Some("it is a folder or a device, not a file".into()),
+        Unread::TooLarge(_) => Some(format!("it has more than {} GiB", MAX_FILE_BYTES >> 30)),
+        Unread::Other(reason) => Some(reason),
     }
-    std::fs::read(path).map_err(unread)
 }
 
 /// A file that a model names: as named, with the other system's separators, or by its bare name in the model's folder,
@@ -175,8 +174,11 @@ fn beside(folder: &Path, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
         let file = folder.join(candidate);
         match read_file(&file) {
             Ok(bytes) => return Ok((bytes, file)),
-            Err(Unread::Missing) => {}
-            Err(Unread::Other(reason)) => return Err(reason),
+            Err(unread) => {
+                if let Some(reason) = reason(unread) {
+                    return Err(reason);
+                }
+            }
         }
     }
     Err("there is no such file".into())

@@ -89,6 +89,22 @@ fn a_picture_that_cannot_be_had_is_named_with_node_path_and_advice() {
     );
 }
 
+/// A pipe would be waited for, and a device may have no end; this one has nothing in it.
+#[test]
+#[cfg(unix)]
+fn a_device_is_no_picture_and_no_group() {
+    let place = Place::new();
+    place.write("image.sabi", image("/dev/null"));
+    let check = place.sabi(&["check", "image.sabi"]).fails(65);
+    let words = "/dev/null is a pipe or a device, which may have no end; give the path of a picture file";
+    assert!(format!("{}{}", check.stdout, check.stderr).contains(words), "{check:?}");
+    let group =
+        r#"{ "format": "sabi", "version": 1, "nodes": { "g": { "kind": "graph/group", "group": "/dev/null" } } }"#;
+    place.write("group.sabi", group);
+    let check = place.sabi(&["check", "group.sabi"]).fails(66);
+    assert!(check.stderr.contains("this is a pipe or a device"), "{check:?}");
+}
+
 #[test]
 fn a_picture_that_is_read_is_never_written_over() {
     let place = Place::new();

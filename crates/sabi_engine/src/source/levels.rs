@@ -47,6 +47,12 @@ impl Levels {
         self.smaller.len()
     }
 
+    /// Bytes that the smaller copies take.
+    pub(crate) fn bytes(&self) -> u64 {
+        let pixels = self.smaller.iter().map(|level| level.pixels.len());
+        (pixels.sum::<usize>() * size_of::<[f32; 4]>()) as u64
+    }
+
     /// Pixels across and down of a level.
     pub(crate) fn size(&self, level: usize) -> [u32; 2] {
         match level.checked_sub(1) {

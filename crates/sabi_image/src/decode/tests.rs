@@ -235,7 +235,11 @@ fn hostile_files_of_the_wild_never_get_through_as_a_panic() {
     for path in &files {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let bytes = fs::read(path).unwrap();
-        match decode(&name, &bytes) {
+        let decoded = decode(&name, &bytes);
+        if let Err(early) = check_header(&name, &bytes) {
+            assert_eq!(decoded.as_ref().err(), Some(&early), "{name}");
+        }
+        match decoded {
             Ok(picture) => {
                 let samples = match &picture.pixels {
                     Pixels::U8(list) => list.len(),

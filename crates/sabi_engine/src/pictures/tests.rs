@@ -1,0 +1,110 @@
+//! Files are judged without decoding, seen anew when they are saved again, and pictures are kept within bounds.
+
+use std::fs::{self, File};
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use sabi_image::Pixels;
+
+use super::{OpenPicture, Pictures};
+
+/// A BMP of 2 by 2 pixels, all of one gray.
+fn bmp(gray: u8) -> Vec<u8> {
+    let mut bytes = b"BM".to_vec();
+    for word in [70_u32, 0, 54, 40, 2, 2, 1 | 24 << 16, 0, 16, 2835, 2835, 0, 0] {
+        bytes.extend(word.to_le_bytes());
+    }
+    // Two rows of two pixels, each filled up to four bytes.
+    bytes.extend([gray, gray, gray, gray, gray, gray, 0, 0].repeat(2));
+    bytes
+}
+
+/// Saves a picture at so many seconds of 1970.
+fn save(path: &Path, bytes: &[u8], second: u64) {
+    fs::write(path, bytes).unwrap();
+    let file = File::options().write(true).open(path).unwrap();
+    let time = SystemTime::UNIX_EPOCH + Duration::from_secs(second);
+    file.set_modified(time).unwrap();
+}
+
+fn gray(picture: &OpenPicture) -> u8 {
+    match &picture.picture.pixels {
+        Pixels::U8(values) => values[0],
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_picture_saved_again_is_seen_by_the_next_plan() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.bmp");
+    let pictures = Pictures::default();
+    save(&path, &bmp(10), 1);
+    let first = pictures.content(&path, "a.bmp").unwrap();
+    assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 10);
+    save(&path, &bmp(20), 2);
+    // What was planned before goes on with what it was planned for.
+    assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 10);
+    assert_ne!(pictures.content(&path, "a.bmp").unwrap(), first);
+    assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 20);
+    save(&path, &bmp(10), 3);
+    assert_eq!(pictures.content(&path, "a.bmp").unwrap(), first);
+    fs::remove_file(&path).unwrap();
+    assert!(pictures.content(&path, "a.bmp").unwrap_err().1);
+}
+
+#[test]
+fn no_result_is_kept_under_the_name_of_another_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.bmp");
+    let pictures = Pictures::default();
+    save(&path, &bmp(10), 1);
+    pictures.content(&path, "a.bmp").unwrap();
+    save(&path, &bmp(20), 2);
+    let (why, is_missing) = pictures.open(&path, "a.bmp").err().unwrap();
+    assert_eq!(
+        why,
+        "a.bmp was saved again while it was in use; do this once more to use the new one"
+    );
+    assert!(!is_missing);
+}
+
+#[test]
+fn nothing_is_decoded_before_it_is_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.bmp");
+    let pictures = Pictures::default();
+    save(&path, &bmp(10)[..60], 1);
+    pictures.content(&path, "a.bmp").unwrap();
+    assert!(pictures.lock().decoded.is_empty());
+    let (why, _) = pictures.open(&path, "a.bmp").err().unwrap();
+    assert!(why.starts_with("a.bmp is a damaged BMP file"), "{why}");
+}
+
+#[test]
+fn the_picture_that_was_not_used_for_longest_goes_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let pictures = Pictures::default();
+    let [a, b, c] = ["a.bmp", "b.bmp", "c.bmp"].map(|name| folder.path().join(name));
+    for (path, gray) in [(&a, 1), (&b, 2), (&c, 3)] {
+        save(path, &bmp(gray), 1);
+        pictures.open(path, "x.bmp").unwrap();
+    }
+    pictures.open(&a, "x.bmp").unwrap();
+    let kept = |limit: u64| {
+        let mut held = pictures.lock();
+        held.shrink(limit);
+        held.decoded
+            .iter()
+            .map(|(_, picture)| gray(picture))
+            .collect::<Vec<_>>()
+    };
+    // 2 × 2 pixels of three bytes each.
+    assert_eq!(kept(36), [2, 3, 1]);
+    assert_eq!(kept(35), [3, 1]);
+    assert_eq!(kept(0), [1]);
+    // Its one smaller copy counts too: a pixel of four floats.
+    let last = pictures.open(&a, "x.bmp").unwrap();
+    last.levels(false);
+    assert_eq!(last.bytes(), 12 + 16);
+}

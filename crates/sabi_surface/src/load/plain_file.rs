@@ -1,0 +1,70 @@
+//! Plain files read whole: a pipe or a device could go on for ever.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Why a file was not read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unread {
+    /// It is not there.
+    Missing,
+    /// It is a folder.
+    Folder,
+    /// It is a pipe, a device, or something else that may have no end.
+    NotPlain,
+    /// It has more bytes than asked for: as many, as far as that is known.
+    TooLarge(u64),
+    /// The system's reason.
+    Other(String),
+}
+
+/// The bytes of a plain file that has at most `limit` of them.
+pub fn read_plain(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
+    let unread = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Unread::Missing,
+        _ => Unread::Other(error.to_string()),
+    };
+    let metadata = fs::metadata(path).map_err(unread)?;
+    if metadata.is_dir() {
+        return Err(Unread::Folder);
+    }
+    if !metadata.is_file() {
+        return Err(Unread::NotPlain);
+    }
+    if metadata.len() > limit {
+        return Err(Unread::TooLarge(metadata.len()));
+    }
+    // Some files tell no length, and others grow.
+    let mut bytes = Vec::new();
+    let mut start = File::open(path).map_err(unread)?.take(limit.saturating_add(1));
+    start.read_to_end(&mut bytes).map_err(unread)?;
+    if bytes.len() as u64 > limit {
+        return Err(Unread::TooLarge(bytes.len() as u64));
+    }
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::{Unread, read_plain};
+
+    #[test]
+    fn only_plain_files_within_the_limit_are_read() {
+        let own = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"));
+        let length = std::fs::metadata(own).unwrap().len();
+        assert_eq!(read_plain(own, length).unwrap().len() as u64, length);
+        assert_eq!(read_plain(own, length - 1), Err(Unread::TooLarge(length)));
+        assert_eq!(read_plain(own.parent().unwrap(), length), Err(Unread::Folder));
+        assert_eq!(read_plain(&own.join("below"), length), Err(Unread::Missing));
+        if cfg!(unix) {
+            assert_eq!(read_plain(Path::new("/dev/null"), length), Err(Unread::NotPlain));
+        }
+        if cfg!(target_os = "linux") {
+            // It tells a length of 0.
+            assert_eq!(read_plain(Path::new("/proc/self/maps"), 9), Err(Unread::TooLarge(10)));
+        }
+    }
+}
