@@ -46,6 +46,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         graph: path,
         workpiece: WorkpieceOptions {
             model,
+            report: None,
             overrides: Overrides::default(),
             fit: None,
             adapter: AdapterChoice::Cpu,

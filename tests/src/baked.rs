@@ -44,6 +44,7 @@ impl Baked {
             fuse: true,
             force: false,
             model: false,
+            report: None,
         };
         let baked = bake(&request, &Silent).unwrap_or_else(|error| panic!("{error}\n{graph}"));
         Baked {

@@ -56,6 +56,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         graph: graph.to_owned(),
         workpiece: WorkpieceOptions {
             model,
+            report: None,
             overrides: Overrides::default(),
             fit: None,
             adapter: AdapterChoice::Auto,

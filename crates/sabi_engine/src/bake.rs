@@ -51,6 +51,8 @@ pub struct BakeRequest {
     pub force: bool,
     /// Whether a glTF copy of the model that uses the maps is written too.
     pub model: bool,
+    /// The file that the caller writes the report to: refused if it is one of those that the bake reads.
+    pub report: Option<PathBuf>,
 }
 
 /// Bakes; nothing is replaced before everything is complete, and no model is loaded for a graph with a fault.
@@ -66,7 +68,9 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     let mut writer = BakeWriter::create(&request.output)?;
     let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
     workpiece.times.load.add(reading.total());
-    writer.protect(workpiece.read_files(&open));
+    let read = workpiece.read_files(&open);
+    refuse_read_report(request, &read)?;
+    writer.protect(read);
     workpiece.warn(bare_materials(&workpiece.prepared.model, &workpiece.prepared.atlas));
     let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
@@ -186,6 +190,26 @@ fn models_own(fit: Fit) -> FlatNode {
         fit,
         file: None,
     }
+}
+
+/// A report must not take the place of a picture, a group or a buffer.
+fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), EngineError> {
+    let Some((path, real)) = request
+        .report
+        .as_ref()
+        .and_then(|path| Some((path, path.canonicalize().ok()?)))
+    else {
+        return Ok(());
+    };
+    if read
+        .iter()
+        .all(|input| input.canonicalize().ok().as_ref() != Some(&real))
+    {
+        return Ok(());
+    }
+    let why = "this very bake reads it; name another file";
+    let why = format!("cannot write the report {}: {why}", path.display());
+    Err(EngineError::new(ErrorKind::CannotWrite, why))
 }
 
 /// Which planned results go into which set.

@@ -24,13 +24,10 @@ pub(crate) struct TextureSet {
 /// Never empty.
 pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -> Result<Vec<TextureSet>, EngineError> {
     let stems = sheet_names(model);
-    let keys: Vec<SetKey> = set_keys(atlas)
-        .into_iter()
-        .filter(|key| {
-            let mut charts = atlas.charts.iter();
-            charts.any(|chart| chart.sheet == key.material && chart.texels > 0)
-        })
-        .collect();
+    let covering = atlas.charts.iter().filter(|chart| chart.texels > 0);
+    let covered: BTreeSet<u32> = covering.map(|chart| chart.sheet).collect();
+    let mut keys = set_keys(atlas);
+    keys.retain(|key| covered.contains(&key.material));
     let names = |key: &SetKey| {
         let [name, stem] = names_of(model, &stems, key.material);
         if model.mesh.is_one_sheet {
@@ -82,19 +79,13 @@ fn used_materials(atlas: &Atlas) -> Vec<u32> {
     used.into_iter().collect()
 }
 
-/// Whether a material owns any texel.
-fn is_covered(atlas: &Atlas, material: u32) -> bool {
-    atlas
-        .charts
-        .iter()
-        .any(|chart| chart.material == material && chart.texels > 0)
-}
-
 /// A sentence for each material that gets no maps, because none of its surface reaches a texel.
 pub(crate) fn bare_materials(model: &Model, atlas: &Atlas) -> Vec<String> {
     let stems = set_names(model);
     let mut bare = used_materials(atlas);
-    bare.retain(|&material| !is_covered(atlas, material));
+    let covering = atlas.charts.iter().filter(|chart| chart.texels > 0);
+    let covered: BTreeSet<u32> = covering.map(|chart| chart.material).collect();
+    bare.retain(|material| !covered.contains(material));
     let sentence = |material: u32| {
         let [name, _] = names_of(model, &stems, material);
         format!("the material '{name}' gets no maps: its UVs cover no texel; unwrap it, or bake at a larger size")

@@ -1,5 +1,6 @@
 //! A loaded model: plain data, checked once at the door.
 
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -45,6 +46,8 @@ pub struct Mesh {
     pub is_one_sheet: bool,
     /// The other sets that the model's own textures are laid out by, numbers rising.
     pub texture_uvs: Vec<TextureUvs>,
+    /// Triangles that lack a set of the file although others have it, those of each set in rising order.
+    pub missing_uvs: Vec<MissingUvs>,
     /// Vertex colors, linear RGBA; empty when there are none.
     pub colors: Vec<[f32; 4]>,
     /// Corners as vertex numbers, counter-clockwise seen from outside.
@@ -64,6 +67,15 @@ pub struct TextureUvs {
     pub uvs: Vec<[f32; 2]>,
     /// Tangents in which a normal map of this set is meant, as [`Mesh::tangents`]; empty when no normal map uses it.
     pub tangents: Vec<[f32; 4]>,
+}
+
+/// Triangles one after the other whose vertices have no coordinates of a set: what stands there is zero and means nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingUvs {
+    /// The set's number: `TEXCOORD_n`.
+    pub set: u32,
+    /// Indices into [`Mesh::triangles`].
+    pub triangles: Range<u32>,
 }
 
 /// Texture coordinates and tangents of a set, one of each for a vertex.

@@ -54,6 +54,7 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
         fuse: !arguments.no_fuse,
         force: arguments.force,
         model: arguments.copies_model,
+        report: arguments.report.clone().filter(|path| path.as_os_str() != "-"),
     })
 }
 

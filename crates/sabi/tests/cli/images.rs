@@ -116,4 +116,9 @@ fn a_picture_that_is_read_is_never_written_over() {
     let words = "cube_mask.png is read by this very bake and would be replaced by its own result; choose another folder with -o";
     assert!(run.stderr.trim_end().ends_with(words), "{}", run.stderr);
     assert_eq!(place.read("cube_mask.png"), texture);
+    let report = ["--force", "--report", "cube_mask.png"];
+    let run = place.bake("image.sabi", "cube.glb", &report).fails(73);
+    let words = "cannot write the report cube_mask.png: this very bake reads it; name another file";
+    assert!(run.stderr.trim_end().ends_with(words), "{}", run.stderr);
+    assert_eq!(place.read("cube_mask.png"), texture);
 }

@@ -36,8 +36,18 @@ pub(crate) fn kinds() -> BTreeMap<String, SourceKind> {
 }
 
 /// Kinds that show the model, as they are for this one.
-pub(crate) fn kinds_for(model: &Model) -> [SourceKind; 2] {
-    [model::kind_for(model), vertex_color::kind_for(model)]
+pub(crate) fn kinds_for(model: &Model) -> [SourceKind; 3] {
+    [
+        model::kind_for(model),
+        surface_id::kind_for(model),
+        vertex_color::kind_for(model),
+    ]
+}
+
+/// Adds bytes to a hash so that they cannot be taken for part of what comes before or after.
+fn hash_apart(hash: &mut blake3::Hasher, bytes: &[u8]) {
+    hash.update(&(bytes.len() as u64).to_le_bytes());
+    hash.update(bytes);
 }
 
 /// Kinds that take, by id.

@@ -1,5 +1,6 @@
 //! `source/model`: the model's own textures and factors, brought onto the atlas.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use sabi_graph::PortType;
@@ -9,6 +10,7 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort};
 use sabi_surface::model::{Model, ModelMaterial, TextureRef, TextureUvs};
 
+use super::hash_apart;
 use super::levels::Levels;
 use super::sampler::Sampler;
 use super::texels::{Ground, Spot};
@@ -62,6 +64,8 @@ struct Texture<'a> {
     transform: [[f64; 3]; 2],
     /// The set that it is laid out by; none where that is the one of the atlas.
     other: Option<&'a TextureUvs>,
+    /// Triangles that lack the set, in rising order.
+    missing: Vec<Range<u32>>,
 }
 
 impl<'a> Texture<'a> {
@@ -82,7 +86,15 @@ impl<'a> Texture<'a> {
             sampler: Sampler::new(Arc::new(levels), texture.wrap),
             transform,
             other,
+            missing: Vec::new(),
         }
+    }
+
+    /// Whether it has a place on a triangle.
+    fn covers(&self, triangle: usize) -> bool {
+        let after = self.missing.partition_point(|range| range.start as usize <= triangle);
+        let last = after.checked_sub(1).and_then(|at| self.missing.get(at));
+        last.is_none_or(|range| range.end as usize <= triangle)
     }
 }
 
@@ -106,7 +118,7 @@ struct At<'a> {
 impl At<'_> {
     /// Linear RGBA of a picture; white where there is none.
     fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
-        let Some(texture) = texture else {
+        let Some(texture) = texture.as_ref().filter(|texture| texture.covers(self.spot.triangle)) else {
             return [1.0; 4];
         };
         let footprint = self.ground.footprint(self.spot, texture.other);
@@ -144,7 +156,7 @@ impl MaterialTextures<'_> {
 
     /// The surface gradient of the normal map, in model space: it leans in the frame of its own set.
     fn slope(&self, at: At) -> [f32; 3] {
-        let Some(texture) = &self.normal else {
+        let Some(texture) = self.normal.as_ref().filter(|texture| texture.covers(at.spot.triangle)) else {
             return [0.0; 3];
         };
         let [x, y, z, _] = at.sample(&self.normal).map(|code| 2.0 * code - 1.0);
@@ -182,15 +194,19 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     let mut hash = blake3::Hasher::new();
     for image in &model.images {
         match &image.bytes {
-            Ok(bytes) => hash.update(blake3::hash(bytes).as_bytes()),
-            Err(why) => hash.update(why.as_bytes()),
-        };
+            Ok(bytes) => hash_apart(&mut hash, blake3::hash(bytes).as_bytes()),
+            Err(why) => hash_apart(&mut hash, why.as_bytes()),
+        }
     }
-    hash.update(format!("{:?}", model.materials).as_bytes());
+    hash_apart(&mut hash, format!("{:?}", model.materials).as_bytes());
+    hash_apart(&mut hash, format!("{:?}", model.mesh.missing_uvs).as_bytes());
     for other in &model.mesh.texture_uvs {
+        hash.update(&other.set.to_le_bytes());
+        hash.update(&(other.uvs.len() as u64).to_le_bytes());
         for uv in &other.uvs {
             hash.update(uv.map(f32::to_le_bytes).as_flattened());
         }
+        hash.update(&(other.tangents.len() as u64).to_le_bytes());
         for tangent in &other.tangents {
             hash.update(tangent.map(f32::to_le_bytes).as_flattened());
         }
@@ -208,9 +224,22 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     kind
 }
 
+/// The triangles that lack a set although others have it, in rising order.
+fn missing(model: &Model, set: u32) -> Vec<Range<u32>> {
+    let of_set = model.mesh.missing_uvs.iter().filter(|missing| missing.set == set);
+    of_set.map(|missing| missing.triangles.clone()).collect()
+}
+
 /// Decodes the pictures that the materials use. What cannot be shown is added to `warnings`.
 fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -> Vec<MaterialTextures<'a>> {
-    let mut open = |texture: &Option<TextureRef>, what: &str, is_srgb: bool| {
+    let is_used = |triangles: &Range<u32>, material: usize| {
+        let own = model
+            .mesh
+            .triangle_material
+            .get(triangles.start as usize..triangles.end as usize);
+        own.is_some_and(|own| own.contains(&(material as u32)))
+    };
+    let mut open = |material: usize, texture: &Option<TextureRef>, what: &str, is_srgb: bool| {
         let texture = texture.as_ref()?;
         let image = model.images.get(texture.image)?;
         let (name, set) = (&image.name, texture.uv_set);
@@ -221,21 +250,29 @@ fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -
             ));
             return None;
         }
+        let missing = missing(model, set);
+        if missing.iter().any(|triangles| is_used(triangles, material)) {
+            warnings.push(format!(
+                "the {what} picture {name} is laid out by UV set {set}, which some triangles of its material do not have; \
+                 there the factor is used alone"
+            ));
+        }
         let bytes = image.bytes.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
         let decoded = sabi_image::decode(&image.name, bytes);
         let told = decoded.map_err(|why| warnings.push(format!("{why}; the factor is used alone")));
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        Some(Texture::new(told.ok()?, texture, other, is_srgb, size))
+        let texture = Texture::new(told.ok()?, texture, other, is_srgb, size);
+        Some(Texture { missing, ..texture })
     };
-    let open_material = |material: &'a ModelMaterial| MaterialTextures {
+    let open_material = |(index, material): (usize, &'a ModelMaterial)| MaterialTextures {
         material,
-        base_color: open(&material.base_color, "base color", true),
-        metallic_roughness: open(&material.metallic_roughness, "roughness", false),
-        normal: open(&material.normal, "normal", false),
-        occlusion: open(&material.occlusion, "occlusion", false),
-        emission: open(&material.emission, "emission", true),
+        base_color: open(index, &material.base_color, "base color", true),
+        metallic_roughness: open(index, &material.metallic_roughness, "roughness", false),
+        normal: open(index, &material.normal, "normal", false),
+        occlusion: open(index, &material.occlusion, "occlusion", false),
+        emission: open(index, &material.emission, "emission", true),
     };
-    model.materials.iter().map(open_material).collect()
+    model.materials.iter().enumerate().map(open_material).collect()
 }
 
 /// The model's textures on the atlas.
@@ -263,3 +300,6 @@ impl<'a> ModelSource<'a> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,8 +6,10 @@ use sabi_graph::{PortType, nearest};
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort, SourceStep, pcg};
+use sabi_surface::model::Model;
 use sabi_surface::pieces::{PieceBox, boxes};
 
+use super::hash_apart;
 use super::texels::Ground;
 
 /// Id of the kind.
@@ -63,6 +65,32 @@ pub(crate) fn kind() -> SourceKind {
             ),
         ],
         content: [0; 32],
+    }
+}
+
+/// The kind for a model: with a hash of all names that can be picked, and of what bears them.
+pub(crate) fn kind_for(model: &Model) -> SourceKind {
+    let mut hash = blake3::Hasher::new();
+    let own = model.materials.iter().map(|material| &material.name);
+    let files = sabi_export::set_names(model);
+    for names in [
+        model.parts.iter().collect::<Vec<_>>(),
+        own.collect(),
+        files.iter().collect(),
+    ] {
+        hash.update(&(names.len() as u64).to_le_bytes());
+        for name in names {
+            hash_apart(&mut hash, name.as_bytes());
+        }
+    }
+    for groups in [&model.mesh.triangle_part, &model.mesh.triangle_material] {
+        for group in groups {
+            hash.update(&group.to_le_bytes());
+        }
+    }
+    SourceKind {
+        content: *hash.finalize().as_bytes(),
+        ..kind()
     }
 }
 
@@ -248,7 +276,23 @@ fn place_in(own: &PieceBox, working_from_model: f64, place: [f64; 3]) -> [f32; 3
 
 #[cfg(test)]
 mod tests {
-    use super::Groups;
+    use sabi_surface::model::Model;
+
+    use super::{Groups, kind_for};
+
+    #[test]
+    fn models_that_differ_in_names_alone_share_no_result() {
+        let of = |parts: &[&str]| {
+            kind_for(&Model {
+                parts: parts.iter().map(|name| (*name).to_owned()).collect(),
+                ..Model::default()
+            })
+            .content
+        };
+        assert_eq!(of(&["leg", "seat"]), of(&["leg", "seat"]));
+        assert_ne!(of(&["leg", "seat"]), of(&["seat", "leg"]));
+        assert_ne!(of(&["ab", "c"]), of(&["a", "bc"]));
+    }
 
     fn groups(names: &[&str]) -> Groups {
         Groups {

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::{DMat4, DVec3, Vec3};
 
 use super::tangents::perpendicular;
-use crate::model::{Mesh, TextureUvs};
+use crate::model::{Mesh, MissingUvs, TextureUvs};
 
 /// Triangles in the space of their mesh. Arrays of vertices are empty where the file has nothing to say.
 #[derive(Clone, Debug, Default)]
@@ -191,11 +191,26 @@ impl Piece {
         placed
     }
 
+    /// Says which sets of `mesh` the piece lacks, before it is put behind its triangles.
+    fn note_missing(&self, mesh: &mut Mesh, with_uvs: bool) {
+        let first = mesh.triangles.len() as u32;
+        let others = mesh.texture_uvs.iter().map(|other| other.set);
+        let lacked = others.filter(|set| !self.texture_uvs.iter().any(|own| own.set == *set));
+        let chosen = mesh.uv_set.filter(|_| with_uvs && self.uvs.is_empty());
+        let missing = |set| MissingUvs {
+            set,
+            triangles: first..first + self.triangles.len() as u32,
+        };
+        let found: Vec<MissingUvs> = lacked.chain(chosen).map(missing).collect();
+        mesh.missing_uvs.extend(found);
+    }
+
     /// Puts the piece's triangles behind those of `mesh`, which has all the sets that pieces have; missing texture
     /// coordinates become zero, missing colors white.
     pub(super) fn append_to(self, mesh: &mut Mesh, with_uvs: bool, with_colors: bool) {
         let first = mesh.positions.len() as u32;
         let count = self.positions.len();
+        self.note_missing(mesh, with_uvs);
         for set in &mut mesh.texture_uvs {
             let own = self.texture_uvs.iter().find(|own| own.set == set.set);
             let (uvs, tangents) = own.map_or((&[][..], &[][..]), |own| (&own.uvs, &own.tangents));

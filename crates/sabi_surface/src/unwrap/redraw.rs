@@ -30,6 +30,7 @@ pub(super) fn redraw(mesh: &Mesh, corners: &[[[f32; 2]; 3]]) -> (Mesh, Vec<u32>)
         uv_set: None,
         is_one_sheet: true,
         texture_uvs: piece.texture_uvs,
+        missing_uvs: mesh.missing_uvs.clone(),
         colors: piece.colors,
         triangles: piece.triangles,
         triangle_material: mesh.triangle_material.clone(),

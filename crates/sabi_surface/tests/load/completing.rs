@@ -1,6 +1,7 @@
 //! What a file leaves out or gets wrong is made: normals, tangents, texture coordinates.
 
 use sabi_surface::load::LoadOptions;
+use sabi_surface::model::MissingUvs;
 use serde_json::json;
 
 use crate::builder::{Gltf, U8};
@@ -118,10 +119,34 @@ fn triangles_without_uvs_among_others_get_zeros_and_a_warning() {
     file.place("bare", bare);
     let model = file.model();
     assert_eq!(model.mesh.uvs[3..], [[0.0; 2]; 3]);
+    let missing = MissingUvs {
+        set: 0,
+        triangles: 1..2,
+    };
+    assert_eq!(model.mesh.missing_uvs, [missing]);
     assert_eq!(
         model.warnings,
         ["Triangles of material `bare` have no UV set 0; their texture coordinates are all zero."]
     );
+}
+
+#[test]
+fn triangles_that_lack_the_set_of_a_texture_are_named() {
+    let mut file = Gltf::triangle();
+    file.push("images", json!({ "uri": "data:image/png;base64,AAAA" }));
+    file.push("textures", json!({ "source": 0 }));
+    let occlusion = json!({ "occlusionTexture": { "index": 0, "texCoord": 1 } });
+    let material = file.push("materials", occlusion);
+    file.primitive()["material"] = json!(material);
+    let bare = file.primitive().clone();
+    let second = file.floats("VEC2", &[0.5; 6]);
+    file.primitive()["attributes"]["TEXCOORD_1"] = json!(second);
+    file.place("bare", bare);
+    let missing = MissingUvs {
+        set: 1,
+        triangles: 1..2,
+    };
+    assert_eq!(file.model().mesh.missing_uvs, [missing]);
 }
 
 #[test]
