@@ -209,6 +209,9 @@ fn mapped(placing: &Placing) -> MadeMesh {
     .write()
 }
 
+/// What a code of a picture stands for.
+type Expected<'a> = &'a dyn Fn(u8) -> f64;
+
 #[test]
 fn every_map_of_a_model_comes_back_however_it_wraps_and_is_transformed() {
     let plain = |code: u8| f64::from(code) / 255.0;
@@ -217,7 +220,7 @@ fn every_map_of_a_model_comes_back_however_it_wraps_and_is_transformed() {
         let made = mapped(&placing);
         let mut on_mesh = OnMesh::new(GRAPH, made.path(), SIZE);
         let evaluated = on_mesh.evaluate("out");
-        let maps: [(&str, u32, usize, &dyn Fn(u8) -> f64); 10] = [
+        let maps: [(&str, u32, usize, Expected<'_>); 10] = [
             ("base_color.r", 1, 0, &srgb),
             ("base_color.g", 1, 1, &|code| 0.5 * srgb(code)),
             ("base_color.b", 1, 2, &|code| 0.25 * srgb(code)),

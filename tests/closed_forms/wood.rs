@@ -11,7 +11,7 @@ const BOARD: [f32; 3] = [0.8, 0.16, 0.05];
 fn board(turn: Mat3, middle: Vec3, strip: f32) -> Vec<Quad> {
     let half = 0.5 * Vec3::from(BOARD);
     let face = |at: usize| {
-        let (axis, sign) = (at / 2, if at % 2 == 0 { 1.0 } else { -1.0 });
+        let (axis, sign) = (at / 2, if at.is_multiple_of(2) { 1.0 } else { -1.0 });
         let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[a, b]: [f32; 2]| {
             let mut corner = Vec3::ZERO;
