@@ -8,7 +8,10 @@ use sabi_export::{Cover, NONE, Padding, PaddingMap, SetLayout, layouts};
 use sabi_surface::atlas::GHOST_BIT;
 use serde_json::Value as Json;
 
-use crate::model_copy::{SIZE, bake_to, codes};
+use crate::model_copy::{bake_to, codes};
+
+/// Large enough for room between the charts beyond their rings of two texels.
+const SIZE: u32 = 512;
 
 /// A cube, half of it wood, half of it steel.
 const CUBE: &str = "mtllib cube.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
