@@ -18,7 +18,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     if index >= gather.ghost_count {
         return;
     }
-    let link = ghosts[index];
+    let link = ghost_link(index);
     let page = i32(link.target_page);
     let corner = floor(link.target_texel - 0.5);
     let weight = link.target_texel - 0.5 - corner;

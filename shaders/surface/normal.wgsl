@@ -24,9 +24,9 @@ const HARD_EDGE: f32 = 0.766;
 // The shading normal of a triangle at texel coordinates of its chart.
 fn normal_at(triangle: u32, point: vec2f) -> vec3f {
     let g = triangle * GEOMETRY_ROWS;
-    let step = point - vec2f(geometry[g].w, geometry[g + 1u].w);
+    let step = point - vec2f(geometry_row(g).w, geometry_row(g + 1u).w);
     return unit_or(
-        geometry[g + 3u].xyz + geometry[g + 4u].xyz * step.x + geometry[g + 5u].xyz * step.y,
+        geometry_row(g + 3u).xyz + geometry_row(g + 4u).xyz * step.x + geometry_row(g + 5u).xyz * step.y,
         vec3f(0.0, 1.0, 0.0),
     );
 }
@@ -59,17 +59,42 @@ fn height_near(center: vec3i, step: vec2i, middle: f32, triangle: u32) -> f32 {
 // Change of the height a texel along u and v; Scharr's weights, exact for planes.
 fn height_steps(center: vec3i, triangle: u32) -> vec2f {
     var steps = vec2f(0.0);
+    var ghosts_left = 0u;
     let middle = height_at(center);
     for (var index = 0; index < 9; index++) {
-        let step = vec2i(index % 3 - 1, index / 3 - 1);
-        let weight = select(vec2f(3.0), vec2f(10.0), step.yx == vec2i(0)) / 32.0;
-        steps += vec2f(step) * weight * (height_near(center, step, middle, triangle) - middle);
+        let near = center + vec3i(step_of(index), 0);
+        let owner = owner_of(near);
+        let is_ghost = owner != EMPTY && (owner & GHOST_BIT) != 0u;
+        ghosts_left |= select(0u, 1u << u32(index), is_ghost);
+        steps += select(weight_of(index) * (height_at(near) - middle), vec2f(0.0), is_ghost);
+    }
+    // Few texels are next to ghosts, and software adapters go through both sides of an `if`, but not through rounds of a
+    // loop that no texel at hand takes.
+    for (var n = 0; n < 9; n++) {
+        if ghosts_left == 0u {
+            break;
+        }
+        let index = i32(firstTrailingBit(ghosts_left));
+        ghosts_left &= ghosts_left - 1u;
+        steps += weight_of(index) * (height_near(center, step_of(index), middle, triangle) - middle);
     }
     return steps;
 }
 
+fn step_of(index: i32) -> vec2i {
+    return vec2i(index % 3 - 1, index / 3 - 1);
+}
+
+fn weight_of(index: i32) -> vec2f {
+    let step = step_of(index);
+    return vec2f(step) * select(vec2f(3.0), vec2f(10.0), step.yx == vec2i(0)) / 32.0;
+}
+
 // The nearest owned texel within two steps; the texel itself if it is owned. w is 0 if there is none.
 fn anchor_of(texel: vec3i) -> vec4i {
+    if (owner_of(texel) & GHOST_BIT) == 0u {
+        return vec4i(texel, 1);
+    }
     let size = vec2i(textureDimensions(owners));
     var best = 1000;
     var anchor = vec4i(texel, 0);
@@ -100,12 +125,12 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     let triangle = owner_of(anchor.xyz);
     let g = triangle * GEOMETRY_ROWS;
     let f = triangle * FRAME_ROWS;
-    let step = vec2f(texel.xy) + 0.5 - vec2f(geometry[g].w, geometry[g + 1u].w);
-    let along_u = geometry[g + 1u].xyz;
-    let along_v = geometry[g + 2u].xyz;
-    let n = geometry[g + 3u].xyz + geometry[g + 4u].xyz * step.x + geometry[g + 5u].xyz * step.y;
-    let t = frames[f].xyz + frames[f + 1u].xyz * step.x + frames[f + 2u].xyz * step.y;
-    let b = frames[f].w * cross(n, t);
+    let step = vec2f(texel.xy) + 0.5 - vec2f(geometry_row(g).w, geometry_row(g + 1u).w);
+    let along_u = geometry_row(g + 1u).xyz;
+    let along_v = geometry_row(g + 2u).xyz;
+    let n = geometry_row(g + 3u).xyz + geometry_row(g + 4u).xyz * step.x + geometry_row(g + 5u).xyz * step.y;
+    let t = frame_row(f).xyz + frame_row(f + 1u).xyz * step.x + frame_row(f + 2u).xyz * step.y;
+    let b = frame_row(f).w * cross(n, t);
     let up = unit_or(n, vec3f(0.0, 1.0, 0.0));
 
     var slope = vec3f(0.0);

@@ -2,9 +2,10 @@
 
 const EMPTY: u32 = 0xffffffffu;
 const GHOST_BIT: u32 = 0x80000000u;
-// Rows of four floats a triangle has in `geometry` and in `frames`.
+// Rows of four floats a triangle has in `geometry` and in `frames`, and a link in `ghosts`.
 const GEOMETRY_ROWS: u32 = 6u;
 const FRAME_ROWS: u32 = 4u;
+const GHOST_ROWS: u32 = 3u;
 // Rows of four floats a piece has in `pieces`.
 const PIECE_ROWS: u32 = 3u;
 
@@ -28,7 +29,6 @@ struct GhostLink {
     // Page of the target's chart.
     target_page: u32,
     chart: u32,
-    pad: u32,
     // Carries own texel vectors to texel vectors of the target's chart, column by column.
     target_from_own: vec4f,
 }
@@ -36,10 +36,33 @@ struct GhostLink {
 @group(0) @binding(0) var<uniform> dispatch: Pass;
 @group(0) @binding(1) var<storage, read> tiles: array<u32>;
 @group(0) @binding(2) var owners: texture_2d_array<u32>;
-@group(0) @binding(3) var<storage, read> geometry: array<vec4f>;
-@group(0) @binding(4) var<storage, read> frames: array<vec4f>;
-@group(0) @binding(5) var<storage, read> ghosts: array<GhostLink>;
+// Tables are textures of bit patterns, row after row of the table: each texel reads a place of its own, which processors
+// do faster from a texture than from a buffer.
+@group(0) @binding(3) var geometry: texture_2d<u32>;
+@group(0) @binding(4) var frames: texture_2d<u32>;
+@group(0) @binding(5) var ghosts: texture_2d<u32>;
 @group(0) @binding(6) var<storage, read> pieces: array<vec4f>;
+
+// Where a row of a table is in its texture, which is 8192 wide.
+fn table_texel(row: u32) -> vec2u {
+    return vec2u(row & 8191u, row >> 13u);
+}
+
+fn geometry_row(row: u32) -> vec4f {
+    return bitcast<vec4f>(textureLoad(geometry, table_texel(row), 0));
+}
+
+fn frame_row(row: u32) -> vec4f {
+    return bitcast<vec4f>(textureLoad(frames, table_texel(row), 0));
+}
+
+fn ghost_link(index: u32) -> GhostLink {
+    let row = index * GHOST_ROWS;
+    let a = textureLoad(ghosts, table_texel(row), 0);
+    let b = textureLoad(ghosts, table_texel(row + 1u), 0);
+    let c = textureLoad(ghosts, table_texel(row + 2u), 0);
+    return GhostLink(bitcast<vec2f>(a.xy), a.z, a.w, b.x, b.y, b.z, bitcast<vec4f>(c));
+}
 
 fn texel_of(group: vec3u, local: vec3u) -> vec3i {
     let index = dispatch.first_tile + group.y * dispatch.row_length + group.x;
@@ -69,7 +92,7 @@ struct Spot {
 
 fn spot_of(texel: vec3i, owner: u32) -> Spot {
     if (owner & GHOST_BIT) != 0u {
-        let link = ghosts[owner & ~GHOST_BIT];
+        let link = ghost_link(owner & ~GHOST_BIT);
         return Spot(link.triangle, link.target_texel, link.target_from_own);
     }
     return Spot(owner, vec2f(texel.xy) + 0.5, vec4f(1.0, 0.0, 0.0, 1.0));
@@ -84,16 +107,16 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
     let spot = spot_of(texel, owner);
     let g = spot.triangle * GEOMETRY_ROWS;
     let f = spot.triangle * FRAME_ROWS;
-    let origin = geometry[g];
-    let along_u = geometry[g + 1u];
-    let along_v = geometry[g + 2u];
-    let normal = geometry[g + 3u];
-    let normal_u = geometry[g + 4u];
-    let normal_v = geometry[g + 5u];
-    let tangent = frames[f];
-    let tangent_u = frames[f + 1u];
-    let tangent_v = frames[f + 2u];
-    let chart = frames[f + 3u];
+    let origin = geometry_row(g);
+    let along_u = geometry_row(g + 1u);
+    let along_v = geometry_row(g + 2u);
+    let normal = geometry_row(g + 3u);
+    let normal_u = geometry_row(g + 4u);
+    let normal_v = geometry_row(g + 5u);
+    let tangent = frame_row(f);
+    let tangent_u = frame_row(f + 1u);
+    let tangent_v = frame_row(f + 2u);
+    let chart = frame_row(f + 3u);
     let step = spot.point - vec2f(origin.w, along_u.w);
     // The sign bit of the texel width says that the chart is mirrored, which turns the cross product over.
     let turned = select(1.0, -1.0, along_v.w < 0.0);

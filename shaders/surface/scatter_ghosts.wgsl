@@ -17,7 +17,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     if index >= scatter.ghost_count {
         return;
     }
-    let link = ghosts[index];
+    let link = ghost_link(index);
     let texel = vec2i(i32(link.texel & 0xffffu), i32(link.texel >> 16u));
     textureStore(field, texel, i32(link.page), values[index]);
 }

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex};
 
 use crate::error::GpuError;
 use crate::pipelines::Pipelines;
+use crate::surface::SURFACE_TEXTURES;
 
 /// Which adapter to use; of several that are meant, the first that can run Sabi.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -206,8 +207,8 @@ impl Gpu {
             uncaptured.put(driver_error(error, "a result"))
         }));
         let limits = sabi_plan::Limits {
-            // One is taken by the owner map.
-            sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64) - 1,
+            // The surface takes some for itself.
+            sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64) - SURFACE_TEXTURES,
             storage_textures: (available.max_storage_textures_per_shader_stage as usize).min(16),
             ..sabi_plan::Limits::default()
         };

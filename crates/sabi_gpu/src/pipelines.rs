@@ -60,11 +60,20 @@ fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
 
 /// A texture that is read texel by texel.
 pub(crate) fn texture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
-    sampled_entry(binding, wgpu::TextureSampleType::Float { filterable: false })
+    let sample_type = wgpu::TextureSampleType::Float { filterable: false };
+    sampled_entry(binding, sample_type, wgpu::TextureViewDimension::D2Array)
 }
 
-fn sampled_entry(binding: u32, sample_type: wgpu::TextureSampleType) -> wgpu::BindGroupLayoutEntry {
-    let view_dimension = wgpu::TextureViewDimension::D2Array;
+/// A table of bit patterns.
+fn table_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    sampled_entry(binding, wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D2)
+}
+
+fn sampled_entry(
+    binding: u32,
+    sample_type: wgpu::TextureSampleType,
+    view_dimension: wgpu::TextureViewDimension,
+) -> wgpu::BindGroupLayoutEntry {
     entry(
         binding,
         wgpu::BindingType::Texture {
@@ -111,10 +120,10 @@ impl Pipelines {
             entries: &[
                 uniform_entry(0),
                 read_entry(1),
-                sampled_entry(2, wgpu::TextureSampleType::Uint),
-                read_entry(3),
-                read_entry(4),
-                read_entry(5),
+                sampled_entry(2, wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D2Array),
+                table_entry(3),
+                table_entry(4),
+                table_entry(5),
                 read_entry(6),
             ],
         });

@@ -132,7 +132,7 @@ fn triangle_rows(
     (geometry, frames)
 }
 
-/// As `GhostLink` in `shaders/surface/place.wgsl`.
+/// Three rows, as `ghost_link` in `shaders/surface/place.wgsl` reads them.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct GhostRow {
@@ -150,16 +150,22 @@ fn target_page(atlas: &Atlas, ghost: &Ghost) -> u32 {
     atlas.charts[atlas.triangle_chart[ghost.target_triangle as usize] as usize].page
 }
 
+/// Textures that every kernel binds for the surface: the owner map and three tables.
+pub(crate) const SURFACE_TEXTURES: usize = 4;
+/// Rows of a table along its texture's side; every adapter allows as many.
+const TABLE_WIDTH: usize = 8192;
+const TABLE_ROW_BYTES: usize = 16;
+
 /// The surface on a device.
 pub struct GpuSurface {
     pub(crate) extent: Extent,
     pub(crate) tiles: wgpu::Buffer,
     pub(crate) tile_count: u32,
     pub(crate) owners: wgpu::TextureView,
-    pub(crate) geometry: wgpu::Buffer,
-    pub(crate) frames: wgpu::Buffer,
+    pub(crate) geometry: wgpu::TextureView,
+    pub(crate) frames: wgpu::TextureView,
+    pub(crate) ghosts: wgpu::TextureView,
     pub(crate) pieces: wgpu::Buffer,
-    pub(crate) ghosts: wgpu::Buffer,
     pub(crate) ghost_count: u32,
     /// Room for one value a ghost, on its way from where it is gathered to where it is written.
     pub(crate) ghost_values: wgpu::Buffer,
@@ -212,11 +218,11 @@ impl GpuSurface {
             tile_count: tiles.len() as u32,
             tiles: buffer("the tile list", bytemuck::cast_slice(&tiles))?,
             owners,
-            geometry: buffer("the triangles", bytemuck::cast_slice(&tables.geometry))?,
-            frames: buffer("the tangent frames", bytemuck::cast_slice(&tables.frames))?,
+            geometry: table_texture(gpu, "the triangles", bytemuck::cast_slice(&tables.geometry))?,
+            frames: table_texture(gpu, "the tangent frames", bytemuck::cast_slice(&tables.frames))?,
             pieces: buffer("the pieces", bytemuck::cast_slice(&tables.pieces))?,
             ghost_count: ghosts.len() as u32,
-            ghosts: buffer("the links over seams", bytemuck::cast_slice(&ghosts))?,
+            ghosts: table_texture(gpu, "the links over seams", bytemuck::cast_slice(&ghosts))?,
             ghost_values: storage_buffer(gpu, "the values over seams", 16 * ghosts.len() as u64, limit)?,
             size: atlas.size,
             bytes: atlas.owners.len() as u64 * 4,
@@ -258,6 +264,58 @@ fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u64) -> Resu
             mapped_at_creation: false,
         })
     })
+}
+
+/// A table of rows of four numbers as a texture of bit patterns, see `shaders/surface/place.wgsl`.
+fn table_texture(gpu: &Gpu, what: &'static str, bytes: &[u8]) -> Result<wgpu::TextureView, GpuError> {
+    let rows = (bytes.len() / TABLE_ROW_BYTES).max(1);
+    let size = wgpu::Extent3d {
+        width: rows.min(TABLE_WIDTH) as u32,
+        height: u32::try_from(rows.div_ceil(TABLE_WIDTH)).unwrap_or(u32::MAX),
+        depth_or_array_layers: 1,
+    };
+    let highest = gpu.device.limits().max_texture_dimension_2d;
+    if size.height > highest {
+        let mib = |height: u64| height * (TABLE_WIDTH * TABLE_ROW_BYTES) as u64 >> 20;
+        return Err(GpuError::TooLarge {
+            what,
+            needed_mib: mib(u64::from(size.height)),
+            limit_mib: mib(u64::from(highest)),
+        });
+    }
+    let texture = gpu.guarded(what, |device| {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(what),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba32Uint,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        })
+    })?;
+    let line = TABLE_WIDTH * TABLE_ROW_BYTES;
+    let whole = bytes.len() / line;
+    for (first, height, part) in [(0, whole, &bytes[..whole * line]), (whole, 1, &bytes[whole * line..])] {
+        if part.is_empty() {
+            continue;
+        }
+        let mut target = texture.as_image_copy();
+        target.origin.y = first as u32;
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(line as u32),
+            rows_per_image: None,
+        };
+        let extent = wgpu::Extent3d {
+            width: (part.len() / height / TABLE_ROW_BYTES) as u32,
+            height: height as u32,
+            depth_or_array_layers: 1,
+        };
+        gpu.queue.write_texture(target, part, layout, extent);
+    }
+    Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }
 
 fn owners_texture(gpu: &Gpu, atlas: &Atlas, extent: Extent) -> Result<wgpu::TextureView, GpuError> {

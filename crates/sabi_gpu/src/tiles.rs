@@ -39,9 +39,9 @@ impl<'a> Slices<'a> {
             constants.as_entire_binding(),
             surface.tiles.as_entire_binding(),
             wgpu::BindingResource::TextureView(&surface.owners),
-            surface.geometry.as_entire_binding(),
-            surface.frames.as_entire_binding(),
-            surface.ghosts.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&surface.geometry),
+            wgpu::BindingResource::TextureView(&surface.frames),
+            wgpu::BindingResource::TextureView(&surface.ghosts),
             surface.pieces.as_entire_binding(),
         ];
         let group = gpu.bind(&gpu.pipelines.surface_layout, resources);
