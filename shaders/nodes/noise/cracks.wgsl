@@ -87,8 +87,8 @@ fn nearest_crack(at: Surface, position: vec3f, outer: f32, params: Params) -> Wa
     let reach = min((outer + at.texel_size) / params.size, finest);
     let nearest = nearest_point(place, params.jitter, key, 2.0 * reach / finest);
     var crack = Wall(reach, normal.zxy);
-    // No wall is nearer than half of what the second point is further away than the first.
-    if nearest.second - nearest.distance < 2.0 * reach / finest {
+    // No wall is nearer than half of what any other point is further away than the nearest.
+    if nearest.others - nearest.distance < 2.0 * reach / finest {
         crack = nearest_wall(place, nearest, params.jitter, key, params.stretch, normal, reach);
     }
     crack.distance *= params.size;

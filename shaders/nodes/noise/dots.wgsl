@@ -86,44 +86,33 @@ fn dot_at(at: Surface, position: vec3f, params: Params) -> Dot {
     let thick = slab + 0.5 * dot(abs(normal), vec3f(1.0));
     var clear = 1.0;
     var found = Dot(0.0, 0.0, 0u);
-    for (var i = 0; i < 7; i++) {
-        let z = axis_distance(i, border.z);
-        if z >= reach {
+    var walk = CubeWalk(vec3i(0), true);
+    for (var n = 0; n < 400; n++) {
+        let cube = cube_at(walk, side, border);
+        walk = next_cube(walk, 7, cube.distance < reach * reach);
+        if !walk.goes_on {
             break;
         }
-        for (var j = 0; j < 7; j++) {
-            let y = axis_distance(j, border.y);
-            if z * z + y * y >= reach * reach {
-                break;
-            }
-            for (var k = 0; k < 7; k++) {
-                let x = axis_distance(k, border.x);
-                if z * z + y * y + x * x >= reach * reach {
-                    break;
-                }
-                let step = vec3i(axis_step(k, side.x), axis_step(j, side.y), axis_step(i, side.z));
-                if abs(dot(normal, vec3f(step) + 0.5 - inside)) > thick {
-                    continue;
-                }
-                let random = cell_random(cell + step, key);
-                let offset = vec3f(step) + unit_random3(random) - inside;
-                let rise = dot(normal, offset);
-                let away = sqrt(max(dot(offset, offset) - rise * rise, 0.0));
-                if abs(rise) >= slab || away >= reach || !counts(random, slab) {
-                    continue;
-                }
-                let size = own_size(random, params);
-                if away >= outer_radius(size, softness, texel, params) {
-                    continue;
-                }
-                let whole = presence(rise / slab) * room(cell + step, offset, normal, slab, key);
-                let radius = size * whole * mean_radius(softness, params);
-                clear *= 1.0 - disk_cover(away, radius, softness, texel);
-                let depth = 1.0 - away / max(radius, 1e-6);
-                found.id = select(found.id, number_of(random.yzx), depth > found.depth);
-                found.depth = max(found.depth, depth);
-            }
+        if abs(dot(normal, vec3f(cube.step) + 0.5 - inside)) > thick {
+            continue;
         }
+        let random = cell_random(cell + cube.step, key);
+        let offset = vec3f(cube.step) + unit_random3(random) - inside;
+        let rise = dot(normal, offset);
+        let away = sqrt(max(dot(offset, offset) - rise * rise, 0.0));
+        if abs(rise) >= slab || away >= reach || !counts(random, slab) {
+            continue;
+        }
+        let size = own_size(random, params);
+        if away >= outer_radius(size, softness, texel, params) {
+            continue;
+        }
+        let whole = presence(rise / slab) * room(cell + cube.step, offset, normal, slab, key);
+        let radius = size * whole * mean_radius(softness, params);
+        clear *= 1.0 - disk_cover(away, radius, softness, texel);
+        let depth = 1.0 - away / max(radius, 1e-6);
+        found.id = select(found.id, number_of(random.yzx), depth > found.depth);
+        found.depth = max(found.depth, depth);
     }
     found.cover = 1.0 - clear;
     return found;

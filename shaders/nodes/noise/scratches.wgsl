@@ -118,60 +118,137 @@ fn scratches(at: Surface, position: vec3f, toward: vec3f, params: Params) -> Fou
     let reach = (params.width + at.texel_size) / (unit * finest_stretch(params.stretch)) * (1.0 + params.bend);
     // A plane's normal where space is drawn out: disks are looked for on this side only.
     let up = normalize(normal * params.stretch);
-    var left = disks_around(place, up, key, params.density * IN_CUBE);
-    var found = Found(1.0, 0.0, 0.0, 0.0, 0u, vec3f(0.0));
+    let rows = rows_around(place, key);
+    let disks = disks_around(rows, up, key, params.density * IN_CUBE);
+    // Those that cut it, first: most do not, and the rest is much work that processors do for several places at once.
+    var cuts = vec3u(0u);
+    var left = disks;
     for (var i = 0; i < 81; i++) {
-        let first = select(select(left.z, left.y, left.y != 0u), left.x, left.x != 0u);
-        if first == 0u {
+        let at_hand = next_disk(left);
+        if !at_hand.is_one {
             break;
         }
-        let k = select(select(2u, 1u, left.y != 0u), 0u, left.x != 0u);
-        let index = i32(firstTrailingBit(first));
-        left = select(left, left & (left - 1u), vec3u(k) == vec3u(0u, 1u, 2u));
-        let corner = corner_of(index, place);
-        let numbers = cell_random(cell_of(place) + cube_step(index), key);
-        let bits = select(select(numbers.z, numbers.y, k == 1u), numbers.x, k == 0u);
-        let offset = -corner - middle_of(bits);
-        let random = pcg3d(vec3u(bits, 0x85ebca6bu, 0x9e3779b9u));
-        // Few are bent much.
-        let bent = f32(random.y & 65535u) / 32768.0 - 1.0;
-        let disk = Disk(disk_normal(random, lead, strays), bent * abs(bent) * params.bend, own_width(random));
-        let away = dot(disk.normal, offset) - disk.bend * dot(offset, offset);
-        if abs(away) < reach && unit_random(random.z) < params.density * IN_CUBE - f32(k) {
-            add_scratch(&found, disk, offset, away * unit, bits, at, normal, -dot(up, offset), params);
+        left &= ~at_hand.bits;
+        let cut = cut_of(at_hand, rows, lead, strays, key, params);
+        cuts |= select(vec3u(0u), at_hand.bits, abs(cut.away) < reach && cut.is_there);
+    }
+    var found = Found(1.0, 0.0, 0.0, 0.0, 0u, vec3f(0.0));
+    for (var i = 0; i < 81; i++) {
+        let at_hand = next_disk(cuts);
+        if !at_hand.is_one {
+            break;
         }
+        cuts &= ~at_hand.bits;
+        let cut = cut_of(at_hand, rows, lead, strays, key, params);
+        add_scratch(&found, cut, unit, at, normal, -dot(up, cut.offset), params);
     }
     return found;
 }
 
-// Which disks may cut the surface here: one bit for each of the 27 cubes around, one number for each disk of a cube.
-// Without branches, so that processors can work on several cubes at once.
-fn disks_around(place: vec3f, up: vec3f, key: vec3u, count: f32) -> vec3u {
-    let cell = cell_of(place);
+// One of the disks of the cubes around.
+struct AtHand {
+    // Whether there is one.
+    is_one: bool,
+    // Its cube, of 27, and its number there.
+    cube: i32,
+    number: u32,
+    // Its bit in the sets of `disks_around`.
+    bits: vec3u,
+}
+
+fn next_disk(left: vec3u) -> AtHand {
+    let number = select(select(2u, 1u, left.y != 0u), 0u, left.x != 0u);
+    let of_number = select(select(left.z, left.y, number == 1u), left.x, number == 0u);
+    let bit = of_number & (~of_number + 1u);
+    return AtHand(
+        of_number != 0u,
+        i32(firstTrailingBit(of_number | 0x80000000u)),
+        number,
+        select(vec3u(0u), vec3u(bit), vec3u(number) == vec3u(0u, 1u, 2u)),
+    );
+}
+
+// A disk, and how it lies to the place.
+struct Cut {
+    disk: Disk,
+    // From its middle to the place.
+    offset: vec3f,
+    // How far the place is from it.
+    away: f32,
+    // Its random number.
+    id: u32,
+    // Whether the density has it at all.
+    is_there: bool,
+}
+
+fn cut_of(at_hand: AtHand, rows: CubeRows, lead: vec3f, strays: f32, key: vec3u, params: Params) -> Cut {
+    let step = cube_step(rows, at_hand.cube);
+    let numbers = cell_random(rows.cell + step, key);
+    let bits = select(select(numbers.z, numbers.y, at_hand.number == 1u), numbers.x, at_hand.number == 0u);
+    let offset = rows.inside - vec3f(step) - middle_of(bits);
+    let random = pcg3d(vec3u(bits, 0x85ebca6bu, 0x9e3779b9u));
+    // Few are bent much.
+    let bent = f32(random.y & 65535u) / 32768.0 - 1.0;
+    let disk = Disk(disk_normal(random, lead, strays), bent * abs(bent) * params.bend, own_width(random));
+    let away = dot(disk.normal, offset) - disk.bend * dot(offset, offset);
+    let is_there = unit_random(random.z) < params.density * IN_CUBE - f32(at_hand.number);
+    return Cut(disk, offset, away, bits, is_there);
+}
+
+// Which disks may cut the surface here: for each number of a disk in its cube one bit for each of the 27 cubes around.
+fn disks_around(rows: CubeRows, up: vec3f, key: vec3u, count: f32) -> vec3u {
+    let corner = 0.00048828125 - rows.inside;
+    let columns = corner.x + vec3f(-1.0, 0.0, 1.0);
     var found = vec3u(0u);
+    var left = rows_hit(rows, up);
     for (var i = 0; i < 9; i++) {
-        for (var j = 0; j < 3; j++) {
-            let index = 3 * i + j;
-            let corner = corner_of(index, place);
-            let random = cell_random(cell + cube_step(index), key);
-            let x = corner.x + thousandth(random >> vec3u(22u));
-            let y = corner.y + thousandth((random >> vec3u(12u)) & vec3u(1023u));
-            let z = corner.z + thousandth((random >> vec3u(2u)) & vec3u(1023u));
-            let rise = up.x * x + up.y * y + up.z * z;
-            let hits = (x * x + y * y + z * z < vec3f(1.0)) & (rise > vec3f(0.0)) & (rise < vec3f(HIGHEST));
-            found |= select(vec3u(0u), vec3u(1u << u32(index)), hits);
+        if left == 0u {
+            break;
         }
+        let row = i32(firstTrailingBit(left));
+        left &= left - 1u;
+        let numbers = number_row(rows, row, key);
+        let line = corner.yz + vec2f(row_step(rows, row));
+        let hits = vec3u(
+            hits_of(numbers.x, columns, line, up),
+            hits_of(numbers.y, columns, line, up),
+            hits_of(numbers.z, columns, line, up),
+        );
+        found |= hits << vec3u(3u * u32(row));
     }
     return select(vec3u(0u), found, vec3f(count) > vec3f(0.0, 1.0, 2.0));
 }
 
-fn cube_step(index: i32) -> vec3i {
-    return vec3i(index % 3, (index / 3) % 3, index / 9) - 1;
+// One bit for each row of cubes that may have the middle of such a disk.
+fn rows_hit(rows: CubeRows, up: vec3f) -> u32 {
+    let middle = 0.5 - rows.inside;
+    let reach = dot(abs(up), vec3f(1.5, 0.5, 0.5));
+    var found = 0u;
+    for (var row = 0; row < 9; row++) {
+        let line = middle.yz + vec2f(row_step(rows, row));
+        let rise = up.x * middle.x + up.y * line.x + up.z * line.y;
+        let apart = max(abs(line) - 0.5, vec2f(0.0));
+        let is_hit = rise > -reach && rise < HIGHEST + reach && dot(apart, apart) < 1.0;
+        found |= select(0u, 1u << u32(row), is_hit);
+    }
+    return found;
 }
 
-// From the place to the corner of a cube.
-fn corner_of(index: i32, place: vec3f) -> vec3f {
-    return vec3f(cube_step(index)) - (place - vec3f(cell_of(place)));
+// One bit for each of three disks that the place may be on, with their cubes' corners.
+fn hits_of(bits: vec3u, columns: vec3f, line: vec2f, up: vec3f) -> u32 {
+    let x = columns + vec3f(bits >> vec3u(22u)) * 0.0009765625;
+    let y = line.x + vec3f((bits >> vec3u(12u)) & vec3u(1023u)) * 0.0009765625;
+    let z = line.y + vec3f((bits >> vec3u(2u)) & vec3u(1023u)) * 0.0009765625;
+    let rise = up.x * x + up.y * y + up.z * z;
+    let is_hit = (x * x + y * y + z * z < vec3f(1.0)) & (rise > vec3f(0.0)) & (rise < vec3f(HIGHEST));
+    let marks = select(vec3u(0u), vec3u(1u, 2u, 4u), is_hit);
+    return marks.x | marks.y | marks.z;
+}
+
+// The step to cube `index` of 27, three in each row.
+fn cube_step(rows: CubeRows, index: i32) -> vec3i {
+    let row = (index * 11) >> 5u;
+    return vec3i(index - 3 * row - 1, row_step(rows, row));
 }
 
 // The middle of a disk in its cube, decided in 1/1024 of it.
@@ -209,15 +286,16 @@ fn disk_normal(random: vec3u, lead: vec3f, strays: f32) -> vec3f {
 
 // `above` is how far the middle of the disk is above the surface.
 fn add_scratch(
-    found: ptr<function, Found>, disk: Disk, offset: vec3f, away: f32, id: u32, at: Surface, normal: vec3f, above: f32,
-    params: Params,
+    found: ptr<function, Found>, cut: Cut, unit: f32, at: Surface, normal: vec3f, above: f32, params: Params,
 ) {
+    let disk = cut.disk;
+    let offset = cut.offset;
     // What is left of the slope along the surface turns the distance from the disk to one on the surface.
     let slope = (disk.normal - 2.0 * disk.bend * offset) / params.stretch;
     let rise = dot(slope, normal);
     let whole = dot(slope, slope);
     let steep = sqrt(max(whole - rise * rise, 1e-12));
-    let distance = abs(away) / steep;
+    let distance = abs(cut.away) * unit / steep;
     // A disk almost along the surface would cut out a patch, not a line.
     let upright = steep * inverseSqrt(max(whole, 1e-12));
     let edge = clamp((upright - 0.3) * 4.0, 0.0, 1.0) * clamp(10.0 * min(above, HIGHEST - above), 0.0, 1.0);
@@ -234,7 +312,7 @@ fn add_scratch(
     (*found).high = max((*found).high, height);
     let depth = half - distance;
     if depth > (*found).depth {
-        (*found).id = id;
+        (*found).id = cut.id;
         (*found).depth = depth;
     }
     let along = cross(normal, slope) / steep;
