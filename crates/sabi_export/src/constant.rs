@@ -15,41 +15,68 @@ pub enum Value {
     Triple([f32; 3]),
 }
 
-/// Lowest and highest of each component over the owned pixels, and whether there were any.
-pub(crate) fn bounds(layout: &SetLayout, pixels: &ChannelPixels) -> Option<([f32; 3], [f32; 3])> {
-    let start = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    let (low, high) = pixels
-        .data
-        .par_chunks_exact(pixels.components.max(1))
-        .zip(&layout.cover)
-        .with_min_len(4096)
-        .filter(|&(_, &cover)| cover == Cover::Owned)
-        .fold(
-            || start,
-            |(mut low, mut high), (values, _)| {
-                for (index, &value) in values.iter().take(3).enumerate() {
-                    low[index] = low[index].min(value);
-                    high[index] = high[index].max(value);
+/// Lowest and highest of each component.
+pub(crate) type Bounds = ([f32; 3], [f32; 3]);
+
+/// What the pixels of a channel are like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Survey {
+    /// Over the owned pixels; none if there are none.
+    pub(crate) bounds: Option<Bounds>,
+    /// Values that were no numbers or infinite.
+    pub(crate) not_finite: u64,
+}
+
+const NOTHING: Bounds = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+/// Pixels that a thread goes over at a time.
+const PART: usize = 1 << 14;
+
+/// Goes over all pixels once: replaces what is no number by the channel's neutral value, and finds the bounds.
+pub(crate) fn survey(channel: &Channel, layout: &SetLayout, pixels: &mut ChannelPixels) -> Survey {
+    match channel.neutral() {
+        [neutral] => survey_of([*neutral], layout, &mut pixels.data),
+        [x, y, z] => survey_of([*x, *y, *z], layout, &mut pixels.data),
+        _ => Survey {
+            bounds: None,
+            not_finite: 0,
+        },
+    }
+}
+
+fn survey_of<const N: usize>(neutral: [f32; N], layout: &SetLayout, data: &mut [f32]) -> Survey {
+    let parts = data.par_chunks_mut(PART * N).zip(layout.cover.par_chunks(PART));
+    let part = |(data, cover): (&mut [f32], &[Cover])| {
+        let mut not_finite = 0;
+        let (mut low, mut high) = NOTHING;
+        for (values, &cover) in data.as_chunks_mut::<N>().0.iter_mut().zip(cover) {
+            for (at, value) in values.iter_mut().enumerate() {
+                if !value.is_finite() {
+                    *value = neutral[at];
+                    not_finite += 1;
                 }
-                (low, high)
-            },
-        )
-        .reduce(
-            || start,
-            |a, b| {
-                let each = |pick: fn(f32, f32) -> f32, a: [f32; 3], b: [f32; 3]| {
-                    std::array::from_fn(|index| pick(a[index], b[index]))
-                };
-                (each(f32::min, a.0, b.0), each(f32::max, a.1, b.1))
-            },
-        );
-    (low[0] <= high[0]).then_some((low, high))
+                if cover == Cover::Owned {
+                    low[at] = low[at].min(*value);
+                    high[at] = high[at].max(*value);
+                }
+            }
+        }
+        (low, high, not_finite)
+    };
+    let each = |pick: fn(f32, f32) -> f32, a: [f32; 3], b: [f32; 3]| std::array::from_fn(|at| pick(a[at], b[at]));
+    let join = |a: ([f32; 3], [f32; 3], u64), b: ([f32; 3], [f32; 3], u64)| {
+        (each(f32::min, a.0, b.0), each(f32::max, a.1, b.1), a.2 + b.2)
+    };
+    let (low, high, not_finite) = parts.map(part).reduce(|| (NOTHING.0, NOTHING.1, 0), join);
+    Survey {
+        bounds: (low[0] <= high[0]).then_some((low, high)),
+        not_finite,
+    }
 }
 
 /// The value of a channel whose owned pixels are all within half a step of what its file could tell apart; of normals
-/// only the flat one counts. A set without owned pixels has the neutral value. Values are taken as finite.
-pub fn constant_value(channel: &Channel, layout: &SetLayout, pixels: &ChannelPixels) -> Option<Value> {
-    let Some((low, high)) = bounds(layout, pixels) else {
+/// only the flat one counts. A set without owned pixels has the neutral value.
+pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Option<Value> {
+    let Some((low, high)) = bounds else {
         return Some(match *channel.neutral() {
             [x, y, z] => Value::Triple([x, y, z]),
             _ => Value::Number(channel.neutral()[0]),
@@ -134,14 +161,11 @@ mod tests {
     fn of(channel: Channel, a: &[f32], b: &[f32]) -> Option<Value> {
         let other = vec![9.0; a.len()];
         let data = [a, b, &other, &other].concat();
-        constant_value(
-            &channel,
-            &layout(),
-            &ChannelPixels {
-                components: a.len(),
-                data,
-            },
-        )
+        let mut pixels = ChannelPixels {
+            components: a.len(),
+            data,
+        };
+        constant_value(&channel, survey(&channel, &layout(), &mut pixels).bounds)
     }
 
     #[test]
@@ -217,12 +241,13 @@ mod tests {
     fn a_set_without_pixels_has_the_neutral_value() {
         let mut empty = layout();
         empty.cover.fill(Cover::Empty);
-        let pixels = ChannelPixels {
+        let mut pixels = ChannelPixels {
             components: 1,
             data: vec![3.0; 4],
         };
+        let found = survey(&Channel::Occlusion, &empty, &mut pixels);
         assert_eq!(
-            constant_value(&Channel::Occlusion, &empty, &pixels),
+            constant_value(&Channel::Occlusion, found.bounds),
             Some(Value::Number(1.0))
         );
     }

@@ -18,7 +18,7 @@ mod staging;
 mod write;
 
 pub use channel::{Channel, ChannelPixels};
-pub use constant::{Value, constant_value};
+pub use constant::Value;
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use model_copy::{CopiedFile, FinishedCopy, MapFile, MaterialMaps, ModelCopy};

@@ -23,6 +23,9 @@ pub struct PaddingMap {
     pub source: Vec<u32>,
 }
 
+/// Pixels that a thread fills at a time.
+const PART: usize = 1 << 14;
+
 impl PaddingMap {
     /// The exact nearest covered pixel by Euclidean distance, in two passes of whole numbers (Meijster 2000). Of pixels
     /// equally near, the left column is taken, and in a column the upper one, whatever the number of threads.
@@ -66,27 +69,58 @@ impl PaddingMap {
         first: usize,
         texel: impl Fn(usize) -> [f32; 4] + Sync,
     ) -> ChannelPixels {
-        let mut pixels = ChannelPixels::neutral(channel, self.source.len());
-        let components = pixels.components;
-        pixels
-            .data
-            .par_chunks_mut(components)
-            .zip(&self.source)
-            .with_min_len(4096)
-            .for_each(|(values, &pixel)| {
-                let mut sources = layout.sources(pixel as usize);
-                let Some(from) = sources.next() else { return };
-                let (mut mean, mut count) = (texel(from), 1.0);
-                for from in sources {
-                    let stored = texel(from);
-                    mean = std::array::from_fn(|at| mean[at] + stored[at]);
-                    count += 1.0;
-                }
-                for (value, sum) in values.iter_mut().zip(mean.into_iter().skip(first)) {
-                    *value = sum / count;
-                }
-            });
-        pixels
+        let data = match channel.neutral() {
+            [neutral] => self.gathered([*neutral], layout, first, texel),
+            [x, y, z] => self.gathered([*x, *y, *z], layout, first, texel),
+            _ => Vec::new(),
+        };
+        ChannelPixels {
+            components: channel.components(),
+            data,
+        }
+    }
+
+    fn gathered<const N: usize>(
+        &self,
+        neutral: [f32; N],
+        layout: &SetLayout,
+        first: usize,
+        texel: impl Fn(usize) -> [f32; 4] + Sync,
+    ) -> Vec<f32> {
+        let of_texel = |at: usize| {
+            let stored = texel(at);
+            std::array::from_fn(|index| stored.get(first + index).copied().unwrap_or(neutral[index]))
+        };
+        let mut data = vec![0.0; self.source.len() * N];
+        let parts = data.par_chunks_mut(PART * N).zip(self.source.par_chunks(PART));
+        parts.for_each(|(values, sources)| {
+            for (values, &pixel) in values.as_chunks_mut::<N>().0.iter_mut().zip(sources) {
+                let from = layout.source.get(pixel as usize).copied().unwrap_or(NONE);
+                *values = if from == NONE { neutral } else { of_texel(from as usize) };
+            }
+        });
+        self.share(layout, &mut data, of_texel);
+        data
+    }
+
+    /// Gives pixels that several texels claim the mean of them.
+    fn share<const N: usize>(&self, layout: &SetLayout, data: &mut [f32], of_texel: impl Fn(usize) -> [f32; N]) {
+        if layout.shared.is_empty() {
+            return;
+        }
+        for (values, &pixel) in data.as_chunks_mut::<N>().0.iter_mut().zip(&self.source) {
+            let mut sources = layout.sources(pixel as usize).skip(1).peekable();
+            if sources.peek().is_none() {
+                continue;
+            }
+            let mut count = 1.0;
+            for from in sources {
+                let more = of_texel(from);
+                *values = std::array::from_fn(|at| values[at] + more[at]);
+                count += 1.0;
+            }
+            *values = values.map(|sum| sum / count);
+        }
     }
 
     /// Fills what no chart covers of a channel that is already laid out as the set is.

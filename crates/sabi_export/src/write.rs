@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::constant::{bounds, constant_value};
+use crate::constant::{constant_value, survey};
 use crate::encode::encode;
 use crate::layout::SetLayout;
 use crate::model_copy::{Gathering, MapFile, MaterialMaps, Passing};
@@ -147,15 +147,15 @@ impl SetWriter<'_> {
                 expected,
             });
         }
-        let not_finite = make_finite(channel, &mut pixels);
+        let found = survey(channel, self.layout, &mut pixels);
         let udim = self.layout.key.udim;
-        let constant = constant_value(channel, self.layout, &pixels).map(|value| ConstantRecord {
+        let constant = constant_value(channel, found.bounds).map(|value| ConstantRecord {
             channel: channel.clone(),
             material: self.name.clone(),
             udim,
             value,
         });
-        let (low, high) = bounds(self.layout, &pixels).unwrap_or(([0.0; 3], [0.0; 3]));
+        let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
         let above_one = high[..components].iter().any(|&value| value > 1.0);
         let mut outputs = Vec::new();
         let mut written = Vec::new();
@@ -181,12 +181,13 @@ impl SetWriter<'_> {
             channel,
             &pixels,
             constant.as_ref().map(|constant| constant.value),
+            high,
             &written,
         )?;
         Ok(Written {
             outputs,
             constant,
-            not_finite,
+            not_finite: found.not_finite,
         })
     }
 
@@ -196,6 +197,7 @@ impl SetWriter<'_> {
         channel: &Channel,
         pixels: &ChannelPixels,
         constant: Option<Value>,
+        high: [f32; 3],
         written: &[(Format, MapFile)],
     ) -> Result<(), ExportError> {
         let Some(gathering) = &mut self.bake.gathering else {
@@ -207,6 +209,7 @@ impl SetWriter<'_> {
             channel,
             pixels,
             constant,
+            high,
             written,
         };
         gathering.take(&passing).map_err(|source| ExportError::Encode {
@@ -249,21 +252,6 @@ impl SetWriter<'_> {
         };
         Ok((record, encoded.bytes))
     }
-}
-
-/// Replaces what is no number, and says how often.
-fn make_finite(channel: &Channel, pixels: &mut ChannelPixels) -> u64 {
-    let neutral = channel.neutral();
-    let mut replaced = 0;
-    for values in pixels.data.chunks_exact_mut(neutral.len()) {
-        for (value, &neutral) in values.iter_mut().zip(neutral) {
-            if !value.is_finite() {
-                *value = neutral;
-                replaced += 1;
-            }
-        }
-    }
-    replaced
 }
 
 #[cfg(test)]

@@ -43,10 +43,11 @@ impl Dither {
 
 /// The product is rounded to a float as everywhere in graphics, so that 0.7, which no float is exactly, gives 178.5 and
 /// rounds up as on paper.
-fn quantize(value: f32, highest: f32, threshold: f64) -> f64 {
+fn quantize(value: f32, highest: f32, threshold: f64) -> u32 {
     // `clamp` keeps not-a-number.
     let unit = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
-    (f64::from(unit * highest) + threshold).floor().min(f64::from(highest))
+    // Never negative, so that cutting off is rounding down.
+    ((f64::from(unit * highest) + threshold) as u32).min(highest as u32)
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use sabi_image::{ImageError, PngData, PngOptions, encode_png};
 
-use crate::constant::bounds;
 use crate::encode::{codes_8, encode};
 use crate::layout::SetLayout;
 use crate::preset::{Codes, Format};
@@ -79,6 +78,8 @@ pub(crate) struct Passing<'a> {
     pub(crate) channel: &'a Channel,
     pub(crate) pixels: &'a ChannelPixels,
     pub(crate) constant: Option<Value>,
+    /// The highest of each component over the owned pixels, 0 without any.
+    pub(crate) high: [f32; 3],
     /// The files that it became.
     pub(crate) written: &'a [(Format, MapFile)],
 }
@@ -236,7 +237,7 @@ impl Gathering {
     }
 
     fn emission(&mut self, passing: &Passing<'_>, written: Option<MapFile>) -> Result<(), ImageError> {
-        let (_, high) = bounds(passing.layout, passing.pixels).unwrap_or_default();
+        let high = passing.high;
         let strength = high.into_iter().fold(1.0, f32::max);
         let (factor, file) = match (passing.constant, written) {
             (Some(Value::Triple(rgb)), _) => (rgb.map(|value| value.max(0.0) / strength), None),
