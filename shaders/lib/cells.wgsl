@@ -81,9 +81,9 @@ struct NumberRow {
     z: vec3u,
 }
 
-/// The numbers of row `index`, the same as those of `cell_random`.
-fn number_row(rows: CubeRows, index: i32, key: vec3u) -> NumberRow {
-    let cell = bitcast<vec2u>(rows.cell.yz + row_step(rows, index)) & vec2u(65535u);
+/// The numbers of the row that is `step` away along y and z, the same as those of `cell_random`.
+fn number_row(rows: CubeRows, step: vec2i, key: vec3u) -> NumberRow {
+    let cell = bitcast<vec2u>(rows.cell.yz + step) & vec2u(65535u);
     let lines = (cell + key.yz) * 1664525u + 1013904223u;
     var x = rows.columns;
     var y = vec3u(lines.x);
@@ -102,13 +102,13 @@ fn number_row(rows: CubeRows, index: i32, key: vec3u) -> NumberRow {
 
 /// The points of row `index`.
 fn point_row(rows: CubeRows, index: i32, jitter: f32, key: vec3u) -> PointRow {
-    let numbers = number_row(rows, index, key);
-    let step = vec2f(row_step(rows, index));
+    let step = row_step(rows, index);
+    let numbers = number_row(rows, step, key);
     let corner = 0.5 - 0.5 * jitter - rows.inside;
     return PointRow(
         (corner.x + vec3f(-1.0, 0.0, 1.0)) + jitter * unit_random3(numbers.x),
-        (corner.y + step.x) + jitter * unit_random3(numbers.y),
-        (corner.z + step.y) + jitter * unit_random3(numbers.z),
+        (corner.y + f32(step.x)) + jitter * unit_random3(numbers.y),
+        (corner.z + f32(step.y)) + jitter * unit_random3(numbers.z),
     );
 }
 

@@ -28,6 +28,8 @@ struct Surface {
     piece: u32,
     /// Normal of the triangle along the sides of that box, unit length.
     piece_normal: vec3f,
+    /// From a texel to the next one along u, on the surface.
+    texel_step: vec3f,
     /// Texel of the atlas: x, y, page. Only `lib/surface` reads it.
     texel: vec3i,
 }

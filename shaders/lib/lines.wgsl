@@ -4,9 +4,10 @@
 //! So a line thinner than a texel is a faint one and never a row of dots.
 
 /// How wide a square texel is across a line: the wider and the narrower of its two sides as they lie across it. `across`
-/// points over the line, `tangent` (unit length) along a side of the texel.
-fn line_texel(across: vec3f, tangent: vec3f, texel_size: f32) -> vec2f {
-    let cosine = min(abs(dot(across, tangent)) * inverseSqrt(max(dot(across, across), 1e-30)), 1.0);
+/// points over the line, `texel_step` along a side of the texel.
+fn line_texel(across: vec3f, texel_step: vec3f, texel_size: f32) -> vec2f {
+    let lengths = dot(across, across) * dot(texel_step, texel_step);
+    let cosine = min(abs(dot(across, texel_step)) * inverseSqrt(max(lengths, 1e-30)), 1.0);
     let sine = sqrt(1.0 - cosine * cosine);
     return texel_size * vec2f(max(cosine, sine), min(cosine, sine));
 }

@@ -126,10 +126,8 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
     // A ghost is read by its own chart, so its detail fades with that chart's texels: with those over the seam, coarser or
     // finer, every seam between charts of different density would show as a step.
     let axes = spot.axes;
-    let across = max(
-        length(along_u.xyz * axes.x + along_v.xyz * axes.y),
-        length(along_u.xyz * axes.z + along_v.xyz * axes.w),
-    );
+    let texel_step = along_u.xyz * axes.x + along_v.xyz * axes.y;
+    let across = max(length(texel_step), length(along_u.xyz * axes.z + along_v.xyz * axes.w));
     let texel_size = select(abs(along_v.w), across, (owner & GHOST_BIT) != 0u);
     let position = origin.xyz + along_u.xyz * step.x + along_v.xyz * step.y;
     let piece = bitcast<u32>(chart.w);
@@ -147,6 +145,7 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
         along_sides(piece, position - piece_middle(piece)),
         piece,
         along_sides(piece, face),
+        texel_step,
         texel,
     );
 }

@@ -74,7 +74,7 @@ fn mean_cover(params: Params) -> f32 {
 }
 
 fn texel_across(at: Surface, crack: Wall, params: Params) -> vec2f {
-    return line_texel(crack.across, noise_direction(at.tangent.xyz, params.rotate), at.texel_size);
+    return line_texel(crack.across, noise_direction(at.texel_step, params.rotate), at.texel_size);
 }
 
 // The nearest crack along the surface, as far as it matters.

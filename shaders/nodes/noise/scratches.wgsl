@@ -182,7 +182,7 @@ struct Cut {
 }
 
 fn cut_of(at_hand: AtHand, rows: CubeRows, lead: vec3f, strays: f32, key: vec3u, params: Params) -> Cut {
-    let step = cube_step(rows, at_hand.cube);
+    let step = cube_step(at_hand.cube);
     let numbers = cell_random(rows.cell + step, key);
     let bits = select(select(numbers.z, numbers.y, at_hand.number == 1u), numbers.x, at_hand.number == 0u);
     let offset = rows.inside - vec3f(step) - middle_of(bits);
@@ -207,8 +207,9 @@ fn disks_around(rows: CubeRows, up: vec3f, key: vec3u, count: f32) -> vec3u {
         }
         let row = i32(firstTrailingBit(left));
         left &= left - 1u;
-        let numbers = number_row(rows, row, key);
-        let line = corner.yz + vec2f(row_step(rows, row));
+        let step = row_step_of(row);
+        let numbers = number_row(rows, step, key);
+        let line = corner.yz + vec2f(step);
         let hits = vec3u(
             hits_of(numbers.x, columns, line, up),
             hits_of(numbers.y, columns, line, up),
@@ -222,16 +223,25 @@ fn disks_around(rows: CubeRows, up: vec3f, key: vec3u, count: f32) -> vec3u {
 // One bit for each row of cubes that may have the middle of such a disk.
 fn rows_hit(rows: CubeRows, up: vec3f) -> u32 {
     let middle = 0.5 - rows.inside;
+    let y = middle.y + vec3f(-1.0, 0.0, 1.0);
+    let z = middle.z + vec3f(-1.0, 0.0, 1.0);
+    let apart_y = max(abs(y) - 0.5, vec3f(0.0));
+    let apart_z = max(abs(z) - 0.5, vec3f(0.0));
+    let rise_y = up.x * middle.x + up.y * y;
+    let rise_z = up.z * z;
     let reach = dot(abs(up), vec3f(1.5, 0.5, 0.5));
-    var found = 0u;
-    for (var row = 0; row < 9; row++) {
-        let line = middle.yz + vec2f(row_step(rows, row));
-        let rise = up.x * middle.x + up.y * line.x + up.z * line.y;
-        let apart = max(abs(line) - 0.5, vec2f(0.0));
-        let is_hit = rise > -reach && rise < HIGHEST + reach && dot(apart, apart) < 1.0;
-        found |= select(0u, 1u << u32(row), is_hit);
-    }
-    return found;
+    return lines_hit(rise_y + rise_z.x, apart_y * apart_y + apart_z.x * apart_z.x, reach)
+        | (lines_hit(rise_y + rise_z.y, apart_y * apart_y + apart_z.y * apart_z.y, reach) << 3u)
+        | (lines_hit(rise_y + rise_z.z, apart_y * apart_y + apart_z.z * apart_z.z, reach) << 6u);
+}
+
+fn lines_hit(rise: vec3f, apart: vec3f, reach: f32) -> u32 {
+    return bits_of((rise > vec3f(-reach)) & (rise < vec3f(HIGHEST + reach)) & (apart < vec3f(1.0)));
+}
+
+fn bits_of(hits: vec3<bool>) -> u32 {
+    let bits = select(vec3u(0u), vec3u(1u, 2u, 4u), hits);
+    return bits.x | bits.y | bits.z;
 }
 
 // One bit for each of three disks that the place may be on, with their cubes' corners.
@@ -240,15 +250,19 @@ fn hits_of(bits: vec3u, columns: vec3f, line: vec2f, up: vec3f) -> u32 {
     let y = line.x + vec3f((bits >> vec3u(12u)) & vec3u(1023u)) * 0.0009765625;
     let z = line.y + vec3f((bits >> vec3u(2u)) & vec3u(1023u)) * 0.0009765625;
     let rise = up.x * x + up.y * y + up.z * z;
-    let is_hit = (x * x + y * y + z * z < vec3f(1.0)) & (rise > vec3f(0.0)) & (rise < vec3f(HIGHEST));
-    let marks = select(vec3u(0u), vec3u(1u, 2u, 4u), is_hit);
-    return marks.x | marks.y | marks.z;
+    return bits_of((x * x + y * y + z * z < vec3f(1.0)) & (rise > vec3f(0.0)) & (rise < vec3f(HIGHEST)));
 }
 
 // The step to cube `index` of 27, three in each row.
-fn cube_step(rows: CubeRows, index: i32) -> vec3i {
+fn cube_step(index: i32) -> vec3i {
     let row = (index * 11) >> 5u;
-    return vec3i(index - 3 * row - 1, row_step(rows, row));
+    return vec3i(index - 3 * row - 1, row_step_of(row));
+}
+
+// The step along y and z to row `row` of nine.
+fn row_step_of(row: i32) -> vec2i {
+    let z = (row * 11) >> 5u;
+    return vec2i(row - 3 * z, z) - 1;
 }
 
 // The middle of a disk in its cube, decided in 1/1024 of it.
@@ -303,8 +317,8 @@ fn add_scratch(
     // Pointed at its ends.
     let size = disk.width * edge * (1.0 - square * square);
     let half = 0.5 * params.width * size;
-    let tangent = noise_direction(at.tangent.xyz, params.rotate);
-    let texel = line_texel(slope - rise * normal, tangent, at.texel_size);
+    let texel_step = noise_direction(at.texel_step, params.rotate);
+    let texel = line_texel(slope - rise * normal, texel_step, at.texel_size);
     let cover = line_cover(distance, 0.6 * half, 1.4 * half, texel);
     (*found).clear *= 1.0 - cover;
     let height = size * ridged_height(distance, 1.4 * half, texel);
