@@ -50,6 +50,7 @@ pub(crate) fn barrel() -> Model {
     parts.push(bung());
     Model {
         name: "barrel",
+        paint: None,
         materials: vec![Material::plain("wood", [0.36, 0.22, 0.12]), Material::iron()],
         parts,
     }

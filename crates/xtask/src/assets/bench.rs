@@ -36,6 +36,7 @@ pub(crate) fn bench() -> Model {
     }
     Model {
         name: "bench",
+        paint: None,
         materials: vec![Material::plain("bench", [0.5, 0.42, 0.34])],
         parts,
     }

@@ -59,6 +59,7 @@ pub(crate) fn chain() -> Model {
     parts.iter_mut().for_each(|part| part.translation.y -= ground);
     Model {
         name: "chain",
+        paint: None,
         materials: vec![Material::iron()],
         parts,
     }

@@ -34,6 +34,7 @@ pub(crate) fn chair() -> Model {
     parts.extend(stretchers());
     Model {
         name: "chair",
+        paint: None,
         materials: vec![
             Material::plain("wood", [0.33, 0.16, 0.08]),
             Material {

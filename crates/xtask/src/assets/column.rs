@@ -33,6 +33,7 @@ pub(crate) fn column() -> Model {
     ];
     Model {
         name: "column",
+        paint: None,
         materials: vec![Material::plain("marble", [0.62, 0.59, 0.53])],
         parts,
     }

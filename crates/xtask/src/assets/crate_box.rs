@@ -65,6 +65,7 @@ pub(crate) fn crate_box() -> Model {
     });
     Model {
         name: "crate",
+        paint: None,
         materials: vec![Material::plain("wood", [0.5, 0.36, 0.22]), Material::iron()],
         parts,
     }

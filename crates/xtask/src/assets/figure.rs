@@ -196,6 +196,7 @@ fn model(name: &'static str, shape: Shape) -> Model {
     };
     Model {
         name,
+        paint: None,
         materials: vec![Material::plain("figure", [0.55, 0.5, 0.45])],
         parts: vec![part],
     }

@@ -9,6 +9,7 @@ use super::pack::pack;
 use super::shape::{Part, corner_normals};
 
 const FLOAT: u32 = 5126;
+const UNSIGNED_BYTE: u32 = 5121;
 const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
@@ -19,6 +20,8 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 pub(crate) struct Model {
     /// File stem and root node.
     pub(crate) name: &'static str,
+    /// Colors of its vertices by their place in the model: linear, multiplied with the material's color.
+    pub(crate) paint: Option<fn(DVec3) -> [f64; 3]>,
     /// What its parts are made of; all share one sheet of texture coordinates.
     pub(crate) materials: Vec<Material>,
     /// Its pieces.
@@ -146,6 +149,17 @@ impl Tables {
         self.push(&bytes, ARRAY_BUFFER, accessor)
     }
 
+    fn push_colors(&mut self, colors: &[[f64; 3]]) -> usize {
+        let code = |value: f64| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let bytes: Vec<u8> = colors
+            .iter()
+            .flat_map(|&[r, g, b]| [code(r), code(g), code(b), 255])
+            .collect();
+        let count = colors.len();
+        let accessor = json!({ "componentType": UNSIGNED_BYTE, "normalized": true, "count": count, "type": "VEC4" });
+        self.push(&bytes, ARRAY_BUFFER, accessor)
+    }
+
     fn push_indices(&mut self, indices: &[u32], vertices: usize) -> usize {
         // The largest 16 bit number is the one glTF reserves.
         let is_short = vertices < 65_535;
@@ -166,11 +180,16 @@ pub(crate) fn encode(model: &Model) -> Vec<u8> {
     let mut meshes = Vec::new();
     let mut nodes = Vec::new();
     for (part, indexed) in model.parts.iter().zip(index(model)) {
-        let attributes = json!({
+        let mut attributes = json!({
             "POSITION": tables.push_vectors(&indexed.positions, true),
             "NORMAL": tables.push_vectors(&indexed.normals, false),
             "TEXCOORD_0": tables.push_vectors(&indexed.uvs, false),
         });
+        if let Some(paint) = model.paint {
+            let place = |position: &[f32; 3]| part.translation + part.rotation * DVec3::from(position.map(f64::from));
+            let colors = indexed.positions.iter().map(|position| paint(place(position)));
+            attributes["COLOR_0"] = json!(tables.push_colors(&colors.collect::<Vec<_>>()));
+        }
         let indices = tables.push_indices(&indexed.indices, indexed.positions.len());
         meshes.push(json!({
             "name": part.name,

@@ -10,6 +10,7 @@ use super::shape::{Corner, Part, Shape};
 pub(crate) fn sphere() -> Model {
     Model {
         name: "sphere",
+        paint: None,
         materials: vec![Material::plain("sphere", [0.6, 0.6, 0.6])],
         parts: vec![part("sphere", ball(0.5, 24))],
     }
@@ -51,6 +52,7 @@ pub(crate) fn cube() -> Model {
     }
     Model {
         name: "cube",
+        paint: None,
         materials: vec![Material::plain("cube", [0.6, 0.6, 0.6])],
         parts: vec![part("cube", shape)],
     }

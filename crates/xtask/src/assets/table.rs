@@ -37,6 +37,7 @@ pub(crate) fn table() -> Model {
     parts.extend(braces());
     Model {
         name: "table",
+        paint: None,
         materials: vec![Material::plain("wood", [0.42, 0.28, 0.17]), Material::iron()],
         parts,
     }

@@ -37,6 +37,7 @@ pub(crate) fn wall() -> Model {
     ];
     Model {
         name: "wall",
+        paint: Some(damp),
         materials: vec![
             Material::plain("brick", [0.42, 0.17, 0.11]),
             Material::plain("mortar", [0.5, 0.47, 0.42]),
@@ -44,6 +45,13 @@ pub(crate) fn wall() -> Model {
         ],
         parts,
     }
+}
+
+/// The damp that rises from the ground, painted by hand as it were: darker and a little green.
+fn damp(place: DVec3) -> [f64; 3] {
+    let dry = (place.y / 0.45).clamp(0.0, 1.0);
+    let wet = (1.0 - dry * dry * (3.0 - 2.0 * dry)) * (1.0 - 0.4 * (place.x * 9.0).sin().abs());
+    [1.0 - 0.55 * wet, 1.0 - 0.42 * wet, 1.0 - 0.6 * wet]
 }
 
 /// The model's middle is over the origin.
