@@ -212,9 +212,19 @@ fn needs_unwrapping(model: &mut Model) -> bool {
     }
     model.warnings.push(format!(
         "A part of the model has no UVs ({}), so all of it was unwrapped anew onto one sheet for all its materials.",
-        model.without_uvs.join(", ")
+        first_of(&model.without_uvs)
     ));
     true
+}
+
+/// The first few of a list, and how many more there are.
+fn first_of(names: &[String]) -> String {
+    const MOST_NAMED: usize = 4;
+    let named = names[..names.len().min(MOST_NAMED)].join(", ");
+    match names.len().saturating_sub(MOST_NAMED) {
+        0 => named,
+        more => format!("{named} and {more} more"),
+    }
 }
 
 /// Puts the unwrapped mesh in the place of the model's own.
@@ -258,4 +268,17 @@ fn largest_side(model: &Model) -> f64 {
     }
     let side = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
     if side > 0.0 && side.is_finite() { side } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_of;
+
+    #[test]
+    fn a_long_list_is_cut_short_and_counted() {
+        let names: Vec<String> = ["a", "b", "c", "d", "e", "f"].map(str::to_owned).to_vec();
+        assert_eq!(first_of(&names[..2]), "a, b");
+        assert_eq!(first_of(&names[..4]), "a, b, c, d");
+        assert_eq!(first_of(&names), "a, b, c, d and 2 more");
+    }
 }

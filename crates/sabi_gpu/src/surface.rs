@@ -266,23 +266,28 @@ fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u64) -> Resu
     })
 }
 
-/// A table of rows of four numbers as a texture of bit patterns, see `shaders/surface/place.wgsl`.
-fn table_texture(gpu: &Gpu, what: &'static str, bytes: &[u8]) -> Result<wgpu::TextureView, GpuError> {
-    let rows = (bytes.len() / TABLE_ROW_BYTES).max(1);
-    let size = wgpu::Extent3d {
-        width: rows.min(TABLE_WIDTH) as u32,
-        height: u32::try_from(rows.div_ceil(TABLE_WIDTH)).unwrap_or(u32::MAX),
-        depth_or_array_layers: 1,
-    };
-    let highest = gpu.device.limits().max_texture_dimension_2d;
-    if size.height > highest {
-        let mib = |height: u64| height * (TABLE_WIDTH * TABLE_ROW_BYTES) as u64 >> 20;
+/// The texture that holds a table, if adapters of `highest` texels a side have one.
+fn table_extent(what: &'static str, rows: usize, highest: u32) -> Result<wgpu::Extent3d, GpuError> {
+    let lines = rows.div_ceil(TABLE_WIDTH).max(1);
+    if lines > highest as usize {
+        let mib = |lines: usize| (lines * TABLE_WIDTH * TABLE_ROW_BYTES) as u64 >> 20;
         return Err(GpuError::TooLarge {
             what,
-            needed_mib: mib(u64::from(size.height)),
-            limit_mib: mib(u64::from(highest)),
+            needed_mib: mib(lines),
+            limit_mib: mib(highest as usize),
         });
     }
+    Ok(wgpu::Extent3d {
+        width: rows.clamp(1, TABLE_WIDTH) as u32,
+        height: lines as u32,
+        depth_or_array_layers: 1,
+    })
+}
+
+/// A table of rows of four numbers as a texture of bit patterns, see `shaders/surface/place.wgsl`.
+fn table_texture(gpu: &Gpu, what: &'static str, bytes: &[u8]) -> Result<wgpu::TextureView, GpuError> {
+    let rows = bytes.len() / TABLE_ROW_BYTES;
+    let size = table_extent(what, rows, gpu.device.limits().max_texture_dimension_2d)?;
     let texture = gpu.guarded(what, |device| {
         device.create_texture(&wgpu::TextureDescriptor {
             label: Some(what),
@@ -349,4 +354,23 @@ fn owners_texture(gpu: &Gpu, atlas: &Atlas, extent: Extent) -> Result<wgpu::Text
         size,
     );
     Ok(array_view(&texture))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_takes_as_many_lines_as_it_needs_and_no_more_than_the_adapter_has() {
+        let extent = |rows| table_extent("the triangles", rows, 8192).map(|size| [size.width, size.height]);
+        assert_eq!(extent(0), Ok([1, 1]));
+        assert_eq!(extent(8192), Ok([8192, 1]));
+        assert_eq!(extent(8193), Ok([8192, 2]));
+        assert_eq!(extent(8192 * 8192), Ok([8192, 8192]));
+        let error = extent(8192 * 8192 + 1).expect_err("one line too many").to_string();
+        assert!(
+            error.contains("the triangles") && error.contains("1025") && error.contains("1024"),
+            "{error}"
+        );
+    }
 }

@@ -41,6 +41,23 @@ pub struct SourcePort {
     pub channels: Vec<Channel>,
 }
 
+impl SourcePort {
+    /// A port that carries no material.
+    pub fn new(name: &str, ty: PortType, doc: &str) -> SourcePort {
+        SourcePort::material(name, ty, doc, &[])
+    }
+
+    /// A port of a material result that sets these channels.
+    pub fn material(name: &str, ty: PortType, doc: &str, channels: &[Channel]) -> SourcePort {
+        SourcePort {
+            name: name.to_owned(),
+            ty,
+            doc: doc.to_owned(),
+            channels: channels.to_vec(),
+        }
+    }
+}
+
 /// A result that is wanted.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Target {

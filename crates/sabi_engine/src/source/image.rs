@@ -17,12 +17,6 @@ pub(crate) const NAME: &str = "source/image";
 
 /// The kind as the planner and the reference see it.
 pub(crate) fn kind() -> SourceKind {
-    let port = |name: &str, ty, doc: &str| SourcePort {
-        name: name.to_owned(),
-        ty,
-        doc: doc.to_owned(),
-        channels: Vec::new(),
-    };
     SourceKind {
         id: NAME.to_owned(),
         label: "Image".to_owned(),
@@ -42,14 +36,14 @@ pub(crate) fn kind() -> SourceKind {
         params: [params(), decal_params()].concat(),
         inputs: Vec::new(),
         outputs: vec![
-            port("color", PortType::Color, "Its colors."),
-            port(
+            SourcePort::new("color", PortType::Color, "Its colors."),
+            SourcePort::new(
                 "mask",
                 PortType::Mask,
                 "Its luminance, as numbers of the file; 0 outside of a decal.",
             ),
-            port("alpha", PortType::Mask, "Its opacity; 0 outside of a decal."),
-            port(
+            SourcePort::new("alpha", PortType::Mask, "Its opacity; 0 outside of a decal."),
+            SourcePort::new(
                 "slope",
                 PortType::Vector,
                 "Of a normal map: the surface gradient in model space; 0 outside of a decal.",

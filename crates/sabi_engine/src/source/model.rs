@@ -20,12 +20,6 @@ pub(crate) const NAME: &str = "source/model";
 
 /// The kind; without a model its material sets color and surface only.
 pub(crate) fn kind() -> SourceKind {
-    let port = |name: &str, ty, doc: &str, channels: &[Channel]| SourcePort {
-        name: name.to_owned(),
-        ty,
-        doc: doc.to_owned(),
-        channels: channels.to_vec(),
-    };
     SourceKind {
         id: NAME.to_owned(),
         label: "Model".to_owned(),
@@ -34,24 +28,23 @@ pub(crate) fn kind() -> SourceKind {
         params: Vec::new(),
         inputs: Vec::new(),
         outputs: vec![
-            port(
+            SourcePort::material(
                 "material",
                 PortType::Material,
                 "All of it.",
                 &[Channel::Color, Channel::Surface],
             ),
-            port("base_color", PortType::Color, "Base color.", &[]),
-            port("alpha", PortType::Mask, "Opacity.", &[]),
-            port("roughness", PortType::Mask, "Roughness.", &[]),
-            port("metallic", PortType::Mask, "Metallic.", &[]),
-            port("occlusion", PortType::Mask, "Occlusion: 1 is open.", &[]),
-            port(
+            SourcePort::new("base_color", PortType::Color, "Base color."),
+            SourcePort::new("alpha", PortType::Mask, "Opacity."),
+            SourcePort::new("roughness", PortType::Mask, "Roughness."),
+            SourcePort::new("metallic", PortType::Mask, "Metallic."),
+            SourcePort::new("occlusion", PortType::Mask, "Occlusion: 1 is open."),
+            SourcePort::new(
                 "slope",
                 PortType::Vector,
                 "The normal map as a surface gradient in model space.",
-                &[],
             ),
-            port("emission", PortType::Color, "Emission.", &[]),
+            SourcePort::new("emission", PortType::Color, "Emission."),
         ],
         content: [0; 32],
     }

@@ -22,12 +22,6 @@ const LISTED: usize = 12;
 
 /// The kind.
 pub(crate) fn kind() -> SourceKind {
-    let port = |name: &str, ty, doc: &str| SourcePort {
-        name: name.to_owned(),
-        ty,
-        doc: doc.to_owned(),
-        channels: Vec::new(),
-    };
     SourceKind {
         id: NAME.to_owned(),
         label: "Parts".to_owned(),
@@ -51,14 +45,14 @@ pub(crate) fn kind() -> SourceKind {
         ],
         inputs: Vec::new(),
         outputs: vec![
-            port("mask", PortType::Mask, "1 on what is picked, 0 elsewhere."),
-            port(
+            SourcePort::new("mask", PortType::Mask, "1 on what is picked, 0 elsewhere."),
+            SourcePort::new(
                 "id",
                 PortType::Mask,
                 "A random value for each. By name it hangs on the name alone, so it stays when the model's parts change \
                  their order.",
             ),
-            port(
+            SourcePort::new(
                 "position",
                 PortType::Vector,
                 "The place in the own box of each: from its middle, x along its longest side.",

@@ -12,12 +12,6 @@ pub(crate) const NAME: &str = "source/vertex_color";
 
 /// The kind as the planner and the reference see it.
 pub(crate) fn kind() -> SourceKind {
-    let port = |name: &str, ty, doc: &str| SourcePort {
-        name: name.to_owned(),
-        ty,
-        doc: doc.to_owned(),
-        channels: Vec::new(),
-    };
     SourceKind {
         id: NAME.to_owned(),
         label: "Vertex color".to_owned(),
@@ -26,12 +20,12 @@ pub(crate) fn kind() -> SourceKind {
         params: Vec::new(),
         inputs: Vec::new(),
         outputs: vec![
-            port(
+            SourcePort::new(
                 "color",
                 PortType::Color,
                 "The color, mixed between the corners; white without any.",
             ),
-            port(
+            SourcePort::new(
                 "alpha",
                 PortType::Mask,
                 "The colors' fourth component, 1 where there is none.",

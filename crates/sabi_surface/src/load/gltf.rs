@@ -115,7 +115,7 @@ fn drop_idle_frames<'a>(mesh: &mut Mesh, pieces: impl Iterator<Item = &'a Outcom
     }
 }
 
-/// The warnings of the pieces, and one for those without the UVs that others have, which are named.
+/// The warnings of the pieces, and names of the materials of those without the UVs that others have.
 fn gather_warnings<'a>(
     source: &Source,
     pieces: impl Iterator<Item = &'a Outcome>,
@@ -126,12 +126,7 @@ fn gather_warnings<'a>(
     for piece in pieces {
         warnings.absorb(piece.warnings.clone());
         if with_uvs && piece.piece.uvs.is_empty() && !piece.piece.triangles.is_empty() {
-            let material = source.document.material_label(piece.material);
-            let set = source.uv_set;
-            warnings.add(format!(
-                "Triangles of {material} have no UV set {set}; their texture coordinates are all zero."
-            ));
-            without_uvs.insert(material);
+            without_uvs.insert(source.document.material_label(piece.material));
         }
     }
     without_uvs

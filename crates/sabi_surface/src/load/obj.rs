@@ -133,13 +133,7 @@ fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Piece, Vec<
     let labels = without_uvs
         .into_iter()
         .map(|material| statements.material_label(material));
-    let labels: Vec<String> = labels.collect();
-    for label in &labels {
-        warnings.add(format!(
-            "Some faces of {label} have no UVs; their texture coordinates are all zero."
-        ));
-    }
-    (piece, labels)
+    (piece, labels.collect())
 }
 
 /// Repairs what is broken and makes what is missing.

@@ -112,7 +112,7 @@ fn a_model_without_uvs_has_none_and_still_has_tangents() {
 }
 
 #[test]
-fn triangles_without_uvs_among_others_get_zeros_and_a_warning() {
+fn triangles_without_uvs_among_others_get_zeros_and_are_named() {
     let mut file = Gltf::triangle();
     let material = file.push("materials", json!({ "name": "bare" }));
     let bare = json!({ "attributes": { "POSITION": 0 }, "material": material });
@@ -124,10 +124,7 @@ fn triangles_without_uvs_among_others_get_zeros_and_a_warning() {
         triangles: 1..2,
     };
     assert_eq!(model.mesh.missing_uvs, [missing]);
-    assert_eq!(
-        model.warnings,
-        ["Triangles of material `bare` have no UV set 0; their texture coordinates are all zero."]
-    );
+    assert_eq!(model.without_uvs, ["material `bare`"]);
 }
 
 #[test]

@@ -156,13 +156,14 @@ fn what_is_left_out_is_said() {
     let text = format!(
         "mtllib gone.mtl\n{SQUARE}vt 0 0\nf 1/1 2/1 3/1\nusemtl a\nf 1 2 3\nf 1 2\nl 1 2\nf 1/9 2/9 3/9\nv nan 0 0\nf 1/1 2/1 5/1\n"
     );
+    let model = read(&text).unwrap();
+    assert_eq!(model.without_uvs, ["material `a`"]);
     assert_eq!(
-        read(&text).unwrap().warnings,
+        model.warnings,
         [
             "Faces with fewer than 3 corners are left out.",
             "Points and lines are left out.",
             "Faces name texture coordinates or normals that the file does not have.",
-            "Some faces of material `a` have no UVs; their texture coordinates are all zero.",
             "1 triangle had positions that are no numbers and had to be left out.",
             "The material library gone.mtl cannot be read: there is no such file.",
             "Material `a` is in no material library that could be read; it gets plain values.",

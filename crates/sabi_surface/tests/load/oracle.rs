@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::builder::floats;
 use crate::promises;
-use crate::shared_data::data;
+use crate::shared_data::{data, files_under};
 
 /// Errors of the validator that leave nothing out here: code, a piece of the pointer, and why nothing has to be said.
 const UNREAD: &[(&str, &str, &str)] = &[
@@ -144,20 +144,15 @@ const UNREAD: &[(&str, &str, &str)] = &[
 const REFUSED: &[&str] = &["it has no triangles", "names no file and is not the binary chunk"];
 
 /// Every input that has a verdict, and the verdict.
-fn judged(folder: &Path, found: &mut Vec<(PathBuf, Value)>) {
-    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
-    entries.sort();
-    for entry in entries {
-        if entry.is_dir() {
-            judged(&entry, found);
-        } else if let Some(input) = entry.to_str().and_then(|name| name.strip_suffix(".report.json")) {
-            let verdict = serde_json::from_slice(&std::fs::read(&entry).unwrap()).unwrap();
-            found.push((PathBuf::from(input), verdict));
-        }
-    }
+fn judged(folder: &Path) -> Vec<(PathBuf, Value)> {
+    let mut files = Vec::new();
+    files_under(folder, &mut files);
+    let input = |file: &PathBuf| Some(PathBuf::from(file.to_str()?.strip_suffix(".report.json")?));
+    let verdict = |file: &PathBuf| serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap();
+    files
+        .iter()
+        .filter_map(|file| Some((input(file)?, verdict(file))))
+        .collect()
 }
 
 /// The file with a triangle of our own, and with all that is in it put to use: every mesh in a node, every skin, every
@@ -268,8 +263,7 @@ fn errors(verdict: &Value) -> impl Iterator<Item = (&str, &str)> {
 fn what_khronos_calls_an_error_is_refused_or_said() {
     let Some(data) = data() else { return };
     let folder = data.join("hostile/gltf-validator");
-    let mut inputs = Vec::new();
-    judged(&folder, &mut inputs);
+    let inputs = judged(&folder);
     let mut silent = Vec::new();
     for (input, verdict) in &inputs {
         let name = input.strip_prefix(&folder).unwrap().display();

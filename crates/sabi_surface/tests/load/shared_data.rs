@@ -15,7 +15,8 @@ pub(crate) fn data() -> Option<PathBuf> {
     Some(data)
 }
 
-fn files_under(folder: &Path, files: &mut Vec<PathBuf>) {
+/// All files of a folder and those below it, in order.
+pub(crate) fn files_under(folder: &Path, files: &mut Vec<PathBuf>) {
     let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())
