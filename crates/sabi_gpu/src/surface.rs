@@ -270,7 +270,7 @@ fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u64) -> Resu
 fn table_extent(what: &'static str, rows: usize, highest: u32) -> Result<wgpu::Extent3d, GpuError> {
     let lines = rows.div_ceil(TABLE_WIDTH).max(1);
     if lines > highest as usize {
-        let mib = |lines: usize| (lines * TABLE_WIDTH * TABLE_ROW_BYTES) as u64 >> 20;
+        let mib = |lines: usize| ((lines * TABLE_WIDTH * TABLE_ROW_BYTES) as u64).div_ceil(1 << 20);
         return Err(GpuError::TooLarge {
             what,
             needed_mib: mib(lines),

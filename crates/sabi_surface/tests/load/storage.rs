@@ -10,7 +10,7 @@ use crate::builder::{F32, Gltf, I8, I16, U8, U16, U32};
 enum Fate {
     /// Read without a word.
     Legal,
-    /// Read without a word where KHR_mesh_quantization is named, else with one.
+    /// Read without a word where KHR_mesh_quantization is required, else with one.
     Quantized,
     /// Read as fractions although the file does not mark them so, with a warning.
     Repaired,
@@ -145,7 +145,7 @@ fn every_component_type_reads_as_the_same_numbers_or_is_answered() {
                 match fate {
                     Legal => assert_eq!(said, "", "{case}"),
                     Quantized => assert!(
-                        said.contains("should name KHR_mesh_quantization; they are read"),
+                        said.contains("should require KHR_mesh_quantization; they are read"),
                         "{case}: {said}"
                     ),
                     _ => assert!(

@@ -63,9 +63,9 @@ impl Source<'_> {
         let normalized = match meaning.storage(*component, marked) {
             Storage::Plain => marked,
             Storage::Quantized => {
-                if !self.document.names("KHR_mesh_quantization") {
+                if !self.document.requires("KHR_mesh_quantization") {
                     warnings.add(format!(
-                        "The {what} are stored as {}, for which the file should name KHR_mesh_quantization; they are read all the same.",
+                        "The {what} are stored as {}, for which the file should require KHR_mesh_quantization; they are read all the same.",
                         kind(*component)
                     ));
                 }

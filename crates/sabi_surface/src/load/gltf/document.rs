@@ -108,9 +108,9 @@ impl Document {
         Ok(())
     }
 
-    /// Whether the file says that it uses an extension.
-    pub(super) fn names(&self, extension: &str) -> bool {
-        self.used.iter().chain(&self.required).any(|name| name == extension)
+    /// Whether the file says that it cannot be read without an extension.
+    pub(super) fn requires(&self, extension: &str) -> bool {
+        self.required.iter().any(|name| name == extension)
     }
 
     /// The compression that would explain vertex data without bytes.
