@@ -12,6 +12,7 @@ mod noise;
 mod one_sheet;
 mod predecessor;
 mod predecessor_maps;
+mod rays;
 mod reexport;
 mod relief;
 mod relief_seams;

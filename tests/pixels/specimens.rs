@@ -83,8 +83,10 @@ pub(crate) fn for_each(mut check: impl FnMut(&Specimen) -> Result<(), String>) {
     assert!(complaints.is_empty(), "\n{}\n", complaints.join("\n"));
 }
 
+/// Rays of kinds that shoot some: enough that their noise is no larger than what the tests look for.
+const RAYS: u32 = 128;
 /// Lengths of a pattern, which grow together.
-const SIZES: [&str; 5] = ["size", "spacing", "length", "width", "rings"];
+const SIZES: [&str; 7] = ["size", "spacing", "length", "width", "rings", "radius", "distance"];
 
 fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
     let mut nodes = Map::new();
@@ -114,6 +116,9 @@ fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
         {
             params.insert(param.name.clone(), json!(f64::from(default[0]) * size));
         }
+    }
+    if let (Some(rays), true) = (&kind.rays, size != 1.0) {
+        params.insert(kind.params[rays.count].name.clone(), json!(RAYS));
     }
     nodes.insert(
         "node".to_owned(),

@@ -122,6 +122,7 @@ fn describe_kind(kind: &Kind) -> Json {
         "shape": match kind.shape {
             Shape::Point => "point",
             Shape::Field => "field",
+            Shape::Ray => "ray",
         },
         "inputs": kind.inputs.iter().map(|input| json!({
             "name": input.name,

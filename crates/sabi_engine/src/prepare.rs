@@ -1,10 +1,12 @@
 //! A model, made ready: loaded, its atlas built or found, its lengths known.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use sabi_gpu::SurfaceTables;
 use sabi_graph::Fit;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
+use sabi_surface::bvh::Bvh;
 use sabi_surface::load::{LoadOptions, Up, load};
 use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
@@ -75,6 +77,8 @@ pub struct Prepared {
     pub atlas: Atlas,
     /// What hangs together inside its parts.
     pub pieces: Pieces,
+    /// What its rays are followed through; built when the first one is shot.
+    pub bvh: OnceLock<Bvh>,
     /// Whether the atlas was found on disk.
     pub atlas_was_cached: bool,
     /// The largest side of the box around it, model units.
@@ -154,6 +158,7 @@ impl Prepared {
             atlas,
             atlas_was_cached,
             pieces,
+            bvh: OnceLock::new(),
             largest_side,
             scale: f64::from(options.scale),
         })

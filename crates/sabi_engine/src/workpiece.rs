@@ -223,6 +223,7 @@ impl Workpiece {
             atlas: &self.prepared.atlas,
             tables: &self.tables,
             pieces: &self.prepared.pieces,
+            bvh: &self.prepared.bvh,
             working_from_model: self.prepared.working_from_model(&self.fit),
         };
         let files = Files {

@@ -17,6 +17,8 @@ pub(crate) const PLACE_WGSL: &str = include_str!("../../../shaders/surface/place
 pub(crate) struct CompiledKernel {
     pub(crate) kernel: Kernel,
     pub(crate) pipeline: wgpu::ComputePipeline,
+    /// Writes the rays that `pipeline` asks, where there are any.
+    pub(crate) shoot: Option<wgpu::ComputePipeline>,
     pub(crate) layout: wgpu::BindGroupLayout,
     /// Set once it ran for the first time, which is when software drivers compile it.
     pub(crate) is_warm: std::sync::atomic::AtomicBool,
@@ -178,22 +180,31 @@ impl Gpu {
             .iter()
             .enumerate()
             .map(|(at, format)| storage_entry(1 + reads + at as u32, *format));
-        let entries: Vec<_> = std::iter::once(read_entry(0)).chain(loads).chain(stores).collect();
-        let (pipeline, layout) = self.compute_pipeline("nodes", &kernel.wgsl, &entries)?;
+        let mut entries: Vec<_> = std::iter::once(read_entry(0)).chain(loads).chain(stores).collect();
+        if kernel.rays {
+            let next = entries.len() as u32;
+            entries.extend([write_entry(next), read_entry(next + 1)]);
+        }
+        let names: &[&str] = if kernel.rays { &["main", "shoot"] } else { &["main"] };
+        let (mut pipelines, layout) = self.compute_pipelines("nodes", &kernel.wgsl, &entries, names)?;
+        let shoot = if kernel.rays { pipelines.pop() } else { None };
+        let missing = || GpuError::Driver("a kernel has no entry point".to_owned());
         Ok(CompiledKernel {
             kernel,
-            pipeline,
+            pipeline: pipelines.pop().ok_or_else(missing)?,
+            shoot,
             layout,
             is_warm: false.into(),
         })
     }
 
-    fn compute_pipeline(
+    fn compute_pipelines(
         &self,
         label: &str,
         wgsl: &str,
         entries: &[wgpu::BindGroupLayoutEntry],
-    ) -> Result<(wgpu::ComputePipeline, wgpu::BindGroupLayout), GpuError> {
+        names: &[&str],
+    ) -> Result<(Vec<wgpu::ComputePipeline>, wgpu::BindGroupLayout), GpuError> {
         self.guarded(label, |device| {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some(label),
@@ -208,19 +219,21 @@ impl Gpu {
                 bind_group_layouts: &[Some(&self.pipelines.surface_layout), Some(&layout)],
                 immediate_size: 0,
             });
-            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(label),
-                layout: Some(&pipeline_layout),
-                module: &module,
-                entry_point: Some("main"),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    // Kernels have no workgroup memory to clear.
-                    zero_initialize_workgroup_memory: false,
-                    ..Default::default()
-                },
-                cache: None,
-            });
-            (pipeline, layout)
+            let pipeline = |name: &&str| {
+                device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some(label),
+                    layout: Some(&pipeline_layout),
+                    module: &module,
+                    entry_point: Some(name),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        // Kernels have no workgroup memory to clear.
+                        zero_initialize_workgroup_memory: false,
+                        ..Default::default()
+                    },
+                    cache: None,
+                })
+            };
+            (names.iter().map(pipeline).collect(), layout)
         })
     }
 
@@ -239,7 +252,9 @@ impl Gpu {
         }
         let core = include_str!("../../../shaders/lib/core.wgsl");
         let text = format!("{wgsl}\n{PLACE_WGSL}\n{core}");
-        let (pipeline, layout) = self.compute_pipeline(name, &text, entries)?;
+        let (mut pipelines, layout) = self.compute_pipelines(name, &text, entries, &["main"])?;
+        let missing = || GpuError::Driver("a kernel has no entry point".to_owned());
+        let pipeline = pipelines.pop().ok_or_else(missing)?;
         let kernel = Arc::new(FixedKernel { pipeline, layout });
         if let Ok(mut fixed) = self.pipelines.fixed.lock() {
             fixed.insert((name, format), kernel.clone());

@@ -76,6 +76,43 @@ impl Gpu {
         self.read_texture(texture, surface.extent, plan.slots[slot].format)
     }
 
+    /// Reads the first bytes of a buffer, when everything submitted is done.
+    pub(crate) fn read_buffer(&self, source: &wgpu::Buffer, bytes: u64) -> Result<Vec<u8>, GpuError> {
+        let buffer = self.readback_buffer(bytes)?;
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, bytes);
+        self.queue.submit([encoder.finish()]);
+        self.mapped(&buffer, <[u8]>::to_vec)
+    }
+
+    fn readback_buffer(&self, bytes: u64) -> Result<wgpu::Buffer, GpuError> {
+        self.guarded("a readback buffer", |device| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size: bytes,
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        })
+    }
+
+    /// Waits for what was submitted, and shows the buffer's bytes.
+    fn mapped<T>(&self, buffer: &wgpu::Buffer, look: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
+        let (sender, answer) = channel();
+        // The receiver is gone only if the wait has failed already.
+        buffer.map_async(wgpu::MapMode::Read, .., move |mapped| drop(sender.send(mapped)));
+        self.wait()?;
+        // Where several threads wait for one device, another one of them may be about to pass on the answer.
+        mapping(answer.recv_timeout(ANSWER_LIMIT))?;
+        let view = buffer.get_mapped_range(..);
+        let seen = look(&view);
+        drop(view);
+        buffer.unmap();
+        Ok(seen)
+    }
+
     /// Reads a whole texture, a page at a time.
     pub(crate) fn read_texture(
         &self,
@@ -85,14 +122,7 @@ impl Gpu {
     ) -> Result<PlaneData, GpuError> {
         let row = u64::from(width) * format.texel_bytes();
         let padded = row.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
-        let buffer = self.guarded("a readback buffer", |device| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("readback"),
-                size: padded * u64::from(height),
-                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-                mapped_at_creation: false,
-            })
-        })?;
+        let buffer = self.readback_buffer(padded * u64::from(height))?;
         let mut bytes = Vec::with_capacity((row * u64::from(height) * u64::from(pages)) as usize);
         for page in 0..pages {
             let mut encoder = self
@@ -117,22 +147,11 @@ impl Gpu {
                 },
             );
             self.queue.submit([encoder.finish()]);
-            let (sender, answer) = channel();
-            // The receiver is gone only if the wait has failed already.
-            buffer.map_async(wgpu::MapMode::Read, .., move |mapped| drop(sender.send(mapped)));
-            self.wait()?;
-            // Where several threads wait for one device, another one of them may be about to pass on the answer.
-            mapping(answer.recv_timeout(ANSWER_LIMIT))?;
-            let mapped = buffer.get_mapped_range(..);
-            if padded == row {
-                bytes.extend_from_slice(&mapped);
-            } else {
-                mapped
-                    .chunks_exact(padded as usize)
-                    .for_each(|line| bytes.extend_from_slice(&line[..row as usize]));
-            }
-            drop(mapped);
-            buffer.unmap();
+            self.mapped(&buffer, |mapped| {
+                for line in mapped.chunks_exact(padded as usize) {
+                    bytes.extend_from_slice(&line[..row as usize]);
+                }
+            })?;
         }
         Ok(PlaneData { format, bytes })
     }

@@ -5,6 +5,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
+use sabi_nodes::kind::Finds;
 use sabi_nodes::link::{Format, Plane};
 use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
 
@@ -14,6 +15,7 @@ use crate::error::GpuError;
 use crate::needs::{last_uses, needed_steps, slot_keys};
 use crate::pipelines::CompiledKernel;
 use crate::pool::{PoolReport, TexturePool, array_view, texture, wgpu_format};
+use crate::rays::{HitRow, RayBuffers, RayRow};
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
@@ -34,6 +36,9 @@ pub trait SourceFill {
     /// One plane of the result `output` of a step, ghosts included: texels in the plane's storage format, page by page
     /// and row by row without padding. Asked for one plane after the other, each dropped before the next.
     fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String>;
+
+    /// Follows rays, one hit for each; all that go nowhere, with a reach of 0, hit nothing.
+    fn cast(&mut self, rays: &[RayRow], finds: Finds, hits: &mut [HitRow]) -> Result<(), String>;
 }
 
 /// How long a step took.
@@ -147,7 +152,7 @@ impl Runner<'_> {
                 vec![(source.id.clone(), 1.0)]
             }
             Step::Kernel(kernel) => {
-                self.kernel(kernel)?;
+                self.kernel(kernel, sources)?;
                 kernel
                     .nodes
                     .iter()
@@ -238,7 +243,7 @@ impl Runner<'_> {
         );
     }
 
-    fn kernel(&mut self, step: &KernelStep) -> Result<(), GpuError> {
+    fn kernel(&mut self, step: &KernelStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
         let compiling = Instant::now();
         let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
         self.report.compile += compiling.elapsed();
@@ -258,7 +263,7 @@ impl Runner<'_> {
                 }
                 last = writes[0];
             }
-            self.dispatch(step, &compiled, &block, &reads, &writes)?;
+            self.dispatch(step, &compiled, &block, [&reads, &writes], sources)?;
         }
         Ok(())
     }
@@ -268,8 +273,8 @@ impl Runner<'_> {
         step: &KernelStep,
         compiled: &CompiledKernel,
         block: &wgpu::Buffer,
-        reads: &[Option<SlotRef>],
-        writes: &[Option<SlotRef>],
+        [reads, writes]: [&[Option<SlotRef>]; 2],
+        sources: &mut dyn SourceFill,
     ) -> Result<(), GpuError> {
         let mut views = Vec::new();
         for slot in reads {
@@ -289,9 +294,11 @@ impl Runner<'_> {
             written.push((slot.is_some(), texture, *format));
         }
         let textures = views.iter().map(wgpu::BindingResource::TextureView);
+        let rays = step.rays.map(|rays| RayBuffers::new(self.gpu, rays)).transpose()?;
+        let shot = rays.iter().flat_map(RayBuffers::bindings);
         let group = self.gpu.bind(
             &compiled.layout,
-            std::iter::once(block.as_entire_binding()).chain(textures),
+            std::iter::once(block.as_entire_binding()).chain(textures).chain(shot),
         );
         let slices = Slices::new(self.gpu, self.surface, self.options.submission);
         if !compiled.is_warm.load(Ordering::Relaxed) {
@@ -300,7 +307,18 @@ impl Runner<'_> {
             compiled.is_warm.store(true, Ordering::Relaxed);
             self.report.compile += warming.elapsed();
         }
-        slices.run(&compiled.pipeline, &group, self.options.is_canceled)?;
+        match (&rays, &compiled.shoot) {
+            (Some(rays), Some(shoot)) => {
+                rays.run(
+                    &slices,
+                    [shoot, &compiled.pipeline],
+                    &group,
+                    self.options.is_canceled,
+                    sources,
+                )?;
+            }
+            _ => slices.run(&compiled.pipeline, &group, self.options.is_canceled)?,
+        }
         if step.fills_ghosts {
             for (_, texture, format) in written.iter().filter(|(is_kept, ..)| *is_kept) {
                 self.gpu

@@ -54,6 +54,11 @@ impl<'a> Slices<'a> {
         }
     }
 
+    /// Number of tiles of the surface.
+    pub(crate) fn tile_count(&self) -> u32 {
+        self.surface.tile_count
+    }
+
     /// The bind group of the surface.
     pub(crate) fn surface_group(&self) -> &wgpu::BindGroup {
         &self.group
@@ -91,7 +96,14 @@ impl<'a> Slices<'a> {
         Ok(())
     }
 
-    fn submit(&self, pipeline: &wgpu::ComputePipeline, group: &wgpu::BindGroup, first_tile: u32, end_tile: u32) {
+    /// The kernel over some tiles, as one submission that is not waited for.
+    pub(crate) fn submit(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        group: &wgpu::BindGroup,
+        first_tile: u32,
+        end_tile: u32,
+    ) {
         let tiles = (end_tile - first_tile).max(1);
         let row_length = tiles.min(ROW);
         let constants = PassConstants {

@@ -9,12 +9,12 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
-    AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, ResultCache, Run, RunOptions, SourceFill,
-    SurfaceTables,
+    AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, HitRow, RayRow, ResultCache, Run, RunOptions,
+    SourceFill, SurfaceTables,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
-use sabi_nodes::kind::Param;
+use sabi_nodes::kind::{Finds, Param};
 use sabi_nodes::link::Plane;
 use sabi_plan::{FileContents, Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, SourceValues, Target};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
@@ -51,6 +51,10 @@ struct NoSources;
 impl SourceFill for NoSources {
     fn plane(&mut self, step: &SourceStep, _output: &str, _plane: Plane) -> Result<Vec<u8>, String> {
         Err(format!("nobody fills '{}'", step.id))
+    }
+
+    fn cast(&mut self, _rays: &[RayRow], _finds: Finds, _hits: &mut [HitRow]) -> Result<(), String> {
+        Err("nobody follows rays".to_owned())
     }
 }
 
@@ -328,6 +332,10 @@ impl SourceFill for Counted {
     fn plane(&mut self, _step: &SourceStep, _output: &str, _plane: Plane) -> Result<Vec<u8>, String> {
         self.asked.set(self.asked.get() + 1);
         Ok(vec![0; self.bytes])
+    }
+
+    fn cast(&mut self, _rays: &[RayRow], _finds: Finds, _hits: &mut [HitRow]) -> Result<(), String> {
+        Err("nobody follows rays".to_owned())
     }
 }
 

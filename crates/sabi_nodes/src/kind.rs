@@ -42,6 +42,8 @@ pub struct Kind {
     pub outputs: Vec<Output>,
     /// Functions marked `@pass`, by pass number; their results are read by later functions under the pass's name.
     pub passes: Vec<Pass>,
+    /// The rays over which the outputs are averaged, where the node shoots any.
+    pub rays: Option<Rays>,
     /// naga expressions of one evaluation of all outputs, calls expanded: a measure of compile time.
     pub cost: u32,
 }
@@ -53,6 +55,8 @@ pub enum Shape {
     Point,
     /// At least one input is a stored texture.
     Field,
+    /// Results are means over rays that are shot from each place.
+    Ray,
 }
 
 /// One member of `struct Params`.
@@ -242,6 +246,27 @@ pub struct Pass {
     pub function: Output,
 }
 
+/// The function `ray` of a node that shoots rays.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rays {
+    /// Arguments of the function in order.
+    pub arguments: Vec<Argument>,
+    /// The `u32` parameter that says how many rays each place shoots, by index in [`Kind::params`].
+    pub count: usize,
+    /// What is asked of each ray.
+    pub finds: Finds,
+}
+
+/// What is asked of a ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Finds {
+    /// Whether it meets anything: quicker, and the distance is that to some surface on its way.
+    Any,
+    /// What it meets first.
+    #[default]
+    Nearest,
+}
+
 /// What a function's argument is bound to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Argument {
@@ -253,6 +278,12 @@ pub enum Argument {
     Input(usize),
     /// The stored result of a pass, by index in [`Kind::passes`].
     Pass(usize),
+    /// `index: u32` of the function `ray`: the number of the ray, from 0.
+    Index,
+    /// `ray: Ray`
+    Ray,
+    /// `hit: Hit`
+    Hit,
 }
 
 /// How often a function runs.

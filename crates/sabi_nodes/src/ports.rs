@@ -2,6 +2,7 @@
 
 mod functions;
 mod inputs;
+mod rays;
 #[cfg(test)]
 mod tests;
 
@@ -12,14 +13,14 @@ use naga::{Function, ImageClass, ImageDimension, Module, ScalarKind, Type, TypeI
 use sabi_graph::PortType;
 
 use crate::fault::{Fault, Text};
-use crate::kind::{Argument, Input, Output, Param, Pass, Reads, Repeat};
+use crate::kind::{Argument, Input, Output, Param, Pass, Rays, Reads, Repeat};
 use crate::scan::{Item, Member, Scan};
 use functions::FunctionNotes;
 use inputs::InputNotes;
 
 /// Annotations of a function and of the inputs described in its comment.
 pub(crate) const ANNOTATIONS: &[&str] = &[
-    "input", "pass", "repeat", "vector", "optional", "default", "type", "label",
+    "input", "pass", "repeat", "rays", "finds", "vector", "optional", "default", "type", "label",
 ];
 
 /// Inputs that the flags of an interactive kernel have room for.
@@ -32,6 +33,7 @@ pub(crate) struct Ports {
     pub(crate) outputs: Vec<Output>,
     /// In ascending order of their numbers.
     pub(crate) passes: Vec<Pass>,
+    pub(crate) rays: Option<Rays>,
 }
 
 /// The function of that name that the file itself declares.
@@ -75,7 +77,8 @@ struct Draft<'a> {
     item: &'a Item,
     function: &'a Function,
     notes: FunctionNotes,
-    ty: PortType,
+    /// What it returns; none for a ray.
+    ty: Option<PortType>,
 }
 
 /// Reads all documented functions. Faulty ones are told and left out.
@@ -95,12 +98,19 @@ pub(crate) fn read_ports(
         described: BTreeMap::new(),
         inputs: Vec::new(),
         pass_numbers: Vec::new(),
+        shoots: false,
     };
     let drafts = reader.drafts();
+    reader.shoots = drafts.iter().any(|draft| draft.ty.is_none());
     reader.check_passes(&drafts);
     let mut ports = Ports::default();
     for draft in &drafts {
-        let output = reader.output(draft);
+        let Some(ty) = draft.ty else {
+            let rays = reader.rays(draft);
+            ports.rays = rays.or(ports.rays);
+            continue;
+        };
+        let output = reader.output(draft, ty);
         match draft.notes.pass {
             Some((number, _)) => ports.passes.push(Pass {
                 number,
@@ -110,6 +120,7 @@ pub(crate) fn read_ports(
         }
     }
     ports.passes.sort_by_key(|pass| pass.number);
+    reader.check_rays(&drafts, &ports);
     reader.check_described();
     if ports.outputs.is_empty() && reader.faults.is_empty() {
         let range = scan.functions().last().map_or(0..0, |item| item.name_range.clone());
@@ -134,6 +145,8 @@ struct PortReader<'a> {
     inputs: Vec<Input>,
     /// Names of passes in ascending order of their numbers, with their number and type.
     pass_numbers: Vec<(u32, String, PortType)>,
+    /// Whether there is a function that returns a ray.
+    shoots: bool,
 }
 
 impl<'a> PortReader<'a> {
@@ -174,16 +187,18 @@ impl<'a> PortReader<'a> {
                 "Use lower-case letters, digits and `_`, and start with a letter.",
             );
         }
-        let Some(ty) = returned.and_then(|ty| port_type(ty, notes.vector.is_some())) else {
+        let is_ray = returned.is_some_and(|ty| ty.name.as_deref() == Some("Ray"));
+        let ty = returned.and_then(|ty| port_type(ty, notes.vector.is_some()));
+        if ty.is_none() && !is_ray {
             self.at(
                 item.name_range.clone(),
                 format!("The output `{}` does not return what a port can carry.", item.name),
                 "Return f32 (a mask), vec3f (a color, or a vector with `@vector`) or Material. A helper has no `///` comment.",
             );
             return None;
-        };
+        }
         if let Some(range) = notes.vector.clone()
-            && ty != PortType::Vector
+            && ty != Some(PortType::Vector)
         {
             self.at(
                 range,
@@ -209,22 +224,32 @@ impl<'a> PortReader<'a> {
                 let message = format!("`{}` and `{other}` are both pass {number}.", draft.item.name);
                 self.at(range, message, "Number the passes in the order in which they run.");
             }
-            self.pass_numbers.push((number, draft.item.name.clone(), draft.ty));
+            let Some(ty) = draft.ty else { continue };
+            self.pass_numbers.push((number, draft.item.name.clone(), ty));
         }
         self.pass_numbers.sort_by_key(|(number, ..)| *number);
     }
 
-    fn output(&mut self, draft: &Draft<'a>) -> Output {
+    fn arguments(&mut self, draft: &Draft<'a>) -> Vec<Argument> {
         let mut arguments = Vec::new();
         for (member, argument) in draft.item.members.iter().zip(&draft.function.arguments) {
             if let Ok(ty) = self.module.types.get_handle(argument.ty) {
                 arguments.extend(self.argument(draft, member, ty));
             }
         }
+        arguments
+    }
+
+    fn output(&mut self, draft: &Draft<'a>, ty: PortType) -> Output {
+        let arguments = self.arguments(draft);
         self.check_repeat(draft, &arguments);
+        if let Some((_, range)) = &draft.notes.rays {
+            let message = format!("`{}` shoots no rays.", draft.item.name);
+            self.at(range.clone(), message, "`@rays` belongs above the function `ray`.");
+        }
         Output {
             name: draft.item.name.clone(),
-            ty: draft.ty,
+            ty,
             doc: draft.notes.doc.clone(),
             arguments,
             repeat: draft
@@ -242,6 +267,9 @@ impl<'a> PortReader<'a> {
         match (name, type_name) {
             ("at", "Surface") => return Some(Argument::At),
             ("params", "Params") => return Some(Argument::Params),
+            ("ray", "Ray") => return Some(Argument::Ray),
+            ("hit", "Hit") => return Some(Argument::Hit),
+            ("index", _) if draft.ty.is_none() => return self.ray_index(member, ty),
             ("at" | "params", _) | (_, "Surface" | "Params") => {
                 self.at(
                     member.name_range.start..member.type_range.end,
@@ -284,7 +312,14 @@ impl<'a> PortReader<'a> {
 
     /// An argument named like a pass reads its stored result.
     fn pass_argument(&mut self, draft: &Draft<'a>, member: &Member, ty: &Type, index: usize) -> Option<Argument> {
-        let number = self.pass_numbers[index].0;
+        let (number, _, carried) = self.pass_numbers[index].clone();
+        if self.shoots {
+            return self.mean_argument(
+                member,
+                port_type(ty, carried == PortType::Vector) == Some(carried),
+                index,
+            );
+        }
         if !is_field(ty) {
             let message = format!("`{}` is a pass, so its result is a stored texture.", member.name);
             self.at(
@@ -317,14 +352,15 @@ impl<'a> PortReader<'a> {
                 (input.reads == Reads::Field).then_some(input.ty)
             }
             Argument::Pass(index) => self.pass_numbers.get(*index).map(|(_, _, ty)| *ty),
-            Argument::At | Argument::Params => None,
+            _ => None,
         });
         match first {
-            Some(ty) if ty == draft.ty => {}
+            Some(ty) if Some(ty) == draft.ty => {}
             Some(ty) => {
                 let message = format!(
                     "`{}` is repeated and returns a {}, but its first texture holds a {ty}.",
-                    draft.item.name, draft.ty
+                    draft.item.name,
+                    draft.ty.map_or_else(|| "ray".to_owned(), |ty| ty.to_string())
                 );
                 self.at(
                     range,

@@ -6,7 +6,7 @@ use crate::analysis::{self, Findings};
 use crate::compile::{Linked, compile, used_libraries};
 use crate::explain;
 use crate::fault::{Fault, Text};
-use crate::kind::{Argument, Kind, Output, Param, Shape};
+use crate::kind::{Argument, Input, Kind, Output, Param, Reads, Shape};
 use crate::library::{Libraries, SourceFile};
 use crate::notes::{Header, read_header};
 use crate::params::read_params;
@@ -100,6 +100,7 @@ fn assemble(
         inputs,
         mut outputs,
         mut passes,
+        rays,
     } = ports;
     for (output, channels) in outputs.iter_mut().zip(findings.output_channels) {
         output.channels = channels;
@@ -107,17 +108,8 @@ fn assemble(
     for (pass, channels) in passes.iter_mut().zip(findings.pass_channels) {
         pass.function.channels = channels;
     }
-    let reads_texture = |function: &Output| {
-        function.arguments.iter().any(|argument| match argument {
-            Argument::Input(index) => inputs[*index].reads == crate::kind::Reads::Field,
-            Argument::Pass(_) => true,
-            Argument::At | Argument::Params => false,
-        })
-    };
-    let is_field = outputs
-        .iter()
-        .chain(passes.iter().map(|pass| &pass.function))
-        .any(reads_texture);
+    let functions = outputs.iter().chain(passes.iter().map(|pass| &pass.function));
+    let shape = shape(&inputs, functions, rays.is_some());
     Kind {
         id: file.id.clone(),
         version: header.version,
@@ -129,12 +121,28 @@ fn assemble(
         path: file.path.clone(),
         source: Arc::from(file.text.as_str()),
         libraries,
-        shape: if is_field { Shape::Field } else { Shape::Point },
+        shape,
         params,
         params_size,
         inputs,
         outputs,
         passes,
+        rays,
         cost: findings.cost,
+    }
+}
+
+fn shape<'o>(inputs: &[Input], mut functions: impl Iterator<Item = &'o Output>, shoots: bool) -> Shape {
+    let is_texture = |argument: &Argument| match argument {
+        Argument::Input(index) => inputs[*index].reads == Reads::Field,
+        Argument::Pass(_) => true,
+        _ => false,
+    };
+    if shoots {
+        Shape::Ray
+    } else if functions.any(|function| function.arguments.iter().any(is_texture)) {
+        Shape::Field
+    } else {
+        Shape::Point
     }
 }

@@ -6,7 +6,7 @@ use sabi_nodes::link::{Binding, Call, Convert, KernelSpec, Plane, Store, Stored}
 
 use crate::fuse::{self, Value};
 use crate::keys::result_key;
-use crate::plan::{BlockValues, Feedback, KernelStep, Step};
+use crate::plan::{BlockValues, Feedback, KernelStep, RayCount, Step};
 use crate::resolve::Behavior;
 use crate::schedule::Builder;
 
@@ -38,6 +38,7 @@ pub(crate) struct KernelDraft<'b, 'p, 'a> {
     writes: Vec<Option<(Kept, Plane)>>,
     pub(crate) flags: [u32; 4],
     pub(crate) repeat: Option<(u32, usize, Kept)>,
+    pub(crate) rays: Option<RayCount>,
     keys: Vec<[u8; 32]>,
 }
 
@@ -50,6 +51,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
                 loads: Vec::new(),
                 stores: Vec::new(),
                 on_ghosts,
+                rays: false,
             },
             blocks: Vec::new(),
             loaded: Vec::new(),
@@ -57,6 +59,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             writes: Vec::new(),
             flags: [0; 4],
             repeat: None,
+            rays: None,
             keys: Vec::new(),
         }
     }
@@ -198,6 +201,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             reads: Vec::new(),
             writes: Vec::new(),
             feedback,
+            rays: self.rays,
             nodes: nodes.iter().map(|node| builder.id(*node)).collect(),
             shares: costs.iter().map(|cost| cost / total).collect(),
             keys: self.keys,

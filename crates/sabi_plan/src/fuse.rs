@@ -17,6 +17,8 @@ pub(crate) enum Group {
     Source { node: usize, outputs: Vec<usize> },
     /// A node that reads stored results as textures.
     Field { node: usize, outputs: Vec<usize> },
+    /// A node whose results are means over rays.
+    Rays { node: usize, outputs: Vec<usize> },
     /// Point nodes in evaluation order, each with the results that are needed.
     Points(Vec<(usize, Vec<usize>)>),
 }
@@ -25,7 +27,7 @@ impl Group {
     /// Results that this group makes.
     pub(crate) fn values(&self) -> Vec<Value> {
         match self {
-            Group::Source { node, outputs } | Group::Field { node, outputs } => {
+            Group::Source { node, outputs } | Group::Field { node, outputs } | Group::Rays { node, outputs } => {
                 outputs.iter().map(|output| (*node, *output)).collect()
             }
             Group::Points(members) => members
@@ -78,6 +80,7 @@ pub(crate) fn groups(
             _ if outputs.is_empty() => {}
             Behavior::Source(_) => groups.push(Group::Source { node, outputs }),
             Behavior::Shader(kind) if kind.shape == Shape::Field => groups.push(Group::Field { node, outputs }),
+            Behavior::Shader(kind) if kind.shape == Shape::Ray => groups.push(Group::Rays { node, outputs }),
             Behavior::Shader(_) => points.push((node, outputs)),
         }
     }

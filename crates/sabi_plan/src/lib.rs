@@ -22,7 +22,7 @@ mod source_values;
 mod values;
 
 pub use error::{PlanError, Problem};
-pub use plan::{BlockValues, Feedback, KernelStep, Plan, PlannedResult, Slot, SlotRef, SourceStep, Step};
+pub use plan::{BlockValues, Feedback, KernelStep, Plan, PlannedResult, RayCount, Slot, SlotRef, SourceStep, Step};
 pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target};
 pub use resolve::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;

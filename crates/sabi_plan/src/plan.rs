@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use sabi_nodes::kind::Repeat;
+use sabi_nodes::kind::{Finds, Repeat};
 use sabi_nodes::link::{Format, KernelSpec, Plane, Stored};
 
 use crate::source_values::SourceValues;
@@ -73,12 +73,23 @@ pub struct KernelStep {
     pub fills_ghosts: bool,
     /// How often it runs, each time reading its own last result.
     pub feedback: Option<Feedback>,
+    /// The rays that it is a mean over.
+    pub rays: Option<RayCount>,
     /// Ids of the nodes in it, in order; none where it only converts.
     pub nodes: Vec<String>,
     /// Share of the kernel's cost for each of `nodes`; they add up to 1.
     pub shares: Vec<f32>,
     /// Keys of the stored results.
     pub keys: Vec<[u8; 32]>,
+}
+
+/// The rays of a kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RayCount {
+    /// For each texel.
+    pub count: u32,
+    /// What is asked of each.
+    pub finds: Finds,
 }
 
 /// Repetition of a field.
@@ -176,6 +187,9 @@ fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result 
     write_slots(f, " ->", kernel.writes.iter().copied())?;
     if let Some(feedback) = &kernel.feedback {
         write!(f, " x{} via s{}", feedback.times, feedback.scratch)?;
+    }
+    if let Some(rays) = &kernel.rays {
+        write!(f, " {} rays", rays.count)?;
     }
     if kernel.fills_ghosts {
         f.write_str(" halo")?;

@@ -10,7 +10,7 @@ use crate::draft::{Draft, Kept, KernelDraft};
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Readers, Value};
 use crate::keys::result_key;
-use crate::plan::{Plan, SourceStep, Step, times};
+use crate::plan::{Plan, RayCount, SourceStep, Step, times};
 use crate::request::{Mode, Planner, Target};
 use crate::resolve::{Behavior, Resolved, ResolvedNode};
 
@@ -146,6 +146,7 @@ impl Builder<'_, '_> {
         match group {
             Group::Source { node, outputs } => vec![self.source(*node, outputs)],
             Group::Field { node, outputs } => self.field(*node, outputs),
+            Group::Rays { node, outputs } => vec![self.rays(*node, outputs)],
             Group::Points(members) if self.planner.mode == Mode::Interactive => members
                 .iter()
                 .map(|(node, outputs)| self.single(*node, outputs[0]))
@@ -275,6 +276,33 @@ impl Builder<'_, '_> {
             .chain(passes)
             .chain(results)
             .collect()
+    }
+
+    /// All results of a node that shoots rays, from the same rays.
+    fn rays(&self, node: usize, outputs: &[usize]) -> Draft {
+        let ready = self.node(node);
+        let mut kernel = KernelDraft::new(self, false);
+        kernel.spec.rays = true;
+        let block = kernel.block(node);
+        for output in outputs {
+            let bindings = ready.inputs.iter().map(|input| match input {
+                None => Binding::Default,
+                Some(input) => Binding::Load(kernel.load((input.node, input.output)), input.convert),
+            });
+            let inputs = bindings.collect();
+            let call = kernel.call(node, *output, inputs, block);
+            kernel.store(call, (node, *output));
+        }
+        if let Behavior::Shader(Kind { rays: Some(rays), .. }) = ready.behavior {
+            kernel.rays = Some(RayCount {
+                count: match ready.values.get(rays.count) {
+                    Some(ParamValue::Unsigned(count)) => *count,
+                    _ => 1,
+                },
+                finds: rays.finds,
+            });
+        }
+        kernel.finish()
     }
 
     /// Inputs of a field that carry another type are stored once more, converted: a texture converts nothing when read.

@@ -6,6 +6,7 @@ mod model;
 mod output_mask;
 mod output_material;
 mod projection;
+mod rays;
 mod sampler;
 mod surface_id;
 mod texels;
@@ -16,10 +17,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use sabi_gpu::SourceFill;
+use sabi_gpu::{HitRow, RayRow, SourceFill};
 use sabi_graph::FlatGraph;
+use sabi_nodes::kind::Finds;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourceStep};
+use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
 use crate::pictures::{OpenPicture, Pictures, path_of};
@@ -115,5 +118,11 @@ impl SourceFill for Sources<'_> {
                 step.id
             )),
         }
+    }
+
+    fn cast(&mut self, rays: &[RayRow], finds: Finds, hits: &mut [HitRow]) -> Result<(), String> {
+        let bvh = self.ground.bvh.get_or_init(|| Bvh::build(&self.ground.model.mesh));
+        rays::cast(bvh, self.ground.working_from_model, rays, finds, hits);
+        Ok(())
     }
 }

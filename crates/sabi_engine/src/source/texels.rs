@@ -1,10 +1,13 @@
 //! What a source sees of the surface, and how its values become the texels of a plane.
 
+use std::sync::OnceLock;
+
 use half::f16;
 use rayon::prelude::*;
 use sabi_gpu::SurfaceTables;
 use sabi_nodes::link::{Format, Plane};
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
+use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
 
@@ -18,6 +21,8 @@ pub(crate) struct Ground<'a> {
     pub(crate) atlas: &'a Atlas,
     pub(crate) tables: &'a SurfaceTables,
     pub(crate) pieces: &'a Pieces,
+    /// Built when the first ray is shot.
+    pub(crate) bvh: &'a OnceLock<Bvh>,
     /// Factor from model units to working units.
     pub(crate) working_from_model: f64,
 }

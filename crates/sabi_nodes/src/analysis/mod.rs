@@ -43,7 +43,9 @@ pub(crate) fn analyze(
     let handle = |output: &Output| function(module, &output.name).map(|(handle, _)| handle);
     let outputs: Vec<Handle<Function>> = ports.outputs.iter().filter_map(handle).collect();
     let passes: Vec<Handle<Function>> = ports.passes.iter().filter_map(|pass| handle(&pass.function)).collect();
-    let roots: Vec<Handle<Function>> = outputs.iter().chain(&passes).copied().collect();
+    let ray = ports.rays.as_ref().and_then(|_| function(module, "ray"));
+    let ray = ray.map(|(handle, _)| handle);
+    let roots: Vec<Handle<Function>> = outputs.iter().chain(&passes).copied().chain(ray).collect();
     let functions = ports
         .outputs
         .iter()
@@ -52,12 +54,16 @@ pub(crate) fn analyze(
         Repeat::Param(index) => Some(index as u32),
         Repeat::Once | Repeat::Times(_) => None,
     });
-    let mut faults = usage::check(linked, scan, module, &roots, &repeats.collect());
-    let params_that_bound_loops = loops::check(linked, scan, module, params, &roots, &mut faults);
+    let counts = ports.rays.iter().map(|rays| rays.count);
+    let counters = repeats.chain(counts.clone().map(|count| count as u32));
+    let mut faults = usage::check(linked, scan, module, &roots, &counters.collect());
+    let mut params_that_bound_loops = loops::check(linked, scan, module, params, &roots, &mut faults);
     if !faults.is_empty() {
         faults.sort_by_key(|fault| (fault.line, fault.column));
         return Err(faults);
     }
+    // The kernel goes over the rays in a loop.
+    params_that_bound_loops.extend(counts);
     let channels = |output: &Output| match handle(output) {
         Some(root) => channels::channels(module, params, root, &output.arguments),
         None => Vec::new(),

@@ -21,6 +21,10 @@ pub struct Kernel {
     pub reads: usize,
     /// Storage formats of the bindings that are written, after those.
     pub writes: Vec<super::Format>,
+    /// Whether it shoots rays. Then the entry point `shoot` writes the rays of a range of tiles to a buffer, tile by tile, in
+    /// a tile texel by texel, and for each texel one after the other; `main` reads them again with what they hit from a
+    /// second buffer. The two are bound behind the textures. Rows are as `Ray` and `RayHit` in `lib/rays.wgsl`.
+    pub rays: bool,
 }
 
 /// Turns a spec into WGSL.
@@ -53,7 +57,11 @@ pub fn link<'a>(
     write_sources(&mut out, &blocks, &names);
     write_block(&mut out, &blocks, &names, switches);
     let (reads, writes) = write_bindings(&mut out, spec);
-    write_main(&mut out, spec, &kinds, &names)?;
+    if spec.rays {
+        super::rays::write(&mut out, spec, &kinds, &names, 1 + reads + writes.len())?;
+    } else {
+        write_main(&mut out, spec, &kinds, &names)?;
+    }
     out.push_str(surface);
     for name in libraries(&kinds) {
         out.push('\n');
@@ -64,6 +72,7 @@ pub fn link<'a>(
         layout,
         reads,
         writes,
+        rays: spec.rays,
     })
 }
 
@@ -147,9 +156,8 @@ fn write_main(out: &mut String, spec: &KernelSpec, kinds: &[&Kind], names: &Name
     out.push_str("    let at = surface_at(texel, owner);\n");
     let mut bounded = BTreeSet::new();
     for (index, (call, kind)) in spec.calls.iter().zip(kinds).enumerate() {
-        if kind.params_size > 0 && bounded.insert(call.block) {
-            let (block, name) = (call.block, names.bounded(kind));
-            let _ = writeln!(out, "    let bounded_{block} = {name}(block.params_{block});");
+        if bounded.insert(call.block) {
+            write_bounded(out, call.block, kind, names);
         }
         write_call(out, index, call, kind, names, spec)?;
     }
@@ -158,6 +166,14 @@ fn write_main(out: &mut String, spec: &KernelSpec, kinds: &[&Kind], names: &Name
     }
     out.push_str("}\n");
     Ok(())
+}
+
+/// The parameters of a block, those that bound loops held within their ranges.
+pub(super) fn write_bounded(out: &mut String, block: usize, kind: &Kind, names: &Names<'_>) {
+    if kind.params_size > 0 {
+        let name = names.bounded(kind);
+        let _ = writeln!(out, "    let bounded_{block} = {name}(block.params_{block});");
+    }
 }
 
 fn write_call(
@@ -170,11 +186,30 @@ fn write_call(
 ) -> Result<(), LinkError> {
     let function = function(kind, &call.function)
         .ok_or_else(|| LinkError::UnknownFunction(kind.id.clone(), call.function.clone()))?;
-    let mut arguments = Vec::new();
-    for argument in &function.arguments {
-        arguments.push(match argument {
+    let arguments = arguments(out, index, call, &function.arguments, kind, spec);
+    let (prefix, name) = (names.prefix(kind), &call.function);
+    let _ = writeln!(out, "    let v{index} = {prefix}{name}({arguments});");
+    Ok(())
+}
+
+/// What a call hands over; writes the variables that it needs for that.
+pub(super) fn arguments(
+    out: &mut String,
+    index: usize,
+    call: &Call,
+    arguments: &[Argument],
+    kind: &Kind,
+    spec: &KernelSpec,
+) -> String {
+    let mut written = Vec::new();
+    for argument in arguments {
+        written.push(match argument {
             Argument::At => "at".to_owned(),
             Argument::Params => format!("bounded_{}", call.block),
+            Argument::Index => "index".to_owned(),
+            Argument::Ray => "ray".to_owned(),
+            Argument::Hit => "hit".to_owned(),
+            Argument::Pass(pass) if spec.rays => super::rays::mean_name(*pass),
             Argument::Pass(pass) => {
                 let load = call.passes.get(*pass).copied().flatten().unwrap_or_default();
                 field_texture(load, &spec.loads[load])
@@ -185,12 +220,10 @@ fn write_call(
             },
         });
     }
-    let (prefix, name) = (names.prefix(kind), &call.function);
-    let _ = writeln!(out, "    let v{index} = {prefix}{name}({});", arguments.join(", "));
-    Ok(())
+    written.join(", ")
 }
 
-fn function<'a>(kind: &'a Kind, name: &str) -> Option<&'a Output> {
+pub(super) fn function<'a>(kind: &'a Kind, name: &str) -> Option<&'a Output> {
     let passes = kind.passes.iter().map(|pass| &pass.function);
     kind.outputs.iter().chain(passes).find(|function| function.name == name)
 }
@@ -307,7 +340,7 @@ fn write_switch(
     name
 }
 
-fn write_store(out: &mut String, index: usize, store: &Store, spec: &KernelSpec) {
+pub(super) fn write_store(out: &mut String, index: usize, store: &Store, spec: &KernelSpec) {
     let value = match store.value {
         Binding::Call(call, convert) => converted(&format!("v{call}"), convert),
         Binding::Load(load, convert) => converted(&load_expression(load, &spec.loads[load]), convert),

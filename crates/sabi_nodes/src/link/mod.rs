@@ -5,6 +5,7 @@
 
 mod block;
 mod kernel;
+mod rays;
 mod rename;
 mod sources;
 
@@ -29,6 +30,9 @@ pub struct KernelSpec {
     pub stores: Vec<Store>,
     /// Whether ghost texels are evaluated too: true for point nodes, false for fields.
     pub on_ghosts: bool,
+    /// Whether the calls are means over rays: all of them of one node that shoots some. The text then has two entry points,
+    /// see [`Kernel::rays`].
+    pub rays: bool,
 }
 
 /// Evaluation of one function of a node.

@@ -59,6 +59,7 @@ fn two_calls_of_one_kind_share_its_source() {
         loads: Vec::new(),
         stores: stores_mask(2),
         on_ghosts: true,
+        rays: false,
     };
     let kernel = linked(&spec);
     assert_eq!(kernel.wgsl.matches("fn n1_noise_simplex__mask(").count(), 1);
@@ -73,6 +74,7 @@ fn a_parameter_that_bounds_a_loop_is_clamped_on_the_device() {
         loads: Vec::new(),
         stores: stores_mask(0),
         on_ghosts: true,
+        rays: false,
     };
     let kernel = linked(&spec);
     assert!(
@@ -91,6 +93,7 @@ fn a_field_takes_a_texture_and_leaves_ghosts_alone() {
         loads: vec![mask()],
         stores: stores_mask(0),
         on_ghosts: false,
+        rays: false,
     };
     let kernel = linked(&spec);
     assert_eq!((kernel.reads, kernel.writes.len()), (1, 1));
@@ -127,6 +130,7 @@ fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
                     formats,
                 }],
                 on_ghosts: true,
+                rays: false,
             };
             let kernel = linked(&spec);
             assert_eq!(kernel.layout.flags.is_some(), !kind.inputs.is_empty(), "{}", kind.id);
@@ -137,9 +141,47 @@ fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
 }
 
 #[test]
+fn a_kind_that_shoots_rays_links_with_all_its_results_and_a_kernel_that_shoots() {
+    let library = Library::builtin();
+    let kinds: Vec<_> = library.kinds().filter(|kind| kind.rays.is_some()).collect();
+    assert!(kinds.len() >= 6);
+    for kind in kinds {
+        let store = |(at, output): (usize, &crate::kind::Output)| {
+            let stored = Stored {
+                ty: output.ty,
+                channels: Vec::new(),
+            };
+            Store {
+                value: Binding::Call(at, Convert::None),
+                formats: stored.planes().iter().map(|plane| plane.format()).collect(),
+                stored,
+            }
+        };
+        let inputs = || kind.inputs.iter().map(|_| Binding::Default).collect();
+        let spec = KernelSpec {
+            calls: kind
+                .outputs
+                .iter()
+                .map(|output| call(&kind.id, &output.name, inputs(), 0))
+                .collect(),
+            loads: Vec::new(),
+            stores: kind.outputs.iter().enumerate().map(store).collect(),
+            on_ghosts: false,
+            rays: true,
+        };
+        let kernel = linked(&spec);
+        assert!(
+            kernel.rays && kernel.wgsl.contains("fn shoot(") && kernel.wgsl.contains("fn main("),
+            "{}",
+            kind.id
+        );
+    }
+}
+
+#[test]
 fn the_block_lies_where_naga_puts_it() {
     let library = Library::builtin();
-    for kind in library.kinds() {
+    for kind in library.kinds().filter(|kind| kind.rays.is_none()) {
         let Some(output) = kind.outputs.first() else { continue };
         let inputs = kind.inputs.iter().enumerate().map(|(index, input)| match input.reads {
             crate::kind::Reads::Field => Binding::Field(index),
@@ -151,6 +193,7 @@ fn the_block_lies_where_naga_puts_it() {
             loads: kind.inputs.iter().map(|_| mask()).collect(),
             stores: Vec::new(),
             on_ghosts: true,
+            rays: false,
         };
         let kernel = linked(&spec);
         let module = naga::front::wgsl::parse_str(&kernel.wgsl).unwrap();
@@ -206,6 +249,7 @@ fn names_of_an_artist_never_meet_those_of_another_file_or_generated_ones() {
         loads: Vec::new(),
         stores: stores_mask(1),
         on_ghosts: true,
+        rays: false,
     };
     let kernel = link(
         &spec,
@@ -232,6 +276,7 @@ fn a_load_can_be_stored_as_another_type() {
             formats: vec![Format::R32Float],
         }],
         on_ghosts: true,
+        rays: false,
     };
     assert!(linked(&spec).wgsl.contains("let s0 = luminance("));
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::ANNOTATIONS;
 use super::inputs::InputNotes;
 use crate::fault::{Fault, Text};
-use crate::kind::{Param, ParamType, Repeat, Role};
+use crate::kind::{Finds, Param, ParamType, Repeat, Role};
 use crate::notes::{Note, Notes, unknown};
 use crate::scan::Item;
 use crate::words::nearest;
@@ -21,6 +21,9 @@ pub(super) struct FunctionNotes {
     pub(super) vector: Option<Range<usize>>,
     pub(super) pass: Option<(u32, Range<usize>)>,
     pub(super) repeat: Option<(Repeat, Range<usize>)>,
+    /// Index of the parameter that counts rays.
+    pub(super) rays: Option<(usize, Range<usize>)>,
+    pub(super) finds: Finds,
 }
 
 /// Reads the comment above a function.
@@ -36,7 +39,7 @@ pub(super) fn read_notes(
         ..FunctionNotes::default()
     };
     let mut inputs: Vec<InputNotes> = Vec::new();
-    notes.check(text, ANNOTATIONS, &["pass", "repeat"], faults);
+    notes.check(text, ANNOTATIONS, &["pass", "repeat", "rays", "finds"], faults);
     for note in notes
         .notes
         .iter()
@@ -46,10 +49,12 @@ pub(super) fn read_notes(
             ("input", _) => inputs.extend(InputNotes::begin(text, note, faults)),
             ("pass", _) => read.pass = pass_number(text, note, faults),
             ("repeat", _) => read.repeat = repeat(text, note, params, faults),
+            ("rays", _) => read.rays = rays(text, note, params, faults),
+            ("finds", _) => read.finds = finds(text, note, faults),
             (_, Some(input)) => input.add(text, note, faults),
             ("vector", None) => read.vector = Some(note.range.clone()),
             _ => {
-                let mut fault = unknown(text, note, &["input", "pass", "repeat", "vector"]);
+                let mut fault = unknown(text, note, &["input", "pass", "repeat", "rays", "finds", "vector"]);
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", note.name);
                 faults.push(fault);
             }
@@ -95,25 +100,66 @@ fn repeat(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>
             ),
         };
     };
+    let index = counter("repeat", name, params, "how often the function runs");
+    match index {
+        Ok(index) => Some((Repeat::Param(index), note.whole())),
+        Err((message, advice)) => refuse(message, advice),
+    }
+}
+
+/// `@rays params.rays`.
+fn rays(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(usize, Range<usize>)> {
+    let written = note.joined();
+    let name = written.strip_prefix("params.");
+    let index = match name {
+        Some(name) => counter("rays", name, params, "how many rays there are"),
+        None => Err((
+            "`@rays` takes a parameter.".to_owned(),
+            "Write `@rays params.rays`.".to_owned(),
+        )),
+    };
+    match index {
+        Ok(index) => Some((index, note.whole())),
+        Err((message, advice)) => {
+            faults.push(text.fault(note.whole(), message, advice));
+            None
+        }
+    }
+}
+
+/// `@finds any` or `@finds nearest`.
+fn finds(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Finds {
+    match note.joined().as_str() {
+        "any" => return Finds::Any,
+        "nearest" => {}
+        _ => faults.push(text.fault(
+            note.whole(),
+            "`@finds` takes `any` or `nearest`.",
+            "Write `@finds any` where it only matters whether something is hit.",
+        )),
+    }
+    Finds::Nearest
+}
+
+/// The parameter of that name, which says `what`; or message and advice.
+fn counter(annotation: &str, name: &str, params: &[Param], what: &str) -> Result<usize, (String, String)> {
     let Some(index) = params.iter().position(|param| param.name == name) else {
         let advice = match nearest(name, params.iter().map(|param| param.name.as_str())) {
             Some(meant) => format!("Did you mean `params.{meant}`?"),
             None => "Name a member of `struct Params`.".to_owned(),
         };
-        return refuse(
-            format!("`@repeat` names a parameter `{name}`, which does not exist."),
-            advice,
-        );
+        let message = format!("`@{annotation}` names a parameter `{name}`, which does not exist.");
+        return Err((message, advice));
     };
     let param = &params[index];
     let bounded = param
         .range
         .is_some_and(|[low, high]| low >= 1.0 && high <= REPEAT_LIMIT as f32);
     if param.ty != ParamType::U32 || param.role != Role::Plain || !bounded {
-        return refuse(
-            format!("`params.{name}` cannot say how often the function runs."),
+        return Err((
+            format!("`params.{name}` cannot say {what}."),
             format!("Make it a `u32` with a `@range` from 1 to at most {REPEAT_LIMIT}."),
-        );
+        ));
     }
-    Some((Repeat::Param(index), note.whole()))
+    Ok(index)
 }

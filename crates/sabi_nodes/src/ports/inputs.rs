@@ -157,7 +157,7 @@ fn input_type(
 ) -> Option<(Reads, PortType)> {
     let asked = notes.ty.clone();
     if is_field(ty) {
-        let port = asked.map_or(draft.ty, |(ty, _)| ty);
+        let port = asked.map_or(draft.ty.unwrap_or(PortType::Mask), |(ty, _)| ty);
         if port == PortType::Material {
             reader.at(
                 member.type_range.clone(),

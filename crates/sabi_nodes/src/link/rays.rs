@@ -1,0 +1,147 @@
+//! Writes the entry points of a kernel whose results are means over rays.
+
+use std::fmt::Write;
+
+use sabi_graph::PortType;
+
+use super::KernelSpec;
+use super::kernel::{LinkError, arguments, function, write_bounded, write_store};
+use super::sources::Names;
+use crate::kind::{Argument, Kind, Output, Rays};
+
+/// The bindings of rays and hits, from `binding` on, and both entry points.
+pub(super) fn write(
+    out: &mut String,
+    spec: &KernelSpec,
+    kinds: &[&Kind],
+    names: &Names<'_>,
+    binding: usize,
+) -> Result<(), LinkError> {
+    let (Some(kind), Some(call)) = (kinds.first(), spec.calls.first()) else {
+        return Ok(());
+    };
+    let rays = kind
+        .rays
+        .as_ref()
+        .ok_or_else(|| LinkError::UnknownFunction(kind.id.clone(), "ray".to_owned()))?;
+    let hits = binding + 1;
+    let _ = writeln!(
+        out,
+        "@group(1) @binding({binding}) var<storage, read_write> shot_rays: array<Ray>;\n\
+         @group(1) @binding({hits}) var<storage, read> shot_hits: array<RayHit>;"
+    );
+    let count = &kind.params[rays.count].name;
+    write_shoot(out, spec, kind, rays, names);
+    write_start(out, "main");
+    out.push_str("    if owner == EMPTY || (owner & GHOST_BIT) != 0u { return; }\n");
+    out.push_str("    let at = surface_at(texel, owner);\n");
+    write_bounded(out, call.block, kind, names);
+    let _ = writeln!(out, "    let count = bounded_{}.{count};", call.block);
+    let averaged = Averaged::of(spec, kind)?;
+    for (name, function, _) in &averaged.functions {
+        let zero = if function.ty == PortType::Mask {
+            "0.0"
+        } else {
+            "vec3f(0.0)"
+        };
+        let _ = writeln!(out, "    var {name} = {zero};");
+    }
+    out.push_str(
+        "    for (var index = 0u; index < count; index++) {\n    \
+         let ray = shot_rays[place * count + index];\n    \
+         let hit = hit_of(shot_hits[place * count + index], ray);\n",
+    );
+    let prefix = names.prefix(kind);
+    for (name, function, call) in &averaged.functions {
+        let arguments = arguments(out, *call, &spec.calls[*call], &function.arguments, kind, spec);
+        let _ = writeln!(out, "    {name} += {prefix}{}({arguments});", function.name);
+    }
+    out.push_str("    }\n");
+    for (name, ..) in &averaged.functions {
+        let _ = writeln!(out, "    {name} /= f32(count);");
+    }
+    for (index, function) in &averaged.of_means {
+        let arguments = arguments(out, *index, &spec.calls[*index], &function.arguments, kind, spec);
+        let _ = writeln!(out, "    let v{index} = {prefix}{}({arguments});", function.name);
+    }
+    for (index, store) in spec.stores.iter().enumerate() {
+        write_store(out, index, store, spec);
+    }
+    out.push_str("}\n");
+    Ok(())
+}
+
+/// What is averaged in a kernel, and what is made of the means.
+struct Averaged<'k> {
+    /// Name of the variable, function, and the call whose inputs it takes.
+    functions: Vec<(String, &'k Output, usize)>,
+    /// Calls that take means of passes.
+    of_means: Vec<(usize, &'k Output)>,
+}
+
+impl<'k> Averaged<'k> {
+    fn of(spec: &KernelSpec, kind: &'k Kind) -> Result<Averaged<'k>, LinkError> {
+        let mut averaged = Averaged {
+            functions: Vec::new(),
+            of_means: Vec::new(),
+        };
+        for (index, call) in spec.calls.iter().enumerate() {
+            let output = function(kind, &call.function)
+                .ok_or_else(|| LinkError::UnknownFunction(kind.id.clone(), call.function.clone()))?;
+            let is_of_rays = |argument: &Argument| matches!(argument, Argument::Ray | Argument::Hit);
+            if output.arguments.iter().any(is_of_rays) {
+                averaged.functions.push((format!("v{index}"), output, index));
+                continue;
+            }
+            averaged.of_means.push((index, output));
+            for argument in &output.arguments {
+                let Argument::Pass(pass) = argument else { continue };
+                let name = mean_name(*pass);
+                if averaged.functions.iter().all(|(known, ..)| *known != name) {
+                    averaged.functions.push((name, &kind.passes[*pass].function, index));
+                }
+            }
+        }
+        Ok(averaged)
+    }
+}
+
+/// The variable that holds the mean of a pass.
+pub(super) fn mean_name(pass: usize) -> String {
+    format!("mean_{pass}")
+}
+
+fn write_shoot(out: &mut String, spec: &KernelSpec, kind: &Kind, rays: &Rays, names: &Names<'_>) {
+    let call = &spec.calls[0];
+    write_start(out, "shoot");
+    out.push_str("    if texel.x < 0 { return; }\n");
+    write_bounded(out, call.block, kind, names);
+    let _ = writeln!(
+        out,
+        "    let count = bounded_{}.{};",
+        call.block, kind.params[rays.count].name
+    );
+    // A ray that goes nowhere: nobody asks what it hits.
+    out.push_str(
+        "    if owner == EMPTY || (owner & GHOST_BIT) != 0u {\n        \
+         for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = no_ray(); }\n        \
+         return;\n    }\n    let at = surface_at(texel, owner);\n    \
+         for (var index = 0u; index < count; index++) {\n",
+    );
+    let arguments = arguments(out, 0, call, &rays.arguments, kind, spec);
+    let prefix = names.prefix(kind);
+    let _ = writeln!(
+        out,
+        "    shot_rays[place * count + index] = {prefix}ray({arguments});\n    }}\n}}"
+    );
+}
+
+fn write_start(out: &mut String, name: &str) {
+    let _ = writeln!(
+        out,
+        "@compute @workgroup_size(8, 8)\n\
+         fn {name}(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {{\n    \
+         let texel = texel_of(group, local);\n    let owner = owner_of(texel);\n    \
+         let place = (group.y * dispatch.row_length + group.x) * 64u + local.y * 8u + local.x;"
+    );
+}

@@ -1,0 +1,123 @@
+//! The function `ray`: what each place shoots.
+
+use naga::{ScalarKind, Type, TypeInner};
+
+use super::{Draft, PortReader, Ports};
+use crate::kind::{Argument, Output, Rays, Reads};
+use crate::scan::Member;
+
+/// Whether an argument is about a single ray.
+fn asks(argument: &Argument) -> bool {
+    matches!(argument, Argument::Ray | Argument::Hit)
+}
+
+impl<'a> PortReader<'a> {
+    /// Reads the function that returns a `Ray`.
+    pub(super) fn rays(&mut self, draft: &Draft<'a>) -> Option<Rays> {
+        let name = draft.item.name.as_str();
+        let range = draft.item.name_range.clone();
+        if name != "ray" {
+            let message = format!("`{name}` returns a ray, and the function that does so is called `ray`.");
+            self.at(range, message, "Call it `ray`, or remove its `///` comment.");
+            return None;
+        }
+        let arguments = self.arguments(draft);
+        if arguments
+            .iter()
+            .any(|argument| asks(argument) || matches!(argument, Argument::Pass(_)))
+        {
+            let advice = "Let it take `at: Surface`, `index: u32`, `params: Params` and inputs that are values.";
+            self.at(range.clone(), "`ray` is asked before anything is hit.", advice);
+        }
+        let Some((count, _)) = draft.notes.rays else {
+            if !self.faults.is_empty() {
+                return None;
+            }
+            let advice = "Write `/// @rays params.rays` above it, with a `u32` parameter that has a `@range`.";
+            self.at(range, "`ray` does not say how many rays there are.", advice);
+            return None;
+        };
+        Some(Rays {
+            arguments,
+            count,
+            finds: draft.notes.finds,
+        })
+    }
+
+    /// `index: u32`
+    pub(super) fn ray_index(&mut self, member: &Member, ty: &Type) -> Option<Argument> {
+        if matches!(ty.inner, TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Uint) {
+            return Some(Argument::Index);
+        }
+        let range = member.type_range.clone();
+        self.at(range, "The number of a ray is a `u32`.", "Write `index: u32`.");
+        None
+    }
+
+    /// The mean of a pass, by value.
+    pub(super) fn mean_argument(&mut self, member: &Member, is_its_type: bool, pass: usize) -> Option<Argument> {
+        if is_its_type {
+            return Some(Argument::Pass(pass));
+        }
+        let message = format!(
+            "`{}` is the mean of a pass over the rays, and has its type.",
+            member.name
+        );
+        let advice = "Give the argument the type that the pass returns.";
+        self.at(member.type_range.clone(), message, advice);
+        None
+    }
+
+    /// A node that shoots rays asks each of its results of them, or of the means of its passes, and reads no textures.
+    pub(super) fn check_rays(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
+        if !self.faults.is_empty() {
+            return;
+        }
+        let place = |name: &str| drafts.iter().find(|draft| draft.item.name == name);
+        let passes = ports.passes.iter().map(|pass| (&pass.function, true));
+        for (output, is_pass) in ports.outputs.iter().map(|output| (output, false)).chain(passes) {
+            let range = place(&output.name).map_or(0..0, |draft| draft.item.name_range.clone());
+            if let Some((message, advice)) = self.wrong_question(output, is_pass) {
+                self.at(range, message, advice);
+            }
+        }
+        let textures = self.inputs.iter().any(|input| input.reads == Reads::Field);
+        if let Some(draft) = drafts.iter().find(|draft| draft.ty.is_none())
+            && textures
+        {
+            let advice = "Let its inputs be values, and filter its result with a node behind it.";
+            let range = draft.item.name_range.clone();
+            self.at(range, "A node that shoots rays reads no textures.", advice);
+        }
+    }
+
+    /// What is wrong with what a function asks of rays.
+    fn wrong_question(&self, output: &Output, is_pass: bool) -> Option<(String, &'static str)> {
+        let name = &output.name;
+        let rays = output.arguments.iter().any(asks);
+        let means = output
+            .arguments
+            .iter()
+            .any(|argument| matches!(argument, Argument::Pass(_)));
+        if !self.shoots {
+            let message = format!("`{name}` asks what a ray hit, and nothing shoots one.");
+            let advice = "Add `fn ray(at: Surface, index: u32, params: Params) -> Ray` with a `///` comment.";
+            return rays.then_some((message, advice));
+        }
+        if is_pass && means {
+            let message = format!("The pass `{name}` asks no ray.");
+            return Some((message, "Passes are means over rays; let the outputs do the rest."));
+        }
+        match (rays, means) {
+            (false, false) => Some((
+                format!("`{name}` asks no ray."),
+                "Let it take `ray: Ray` or `hit: Hit`, or the result of a pass that does.",
+            )),
+            (true, true) => Some((
+                format!("`{name}` asks single rays and means over them."),
+                "Let a pass ask the rays, and the output the means of passes.",
+            )),
+            _ => None,
+        }
+    }
+}

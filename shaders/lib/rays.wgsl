@@ -1,0 +1,118 @@
+//! Rays: how a place shoots them, and what they hit.
+//! @use noise
+
+/// A ray, in model units.
+struct Ray {
+    /// Where it starts.
+    origin: vec3f,
+    /// How far it goes; 0 hits nothing.
+    reach: f32,
+    /// Its direction, unit length.
+    direction: vec3f,
+}
+
+/// What a ray hit.
+struct Hit {
+    /// Whether it hit anything within its reach.
+    is_hit: bool,
+    /// How far that is; the ray's reach where nothing is hit.
+    distance: f32,
+}
+
+/// A hit as it is stored: the distance, below 0 where there is none, and the triangle.
+struct RayHit {
+    distance: f32,
+    triangle: u32,
+}
+
+/// A ray that goes nowhere.
+fn no_ray() -> Ray {
+    return Ray(vec3f(0.0), 0.0, vec3f(0.0, 1.0, 0.0));
+}
+
+fn hit_of(stored: RayHit, ray: Ray) -> Hit {
+    let is_hit = stored.distance >= 0.0;
+    return Hit(is_hit, select(ray.reach, stored.distance, is_hit));
+}
+
+/// Two numbers from 0 to just below 1 for ray `index` of a place, evenly spread over the rays of each place and without a
+/// relation between places: Sobol's points, scrambled after Owen (Burley, "Practical Hash-based Owen Scrambling", 2020)
+/// with the hash of Laine and Karras in the form of Vegdahl ("Building a Better LK Hash", 2021).
+fn ray_sample(at: Surface, index: u32, seed: u32) -> vec2f {
+    let random = pcg3d(vec3u(bitcast<vec2u>(at.texel.xy), bitcast<u32>(at.texel.z)) + seed_key(seed));
+    let shuffled = owen(index, random.x);
+    // The first of the two dimensions is the index with its bits turned round, the second has Pascal's triangle.
+    let point = vec2u(reverseBits(shuffled), sobol_second(shuffled));
+    let scrambled = vec2u(owen_reversed(point.x, random.y), owen_reversed(point.y, random.z));
+    return vec2f(scrambled >> vec2u(8u)) * 5.9604645e-8;
+}
+
+/// A third number for a ray, on its own.
+fn ray_number(at: Surface, index: u32, seed: u32) -> f32 {
+    let key = vec3u(bitcast<vec2u>(at.texel.xy), bitcast<u32>(at.texel.z)) + seed_key(seed ^ 0x68bc21ebu);
+    return unit_random(owen_reversed(reverseBits(owen(index, pcg3d(key).x)), pcg3d(key).y));
+}
+
+/// Owen's scrambling of the bits of a number, the lowest first.
+fn owen_reversed(bits: u32, seed: u32) -> u32 {
+    return reverseBits(laine_karras(reverseBits(bits), seed));
+}
+
+fn owen(index: u32, seed: u32) -> u32 {
+    return owen_reversed(index, seed);
+}
+
+fn laine_karras(bits: u32, seed: u32) -> u32 {
+    var x = bits ^ (bits * 0x3d20adeau);
+    x += seed;
+    x *= (seed >> 16u) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+/// Sobol's second dimension: bit for bit the sum of the direction numbers, which are rows of Pascal's triangle.
+fn sobol_second(index: u32) -> u32 {
+    var x = index;
+    // Multiplication by Pascal's triangle over two, in five steps.
+    x ^= (x & 0xaaaaaaaau) >> 1u;
+    x ^= (x & 0xccccccccu) >> 2u;
+    x ^= (x & 0xf0f0f0f0u) >> 4u;
+    x ^= (x & 0xff00ff00u) >> 8u;
+    x ^= (x & 0xffff0000u) >> 16u;
+    return reverseBits(x);
+}
+
+/// A direction around `up` for a sample, weighted by the cosine of its angle from it.
+fn cosine_direction(up: vec3f, sample: vec2f) -> vec3f {
+    let turn = turn_of(vec3f(6.2831853 * sample.x));
+    let side = side_of(up);
+    let across = side * turn.cosine.x + cross(up, side) * turn.sine.x;
+    return across * sqrt(sample.y) + up * sqrt(1.0 - sample.y);
+}
+
+/// A direction of unit length across another one.
+fn side_of(up: vec3f) -> vec3f {
+    let other = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(up.x) > 0.7);
+    return normalize(cross(other, up));
+}
+
+/// A direction for a sample, as likely one way as any other.
+fn even_direction(sample: vec2f) -> vec3f {
+    let turn = turn_of(vec3f(6.2831853 * sample.x));
+    let z = 1.0 - 2.0 * sample.y;
+    return vec3f(vec2f(turn.cosine.x, turn.sine.x) * sqrt(1.0 - z * z), z);
+}
+
+/// A ray out of the surface. Directions below the triangle are turned up at it, or smooth shading would leave dark bands.
+fn ray_out(at: Surface, direction: vec3f, reach: f32) -> Ray {
+    let below = dot(direction, at.face_normal);
+    return ray_along(at, direction - select(0.0, 2.0 * below, below < 0.0) * at.face_normal, reach);
+}
+
+/// A ray to either side. Its start is lifted off the triangle, to the side it goes to, by more than rounding can move it.
+fn ray_along(at: Surface, direction: vec3f, reach: f32) -> Ray {
+    let largest = max(max(abs(at.position.x), abs(at.position.y)), max(abs(at.position.z), 1e-3));
+    let side = select(-1.0, 1.0, dot(direction, at.face_normal) >= 0.0);
+    return Ray(at.position + at.face_normal * (side * largest * 4e-6), reach, direction);
+}

@@ -1,0 +1,38 @@
+//! Curvature
+//! How the surface bends: edges and bumps above 0, creases and hollows below.
+//!
+//! Rays go to all sides of a place; it is the share of them that is stopped inside the model less the share that is stopped
+//! outside. So it does not hang on how finely the model is cut into triangles: an edge that turns by 90 degrees gives 0.5,
+//! by 45 degrees 0.25, whatever its faces; within the radius it falls evenly to 0.
+//! @alias convex concave bend edge crease wear
+//! @use rays
+
+struct Params {
+    /// How far around it is looked.
+    /// @length @range 0.00001 1000 @soft 0.002 0.2 @default 0.02
+    radius: f32,
+    /// Rays for each place; four times as many halve the noise.
+    /// @range 2 1024 @soft 8 256 @default 32
+    rays: u32,
+    /// Another number, other rays.
+    /// @seed @default 0
+    seed: u32,
+}
+
+/// The rays of a place, to all sides alike.
+/// @rays params.rays @finds any
+fn ray(at: Surface, index: u32, params: Params) -> Ray {
+    return ray_along(at, even_direction(ray_sample(at, index, params.seed)), params.radius);
+}
+
+/// The bend: above 0 where the surface is convex, below where it is concave.
+fn mask(bend: f32) -> f32 {
+    return bend;
+}
+
+/// The share of rays stopped inside less those stopped outside.
+/// @pass 1
+fn bend(at: Surface, ray: Ray, hit: Hit) -> f32 {
+    let side = select(-2.0, 2.0, dot(ray.direction, at.face_normal) < 0.0);
+    return select(0.0, side, hit.is_hit);
+}

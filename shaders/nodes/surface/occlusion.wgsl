@@ -1,0 +1,42 @@
+//! Occlusion
+//! How much of what lies around is close by: creases, corners, below eaves.
+//!
+//! From each place rays go out over the half of space above the surface, most of them straight up; the mask is the share
+//! that meets the model within the distance. Dust and dirt sit where it is high.
+//! @alias ao ambient occlusion crevice crease corner dirt shadow exposure
+//! @use rays
+
+struct Params {
+    /// How far away something still counts.
+    /// @length @range 0.00001 1000 @soft 0.01 1 @default 0.1
+    distance: f32,
+    /// Rays for each place; four times as many halve the noise.
+    /// @range 1 1024 @soft 4 128 @default 16
+    rays: u32,
+    /// What is further away: counts as much up to the distance, or less and less.
+    /// @choice none linear @default none
+    falloff: u32,
+    /// Another number, other rays.
+    /// @seed @default 0
+    seed: u32,
+}
+
+/// The rays of a place: by the cosine of their angle, so that what stands upright over it counts most.
+/// @rays params.rays @finds any
+fn ray(at: Surface, index: u32, params: Params) -> Ray {
+    // A ray that ends at a random share of the distance meets what stands at a given distance the less often, the further
+    // that is.
+    let share = select(1.0, 1.0 - ray_number(at, index, params.seed), params.falloff == 1u);
+    let direction = cosine_direction(at.normal, ray_sample(at, index, params.seed));
+    return ray_out(at, direction, params.distance * share);
+}
+
+/// How much is close by: 0 in the open, 1 where everything around is.
+fn mask(hit: Hit) -> f32 {
+    return select(0.0, 1.0, hit.is_hit);
+}
+
+/// The opposite: 1 in the open, as occlusion maps have it.
+fn ao(hit: Hit) -> f32 {
+    return select(1.0, 0.0, hit.is_hit);
+}

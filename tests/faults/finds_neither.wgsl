@@ -1,0 +1,21 @@
+//! Test
+//! A node with a fault.
+//! @use rays
+
+struct Params {
+    /// How many.
+    /// @range 1 64 @default 8
+    rays: u32,
+}
+
+/// The rays.
+/// @rays params.rays @finds nothing
+fn ray(at: Surface, index: u32, params: Params) -> Ray {
+    return straight(at, f32(index));
+}
+
+/// The mask.
+fn mask(hit: Hit) -> f32 {
+    return hit.distance;
+}
+
