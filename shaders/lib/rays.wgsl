@@ -39,27 +39,28 @@ fn hit_of(stored: RayHit, ray: Ray) -> Hit {
 /// relation between places: Sobol's points, scrambled after Owen (Burley, "Practical Hash-based Owen Scrambling", 2020)
 /// with the hash of Laine and Karras in the form of Vegdahl ("Building a Better LK Hash", 2021).
 fn ray_sample(at: Surface, index: u32, seed: u32) -> vec2f {
-    let random = pcg3d(vec3u(bitcast<vec2u>(at.texel.xy), bitcast<u32>(at.texel.z)) + seed_key(seed));
-    let shuffled = owen(index, random.x);
+    let random = texel_random(at, seed);
+    let shuffled = owen_scrambled(index, random.x);
     // The first of the two dimensions is the index with its bits turned round, the second has Pascal's triangle.
     let point = vec2u(reverseBits(shuffled), sobol_second(shuffled));
-    let scrambled = vec2u(owen_reversed(point.x, random.y), owen_reversed(point.y, random.z));
+    let scrambled = vec2u(owen_scrambled(point.x, random.y), owen_scrambled(point.y, random.z));
     return vec2f(scrambled >> vec2u(8u)) * 5.9604645e-8;
 }
 
 /// A third number for a ray, on its own.
 fn ray_number(at: Surface, index: u32, seed: u32) -> f32 {
-    let key = vec3u(bitcast<vec2u>(at.texel.xy), bitcast<u32>(at.texel.z)) + seed_key(seed ^ 0x68bc21ebu);
-    return unit_random(owen_reversed(reverseBits(owen(index, pcg3d(key).x)), pcg3d(key).y));
+    let random = texel_random(at, seed ^ 0x68bc21ebu);
+    return unit_random(owen_scrambled(reverseBits(owen_scrambled(index, random.x)), random.y));
 }
 
-/// Owen's scrambling of the bits of a number, the lowest first.
-fn owen_reversed(bits: u32, seed: u32) -> u32 {
+/// Random numbers of a texel.
+fn texel_random(at: Surface, seed: u32) -> vec3u {
+    return pcg3d(vec3u(bitcast<vec2u>(at.texel.xy), bitcast<u32>(at.texel.z)) + seed_key(seed));
+}
+
+/// Owen's scrambling of the bits of a number, from the highest on.
+fn owen_scrambled(bits: u32, seed: u32) -> u32 {
     return reverseBits(laine_karras(reverseBits(bits), seed));
-}
-
-fn owen(index: u32, seed: u32) -> u32 {
-    return owen_reversed(index, seed);
 }
 
 fn laine_karras(bits: u32, seed: u32) -> u32 {
@@ -115,4 +116,23 @@ fn ray_along(at: Surface, direction: vec3f, reach: f32) -> Ray {
     let largest = max(max(abs(at.position.x), abs(at.position.y)), max(abs(at.position.z), 1e-3));
     let side = select(-1.0, 1.0, dot(direction, at.face_normal) >= 0.0);
     return Ray(at.position + at.face_normal * (side * largest * 4e-6), reach, direction);
+}
+
+/// A ray to any side, for `bend_by`.
+fn ray_around(at: Surface, index: u32, seed: u32, reach: f32) -> Ray {
+    return ray_along(at, even_direction(ray_sample(at, index, seed)), reach);
+}
+
+/// What a ray to any side says of the bend; the mean is the share of rays stopped inside less that of those stopped
+/// outside, each of its side's half of all.
+fn bend_by(at: Surface, ray: Ray, hit: Hit) -> f32 {
+    let side = select(-2.0, 2.0, dot(ray.direction, at.face_normal) < 0.0);
+    return select(0.0, side, hit.is_hit);
+}
+
+/// 1 where the surface bends well beyond what an edge that turns by `angle` does, 0 where it bends less. On an edge the bend
+/// is the angle's share of a half turn, 0.5 for a right angle, and falls to 0 over the rays' reach.
+fn bent_beyond(bend: f32, angle: f32, softness: f32) -> f32 {
+    let least = angle * 0.31830989;
+    return smoothstep(least, least + max(softness * (0.5 - least), 1e-3), bend);
 }

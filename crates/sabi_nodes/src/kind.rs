@@ -286,6 +286,13 @@ pub enum Argument {
     Hit,
 }
 
+impl Argument {
+    /// Whether it is about a single ray.
+    pub(crate) fn is_of_ray(&self) -> bool {
+        matches!(self, Argument::Ray | Argument::Hit)
+    }
+}
+
 /// How often a function runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repeat {

@@ -22,7 +22,7 @@ struct Params {
 /// The rays of a place, to all sides alike.
 /// @rays params.rays @finds any
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
-    return ray_along(at, even_direction(ray_sample(at, index, params.seed)), params.radius);
+    return ray_around(at, index, params.seed, params.radius);
 }
 
 /// The bend: above 0 where the surface is convex, below where it is concave.
@@ -33,6 +33,5 @@ fn mask(bend: f32) -> f32 {
 /// The share of rays stopped inside less those stopped outside.
 /// @pass 1
 fn bend(at: Surface, ray: Ray, hit: Hit) -> f32 {
-    let side = select(-2.0, 2.0, dot(ray.direction, at.face_normal) < 0.0);
-    return select(0.0, side, hit.is_hit);
+    return bend_by(at, ray, hit);
 }

@@ -27,19 +27,16 @@ struct Params {
 /// The rays of a place, to all sides alike.
 /// @rays params.rays @finds any
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
-    return ray_along(at, even_direction(ray_sample(at, index, params.seed)), params.width);
+    return ray_around(at, index, params.seed, params.width);
 }
 
 /// 1 on edges that stick out, 0 away from them.
 fn mask(bend: f32, params: Params) -> f32 {
-    // Right there the bend is the angle's share of a half turn, 0.5 for a right angle, and falls to 0 over the width.
-    let least = params.angle * 0.31830989;
-    return smoothstep(least, least + max(params.softness * (0.5 - least), 1e-3), bend);
+    return bent_beyond(bend, params.angle, params.softness);
 }
 
 /// The share of rays stopped inside less those stopped outside.
 /// @pass 1
 fn bend(at: Surface, ray: Ray, hit: Hit) -> f32 {
-    let side = select(-2.0, 2.0, dot(ray.direction, at.face_normal) < 0.0);
-    return select(0.0, side, hit.is_hit);
+    return bend_by(at, ray, hit);
 }

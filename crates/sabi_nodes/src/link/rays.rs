@@ -88,8 +88,7 @@ impl<'k> Averaged<'k> {
         for (index, call) in spec.calls.iter().enumerate() {
             let output = function(kind, &call.function)
                 .ok_or_else(|| LinkError::UnknownFunction(kind.id.clone(), call.function.clone()))?;
-            let is_of_rays = |argument: &Argument| matches!(argument, Argument::Ray | Argument::Hit);
-            if output.arguments.iter().any(is_of_rays) {
+            if output.arguments.iter().any(Argument::is_of_ray) {
                 averaged.functions.push((format!("v{index}"), output, index));
                 continue;
             }

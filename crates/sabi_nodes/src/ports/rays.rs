@@ -6,11 +6,6 @@ use super::{Draft, PortReader, Ports};
 use crate::kind::{Argument, Output, Rays, Reads};
 use crate::scan::Member;
 
-/// Whether an argument is about a single ray.
-fn asks(argument: &Argument) -> bool {
-    matches!(argument, Argument::Ray | Argument::Hit)
-}
-
 impl<'a> PortReader<'a> {
     /// Reads the function that returns a `Ray`.
     pub(super) fn rays(&mut self, draft: &Draft<'a>) -> Option<Rays> {
@@ -24,7 +19,7 @@ impl<'a> PortReader<'a> {
         let arguments = self.arguments(draft);
         if arguments
             .iter()
-            .any(|argument| asks(argument) || matches!(argument, Argument::Pass(_)))
+            .any(|argument| argument.is_of_ray() || matches!(argument, Argument::Pass(_)))
         {
             let advice = "Let it take `at: Surface`, `index: u32`, `params: Params` and inputs that are values.";
             self.at(range.clone(), "`ray` is asked before anything is hit.", advice);
@@ -94,7 +89,7 @@ impl<'a> PortReader<'a> {
     /// What is wrong with what a function asks of rays.
     fn wrong_question(&self, output: &Output, is_pass: bool) -> Option<(String, &'static str)> {
         let name = &output.name;
-        let rays = output.arguments.iter().any(asks);
+        let rays = output.arguments.iter().any(Argument::is_of_ray);
         let means = output
             .arguments
             .iter()
