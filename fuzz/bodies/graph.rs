@@ -42,6 +42,7 @@ fn plan(graph: &FlatGraph) {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],
             },
+            levels: &[0.001],
             surface_key: [0; 32],
             mode,
             limits: Limits::default(),

@@ -30,8 +30,22 @@ struct Surface {
     piece_normal: vec3f,
     /// From a texel to the next one along u, on the surface.
     texel_step: vec3f,
+    /// From a texel to the next one along v, on the surface.
+    texel_rise: vec3f,
     /// Texel of the atlas: x, y, page. Only `lib/surface` reads it.
     texel: vec3i,
+}
+
+/// Which repetition of a function this is, and how wide texels are.
+struct Round {
+    /// From 0.
+    index: u32,
+    /// Repetitions in all.
+    count: u32,
+    /// Width of the finest texels of the level that the function runs on, and of the finest level. A few texels may be
+    /// finer still, where a model stretches its UVs unevenly.
+    texel: f32,
+    finest: f32,
 }
 
 /// A physically based material at one place, in linear light.

@@ -19,9 +19,10 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
         return;
     }
     let link = ghost_link(index);
-    let page = i32(link.target_page);
-    let corner = floor(link.target_texel - 0.5);
-    let weight = link.target_texel - 0.5 - corner;
+    let read = ghost_read(index);
+    let page = i32(read.page);
+    let corner = floor(read.texel - 0.5);
+    let weight = read.texel - 0.5 - corner;
     var nearest = vec4f(0.0);
     var nearest_share = -1.0;
     var taps: array<vec4f, 4>;
@@ -49,7 +50,16 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
         sum += shares[tap] * select(vec4f(0.0), taps[tap] - nearest, shares[tap] > 0.0);
         total += shares[tap];
     }
-    let filled = nearest + sum / max(total, 1e-6);
-    let own = textureLoad(field, vec2i(i32(link.texel & 0xffffu), i32(link.texel >> 16u)), i32(link.page), 0);
-    values[index] = select(own, filled, nearest_share >= 0.0);
+    let texel = vec2i(i32(link.texel & 0xffffu), i32(link.texel >> 16u));
+    let step = vec2i(i32(read.anchor & 7u), i32(read.anchor >> 3u)) - 2;
+    let anchor = textureLoad(field, texel + step, i32(link.page), 0);
+    var filled = select(anchor, nearest + sum / max(total, 1e-6), nearest_share >= 0.0);
+    // Only part of what is around the point over the seam is owned: what is there lies the further away. Between it and
+    // the own chart's last texel the ghost is where a straight line says. Two ghosts that lie on one another, where both
+    // charts end a texel before the seam, would else hand what they do not know to and fro.
+    let away = 1.0 - total;
+    if gather.with_ghosts == 0u && away > 0.0 {
+        filled += (anchor - filled) * (away / (away + max(length(vec2f(step)), 1.0)));
+    }
+    values[index] = filled;
 }

@@ -1,68 +1,4 @@
-// Reconstructs the place of a texel from the linked atlas. Appended to every kernel.
-
-const EMPTY: u32 = 0xffffffffu;
-const GHOST_BIT: u32 = 0x80000000u;
-// Rows of four floats a triangle has in `geometry` and in `frames`, and a link in `ghosts`.
-const GEOMETRY_ROWS: u32 = 6u;
-const FRAME_ROWS: u32 = 4u;
-const GHOST_ROWS: u32 = 3u;
-// Rows of four floats a piece has in `pieces`.
-const PIECE_ROWS: u32 = 3u;
-
-struct Pass {
-    // First tile of this dispatch in the tile list, and one past the last.
-    first_tile: u32,
-    end_tile: u32,
-    // Number of workgroups along x.
-    row_length: u32,
-    // Texels for one unit of UV.
-    size: f32,
-}
-
-struct GhostLink {
-    // Texel coordinates of the point over the seam, in the chart of its triangle.
-    target_texel: vec2f,
-    triangle: u32,
-    // The ghost's own texel: column | row << 16, and its page.
-    texel: u32,
-    page: u32,
-    // Page of the target's chart.
-    target_page: u32,
-    chart: u32,
-    // Carries own texel vectors to texel vectors of the target's chart, column by column.
-    target_from_own: vec4f,
-}
-
-@group(0) @binding(0) var<uniform> dispatch: Pass;
-@group(0) @binding(1) var<storage, read> tiles: array<u32>;
-@group(0) @binding(2) var owners: texture_2d_array<u32>;
-// Tables are textures of bit patterns, row after row of the table: each texel reads a place of its own, which processors
-// do faster from a texture than from a buffer.
-@group(0) @binding(3) var geometry: texture_2d<u32>;
-@group(0) @binding(4) var frames: texture_2d<u32>;
-@group(0) @binding(5) var ghosts: texture_2d<u32>;
-@group(0) @binding(6) var<storage, read> pieces: array<vec4f>;
-
-// Where a row of a table is in its texture, which is 8192 wide.
-fn table_texel(row: u32) -> vec2u {
-    return vec2u(row & 8191u, row >> 13u);
-}
-
-fn geometry_row(row: u32) -> vec4f {
-    return bitcast<vec4f>(textureLoad(geometry, table_texel(row), 0));
-}
-
-fn frame_row(row: u32) -> vec4f {
-    return bitcast<vec4f>(textureLoad(frames, table_texel(row), 0));
-}
-
-fn ghost_link(index: u32) -> GhostLink {
-    let row = index * GHOST_ROWS;
-    let a = textureLoad(ghosts, table_texel(row), 0);
-    let b = textureLoad(ghosts, table_texel(row + 1u), 0);
-    let c = textureLoad(ghosts, table_texel(row + 2u), 0);
-    return GhostLink(bitcast<vec2f>(a.xy), a.z, a.w, b.x, b.y, b.z, bitcast<vec4f>(c));
-}
+// Reconstructs the place of a texel from the linked atlas. Appended to every kernel, with lib/atlas.
 
 fn texel_of(group: vec3u, local: vec3u) -> vec3i {
     let index = dispatch.first_tile + group.y * dispatch.row_length + group.x;
@@ -73,13 +9,6 @@ fn texel_of(group: vec3u, local: vec3u) -> vec3i {
     let tile = tiles[index];
     let corner = vec2u(tile & 0x7ffu, (tile >> 11u) & 0x7ffu) * 8u;
     return vec3i(vec2i(corner + local.xy), i32(tile >> 22u));
-}
-
-fn owner_of(texel: vec3i) -> u32 {
-    if texel.x < 0 {
-        return EMPTY;
-    }
-    return textureLoad(owners, texel.xy, texel.z, 0).r;
 }
 
 // The triangle under a texel, and where on its chart the texel's surface point lies.
@@ -96,11 +25,6 @@ fn spot_of(texel: vec3i, owner: u32) -> Spot {
         return Spot(link.triangle, link.target_texel, link.target_from_own);
     }
     return Spot(owner, vec2f(texel.xy) + 0.5, vec4f(1.0, 0.0, 0.0, 1.0));
-}
-
-fn unit_or(v: vec3f, fallback: vec3f) -> vec3f {
-    let square = dot(v, v);
-    return select(fallback, v * inverseSqrt(max(square, 1e-30)), square > 1e-30);
 }
 
 fn surface_at(texel: vec3i, owner: u32) -> Surface {
@@ -127,7 +51,8 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
     // finer, every seam between charts of different density would show as a step.
     let axes = spot.axes;
     let texel_step = along_u.xyz * axes.x + along_v.xyz * axes.y;
-    let across = max(length(texel_step), length(along_u.xyz * axes.z + along_v.xyz * axes.w));
+    let texel_rise = along_u.xyz * axes.z + along_v.xyz * axes.w;
+    let across = max(length(texel_step), length(texel_rise));
     let texel_size = select(abs(along_v.w), across, (owner & GHOST_BIT) != 0u);
     let position = origin.xyz + along_u.xyz * step.x + along_v.xyz * step.y;
     let piece = bitcast<u32>(chart.w);
@@ -146,6 +71,7 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
         piece,
         along_sides(piece, face),
         texel_step,
+        texel_rise,
         texel,
     );
 }

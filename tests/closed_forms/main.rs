@@ -4,6 +4,8 @@ mod blending;
 mod cells;
 mod colors;
 mod curves;
+mod filters;
+mod heat;
 mod image;
 mod marks;
 mod materials;

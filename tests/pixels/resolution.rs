@@ -7,8 +7,16 @@ use sabi_tests::{OnMesh, extent, range};
 use crate::specimens::{for_each, on_own_mesh};
 
 /// Results of which only the mean is held, each with its reason.
-const EXEMPT: [(&str, &str); 13] = [
+const EXEMPT: [(&str, &str); 18] = [
     ("adjust/threshold", "its border is narrower than a texel"),
+    ("filter/distance", "what is just at its threshold is on one map only"),
+    (
+        "filter/distance.distance",
+        "what is just at its threshold is on one map only",
+    ),
+    ("filter/grow", "its border is as narrow as a texel"),
+    ("filter/median", "it chooses one of several texels"),
+    ("filter/streak", "its ways begin at single texels"),
     ("filter/smooth", "its reach is counted in texels, as its text says"),
     ("noise/cells.id", "a map of steps"),
     ("noise/cracks.id", "a map of steps"),

@@ -89,6 +89,8 @@ fn torn(graph: &str) -> OnMesh {
         for (ghost, link) in ghosts.iter_mut().zip(links.iter().cycle().skip(101)) {
             ghost.target_triangle = link.target_triangle;
             ghost.target_texel = link.target_texel;
+            ghost.read_triangle = link.read_triangle;
+            ghost.read_texel = link.read_texel;
         }
     })
 }

@@ -10,6 +10,7 @@ mod document;
 mod error;
 mod folder;
 mod kinds;
+mod levels;
 mod maps;
 mod mixing;
 mod model_copy;

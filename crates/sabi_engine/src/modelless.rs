@@ -19,6 +19,7 @@ pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds, files: &'a Fil
             working_from: &|_| 1.0,
             extent: &|_| [0.0, 1.0],
         },
+        levels: &[0.001],
         surface_key: [0; 32],
         mode: Mode::Bake { fuse: true },
         limits: Limits {

@@ -79,6 +79,8 @@ pub struct Prepared {
     pub pieces: Pieces,
     /// What its rays are followed through; built when the first one is shot.
     pub bvh: OnceLock<Bvh>,
+    finest_texel: OnceLock<f64>,
+    usable_levels: OnceLock<u32>,
     /// Whether the atlas was found on disk.
     pub atlas_was_cached: bool,
     /// The largest side of the box around it, model units.
@@ -159,6 +161,8 @@ impl Prepared {
             atlas_was_cached,
             pieces,
             bvh: OnceLock::new(),
+            finest_texel: OnceLock::new(),
+            usable_levels: OnceLock::new(),
             largest_side,
             scale: f64::from(options.scale),
         })
@@ -180,8 +184,25 @@ impl Prepared {
 
     /// The tables that kernels read, in working units.
     pub fn tables(&self, fit: &Fit, seed: u32) -> SurfaceTables {
+        self.tables_of(&self.atlas, fit, seed)
+    }
+
+    /// The same for another level of the atlas.
+    pub(crate) fn tables_of(&self, atlas: &Atlas, fit: &Fit, seed: u32) -> SurfaceTables {
         let scale = self.working_from_model(fit);
-        SurfaceTables::new(&self.model.mesh, &self.pieces, &self.atlas, scale, seed)
+        SurfaceTables::new(&self.model.mesh, &self.pieces, atlas, scale, seed)
+    }
+
+    /// Width of the finest texels, model units; see [`Atlas::finest_texel`].
+    pub(crate) fn finest_texel(&self) -> f64 {
+        *self
+            .finest_texel
+            .get_or_init(|| self.atlas.finest_texel(&self.model.mesh))
+    }
+
+    /// Coarser levels that may be used; see [`Atlas::usable_levels`].
+    pub(crate) fn usable_levels(&self) -> u32 {
+        *self.usable_levels.get_or_init(|| self.atlas.usable_levels())
     }
 
     /// Lowest and highest `dot(vertex, direction)` in working units.

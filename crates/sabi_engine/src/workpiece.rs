@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables};
+use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables, Surfaces};
 use sabi_graph::{Fit, FlatGraph, Overrides};
 use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Target};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
@@ -12,6 +12,7 @@ use sabi_surface::atlas::{AtlasOptions, atlas_key};
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
+use crate::levels::Levels;
 use crate::overlap::Sharing;
 use crate::overridden::refuse_bad_values;
 use crate::pictures::{Pictures, files};
@@ -57,6 +58,8 @@ pub struct Workpiece {
     pub warnings: Vec<String>,
     pictures: Pictures,
     tables: SurfaceTables,
+    levels: Levels,
+    seed: u32,
     surface_key: [u8; 32],
     budget_bytes: u64,
 }
@@ -109,7 +112,10 @@ impl Workpiece {
         let fit = options.fit.or(options.overrides.fit).unwrap_or(open.document.fit);
         let seed = options.overrides.seed.unwrap_or(open.document.seed);
         let tables = times.load.time(|| prepared.tables(&fit, seed));
-        let surface = times.load.time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables))?;
+        let levels = times.atlas.time(|| Levels::new(&prepared, &fit));
+        let surface = times
+            .load
+            .time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables, levels.of(0)))?;
         let own = kinds_for(&prepared.model);
         kinds.sources.extend(own.map(|kind| (kind.id.clone(), kind)));
         let mut warnings = prepared.model.warnings.clone();
@@ -130,6 +136,8 @@ impl Workpiece {
             warnings,
             pictures: open.pictures.clone(),
             tables,
+            levels,
+            seed,
             surface_key,
             budget_bytes,
         })
@@ -191,6 +199,7 @@ impl Workpiece {
                 working_from: &|fit| scale / self.prepared.working_from_model(fit),
                 extent: &|direction| self.prepared.extent(&self.fit, direction),
             },
+            levels: &self.levels.widths,
             surface_key: self.surface_key,
             mode,
             limits,
@@ -218,6 +227,8 @@ impl Workpiece {
         progress: &dyn Progress,
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, EngineError> {
+        self.levels
+            .make(plan, &self.gpu, &self.prepared, &self.fit, self.seed)?;
         let ground = Ground {
             model: &self.prepared.model,
             atlas: &self.prepared.atlas,
@@ -238,9 +249,13 @@ impl Workpiece {
             progress: &|done, of| progress.advance(Stage::Run, done, of),
             budget_bytes: self.budget_bytes,
         };
+        let surfaces = Surfaces {
+            finest: &self.surface,
+            coarser: &self.levels.coarser,
+        };
         let run = self
             .gpu
-            .run(&self.surface, &self.kinds.library, plan, &options, &mut sources, cache);
+            .run(surfaces, &self.kinds.library, plan, &options, &mut sources, cache);
         let told = sources.warnings;
         self.warn(told);
         let run = run?;

@@ -56,7 +56,7 @@ impl Gpu {
             pad: [0; 2],
         };
         let relief = self.uniform(bytemuck::bytes_of(&relief));
-        let normals = run.pool.take(self, Format::Rgba32Float)?;
+        let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
         let view = array_view(&normals);
         let group = self.bind(
             &kernel.layout,

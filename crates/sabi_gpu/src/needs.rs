@@ -24,6 +24,8 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
                     keys.extend(planes.iter().map(named));
                 }
             }
+            // Only results have keys, and none of them is on its way to another level.
+            Step::Move(_) => {}
             Step::Kernel(kernel) => {
                 let planes = kernel
                     .spec
@@ -51,6 +53,7 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
 fn reads(step: &Step) -> Vec<SlotRef> {
     match step {
         Step::Source(_) => Vec::new(),
+        Step::Move(step) => vec![step.from],
         Step::Kernel(kernel) => kernel.reads.iter().flatten().copied().collect(),
     }
 }
@@ -63,6 +66,7 @@ fn writes(step: &Step) -> Vec<SlotRef> {
             .flat_map(|(_, planes)| planes)
             .map(|(_, slot)| *slot)
             .collect(),
+        Step::Move(step) => vec![step.to],
         Step::Kernel(kernel) => {
             let scratch = kernel.feedback.iter().map(|feedback| feedback.scratch);
             kernel.writes.iter().flatten().copied().chain(scratch).collect()

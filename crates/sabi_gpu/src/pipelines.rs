@@ -66,8 +66,14 @@ pub(crate) fn texture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     sampled_entry(binding, sample_type, wgpu::TextureViewDimension::D2Array)
 }
 
+/// Whole numbers for all texels of the atlas.
+pub(crate) fn owners_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    let sample_type = wgpu::TextureSampleType::Uint;
+    sampled_entry(binding, sample_type, wgpu::TextureViewDimension::D2Array)
+}
+
 /// A table of bit patterns.
-fn table_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+pub(crate) fn table_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     sampled_entry(binding, wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D2)
 }
 
@@ -122,11 +128,12 @@ impl Pipelines {
             entries: &[
                 uniform_entry(0),
                 read_entry(1),
-                sampled_entry(2, wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D2Array),
+                owners_entry(2),
                 table_entry(3),
                 table_entry(4),
                 table_entry(5),
                 read_entry(6),
+                owners_entry(7),
             ],
         });
         Pipelines {
@@ -251,7 +258,8 @@ impl Gpu {
             return Ok(known.clone());
         }
         let core = include_str!("../../../shaders/lib/core.wgsl");
-        let text = format!("{wgsl}\n{PLACE_WGSL}\n{core}");
+        let atlas = include_str!("../../../shaders/lib/atlas.wgsl");
+        let text = format!("{wgsl}\n{PLACE_WGSL}\n{atlas}\n{core}");
         let (mut pipelines, layout) = self.compute_pipelines(name, &text, entries, &["main"])?;
         let missing = || GpuError::Driver("a kernel has no entry point".to_owned());
         let pipeline = pipelines.pop().ok_or_else(missing)?;

@@ -23,20 +23,18 @@ pub struct PoolReport {
     pub peak_bytes: u64,
 }
 
-/// Textures of one extent.
+/// Textures by format and extent.
 #[derive(Debug)]
 pub(crate) struct TexturePool {
-    extent: Extent,
     budget_bytes: u64,
-    free: BTreeMap<Format, Vec<wgpu::Texture>>,
+    free: BTreeMap<(Format, Extent), Vec<wgpu::Texture>>,
     report: PoolReport,
 }
 
 impl TexturePool {
     /// An empty pool for so many bytes, of which some are in use already.
-    pub(crate) fn new(extent: Extent, budget_bytes: u64, used_bytes: u64) -> TexturePool {
+    pub(crate) fn new(budget_bytes: u64, used_bytes: u64) -> TexturePool {
         TexturePool {
-            extent,
             budget_bytes,
             free: BTreeMap::new(),
             report: PoolReport {
@@ -50,12 +48,12 @@ impl TexturePool {
         self.report
     }
 
-    /// A texture of that format; its content is undefined.
-    pub(crate) fn take(&mut self, gpu: &Gpu, format: Format) -> Result<wgpu::Texture, GpuError> {
-        if let Some(texture) = self.free.get_mut(&format).and_then(Vec::pop) {
+    /// A texture of that format and extent; its content is undefined.
+    pub(crate) fn take(&mut self, gpu: &Gpu, format: Format, extent: Extent) -> Result<wgpu::Texture, GpuError> {
+        if let Some(texture) = self.free.get_mut(&(format, extent)).and_then(Vec::pop) {
             return Ok(texture);
         }
-        let bytes = self.extent.iter().map(|side| u64::from(*side)).product::<u64>() * format.texel_bytes();
+        let bytes = bytes_of(format, extent);
         if self.report.bytes + bytes > self.budget_bytes {
             // Textures of other formats that nobody uses make room first.
             self.drop_free();
@@ -67,7 +65,7 @@ impl TexturePool {
                 budget_mib: self.budget_bytes >> 20,
             });
         }
-        let texture = texture(gpu, self.extent, format)?;
+        let texture = texture(gpu, extent, format)?;
         self.report.bytes = needed;
         self.report.peak_bytes = self.report.peak_bytes.max(needed);
         Ok(texture)
@@ -75,16 +73,20 @@ impl TexturePool {
 
     /// Gives a texture back.
     pub(crate) fn release(&mut self, format: Format, texture: wgpu::Texture) {
-        self.free.entry(format).or_default().push(texture);
+        let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
+        self.free.entry((format, extent)).or_default().push(texture);
     }
 
     fn drop_free(&mut self) {
-        let texels: u64 = self.extent.iter().map(|side| u64::from(*side)).product();
-        for (format, textures) in std::mem::take(&mut self.free) {
-            self.report.bytes -= textures.len() as u64 * texels * format.texel_bytes();
+        for ((format, extent), textures) in std::mem::take(&mut self.free) {
+            self.report.bytes -= textures.len() as u64 * bytes_of(format, extent);
             textures.iter().for_each(wgpu::Texture::destroy);
         }
     }
+}
+
+fn bytes_of(format: Format, extent: Extent) -> u64 {
+    extent.iter().map(|side| u64::from(*side)).product::<u64>() * format.texel_bytes()
 }
 
 /// The driver's name of a format.

@@ -7,16 +7,17 @@ use std::time::{Duration, Instant};
 use sabi_nodes::Library;
 use sabi_nodes::kind::Finds;
 use sabi_nodes::link::{Format, Plane};
-use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
+use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotRef, SourceStep, Step};
 
 use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::levels::Surfaces;
+use crate::links::{GHOST_ROUNDS, REFRESH_ROUNDS, Round};
 use crate::needs::{last_uses, needed_steps, slot_keys};
 use crate::pipelines::CompiledKernel;
 use crate::pool::{PoolReport, TexturePool, array_view, texture, wgpu_format};
 use crate::rays::{HitRow, RayBuffers, RayRow};
-use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
 /// How a plan is run.
@@ -76,7 +77,7 @@ impl Gpu {
     /// Runs a plan; with a cache, steps whose results are known are left out and new results are kept.
     pub fn run(
         &self,
-        surface: &GpuSurface,
+        surfaces: Surfaces<'_>,
         library: &Library,
         plan: &Plan,
         options: &RunOptions<'_>,
@@ -86,12 +87,12 @@ impl Gpu {
         let started = Instant::now();
         let mut runner = Runner {
             gpu: self,
-            surface,
+            surfaces,
             library,
             plan,
             options,
             textures: plan.slots.iter().map(|_| None).collect(),
-            pool: TexturePool::new(surface.extent, options.budget_bytes, surface.texture_bytes()),
+            pool: TexturePool::new(options.budget_bytes, surfaces.finest.texture_bytes()),
             report: RunReport::default(),
             open_planes: BTreeMap::new(),
         };
@@ -119,7 +120,7 @@ impl Gpu {
         report.pool = pool.report();
         report.run = started.elapsed().saturating_sub(report.compile);
         if let Some(cache) = cache {
-            cache.keep(&keys, &textures, plan, surface.texels());
+            cache.keep(&keys, &textures, plan, surfaces.finest.texels());
         }
         Ok(Run { textures, report, pool })
     }
@@ -127,7 +128,7 @@ impl Gpu {
 
 struct Runner<'a> {
     gpu: &'a Gpu,
-    surface: &'a GpuSurface,
+    surfaces: Surfaces<'a>,
     library: &'a Library,
     plan: &'a Plan,
     options: &'a RunOptions<'a>,
@@ -151,6 +152,10 @@ impl Runner<'_> {
                 self.source(source, sources)?;
                 vec![(source.id.clone(), 1.0)]
             }
+            Step::Move(step) => {
+                self.bring(step)?;
+                vec![(step.node.clone(), 1.0)]
+            }
             Step::Kernel(kernel) => {
                 self.kernel(kernel, sources)?;
                 kernel
@@ -172,7 +177,8 @@ impl Runner<'_> {
         if let Some(texture) = &self.textures[slot] {
             return Ok(texture.clone());
         }
-        let texture = self.pool.take(self.gpu, self.plan.slots[slot].format)?;
+        let Slot { format, level } = self.plan.slots[slot];
+        let texture = self.pool.take(self.gpu, format, self.surfaces.at(level)?.extent)?;
         self.textures[slot] = Some(texture.clone());
         Ok(texture)
     }
@@ -205,7 +211,7 @@ impl Runner<'_> {
                 let texture = self.texture(*slot)?;
                 let format = self.plan.slots[*slot].format;
                 let bytes = sources.plane(step, output, *plane).map_err(GpuError::Source)?;
-                if bytes.len() as u64 != self.surface.texels() * format.texel_bytes() {
+                if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
                     let given = bytes.len();
                     let message = format!(
                         "node '{}' gave {given} bytes for '{output}', too few or too many; this is a mistake in Sabi",
@@ -225,7 +231,7 @@ impl Runner<'_> {
 
     fn upload(&self, texture: &wgpu::Texture, format: Format, bytes: &[u8]) {
         debug_assert_eq!(texture.format(), wgpu_format(format));
-        let [width, height, pages] = self.surface.extent;
+        let [width, height, pages] = self.surfaces.finest.extent;
         let bytes_per_row = Some(width * format.texel_bytes() as u32);
         self.gpu.queue.write_texture(
             texture.as_image_copy(),
@@ -263,9 +269,16 @@ impl Runner<'_> {
                 }
                 last = writes[0];
             }
-            self.dispatch(step, &compiled, &block, [&reads, &writes], sources)?;
+            let slots = [reads.as_slice(), &writes];
+            self.dispatch(step, &compiled, &block, slots, [round, times], sources)?;
         }
         Ok(())
+    }
+
+    fn bring(&mut self, step: &MoveStep) -> Result<(), GpuError> {
+        let [from, to] = [self.texture(step.from)?, self.texture(step.to)?];
+        let (gpu, surfaces) = (self.gpu, self.surfaces);
+        gpu.move_plane(surfaces, step.levels, [&from, &to], step.format, self.options)
     }
 
     fn dispatch(
@@ -274,6 +287,7 @@ impl Runner<'_> {
         compiled: &CompiledKernel,
         block: &wgpu::Buffer,
         [reads, writes]: [&[Option<SlotRef>]; 2],
+        [round, times]: [u32; 2],
         sources: &mut dyn SourceFill,
     ) -> Result<(), GpuError> {
         let mut views = Vec::new();
@@ -300,13 +314,9 @@ impl Runner<'_> {
             &compiled.layout,
             std::iter::once(block.as_entire_binding()).chain(textures).chain(shot),
         );
-        let slices = Slices::new(self.gpu, self.surface, self.options.submission);
-        if !compiled.is_warm.load(Ordering::Relaxed) {
-            let warming = Instant::now();
-            slices.warm(&compiled.pipeline, &group)?;
-            compiled.is_warm.store(true, Ordering::Relaxed);
-            self.report.compile += warming.elapsed();
-        }
+        let surface = self.surfaces.at(step.level)?;
+        let slices = Slices::new(self.gpu, surface, self.options.submission).in_round(round, times);
+        self.warm(compiled, &slices, &group)?;
         match (&rays, &compiled.shoot) {
             (Some(rays), Some(shoot)) => {
                 rays.run(
@@ -320,10 +330,30 @@ impl Runner<'_> {
             _ => slices.run(&compiled.pipeline, &group, self.options.is_canceled)?,
         }
         if step.fills_ghosts {
+            let rounds: &[Round] = if round < 2 { &GHOST_ROUNDS } else { &REFRESH_ROUNDS };
             for (_, texture, format) in written.iter().filter(|(is_kept, ..)| *is_kept) {
+                let texture = (texture, *format);
                 self.gpu
-                    .fill_ghosts(self.surface, slices.surface_group(), texture, *format)?;
+                    .fill_links(&surface.ghosts, slices.surface_group(), texture, rounds)?;
             }
+        }
+        Ok(())
+    }
+}
+
+impl Runner<'_> {
+    /// Has the driver compile a kernel that never ran.
+    fn warm(
+        &mut self,
+        compiled: &CompiledKernel,
+        slices: &Slices<'_>,
+        group: &wgpu::BindGroup,
+    ) -> Result<(), GpuError> {
+        if !compiled.is_warm.load(Ordering::Relaxed) {
+            let warming = Instant::now();
+            slices.warm(&compiled.pipeline, group)?;
+            compiled.is_warm.store(true, Ordering::Relaxed);
+            self.report.compile += warming.elapsed();
         }
         Ok(())
     }

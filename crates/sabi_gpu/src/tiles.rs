@@ -6,6 +6,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::links::Links;
 use crate::surface::GpuSurface;
 
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
@@ -13,7 +14,7 @@ const ROW: u32 = 32_768;
 /// Tiles of the first slice of a kernel whose speed is not known yet.
 const FIRST_SLICE: u32 = 512;
 
-/// As `Pass` in `shaders/surface/place.wgsl`.
+/// As `Pass` in `shaders/lib/atlas.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct PassConstants {
@@ -21,6 +22,10 @@ struct PassConstants {
     end_tile: u32,
     row_length: u32,
     size: f32,
+    round: u32,
+    rounds: u32,
+    texel: f32,
+    finest: f32,
 }
 
 /// One kernel's way over the tiles.
@@ -30,10 +35,17 @@ pub(crate) struct Slices<'a> {
     target: Duration,
     constants: wgpu::Buffer,
     group: wgpu::BindGroup,
+    /// Which repetition this is, and how many there are.
+    round: [u32; 2],
 }
 
 impl<'a> Slices<'a> {
     pub(crate) fn new(gpu: &'a Gpu, surface: &'a GpuSurface, target: Duration) -> Slices<'a> {
+        Slices::with_links(gpu, surface, &surface.ghosts, target)
+    }
+
+    /// The surface with other links in the place of its ghosts'.
+    pub(crate) fn with_links(gpu: &'a Gpu, surface: &'a GpuSurface, links: &Links, target: Duration) -> Slices<'a> {
         let constants = gpu.uniform(&[0; size_of::<PassConstants>()]);
         let resources = [
             constants.as_entire_binding(),
@@ -41,8 +53,9 @@ impl<'a> Slices<'a> {
             wgpu::BindingResource::TextureView(&surface.owners),
             wgpu::BindingResource::TextureView(&surface.geometry),
             wgpu::BindingResource::TextureView(&surface.frames),
-            wgpu::BindingResource::TextureView(&surface.ghosts),
+            wgpu::BindingResource::TextureView(&links.rows),
             surface.pieces.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&surface.leaps),
         ];
         let group = gpu.bind(&gpu.pipelines.surface_layout, resources);
         Slices {
@@ -51,7 +64,14 @@ impl<'a> Slices<'a> {
             target,
             constants,
             group,
+            round: [0, 1],
         }
+    }
+
+    /// For one of several repetitions.
+    pub(crate) fn in_round(mut self, round: u32, rounds: u32) -> Slices<'a> {
+        self.round = [round, rounds];
+        self
     }
 
     /// Number of tiles of the surface.
@@ -111,6 +131,10 @@ impl<'a> Slices<'a> {
             end_tile,
             row_length,
             size: self.surface.size as f32,
+            round: self.round[0],
+            rounds: self.round[1],
+            texel: self.surface.widths.texel as f32,
+            finest: self.surface.widths.finest as f32,
         };
         self.gpu
             .queue

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use sabi_gpu::{
     AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, HitRow, RayRow, ResultCache, Run, RunOptions,
-    SourceFill, SurfaceTables,
+    SourceFill, SurfaceTables, Surfaces, TexelWidths,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
@@ -70,7 +70,7 @@ impl Bench {
         let mesh = square();
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(size)).unwrap();
         let tables = SurfaceTables::new(&mesh, &Pieces::of(&mesh), &atlas, 1.0, 0);
-        let surface = GpuSurface::upload(&gpu, &atlas, &tables).unwrap();
+        let surface = GpuSurface::upload(&gpu, &atlas, &tables, TexelWidths::even(0.01)).unwrap();
         Bench {
             gpu,
             surface,
@@ -91,6 +91,7 @@ impl Bench {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],
             },
+            levels: &[0.01],
             surface_key: [0; 32],
             mode,
             limits: self.gpu.limits(),
@@ -118,8 +119,14 @@ impl Bench {
     }
 
     fn run(&self, plan: &Plan, options: &RunOptions<'_>, cache: Option<&mut ResultCache>) -> Result<Run, GpuError> {
-        self.gpu
-            .run(&self.surface, &self.library, plan, options, &mut NoSources, cache)
+        self.gpu.run(
+            Surfaces::only(&self.surface),
+            &self.library,
+            plan,
+            options,
+            &mut NoSources,
+            cache,
+        )
     }
 
     fn bytes(&self, plan: &Plan, run: &Run) -> Vec<u8> {
@@ -220,12 +227,12 @@ fn a_budget_that_is_too_small_is_a_sentence() {
 }
 
 #[test]
-fn the_owner_map_counts_in_the_budget_and_in_the_peak() {
+fn the_maps_of_owners_and_leaps_count_in_the_budget_and_in_the_peak() {
     let bench = Bench::new(128);
     let plan = bench.plan(CHAIN, FUSED);
     let all = bench.run(&plan, &options(), None).unwrap().report.pool.peak_bytes;
     let planes = all - bench.surface.texture_bytes();
-    assert_eq!(bench.surface.texture_bytes(), 4 * bench.surface.texels());
+    assert_eq!(bench.surface.texture_bytes(), 5 * bench.surface.texels());
     assert!(planes > 0 && planes.is_multiple_of(4 * bench.surface.texels()));
     let limited = |budget_bytes| {
         let limited = RunOptions {
@@ -353,9 +360,14 @@ fn a_source_of_many_planes_stops_between_two_of_them() {
         ..options()
     };
     let run = |options: &RunOptions<'_>, source: &mut Counted| {
-        let run = bench
-            .gpu
-            .run(&bench.surface, &bench.library, &plan, options, source, None);
+        let run = bench.gpu.run(
+            Surfaces::only(&bench.surface),
+            &bench.library,
+            &plan,
+            options,
+            source,
+            None,
+        );
         run.err()
     };
     assert_eq!(run(&after_two, &mut source), Some(GpuError::Canceled));
@@ -373,9 +385,14 @@ fn a_source_that_gives_too_little_is_an_error_and_no_panic() {
         bytes: 12,
         asked: Rc::default(),
     };
-    let run = bench
-        .gpu
-        .run(&bench.surface, &bench.library, &plan, &options(), &mut source, None);
+    let run = bench.gpu.run(
+        Surfaces::only(&bench.surface),
+        &bench.library,
+        &plan,
+        &options(),
+        &mut source,
+        None,
+    );
     let error = run.err().unwrap().to_string();
     assert!(error.starts_with("node 'lost' gave 12 bytes for 'mask'"), "{error}");
 }

@@ -21,7 +21,10 @@ use crate::words::list;
 const CORE: &str = "core";
 
 /// The libraries that may read textures and declare what the kernel binds.
-const PRIVILEGED: [&str; 2] = [CORE, "surface"];
+const PRIVILEGED: [&str; 3] = [CORE, ATLAS, "surface"];
+
+/// The library that knows what kernels bind; linked to every kernel.
+pub(crate) const ATLAS: &str = "atlas";
 
 /// Several texts as one, the node first, so that line 12 of an error is line 12 of the file.
 pub(crate) struct Linked<'a> {

@@ -7,6 +7,8 @@ use std::sync::Arc;
 
 use sabi_graph::PortType;
 
+use crate::formula::Formula;
+
 /// A node kind: everything its file says, reflected and checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kind {
@@ -231,8 +233,12 @@ pub struct Output {
     pub doc: String,
     /// Arguments of the function in order.
     pub arguments: Vec<Argument>,
-    /// Repetitions (`@repeat`): the function's first field argument is its own last result.
-    pub repeat: Repeat,
+    /// How often it runs (`@repeat`), rounded up to a whole number from 1 to 4096; once if none. The function's first
+    /// field argument is its own last result.
+    pub repeat: Option<Formula>,
+    /// For a pass, how wide its texels may be (`@texel`), working units: it runs on the coarsest level that has no wider
+    /// ones; on the finest if none.
+    pub texel: Option<Formula>,
     /// For a material result: how its channels come about.
     pub channels: Vec<ChannelWrite>,
 }
@@ -284,6 +290,8 @@ pub enum Argument {
     Ray,
     /// `hit: Hit`
     Hit,
+    /// `round: Round`: which repetition it is, and how wide texels are.
+    Round,
 }
 
 impl Argument {
@@ -291,17 +299,6 @@ impl Argument {
     pub(crate) fn is_of_ray(&self) -> bool {
         matches!(self, Argument::Ray | Argument::Hit)
     }
-}
-
-/// How often a function runs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Repeat {
-    /// Once.
-    Once,
-    /// A fixed number of times.
-    Times(u32),
-    /// As often as this `u32` parameter says, by index in [`Kind::params`].
-    Param(usize),
 }
 
 /// Channels of a material that take storage of their own.

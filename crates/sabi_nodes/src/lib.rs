@@ -8,6 +8,7 @@ mod compile;
 mod curve;
 mod explain;
 mod fault;
+pub mod formula;
 pub mod kind;
 mod library;
 pub mod link;

@@ -2,6 +2,7 @@
 
 mod functions;
 mod inputs;
+mod passes;
 mod rays;
 #[cfg(test)]
 mod tests;
@@ -13,14 +14,15 @@ use naga::{Function, ImageClass, ImageDimension, Module, ScalarKind, Type, TypeI
 use sabi_graph::PortType;
 
 use crate::fault::{Fault, Text};
-use crate::kind::{Argument, Input, Output, Param, Pass, Rays, Reads, Repeat};
+use crate::formula::Formula;
+use crate::kind::{Argument, Input, Output, Param, Pass, Rays};
 use crate::scan::{Item, Member, Scan};
 use functions::FunctionNotes;
 use inputs::InputNotes;
 
 /// Annotations of a function and of the inputs described in its comment.
 pub(crate) const ANNOTATIONS: &[&str] = &[
-    "input", "pass", "repeat", "rays", "finds", "vector", "optional", "default", "type", "label",
+    "input", "pass", "repeat", "texel", "rays", "finds", "vector", "optional", "default", "type", "label",
 ];
 
 /// Inputs that the flags of an interactive kernel have room for.
@@ -214,22 +216,6 @@ impl<'a> PortReader<'a> {
         })
     }
 
-    /// Numbers are unique; fills the list that arguments are looked up in.
-    fn check_passes(&mut self, drafts: &[Draft<'a>]) {
-        for draft in drafts {
-            let Some((number, range)) = draft.notes.pass.clone() else {
-                continue;
-            };
-            if let Some((_, other, _)) = self.pass_numbers.iter().find(|(known, ..)| *known == number) {
-                let message = format!("`{}` and `{other}` are both pass {number}.", draft.item.name);
-                self.at(range, message, "Number the passes in the order in which they run.");
-            }
-            let Some(ty) = draft.ty else { continue };
-            self.pass_numbers.push((number, draft.item.name.clone(), ty));
-        }
-        self.pass_numbers.sort_by_key(|(number, ..)| *number);
-    }
-
     fn arguments(&mut self, draft: &Draft<'a>) -> Vec<Argument> {
         let mut arguments = Vec::new();
         for (member, argument) in draft.item.members.iter().zip(&draft.function.arguments) {
@@ -247,16 +233,25 @@ impl<'a> PortReader<'a> {
             let message = format!("`{}` shoots no rays.", draft.item.name);
             self.at(range.clone(), message, "`@rays` belongs above the function `ray`.");
         }
+        if let (Some((_, range)), None) = (&draft.notes.texel, &draft.notes.pass) {
+            let message = format!(
+                "`{}` is a result, and results are as fine as the maps.",
+                draft.item.name
+            );
+            self.at(
+                range.clone(),
+                message,
+                "Let a pass run on wider texels, and read what it gives.",
+            );
+        }
+        let formula = |note: &Option<(Formula, Range<usize>)>| note.as_ref().map(|(formula, _)| formula.clone());
         Output {
             name: draft.item.name.clone(),
             ty,
             doc: draft.notes.doc.clone(),
             arguments,
-            repeat: draft
-                .notes
-                .repeat
-                .as_ref()
-                .map_or(Repeat::Once, |(repeat, _)| repeat.clone()),
+            repeat: formula(&draft.notes.repeat),
+            texel: formula(&draft.notes.texel),
             channels: Vec::new(),
         }
     }
@@ -269,6 +264,7 @@ impl<'a> PortReader<'a> {
             ("params", "Params") => return Some(Argument::Params),
             ("ray", "Ray") => return Some(Argument::Ray),
             ("hit", "Hit") => return Some(Argument::Hit),
+            ("round", "Round") => return Some(Argument::Round),
             ("index", _) if draft.ty.is_none() => return self.ray_index(member, ty),
             ("at" | "params", _) | (_, "Surface" | "Params") => {
                 self.at(
@@ -306,75 +302,6 @@ impl<'a> PortReader<'a> {
             None => {
                 self.inputs.push(input);
                 Some(Argument::Input(self.inputs.len() - 1))
-            }
-        }
-    }
-
-    /// An argument named like a pass reads its stored result.
-    fn pass_argument(&mut self, draft: &Draft<'a>, member: &Member, ty: &Type, index: usize) -> Option<Argument> {
-        let (number, _, carried) = self.pass_numbers[index].clone();
-        if self.shoots {
-            return self.mean_argument(
-                member,
-                port_type(ty, carried == PortType::Vector) == Some(carried),
-                index,
-            );
-        }
-        if !is_field(ty) {
-            let message = format!("`{}` is a pass, so its result is a stored texture.", member.name);
-            self.at(
-                member.type_range.clone(),
-                message,
-                "Make the argument a `texture_2d_array<f32>`, and read it through lib/surface.",
-            );
-            return None;
-        }
-        if draft.notes.pass.as_ref().is_some_and(|(own, _)| *own <= number) {
-            let message = format!("`{}` reads pass {number}, which has not run yet.", draft.item.name);
-            self.at(
-                member.name_range.clone(),
-                message,
-                "Give the pass that is read the lower number.",
-            );
-            return None;
-        }
-        Some(Argument::Pass(index))
-    }
-
-    /// A repeated function reads its own last result through its first field argument, which has the same type.
-    fn check_repeat(&mut self, draft: &Draft<'a>, arguments: &[Argument]) {
-        let Some((_, range)) = draft.notes.repeat.clone() else {
-            return;
-        };
-        let first = arguments.iter().find_map(|argument| match argument {
-            Argument::Input(index) => {
-                let input = self.inputs.get(*index)?;
-                (input.reads == Reads::Field).then_some(input.ty)
-            }
-            Argument::Pass(index) => self.pass_numbers.get(*index).map(|(_, _, ty)| *ty),
-            _ => None,
-        });
-        match first {
-            Some(ty) if Some(ty) == draft.ty => {}
-            Some(ty) => {
-                let message = format!(
-                    "`{}` is repeated and returns a {}, but its first texture holds a {ty}.",
-                    draft.item.name,
-                    draft.ty.map_or_else(|| "ray".to_owned(), |ty| ty.to_string())
-                );
-                self.at(
-                    range,
-                    message,
-                    "Each repetition reads the last one's result through the first texture.",
-                );
-            }
-            None => {
-                let message = format!("`{}` is repeated but reads no texture.", draft.item.name);
-                self.at(
-                    range,
-                    message,
-                    "Each repetition reads the last one's result through the first `texture_2d_array<f32>` argument.",
-                );
             }
         }
     }

@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_nodes::link::Plane;
 
-use crate::draft::{Draft, Kept};
+use crate::draft::{Draft, Kept, What};
 use crate::fuse::Value;
 use crate::keys::result_key;
-use crate::plan::{KernelStep, Plan, PlannedResult, SlotRef, Step};
+use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, Step};
 use crate::request::{Mode, Target};
 use crate::schedule::Builder;
 use crate::slots::SlotPool;
@@ -23,7 +23,8 @@ impl Builder<'_, '_> {
                 last_use.insert(*plane, at);
             }
         }
-        let is_wanted = |kept: &Kept| matches!(kept, Kept::Result(value) if wanted_values.contains(value));
+        let is_wanted =
+            |kept: &Kept| matches!(&kept.what, What::Result(value) if kept.level == 0 && wanted_values.contains(value));
         let mut dead_after: Vec<Vec<(Kept, Plane)>> = drafts.iter().map(|_| Vec::new()).collect();
         for (plane, at) in last_use {
             if !keep_all && !is_wanted(&plane.0) {
@@ -36,7 +37,7 @@ impl Builder<'_, '_> {
         let mut nodes = Names::default();
         for (at, draft) in drafts.into_iter().enumerate() {
             for plane in draft.writes.iter().flatten().chain(&draft.scratch) {
-                slot_of.insert(*plane, pool.take(plane.1.format()));
+                slot_of.insert(*plane, pool.take(plane.1.format(), plane.0.level));
             }
             let slots = |planes: &[Option<(Kept, Plane)>]| -> Vec<Option<SlotRef>> {
                 planes.iter().map(|plane| plane.map(|plane| slot_of[&plane])).collect()
@@ -77,7 +78,7 @@ impl Builder<'_, '_> {
         let slots = stored
             .planes()
             .iter()
-            .map(|plane| slot_of[&(Kept::Result((node, output)), *plane)])
+            .map(|plane| slot_of[&(Kept::result((node, output)), *plane)])
             .collect();
         let name = self.node(node).output(output).map_or("", |(name, _)| name);
         let key = result_key(self.node(node), name);
@@ -100,6 +101,11 @@ fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRe
             }
             Step::Source(source)
         }
+        Step::Move(step) => Step::Move(MoveStep {
+            from: reads.into_iter().flatten().next().unwrap_or(step.from),
+            to: writes.into_iter().flatten().next().unwrap_or(step.to),
+            ..step
+        }),
         Step::Kernel(mut kernel) => {
             if let (Some(feedback), Some(slot)) = (&mut kernel.feedback, scratch) {
                 feedback.scratch = slot;
@@ -125,6 +131,7 @@ impl Names {
         let names = match step {
             Step::Source(source) => std::slice::from_ref(&source.id),
             Step::Kernel(kernel) => &kernel.nodes,
+            Step::Move(_) => &[],
         };
         for name in names {
             if self.seen.insert(name.clone()) {

@@ -10,12 +10,30 @@ use crate::plan::{BlockValues, Feedback, KernelStep, RayCount, Step};
 use crate::resolve::Behavior;
 use crate::schedule::Builder;
 
-/// What lies in storage: a result, or what a pass of a field leaves for the next.
+/// What lies in storage, and on which level of the atlas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kept {
+pub(crate) struct Kept {
+    pub(crate) what: What,
+    pub(crate) level: u32,
+}
+
+impl Kept {
+    /// A result; all of them are on the finest level.
+    pub(crate) fn result(value: Value) -> Kept {
+        Kept {
+            what: What::Result(value),
+            level: 0,
+        }
+    }
+}
+
+/// A result, or what a pass of a field leaves for the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum What {
     Result(Value),
     Pass(usize, usize),
-    Scratch(usize),
+    /// Takes turns with a repeated function's result: node, and which of its steps.
+    Scratch(usize, usize),
     /// What a field's input reads, converted: node and index of the input.
     Converted(usize, usize),
 }
@@ -39,6 +57,8 @@ pub(crate) struct KernelDraft<'b, 'p, 'a> {
     pub(crate) flags: [u32; 4],
     pub(crate) repeat: Option<(u32, usize, Kept)>,
     pub(crate) rays: Option<RayCount>,
+    /// Level of the atlas that it runs on.
+    pub(crate) level: u32,
     keys: Vec<[u8; 32]>,
 }
 
@@ -60,6 +80,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             flags: [0; 4],
             repeat: None,
             rays: None,
+            level: 0,
             keys: Vec::new(),
         }
     }
@@ -78,7 +99,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
 
     /// The load of a stored result, one for all its readers in this kernel.
     pub(crate) fn load(&mut self, value: Value) -> usize {
-        let kept = Kept::Result(value);
+        let kept = self.here(What::Result(value));
         if let Some(load) = self.loaded.iter().position(|loaded| *loaded == Some(kept)) {
             return load;
         }
@@ -87,8 +108,17 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
         self.add_load(Some(kept), stored, planes)
     }
 
+    /// Something stored, on the level of this kernel.
+    fn here(&self, what: What) -> Kept {
+        Kept {
+            what,
+            level: self.level,
+        }
+    }
+
     /// The load of something that is no result, of one plane.
-    pub(crate) fn load_kept(&mut self, kept: Kept, ty: PortType) -> usize {
+    pub(crate) fn load_kept(&mut self, what: What, ty: PortType) -> usize {
+        let kept = self.here(what);
         let stored = Stored {
             ty,
             channels: Vec::new(),
@@ -107,7 +137,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
                 (PortType::Mask, PortType::Color) | (PortType::Color, PortType::Mask)
             );
             let plane = if converted { from.planes()[0] } else { plane };
-            from.planes().contains(&plane).then_some((Kept::Result(*value), plane))
+            from.planes().contains(&plane).then_some((Kept::result(*value), plane))
         });
         let planes = planes.collect();
         self.add_load(None, stored, planes)
@@ -131,7 +161,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
 
     pub(crate) fn store(&mut self, call: usize, value: Value) {
         let made = Binding::Call(call, Convert::None);
-        self.store_kept(made, Kept::Result(value), self.builder.stored(value));
+        self.store_kept(made, Kept::result(value), self.builder.stored(value));
     }
 
     pub(crate) fn store_kept(&mut self, value: Binding, kept: Kept, stored: Stored) {
@@ -142,7 +172,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
 
     /// Stores all planes the result could have; those that are not set stay open.
     pub(crate) fn store_switched(&mut self, call: usize, value: Value) {
-        let kept = Kept::Result(value);
+        let kept = Kept::result(value);
         let set = self.builder.stored(value);
         let channels = if set.ty == PortType::Material {
             Channel::ALL.to_vec()
@@ -158,7 +188,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
     pub(crate) fn add_store(&mut self, value: Binding, kept: Kept, stored: Stored) {
         let formats = stored.planes().iter().map(|plane| plane.format()).collect();
         self.spec.stores.push(Store { value, stored, formats });
-        if let Kept::Result((node, output)) = kept {
+        if let What::Result((node, output)) = kept.what {
             let ready = self.builder.node(node);
             self.keys
                 .push(result_key(ready, ready.output(output).map_or("", |(name, _)| name)));
@@ -202,6 +232,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             writes: Vec::new(),
             feedback,
             rays: self.rays,
+            level: self.level,
             nodes: nodes.iter().map(|node| builder.id(*node)).collect(),
             shares: costs.iter().map(|cost| cost / total).collect(),
             keys: self.keys,

@@ -7,6 +7,7 @@ mod assign;
 mod channels;
 mod draft;
 mod error;
+mod field;
 mod fuse;
 mod inputs;
 mod keys;
@@ -22,7 +23,9 @@ mod source_values;
 mod values;
 
 pub use error::{PlanError, Problem};
-pub use plan::{BlockValues, Feedback, KernelStep, Plan, PlannedResult, RayCount, Slot, SlotRef, SourceStep, Step};
+pub use plan::{
+    BlockValues, Feedback, KernelStep, MoveStep, Plan, PlannedResult, RayCount, Slot, SlotRef, SourceStep, Step,
+};
 pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target};
 pub use resolve::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use sabi_nodes::kind::{Finds, Repeat};
+use sabi_nodes::kind::Finds;
 use sabi_nodes::link::{Format, KernelSpec, Plane, Stored};
 
 use crate::source_values::SourceValues;
@@ -23,8 +23,10 @@ pub struct Plan {
 /// A texture of the pool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot {
-    /// Its format; all slots are as large as the atlas.
+    /// Its format.
     pub format: Format,
+    /// The level of the atlas that it is as large as; 0 is the finest.
+    pub level: u32,
 }
 
 /// Index into [`Plan::slots`].
@@ -37,6 +39,26 @@ pub enum Step {
     Source(SourceStep),
     /// A kernel runs over the surface.
     Kernel(KernelStep),
+    /// A stored plane is brought to another level.
+    Move(MoveStep),
+}
+
+/// A plane on its way from one level of the atlas to another.
+///
+/// To a coarser one as the mean of what a texel covers in its chart, to a finer one interpolated in the chart. Ghosts are
+/// filled afterwards. Where the other level has nothing near, all components are 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MoveStep {
+    /// Id of the node that reads it there first.
+    pub node: String,
+    /// Slot that is read.
+    pub from: SlotRef,
+    /// Slot that is written.
+    pub to: SlotRef,
+    /// Format of both.
+    pub format: Format,
+    /// Levels of both.
+    pub levels: [u32; 2],
 }
 
 /// Results made without a kernel.
@@ -75,6 +97,8 @@ pub struct KernelStep {
     pub feedback: Option<Feedback>,
     /// The rays that it is a mean over.
     pub rays: Option<RayCount>,
+    /// Level of the atlas that it runs on; all that it reads and writes is there.
+    pub level: u32,
     /// Ids of the nodes in it, in order; none where it only converts.
     pub nodes: Vec<String>,
     /// Share of the kernel's cost for each of `nodes`; they add up to 1.
@@ -143,15 +167,6 @@ impl Plan {
     }
 }
 
-/// How often a function repeats, once its parameter is known.
-pub(crate) fn times(repeat: &Repeat, value_of: impl Fn(usize) -> u32) -> u32 {
-    match repeat {
-        Repeat::Once => 1,
-        Repeat::Times(times) => *times,
-        Repeat::Param(param) => value_of(*param),
-    }
-}
-
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for step in &self.steps {
@@ -166,6 +181,10 @@ impl fmt::Display for Plan {
                     write_slots(f, " ->", slots)?;
                 }
                 Step::Kernel(kernel) => write_kernel(f, kernel)?,
+                Step::Move(step) => {
+                    let [from, to] = step.levels;
+                    write!(f, "move s{} -> s{} level {from} -> {to}", step.from, step.to)?;
+                }
             }
             writeln!(f)?;
         }
@@ -187,6 +206,9 @@ fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result 
     write_slots(f, " ->", kernel.writes.iter().copied())?;
     if let Some(feedback) = &kernel.feedback {
         write!(f, " x{} via s{}", feedback.times, feedback.scratch)?;
+    }
+    if kernel.level > 0 {
+        write!(f, " level {}", kernel.level)?;
     }
     if let Some(rays) = &kernel.rays {
         write!(f, " {} rays", rays.count)?;

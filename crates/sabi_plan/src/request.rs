@@ -94,7 +94,7 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Limits {
-            sampled_textures: 12,
+            sampled_textures: 11,
             storage_textures: 4,
             cost: 16 * 700,
         }
@@ -148,6 +148,8 @@ pub struct Planner<'a> {
     pub files: &'a FileContents,
     /// Lengths of the model.
     pub lengths: Lengths<'a>,
+    /// Texel width of each level of the atlas that may be used, working units, finest first; at least one.
+    pub levels: &'a [f64],
     /// Names the surface (model, size, fit): part of every key.
     pub surface_key: [u8; 32],
     /// How to cut.

@@ -3,14 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
-use sabi_nodes::kind::{Argument, Channel, Kind, Output, ParamValue, Reads};
-use sabi_nodes::link::{Binding, Call, Convert, INPUTS_A_WORD, Stored};
+use sabi_nodes::kind::{Channel, Kind, ParamValue};
+use sabi_nodes::link::{Binding, INPUTS_A_WORD, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft};
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Readers, Value};
 use crate::keys::result_key;
-use crate::plan::{Plan, RayCount, SourceStep, Step, times};
+use crate::plan::{Plan, RayCount, SourceStep, Step};
 use crate::request::{Mode, Planner, Target};
 use crate::resolve::{Behavior, Resolved, ResolvedNode};
 
@@ -37,10 +37,11 @@ impl Planner<'_> {
             readers,
         };
         let order = builder.order(&groups, &values);
-        let drafts: Vec<Draft> = order
+        let mut drafts: Vec<Draft> = order
             .into_iter()
             .flat_map(|group| builder.drafts(&groups[group], &values))
             .collect();
+        keep_first_moves(&mut drafts);
         (builder.assign_slots(drafts, wanted), errors)
     }
 
@@ -81,6 +82,15 @@ impl Planner<'_> {
         });
         Ok(behind)
     }
+}
+
+/// What several nodes read on one level is moved there once.
+fn keep_first_moves(drafts: &mut Vec<Draft>) {
+    let mut moved = BTreeSet::new();
+    drafts.retain(|draft| match draft.step {
+        Step::Move(_) => draft.writes.iter().flatten().any(|plane| moved.insert(*plane)),
+        _ => true,
+    });
 }
 
 fn producers(groups: &[Group]) -> BTreeMap<Value, usize> {
@@ -168,7 +178,7 @@ impl Builder<'_, '_> {
             writes.extend(
                 planes
                     .into_iter()
-                    .map(|plane| Some((Kept::Result((node, *output)), plane))),
+                    .map(|plane| Some((Kept::result((node, *output)), plane))),
             );
         }
         let step = SourceStep {
@@ -258,26 +268,6 @@ impl Builder<'_, '_> {
         kernel.finish()
     }
 
-    /// The passes of a field node and its results, each a kernel of its own.
-    fn field(&self, node: usize, outputs: &[usize]) -> Vec<Draft> {
-        let Behavior::Shader(kind) = self.node(node).behavior else {
-            unreachable!("fields are shaders")
-        };
-        let mut numbered: Vec<usize> = (0..kind.passes.len()).collect();
-        numbered.sort_by_key(|pass| kind.passes[*pass].number);
-        let passes = numbered
-            .into_iter()
-            .map(|pass| self.field_step(node, kind, &kind.passes[pass].function, Kept::Pass(node, pass)));
-        let results = outputs
-            .iter()
-            .map(|output| self.field_step(node, kind, &kind.outputs[*output], Kept::Result((node, *output))));
-        self.conversions(node)
-            .into_iter()
-            .chain(passes)
-            .chain(results)
-            .collect()
-    }
-
     /// All results of a node that shoots rays, from the same rays.
     fn rays(&self, node: usize, outputs: &[usize]) -> Draft {
         let ready = self.node(node);
@@ -302,84 +292,6 @@ impl Builder<'_, '_> {
                 finds: rays.finds,
             });
         }
-        kernel.finish()
-    }
-
-    /// Inputs of a field that carry another type are stored once more, converted: a texture converts nothing when read.
-    fn conversions(&self, node: usize) -> Vec<Draft> {
-        let inputs = self.node(node).inputs.iter().enumerate();
-        let converted = inputs.filter_map(|(index, input)| {
-            let input = input.filter(|input| input.reads == Reads::Field && input.convert != Convert::None)?;
-            let mut kernel = KernelDraft::new(self, true);
-            let load = kernel.load((input.node, input.output));
-            let stored = Stored {
-                ty: if input.ty == PortType::Mask {
-                    PortType::Color
-                } else {
-                    PortType::Mask
-                },
-                channels: Vec::new(),
-            };
-            kernel.store_kept(Binding::Load(load, input.convert), Kept::Converted(node, index), stored);
-            Some(kernel.finish())
-        });
-        converted.collect()
-    }
-
-    fn field_step(&self, node: usize, kind: &Kind, function: &Output, kept: Kept) -> Draft {
-        let mut kernel = KernelDraft::new(self, false);
-        let block = kernel.block(node);
-        let ready = self.node(node);
-        let mut inputs = Vec::new();
-        for (index, input) in ready.inputs.iter().enumerate() {
-            let is_read = function.arguments.contains(&Argument::Input(index));
-            inputs.push(match input {
-                Some(input) if is_read && input.reads == Reads::Value => {
-                    Binding::Load(kernel.load((input.node, input.output)), input.convert)
-                }
-                Some(input) if is_read && input.convert != Convert::None => {
-                    Binding::Field(kernel.load_kept(Kept::Converted(node, index), kind.inputs[index].ty))
-                }
-                Some(input) if is_read => Binding::Field(kernel.load((input.node, input.output))),
-                _ => Binding::Default,
-            });
-        }
-        let pass_is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
-        let passes: Vec<Option<usize>> = (0..kind.passes.len())
-            .map(|pass| {
-                pass_is_read(pass).then(|| kernel.load_kept(Kept::Pass(node, pass), kind.passes[pass].function.ty))
-            })
-            .collect();
-        let first_field = function.arguments.iter().find_map(|argument| match argument {
-            Argument::Pass(pass) => passes[*pass],
-            Argument::Input(input) => match inputs[*input] {
-                Binding::Field(load) => Some(load),
-                _ => None,
-            },
-            _ => None,
-        });
-        kernel.spec.calls.push(Call {
-            kind: kind.id.clone(),
-            function: function.name.clone(),
-            inputs,
-            passes,
-            block,
-        });
-        kernel.store_kept(
-            Binding::Call(0, Convert::None),
-            kept,
-            Stored {
-                ty: function.ty,
-                channels: Vec::new(),
-            },
-        );
-        let times = times(&function.repeat, |param| match ready.values.get(param) {
-            Some(ParamValue::Unsigned(times)) => *times,
-            _ => 1,
-        });
-        kernel.repeat = first_field
-            .filter(|_| times > 1)
-            .map(|read| (times, read, Kept::Scratch(node)));
         kernel.finish()
     }
 }

@@ -10,22 +10,23 @@ use crate::plan::{Slot, SlotRef};
 #[derive(Debug, Default)]
 pub(crate) struct SlotPool {
     slots: Vec<Slot>,
-    free: BTreeMap<Format, Vec<SlotRef>>,
+    free: BTreeMap<(Format, u32), Vec<SlotRef>>,
 }
 
 impl SlotPool {
-    /// A slot of that format: the one freed last, or a new one.
-    pub(crate) fn take(&mut self, format: Format) -> SlotRef {
-        if let Some(slot) = self.free.get_mut(&format).and_then(Vec::pop) {
+    /// A slot of that format on that level: the one freed last, or a new one.
+    pub(crate) fn take(&mut self, format: Format, level: u32) -> SlotRef {
+        if let Some(slot) = self.free.get_mut(&(format, level)).and_then(Vec::pop) {
             return slot;
         }
-        self.slots.push(Slot { format });
+        self.slots.push(Slot { format, level });
         self.slots.len() - 1
     }
 
     /// Gives a slot back.
     pub(crate) fn release(&mut self, slot: SlotRef) {
-        self.free.entry(self.slots[slot].format).or_default().push(slot);
+        let Slot { format, level } = self.slots[slot];
+        self.free.entry((format, level)).or_default().push(slot);
     }
 
     /// All slots ever taken.

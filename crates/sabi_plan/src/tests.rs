@@ -78,6 +78,7 @@ impl Bench {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],
             },
+            levels: &[0.001, 0.002, 0.004, 0.008],
             surface_key: [7; 32],
             mode,
             limits: self.limits,

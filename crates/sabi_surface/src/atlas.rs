@@ -5,7 +5,7 @@
 //! The way from a mesh to an atlas, one file a step: `topology` (which triangles meet at an edge), `charts`
 //! (which belong together), `raster` and `mask` (which texel centers a chart covers), `split` (charts that
 //! overlap themselves), `place` and `pack` (where charts go), `fill` (owners), `ring` (ghosts), `walk` and
-//! `links` (where ghosts lead), `leap`, `overlap` and `report`.
+//! `links` (where ghosts lead), `leap`, `overlap` and `report`. `level` makes coarser ones, `width` says how coarse.
 
 mod build;
 mod cache;
@@ -29,10 +29,11 @@ mod split;
 mod tests;
 pub(crate) mod topology;
 mod walk;
+mod width;
 
 pub use cache::{atlas_key, cached};
 pub use error::AtlasError;
-pub use level::AtlasLevel;
+pub use level::{AtlasLevel, Orphan};
 
 /// A texel that nothing owns.
 pub const EMPTY: u32 = u32::MAX;
@@ -156,6 +157,11 @@ pub struct Ghost {
     pub target_texel: [f32; 2],
     /// Columns carry the own chart's texel axes to texel vectors of the target's chart.
     pub target_from_own: [[f32; 2]; 2],
+    /// A triangle of the chart in which stored values are read for it: the target's, or where neither chart has a texel of
+    /// its own near the target, that over the seam.
+    pub read_triangle: u32,
+    /// The same point, or one right beside it, in texel coordinates of that chart.
+    pub read_texel: [f32; 2],
 }
 
 /// Place of a tile.

@@ -15,7 +15,7 @@ use naga::{Function, Handle, Module};
 
 use crate::compile::Linked;
 use crate::fault::Fault;
-use crate::kind::{ChannelWrite, Output, Param, Repeat};
+use crate::kind::{ChannelWrite, Output, Param};
 use crate::ports::{Ports, function};
 use crate::scan::Scan;
 
@@ -50,13 +50,11 @@ pub(crate) fn analyze(
         .outputs
         .iter()
         .chain(ports.passes.iter().map(|pass| &pass.function));
-    let repeats = functions.filter_map(|function| match function.repeat {
-        Repeat::Param(index) => Some(index as u32),
-        Repeat::Once | Repeat::Times(_) => None,
-    });
+    let formulas = functions.flat_map(|function| function.repeat.iter().chain(&function.texel));
     let counts = ports.rays.iter().map(|rays| rays.count);
-    let counters = repeats.chain(counts.clone().map(|count| count as u32));
-    let mut faults = usage::check(linked, scan, module, &roots, &counters.collect());
+    let planned = formulas.flat_map(|formula| formula.params()).chain(counts.clone());
+    let planned = planned.map(|param| param as u32).collect();
+    let mut faults = usage::check(linked, scan, module, &roots, &planned);
     let mut params_that_bound_loops = loops::check(linked, scan, module, params, &roots, &mut faults);
     if !faults.is_empty() {
         faults.sort_by_key(|fault| (fault.line, fault.column));

@@ -34,13 +34,13 @@ impl Use {
 
 /// Every member of `Params` is read by a root, and every input by each function that takes it.
 ///
-/// `repeats`: parameters that say how often a function runs.
+/// `planned`: parameters that say how often, how wide or over how many rays a function runs.
 pub(super) fn check(
     linked: &Linked<'_>,
     scan: &Scan,
     module: &Module,
     roots: &[Handle<Function>],
-    repeats: &BTreeSet<u32>,
+    planned: &BTreeSet<u32>,
 ) -> Vec<Fault> {
     // Callees stand before their callers.
     let mut uses: Vec<Vec<Use>> = Vec::with_capacity(module.functions.len());
@@ -50,7 +50,7 @@ pub(super) fn check(
     }
     let mut faults = Vec::new();
     let params = params_type(module).map(|(handle, _)| handle);
-    let mut of_params = Use::Members(repeats.clone());
+    let mut of_params = Use::Members(planned.clone());
     for root in roots {
         let function = &module.functions[*root];
         let item = scan.functions().find(|item| Some(&item.name) == function.name.as_ref());

@@ -91,7 +91,7 @@ pub enum LinkError {
 }
 
 fn libraries(kinds: &[&Kind]) -> Vec<String> {
-    let mut names = vec!["core".to_owned()];
+    let mut names = vec!["core".to_owned(), crate::compile::ATLAS.to_owned()];
     for name in kinds.iter().flat_map(|kind| &kind.libraries) {
         if !names.contains(name) {
             names.push(name.clone());
@@ -209,6 +209,7 @@ pub(super) fn arguments(
             Argument::Index => "index".to_owned(),
             Argument::Ray => "ray".to_owned(),
             Argument::Hit => "hit".to_owned(),
+            Argument::Round => "Round(dispatch.round, dispatch.rounds, dispatch.texel, dispatch.finest)".to_owned(),
             Argument::Pass(pass) if spec.rays => super::rays::mean_name(*pass),
             Argument::Pass(pass) => {
                 let load = call.passes.get(*pass).copied().flatten().unwrap_or_default();

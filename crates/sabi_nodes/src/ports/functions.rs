@@ -5,7 +5,8 @@ use std::ops::Range;
 use super::ANNOTATIONS;
 use super::inputs::InputNotes;
 use crate::fault::{Fault, Text};
-use crate::kind::{Finds, Param, ParamType, Repeat, Role};
+use crate::formula::Formula;
+use crate::kind::{Finds, Param, ParamType, Role};
 use crate::notes::{Note, Notes, unknown};
 use crate::scan::Item;
 use crate::words::nearest;
@@ -20,7 +21,8 @@ pub(super) struct FunctionNotes {
     /// Place of `@vector` when the result is one.
     pub(super) vector: Option<Range<usize>>,
     pub(super) pass: Option<(u32, Range<usize>)>,
-    pub(super) repeat: Option<(Repeat, Range<usize>)>,
+    pub(super) repeat: Option<(Formula, Range<usize>)>,
+    pub(super) texel: Option<(Formula, Range<usize>)>,
     /// Index of the parameter that counts rays.
     pub(super) rays: Option<(usize, Range<usize>)>,
     pub(super) finds: Finds,
@@ -39,7 +41,7 @@ pub(super) fn read_notes(
         ..FunctionNotes::default()
     };
     let mut inputs: Vec<InputNotes> = Vec::new();
-    notes.check(text, ANNOTATIONS, &["pass", "repeat", "rays", "finds"], faults);
+    notes.check(text, ANNOTATIONS, &["pass", "repeat", "texel", "rays", "finds"], faults);
     for note in notes
         .notes
         .iter()
@@ -49,12 +51,17 @@ pub(super) fn read_notes(
             ("input", _) => inputs.extend(InputNotes::begin(text, note, faults)),
             ("pass", _) => read.pass = pass_number(text, note, faults),
             ("repeat", _) => read.repeat = repeat(text, note, params, faults),
+            ("texel", _) => read.texel = formula(text, note, params, faults),
             ("rays", _) => read.rays = rays(text, note, params, faults),
             ("finds", _) => read.finds = finds(text, note, faults),
             (_, Some(input)) => input.add(text, note, faults),
             ("vector", None) => read.vector = Some(note.range.clone()),
             _ => {
-                let mut fault = unknown(text, note, &["input", "pass", "repeat", "rays", "finds", "vector"]);
+                let mut fault = unknown(
+                    text,
+                    note,
+                    &["input", "pass", "repeat", "texel", "rays", "finds", "vector"],
+                );
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", note.name);
                 faults.push(fault);
             }
@@ -84,26 +91,36 @@ fn pass_number(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Option<(
     }
 }
 
-/// `@repeat N` or `@repeat params.steps`.
-fn repeat(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(Repeat, Range<usize>)> {
-    let written = note.joined();
-    let mut refuse = |message: String, advice: String| {
+/// `@repeat N`, `@repeat params.steps`, or a formula.
+fn repeat(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(Formula, Range<usize>)> {
+    let (read, range) = formula(text, note, params, faults)?;
+    let mut refuse = |(message, advice): (String, String)| {
         faults.push(text.fault(note.whole(), message, advice));
         None
     };
-    let Some(name) = written.strip_prefix("params.") else {
-        return match written.parse::<u32>() {
-            Ok(times) if (1..=REPEAT_LIMIT).contains(&times) => Some((Repeat::Times(times), note.whole())),
-            _ => refuse(
-                format!("`@repeat` takes a whole number from 1 to {REPEAT_LIMIT}, or a parameter."),
-                "Write `@repeat 8` or `@repeat params.steps`.".to_owned(),
-            ),
-        };
-    };
-    let index = counter("repeat", name, params, "how often the function runs");
-    match index {
-        Ok(index) => Some((Repeat::Param(index), note.whole())),
-        Err((message, advice)) => refuse(message, advice),
+    match read {
+        Formula::Number(times) if times.fract() != 0.0 || !(1.0..=f64::from(REPEAT_LIMIT)).contains(&times) => {
+            refuse((
+                format!("`@repeat` takes a whole number from 1 to {REPEAT_LIMIT}, a parameter, or a formula."),
+                "Write `@repeat 8`, `@repeat params.steps` or `@repeat ceil(params.radius / texel)`.".to_owned(),
+            ))
+        }
+        Formula::Param(index) => match counter("repeat", &params[index].name, params, "how often the function runs") {
+            Ok(_) => Some((read, range)),
+            Err(told) => refuse(told),
+        },
+        _ => Some((read, range)),
+    }
+}
+
+/// What `@repeat` and `@texel` say.
+fn formula(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(Formula, Range<usize>)> {
+    match Formula::read(&note.joined(), params) {
+        Ok(formula) => Some((formula, note.whole())),
+        Err((message, advice)) => {
+            faults.push(text.fault(note.whole(), message, advice));
+            None
+        }
     }
 }
 

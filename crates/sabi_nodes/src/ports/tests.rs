@@ -2,7 +2,8 @@ use std::path::PathBuf;
 
 use sabi_graph::PortType;
 
-use crate::kind::{Argument, InputDefault, Kind, Reads, Repeat, Shape};
+use crate::formula::Formula;
+use crate::kind::{Argument, InputDefault, Kind, Reads, Shape};
 use crate::{Libraries, Library, SourceFile, read_kind};
 
 const SURFACE: &str = "fn here(source: texture_2d_array<f32>, at: Surface) -> vec4f { return textureLoad(source, at.texel.xy, at.texel.z, 0); }";
@@ -148,8 +149,8 @@ fn passes_are_read_by_their_names() {
         .map(|pass| (pass.number, pass.function.name.as_str()))
         .collect();
     assert_eq!(names, [(1, "narrow"), (2, "wide")]);
-    assert_eq!(kind.passes[0].function.repeat, Repeat::Times(3));
-    assert_eq!(kind.passes[1].function.repeat, Repeat::Param(0));
+    assert_eq!(kind.passes[0].function.repeat, Some(Formula::Number(3.0)));
+    assert_eq!(kind.passes[1].function.repeat, Some(Formula::Param(0)));
     assert_eq!(
         kind.outputs[0].arguments,
         [Argument::At, Argument::Pass(1), Argument::Pass(0)]

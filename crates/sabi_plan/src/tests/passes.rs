@@ -205,7 +205,7 @@ fn rewiring_an_interactive_graph_needs_no_new_kernel() {
         let (plan, _) = Bench::new().plan(&graph(lines), Mode::Interactive);
         let kernels = plan.steps.iter().map(|step| match step {
             Step::Kernel(kernel) => (kernel.spec.calls[0].kind.clone(), kernel.spec.clone()),
-            Step::Source(source) => panic!("{source:?}"),
+            other => panic!("{other:?}"),
         });
         kernels.collect::<std::collections::BTreeMap<_, _>>()
     };

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 use proptest::prelude::*;
 use sabi_graph::FlatGraph;
+use sabi_nodes::formula::Formula;
+use sabi_nodes::kind::ParamValue;
 use sabi_nodes::link::{Binding, Call, Convert, INPUTS_A_WORD, Plane};
 
 use super::{Bench, FUSED, UNFUSED, graph};
@@ -138,10 +140,13 @@ fn from_graph(planner: &Planner<'_>, graph: &FlatGraph) -> BTreeMap<(usize, usiz
             }
             Behavior::Shader(kind) => {
                 for (output, function) in kind.outputs.iter().enumerate() {
-                    let times = crate::plan::times(&function.repeat, |param| match ready.values[param] {
-                        sabi_nodes::kind::ParamValue::Unsigned(times) => times,
+                    let times = match &function.repeat {
+                        Some(Formula::Param(param)) => match ready.values[*param] {
+                            ParamValue::Unsigned(times) => times,
+                            _ => 1,
+                        },
                         _ => 1,
-                    });
+                    };
                     let mut symbol = 0;
                     for _ in 0..times {
                         symbol = call_symbol(&kind.id, &function.name, &ready.params, &inputs);
@@ -171,6 +176,7 @@ fn from_plan(plan: &Plan) -> Vec<u64> {
                     }
                 }
             }
+            Step::Move(step) => slots[step.to] = slots[step.from],
             Step::Kernel(kernel) => run(kernel, &mut slots),
         }
     }

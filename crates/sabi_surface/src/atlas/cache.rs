@@ -8,7 +8,7 @@ use crate::disk::{self, Kind};
 use crate::model::Mesh;
 
 /// Rises whenever building or the bytes change.
-const FORMAT_VERSION: u32 = 2;
+const FORMAT_VERSION: u32 = 3;
 const KIND: Kind = Kind {
     magic: b"sabi atlas\r\n",
     prefix: "atlas",

@@ -46,6 +46,8 @@ pub(super) fn encode(atlas: &Atlas) -> Vec<u8> {
         out.u32s(&ghost.target_texel.map(f32::to_bits));
         out.u32s(&ghost.target_from_own[0].map(f32::to_bits));
         out.u32s(&ghost.target_from_own[1].map(f32::to_bits));
+        out.u32s(&[ghost.read_triangle]);
+        out.u32s(&ghost.read_texel.map(f32::to_bits));
     }
     out.bytes.extend_from_slice(&atlas.leap);
     out.report(&atlas.report);
@@ -65,7 +67,7 @@ pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
     let triangle_chart = input.pods(triangles)?;
     let triangle_texels = input.pods(triangles)?;
     let owners = input.owners(texels as usize)?;
-    let mut ghosts = input.list(ghosts, 32, In::ghost)?;
+    let mut ghosts = input.list(ghosts, 44, In::ghost)?;
     place_ghosts(&mut ghosts, &owners, [width, height])?;
     let leap = input.take(texels as usize)?.to_vec();
     let report = input.report()?;
@@ -219,12 +221,16 @@ impl<'a> In<'a> {
         let floats: [u32; 6] = self.u32_array()?;
         let [x, y, ux, uy, vx, vy] = floats.map(f32::from_bits);
         let target_from_own = [[ux, uy], [vx, vy]];
+        let [read_triangle] = self.u32_array()?;
+        let read_texel: [u32; 2] = self.u32_array()?;
         Some(Ghost {
             texel: [0; 3],
             chart,
             target_triangle,
             target_texel: [x, y],
             target_from_own,
+            read_triangle,
+            read_texel: read_texel.map(f32::from_bits),
         })
     }
 

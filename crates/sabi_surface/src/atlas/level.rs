@@ -1,18 +1,38 @@
 //! Coarser levels: atlases of their own, packed anew, that know the same charts.
 
-use super::{Atlas, AtlasError};
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::{Atlas, AtlasError, Owner};
 use crate::model::Mesh;
 
 /// Pages of any adapter.
 const PAGE_LIMIT: u32 = 8192;
+
+/// Steps over the surface in which a texel without a counterpart looks for one with.
+const REACH: u32 = 64;
 
 /// A coarser atlas and the way between its texels and those of the atlas it was made for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtlasLevel {
     /// The coarser atlas: its charts have the same numbers.
     pub atlas: Atlas,
+    /// Owned texels of the coarser atlas that cover no finer texel's center, as slivers do.
+    pub coarse_orphans: Vec<Orphan>,
+    /// Owned texels of the finer atlas with no texel of their chart near on the coarser one.
+    pub fine_orphans: Vec<Orphan>,
     fine_size: u32,
     fine_offsets: Vec<[i32; 2]>,
+}
+
+/// A texel without a counterpart on another level, and the nearest one over the surface that has one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Orphan {
+    /// Column, row, page.
+    pub texel: [u32; 3],
+    /// Column, row, page of an owned texel of the same atlas.
+    pub from: [u32; 3],
 }
 
 impl Atlas {
@@ -29,10 +49,67 @@ impl Atlas {
         let page_limit = self.page_size.into_iter().fold(PAGE_LIMIT, u32::max);
         let atlas = self.rebuild(mesh, level_size, page_limit)?;
         let fine_offsets = self.charts.iter().map(|chart| chart.texel_from_uv).collect();
-        Ok(AtlasLevel {
+        let mut made = AtlasLevel {
             atlas,
+            coarse_orphans: Vec::new(),
+            fine_orphans: Vec::new(),
             fine_size: self.size,
             fine_offsets,
+        };
+        made.coarse_orphans = made
+            .atlas
+            .orphans(|chart, texel| made.covers_a_finer(self, chart, texel));
+        made.fine_orphans = self.orphans(|chart, texel| made.has_a_coarser(chart, texel));
+        Ok(made)
+    }
+
+    /// Owned texels for which `has_counterpart(chart, texel)` does not hold, and where they look instead; those that find
+    /// nothing are left out.
+    fn orphans(&self, has_counterpart: impl Fn(u32, [u32; 3]) -> bool + Sync) -> Vec<Orphan> {
+        let [width, height] = self.page_size;
+        let rows = (0..self.pages * height).into_par_iter();
+        let alone: Vec<[u32; 3]> = rows
+            .flat_map_iter(|row| (0..width).map(move |x| [x, row % height, row / height]))
+            .filter(|texel| match self.owner(texel[0], texel[1], texel[2]) {
+                Owner::Triangle(triangle) => !has_counterpart(self.triangle_chart[triangle as usize], *texel),
+                _ => false,
+            })
+            .collect();
+        let mut found: BTreeMap<[u32; 3], Option<[u32; 3]>> = alone.iter().map(|texel| (*texel, None)).collect();
+        for _ in 0..REACH {
+            let open = found.iter().filter(|(_, from)| from.is_none()).map(|(texel, _)| *texel);
+            let news: Vec<_> = open
+                .filter_map(|texel| Some((texel, self.known_beside(texel, &found)?)))
+                .collect();
+            if news.is_empty() {
+                break;
+            }
+            found.extend(news.into_iter().map(|(texel, from)| (texel, Some(from))));
+        }
+        let orphan = |(texel, from): ([u32; 3], Option<[u32; 3]>)| from.map(|from| Orphan { texel, from });
+        found.into_iter().filter_map(orphan).collect()
+    }
+
+    /// Where a neighbor of a texel finds its counterpart: itself, or what it has found.
+    fn known_beside(&self, texel: [u32; 3], found: &BTreeMap<[u32; 3], Option<[u32; 3]>>) -> Option<[u32; 3]> {
+        const AROUND: [[i32; 2]; 8] = [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1]];
+        AROUND.into_iter().find_map(|[x, y]| {
+            let [column, row] = [texel[0].checked_add_signed(x)?, texel[1].checked_add_signed(y)?];
+            let near = match self.owner(column, row, texel[2]) {
+                Owner::Triangle(_) => [column, row, texel[2]],
+                Owner::Ghost(index) => {
+                    let ghost = &self.ghosts[index as usize];
+                    let [u, v] = ghost.read_texel.map(|value| value.max(0.0) as u32);
+                    let chart = self.triangle_chart[ghost.read_triangle as usize] as usize;
+                    let page = self.charts[chart].page;
+                    matches!(self.owner(u, v, page), Owner::Triangle(_)).then_some([u, v, page])?
+                }
+                Owner::Empty => return None,
+            };
+            match found.get(&near) {
+                None => Some(near),
+                Some(known) => *known,
+            }
         })
     }
 }
@@ -52,6 +129,44 @@ impl AtlasLevel {
         let scale = f64::from(self.fine_size) / f64::from(self.atlas.size);
         let (fine, coarse) = self.offsets(chart);
         [0, 1].map(|axis| (texel[axis] - coarse[axis]) * scale + fine[axis])
+    }
+
+    /// Finer texels along a side of a coarser one.
+    pub fn factor(&self) -> u32 {
+        self.fine_size / self.atlas.size
+    }
+
+    /// As `restrict.wgsl` looks: whether a texel of this level covers a finer texel of its chart.
+    fn covers_a_finer(&self, fine: &Atlas, chart: u32, texel: [u32; 3]) -> bool {
+        let corner = self.fine_texel_from_coarse(chart, [f64::from(texel[0]), f64::from(texel[1])]);
+        let page = fine.charts[chart as usize].page;
+        let factor = i64::from(self.factor());
+        (0..factor * factor).any(|index| {
+            let (x, y) = (corner[0] as i64 + index % factor, corner[1] as i64 + index / factor);
+            let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else {
+                return false;
+            };
+            matches!(fine.owner(x, y, page), Owner::Triangle(triangle) if fine.triangle_chart[triangle as usize] == chart)
+        })
+    }
+
+    /// As `prolong.wgsl` looks: whether one of the four texels of this level around a finer one is of its chart.
+    fn has_a_coarser(&self, chart: u32, texel: [u32; 3]) -> bool {
+        let center = [f64::from(texel[0]) + 0.5, f64::from(texel[1]) + 0.5];
+        let corner = self
+            .coarse_texel_from_fine(chart, center)
+            .map(|value| (value - 0.5).floor() as i64);
+        let page = self.atlas.charts[chart as usize].page;
+        [[0, 0], [1, 0], [0, 1], [1, 1]].into_iter().any(|[x, y]| {
+            let (Ok(x), Ok(y)) = (u32::try_from(corner[0] + x), u32::try_from(corner[1] + y)) else {
+                return false;
+            };
+            match self.atlas.owner(x, y, page) {
+                Owner::Triangle(triangle) => self.atlas.triangle_chart[triangle as usize] == chart,
+                Owner::Ghost(index) => self.atlas.ghosts[index as usize].chart == chart,
+                Owner::Empty => false,
+            }
+        })
     }
 
     fn offsets(&self, chart: u32) -> ([f64; 2], [f64; 2]) {

@@ -15,6 +15,13 @@ const PULLED_DISTANCE: f64 = 0.875;
 /// An owned texel counts for bilinear sampling from this weight on.
 const LEAST_WEIGHT: f64 = 1e-3;
 
+/// How far a walk goes beyond its end, in texels, until enough of what is there is owned.
+const BEYOND: [f64; 4] = [0.0, 0.25, 0.5, 1.0];
+/// Shares that differ by less are alike.
+const ALIKE: f64 = 0.25;
+/// Share of owned texels that is enough.
+const ENOUGH: f64 = 0.75;
+
 /// Owners and places to look links up in.
 pub(super) struct Pages<'a> {
     pub(super) owners: &'a [u32],
@@ -61,12 +68,15 @@ impl Pages<'_> {
         let found = ground
             .walk(triangle, start, step)
             .and_then(|landing| self.reachable(landing));
+        let read = self.read_place(ground, triangle, start, step);
         let ghost = |triangle, texel: [f64; 2], transport: [[f64; 2]; 2]| Ghost {
             texel: hanging.texel,
             chart,
             target_triangle: triangle,
             target_texel: texel.map(|value| value as f32),
             target_from_own: transport.map(|column| column.map(|value| value as f32)),
+            read_triangle: read.map_or(triangle, |(read, _)| read),
+            read_texel: read.map_or(texel, |(_, at)| at).map(|value| value as f32),
         };
         match found {
             Some((landing, texel, false)) => (ghost(landing.triangle, texel, landing.transport), Way::Walked),
@@ -76,6 +86,68 @@ impl Pages<'_> {
                 (ghost(triangle, center, [[1.0, 0.0], [0.0, 1.0]]), Way::Gave)
             }
         }
+    }
+
+    /// Where stored values are read for the end of a walk: a triangle of the chart, and texel coordinates on its page.
+    ///
+    /// Between the last owned texel of a chart and the first of the next lies up to a texel of surface on which neither has
+    /// one. A walk that ends there goes on until it is over the seam, and its end is told in the coordinates of that chart:
+    /// of all ways to tell it the one that reads most from owned texels. Told by the own chart, a ghost would read itself.
+    fn read_place(&self, ground: &Ground, triangle: u32, start: [f64; 2], step: [f64; 2]) -> Option<(u32, [f64; 2])> {
+        let length = step[0].hypot(step[1]).max(1.0);
+        let ends = BEYOND.into_iter().filter_map(|beyond| {
+            let more = step.map(|value| value * beyond / length);
+            let further = [0, 1].map(|axis| step[axis] + more[axis]);
+            let mut landing = ground.walk(triangle, start, further)?;
+            let [along_u, along_v] = landing.transport;
+            for axis in 0..2 {
+                landing.texel[axis] -= along_u[axis] * more[0] + along_v[axis] * more[1];
+            }
+            let share = self.owned_share(&landing);
+            Some((landing, share))
+        });
+        let chart = |landing: &Landing| self.partition.triangle_chart[landing.triangle as usize];
+        let own = self.partition.triangle_chart[triangle as usize];
+        let mut best: Option<(Landing, f64)> = None;
+        for (landing, share) in ends {
+            let is_better = best.as_ref().is_none_or(|(known, most)| {
+                // Where both charts end a texel before the seam: rather the other one.
+                let changes = chart(known) == own && chart(&landing) != own;
+                share > most + LEAST_WEIGHT || (changes && share > most - ALIKE)
+            });
+            if is_better {
+                best = Some((landing, share));
+            }
+            if share > ENOUGH {
+                break;
+            }
+        }
+        let (landing, texel, _) = best.and_then(|(landing, _)| self.reachable(landing))?;
+        Some((landing.triangle, texel))
+    }
+
+    /// Share of owned texels of the chart in what bilinear sampling reads at the end of a walk.
+    fn owned_share(&self, landing: &Landing) -> f64 {
+        let [width, height] = self.placement.page_size.map(i64::from);
+        let chart = self.partition.triangle_chart[landing.triangle as usize];
+        let place = &self.placement.charts[chart as usize];
+        let point = [0, 1].map(|axis| landing.texel[axis] + f64::from(place.offset[axis]) - 0.5);
+        let corner = point.map(f64::floor);
+        let weight = [0, 1].map(|axis| point[axis] - corner[axis]);
+        let mut share = 0.0;
+        for tap in 0..4_i64 {
+            let [x, y] = [tap & 1, tap >> 1];
+            let (column, row) = (corner[0] as i64 + x, corner[1] as i64 + y);
+            if column < 0 || row < 0 || column >= width || row >= height {
+                continue;
+            }
+            let owner = self.owners[((i64::from(place.page) * height + row) * width + column) as usize];
+            if owner != EMPTY && self.partition.triangle_chart[owner as usize] == chart {
+                let along = |far: i64, weight: f64| if far == 1 { weight } else { 1.0 - weight };
+                share += along(x, weight[0]) * along(y, weight[1]);
+            }
+        }
+        share
     }
 
     /// The end on its page, and whether it had to be pulled so that bilinear sampling finds an owned texel.

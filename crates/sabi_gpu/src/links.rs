@@ -1,0 +1,246 @@
+//! Texels that hold what other texels hold: ghosts over seams, and those without a counterpart on another level.
+
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+use sabi_nodes::link::Format;
+use sabi_surface::atlas::{Atlas, Ghost, Orphan, Owner};
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pipelines::{FixedKernel, read_entry, storage_entry, texture_entry, uniform_entry, write_entry};
+use crate::pool::array_view;
+use crate::uploads::{storage_buffer, table_texture};
+
+/// Links a workgroup.
+const GROUP: u32 = 64;
+/// Workgroups in a row of a dispatch.
+const ROW: u32 = 32_768;
+
+/// Which texels a link takes its value from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Round {
+    /// Owned texels only.
+    Owned,
+    /// Ghosts, too, that an earlier round has filled.
+    WithGhosts,
+}
+
+/// The rounds that fill ghosts: the first one from owned texels alone, along straight lines where not all are owned that
+/// would be read, so that nothing old is handed on. Where the texels of two charts meet halfway, a ghost lies between an
+/// owned texel and a ghost of the other side, whose value depends on it in turn: each further round takes away most of
+/// what is left of that.
+pub(crate) const GHOST_ROUNDS: [Round; 3] = [Round::Owned, Round::WithGhosts, Round::WithGhosts];
+/// The rounds where ghosts hold nearly what they will: in a repeated pass they were filled two repetitions ago.
+pub(crate) const REFRESH_ROUNDS: [Round; 2] = [Round::WithGhosts, Round::WithGhosts];
+
+/// Links on the device.
+pub(crate) struct Links {
+    /// As `ghosts` in `shaders/lib/atlas.wgsl`.
+    pub(crate) rows: wgpu::TextureView,
+    count: u32,
+    /// Room for one value a link, on its way from where it is gathered to where it is written.
+    values: wgpu::Buffer,
+}
+
+/// Four rows, as `ghost_link` and `ghost_read` in `shaders/lib/atlas.wgsl` read them.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct LinkRow {
+    target_texel: [f32; 2],
+    triangle: u32,
+    texel: u32,
+    page: u32,
+    target_page: u32,
+    chart: u32,
+    pad: u32,
+    target_from_own: [f32; 4],
+    read_texel: [f32; 2],
+    read_page: u32,
+    anchor: u32,
+}
+
+impl LinkRow {
+    fn of_ghost(atlas: &Atlas, ghost: &Ghost) -> LinkRow {
+        let [[a, b], [c, d]] = ghost.target_from_own;
+        let page = |triangle: u32| atlas.charts[atlas.triangle_chart[triangle as usize] as usize].page;
+        LinkRow {
+            target_texel: ghost.target_texel,
+            triangle: ghost.target_triangle,
+            texel: ghost.texel[0] | (ghost.texel[1] << 16),
+            page: ghost.texel[2],
+            target_page: page(ghost.target_triangle),
+            chart: ghost.chart,
+            pad: 0,
+            target_from_own: [a, b, c, d],
+            read_texel: ghost.read_texel,
+            read_page: page(ghost.read_triangle),
+            anchor: anchor(atlas, ghost),
+        }
+    }
+
+    fn of_orphan(orphan: &Orphan) -> LinkRow {
+        let [x, y, page] = orphan.from;
+        let texel = [x as f32 + 0.5, y as f32 + 0.5];
+        LinkRow {
+            target_texel: texel,
+            triangle: 0,
+            texel: orphan.texel[0] | (orphan.texel[1] << 16),
+            page: orphan.texel[2],
+            target_page: page,
+            chart: 0,
+            pad: 0,
+            target_from_own: [1.0, 0.0, 0.0, 1.0],
+            read_texel: texel,
+            read_page: page,
+            anchor: packed_step([0, 0]),
+        }
+    }
+}
+
+/// A step of at most two texels each way, as `gather_ghosts.wgsl` reads it.
+fn packed_step([x, y]: [i32; 2]) -> u32 {
+    (x + 2) as u32 | ((y + 2) as u32) << 3
+}
+
+/// The step from a ghost to the nearest owned texel of its own chart.
+fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
+    let steps = (0..25).map(|index| [index % 5 - 2, index / 5 - 2]);
+    let is_owned = |[x, y]: &[i32; 2]| {
+        let [column, row, page] = ghost.texel;
+        let place = column.checked_add_signed(*x).zip(row.checked_add_signed(*y));
+        place.is_some_and(|(column, row)| match atlas.owner(column, row, page) {
+            Owner::Triangle(triangle) => atlas.triangle_chart[triangle as usize] == ghost.chart,
+            Owner::Ghost(_) | Owner::Empty => false,
+        })
+    };
+    let nearest = steps.filter(is_owned).min_by_key(|[x, y]| x * x + y * y);
+    packed_step(nearest.unwrap_or([0, 0]))
+}
+
+impl Links {
+    /// Those of an atlas' ghosts.
+    pub(crate) fn of_ghosts(gpu: &Gpu, atlas: &Atlas) -> Result<Links, GpuError> {
+        let rows: Vec<LinkRow> = atlas
+            .ghosts
+            .iter()
+            .map(|ghost| LinkRow::of_ghost(atlas, ghost))
+            .collect();
+        Links::upload(gpu, &rows)
+    }
+
+    /// Those of texels without a counterpart.
+    pub(crate) fn of_orphans(gpu: &Gpu, orphans: &[Orphan]) -> Result<Links, GpuError> {
+        let rows: Vec<LinkRow> = orphans.iter().map(LinkRow::of_orphan).collect();
+        Links::upload(gpu, &rows)
+    }
+
+    fn upload(gpu: &Gpu, rows: &[LinkRow]) -> Result<Links, GpuError> {
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        Ok(Links {
+            rows: table_texture(gpu, "the links over seams", bytemuck::cast_slice(rows))?,
+            count: rows.len() as u32,
+            values: storage_buffer(gpu, "the values over seams", 16 * rows.len() as u64, limit)?,
+        })
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Constants {
+    ghost_count: u32,
+    with_ghosts: u32,
+    row_length: u32,
+    pad: u32,
+}
+
+impl Gpu {
+    /// Refreshes the linked texels of one texture; `surface_group` binds the surface with the links as its ghosts.
+    pub(crate) fn fill_links(
+        &self,
+        links: &Links,
+        surface_group: &wgpu::BindGroup,
+        (texture, format): (&wgpu::Texture, Format),
+        rounds: &[Round],
+    ) -> Result<(), GpuError> {
+        if links.count == 0 {
+            return Ok(());
+        }
+        let [gather, scatter] = self.ghost_kernels(format)?;
+        // All rounds of all fields take turns with it: what one submission gathers, the same one writes.
+        let values = &links.values;
+        let view = array_view(texture);
+        let groups = links.count.div_ceil(GROUP);
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        for round in rounds {
+            let constants = Constants {
+                ghost_count: links.count,
+                with_ghosts: u32::from(*round == Round::WithGhosts),
+                row_length: ROW.min(groups),
+                pad: 0,
+            };
+            let constants = self.uniform(bytemuck::bytes_of(&constants));
+            let view = wgpu::BindingResource::TextureView(&view);
+            let constants = constants.as_entire_binding();
+            let steps = [
+                (&gather, [constants.clone(), view.clone(), values.as_entire_binding()]),
+                (&scatter, [constants, values.as_entire_binding(), view]),
+            ];
+            for (kernel, resources) in steps {
+                let group = self.bind(&kernel.layout, resources);
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                pass.set_pipeline(&kernel.pipeline);
+                pass.set_bind_group(0, surface_group, &[]);
+                pass.set_bind_group(1, &group, &[]);
+                pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);
+            }
+        }
+        self.queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    /// The kernel that computes ghosts, and the one that writes them to textures of a format.
+    fn ghost_kernels(&self, format: Format) -> Result<[Arc<FixedKernel>; 2], GpuError> {
+        let gather_text = include_str!("../../../shaders/surface/gather_ghosts.wgsl");
+        let gather_entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
+        let scatter_text =
+            include_str!("../../../shaders/surface/scatter_ghosts.wgsl").replace("FORMAT", format.wgsl());
+        let scatter_entries = [uniform_entry(0), read_entry(1), storage_entry(2, format)];
+        Ok([
+            self.fixed_kernel("gather ghosts", None, gather_text, &gather_entries)?,
+            self.fixed_kernel("scatter ghosts", Some(format), &scatter_text, &scatter_entries)?,
+        ])
+    }
+
+    /// A small buffer of constants.
+    pub(crate) fn uniform(&self, bytes: &[u8]) -> wgpu::Buffer {
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: bytes.len() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.queue.write_buffer(&buffer, 0, bytes);
+        buffer
+    }
+
+    /// A bind group with these resources at 0, 1, 2, …
+    pub(crate) fn bind<'r>(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: impl IntoIterator<Item = wgpu::BindingResource<'r>>,
+    ) -> wgpu::BindGroup {
+        let entry = |(binding, resource)| wgpu::BindGroupEntry {
+            binding: binding as u32,
+            resource,
+        };
+        let entries: Vec<_> = resources.into_iter().enumerate().map(entry).collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
+    }
+}

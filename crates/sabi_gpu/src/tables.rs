@@ -1,0 +1,129 @@
+//! What kernels know of every triangle and piece, in working units.
+
+use rayon::prelude::*;
+use sabi_surface::atlas::Atlas;
+use sabi_surface::model::Mesh;
+use sabi_surface::pieces::Pieces;
+
+/// Rows of four floats for each triangle; see `shaders/surface/place.wgsl`, which reads them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfaceTables {
+    /// Six rows a triangle: origin, its two steps a texel, and the same of the normal. The fourth column holds the
+    /// reference texel (x, y), the texel's width (negative on mirrored charts), the part's number, the piece's seed, and the
+    /// material's number; numbers and seed are bit patterns.
+    pub geometry: Vec<[f32; 4]>,
+    /// Four rows a triangle: tangent and its two steps a texel, then the chart's place and, as a bit pattern, its number.
+    /// The fourth column of the first row holds the sign of the bitangent, that of the second the chart's page, that of the
+    /// last the piece's number.
+    pub frames: Vec<[f32; 4]>,
+    /// Three rows a piece: the axes of its box, longest side first, and in the fourth column the box's middle.
+    pub pieces: Vec<[f32; 4]>,
+}
+
+impl SurfaceTables {
+    /// The tables for a mesh and its pieces, scaled by `working_from_model`.
+    pub fn new(mesh: &Mesh, pieces: &Pieces, atlas: &Atlas, working_from_model: f64, seed: u32) -> SurfaceTables {
+        let rows: Vec<TriangleRows> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|triangle| {
+                let piece = pieces.triangle_piece[triangle];
+                triangle_rows(mesh, piece, atlas, triangle, working_from_model, seed)
+            })
+            .collect();
+        let piece_rows = pieces.boxes.iter().flat_map(|piece| {
+            let middle = piece.center.map(|x| (f64::from(x) * working_from_model) as f32);
+            [0, 1, 2].map(|at| {
+                let [x, y, z] = piece.axes[at];
+                [x, y, z, middle[at]]
+            })
+        });
+        let mut tables = SurfaceTables {
+            pieces: piece_rows.collect(),
+            ..SurfaceTables::default()
+        };
+        tables.geometry.reserve(6 * rows.len());
+        tables.frames.reserve(4 * rows.len());
+        for (geometry, frames) in rows {
+            tables.geometry.extend(geometry);
+            tables.frames.extend(frames);
+        }
+        tables
+    }
+}
+
+/// Rows of one triangle: geometry and frames.
+type TriangleRows = ([[f32; 4]; 6], [[f32; 4]; 4]);
+
+/// A quantity that is linear over a triangle: its value at the first corner, and its change a texel along u and v.
+fn affine(corners: [[f64; 3]; 3], inverse: [[f64; 2]; 2]) -> [[f64; 3]; 3] {
+    let mut rows = [corners[0], [0.0; 3], [0.0; 3]];
+    for axis in 0..3 {
+        let first = corners[1][axis] - corners[0][axis];
+        let second = corners[2][axis] - corners[0][axis];
+        rows[1][axis] = first * inverse[0][0] + second * inverse[1][0];
+        rows[2][axis] = first * inverse[0][1] + second * inverse[1][1];
+    }
+    rows
+}
+
+/// Inverse of the matrix whose rows are the texel vectors of the two edges at the first corner; zero without area.
+fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
+    let edge = |to: usize, axis: usize| f64::from(texels[to][axis]) - f64::from(texels[0][axis]);
+    let (a, b, c, d) = (edge(1, 0), edge(1, 1), edge(2, 0), edge(2, 1));
+    let determinant = a * d - b * c;
+    if determinant.abs() < 1e-12 {
+        return [[0.0; 2]; 2];
+    }
+    // Columns are the weights of the first and second edge for a step along u and along v.
+    [[d / determinant, -c / determinant], [-b / determinant, a / determinant]]
+}
+
+fn triangle_rows(
+    mesh: &Mesh,
+    piece: u32,
+    atlas: &Atlas,
+    triangle: usize,
+    working_from_model: f64,
+    seed: u32,
+) -> TriangleRows {
+    let corners = mesh.triangles[triangle].map(|vertex| vertex as usize);
+    let texels = atlas.triangle_texels[triangle];
+    let inverse = edge_inverse(texels);
+    let scaled = |v: [f32; 3]| v.map(|x| f64::from(x) * working_from_model);
+    let position = affine(corners.map(|corner| scaled(mesh.positions[corner])), inverse);
+    let normal = affine(corners.map(|corner| mesh.normals[corner].map(f64::from)), inverse);
+    let tangent = affine(
+        corners.map(|corner| {
+            let [x, y, z, _] = mesh.tangents[corner].map(f64::from);
+            [x, y, z]
+        }),
+        inverse,
+    );
+    let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let width = length(position[1]).max(length(position[2]));
+    let chart = &atlas.charts[atlas.triangle_chart[triangle] as usize];
+    let signed_width = if chart.mirrored { -width.max(1e-30) } else { width };
+    let part = mesh.triangle_part[triangle];
+    let row = |v: [f64; 3], w: f32| [v[0] as f32, v[1] as f32, v[2] as f32, w];
+    let geometry = [
+        row(position[0], texels[0][0]),
+        row(position[1], texels[0][1]),
+        row(position[2], signed_width as f32),
+        row(normal[0], f32::from_bits(part)),
+        row(normal[1], f32::from_bits(sabi_plan::pcg(seed ^ sabi_plan::pcg(piece)))),
+        row(normal[2], f32::from_bits(mesh.triangle_material[triangle])),
+    ];
+    let [offset_u, offset_v] = chart.texel_from_uv;
+    let frames = [
+        row(tangent[0], mesh.tangents[corners[0]][3]),
+        row(tangent[1], f32::from_bits(chart.page)),
+        row(tangent[2], 0.0),
+        [
+            offset_u as f32,
+            offset_v as f32,
+            f32::from_bits(atlas.triangle_chart[triangle]),
+            f32::from_bits(piece),
+        ],
+    ];
+    (geometry, frames)
+}

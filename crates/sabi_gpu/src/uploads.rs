@@ -1,0 +1,142 @@
+//! The atlas and its tables as textures and buffers.
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pool::{Extent, array_view};
+
+/// Rows of a table along its texture's side; every adapter allows as many.
+const TABLE_WIDTH: usize = 8192;
+const TABLE_ROW_BYTES: usize = 16;
+
+pub(crate) fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u64) -> Result<wgpu::Buffer, GpuError> {
+    let size = bytes.max(64).next_multiple_of(16);
+    if size > limit {
+        return Err(GpuError::TooLarge {
+            what,
+            needed_mib: size.div_ceil(1 << 20),
+            limit_mib: limit >> 20,
+        });
+    }
+    gpu.guarded(what, |device| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(what),
+            size,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    })
+}
+
+/// The texture that holds a table, if adapters of `highest` texels a side have one.
+fn table_extent(what: &'static str, rows: usize, highest: u32) -> Result<wgpu::Extent3d, GpuError> {
+    let lines = rows.div_ceil(TABLE_WIDTH).max(1);
+    if lines > highest as usize {
+        let mib = |lines: usize| ((lines * TABLE_WIDTH * TABLE_ROW_BYTES) as u64).div_ceil(1 << 20);
+        return Err(GpuError::TooLarge {
+            what,
+            needed_mib: mib(lines),
+            limit_mib: mib(highest as usize),
+        });
+    }
+    Ok(wgpu::Extent3d {
+        width: rows.clamp(1, TABLE_WIDTH) as u32,
+        height: lines as u32,
+        depth_or_array_layers: 1,
+    })
+}
+
+/// A table of rows of four numbers as a texture of bit patterns, see `shaders/surface/place.wgsl`.
+pub(crate) fn table_texture(gpu: &Gpu, what: &'static str, bytes: &[u8]) -> Result<wgpu::TextureView, GpuError> {
+    let rows = bytes.len() / TABLE_ROW_BYTES;
+    let size = table_extent(what, rows, gpu.device.limits().max_texture_dimension_2d)?;
+    let texture = gpu.guarded(what, |device| {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(what),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba32Uint,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        })
+    })?;
+    let line = TABLE_WIDTH * TABLE_ROW_BYTES;
+    let whole = bytes.len() / line;
+    for (first, height, part) in [(0, whole, &bytes[..whole * line]), (whole, 1, &bytes[whole * line..])] {
+        if part.is_empty() {
+            continue;
+        }
+        let mut target = texture.as_image_copy();
+        target.origin.y = first as u32;
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(line as u32),
+            rows_per_image: None,
+        };
+        let extent = wgpu::Extent3d {
+            width: (part.len() / height / TABLE_ROW_BYTES) as u32,
+            height: height as u32,
+            depth_or_array_layers: 1,
+        };
+        gpu.queue.write_texture(target, part, layout, extent);
+    }
+    Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+}
+
+/// A whole number for each texel of the atlas, page by page and row by row, in as many bytes as the format has.
+pub(crate) fn texel_texture(
+    gpu: &Gpu,
+    what: &'static str,
+    format: wgpu::TextureFormat,
+    [width, height, pages]: Extent,
+    bytes: &[u8],
+) -> Result<wgpu::TextureView, GpuError> {
+    let size = wgpu::Extent3d {
+        width,
+        height,
+        depth_or_array_layers: pages,
+    };
+    let texture = gpu.guarded(what, |device| {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(what),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        })
+    })?;
+    gpu.queue.write_texture(
+        texture.as_image_copy(),
+        bytes,
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(format.block_copy_size(None).unwrap_or(4) * width),
+            rows_per_image: Some(height),
+        },
+        size,
+    );
+    Ok(array_view(&texture))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_takes_as_many_lines_as_it_needs_and_no_more_than_the_adapter_has() {
+        let extent = |rows| table_extent("the triangles", rows, 8192).map(|size| [size.width, size.height]);
+        assert_eq!(extent(0), Ok([1, 1]));
+        assert_eq!(extent(8192), Ok([8192, 1]));
+        assert_eq!(extent(8193), Ok([8192, 2]));
+        assert_eq!(extent(8192 * 8192), Ok([8192, 8192]));
+        let error = extent(8192 * 8192 + 1).expect_err("one line too many").to_string();
+        assert!(
+            error.contains("the triangles") && error.contains("1025") && error.contains("1024"),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,101 @@
+//! Passes: their numbers, who reads them, and what repeats.
+
+use naga::Type;
+use sabi_graph::PortType;
+
+use super::{Draft, PortReader, is_field, port_type};
+use crate::kind::{Argument, Reads};
+use crate::scan::Member;
+
+impl<'a> PortReader<'a> {
+    /// Numbers are unique; fills the list that arguments are looked up in.
+    pub(super) fn check_passes(&mut self, drafts: &[Draft<'a>]) {
+        for draft in drafts {
+            let Some((number, range)) = draft.notes.pass.clone() else {
+                continue;
+            };
+            if let Some((_, other, _)) = self.pass_numbers.iter().find(|(known, ..)| *known == number) {
+                let message = format!("`{}` and `{other}` are both pass {number}.", draft.item.name);
+                self.at(range, message, "Number the passes in the order in which they run.");
+            }
+            let Some(ty) = draft.ty else { continue };
+            self.pass_numbers.push((number, draft.item.name.clone(), ty));
+        }
+        self.pass_numbers.sort_by_key(|(number, ..)| *number);
+    }
+
+    /// An argument named like a pass reads its stored result.
+    pub(super) fn pass_argument(
+        &mut self,
+        draft: &Draft<'a>,
+        member: &Member,
+        ty: &Type,
+        index: usize,
+    ) -> Option<Argument> {
+        let (number, _, carried) = self.pass_numbers[index].clone();
+        if self.shoots {
+            return self.mean_argument(
+                member,
+                port_type(ty, carried == PortType::Vector) == Some(carried),
+                index,
+            );
+        }
+        if !is_field(ty) {
+            let message = format!("`{}` is a pass, so its result is a stored texture.", member.name);
+            self.at(
+                member.type_range.clone(),
+                message,
+                "Make the argument a `texture_2d_array<f32>`, and read it through lib/surface.",
+            );
+            return None;
+        }
+        if draft.notes.pass.as_ref().is_some_and(|(own, _)| *own <= number) {
+            let message = format!("`{}` reads pass {number}, which has not run yet.", draft.item.name);
+            self.at(
+                member.name_range.clone(),
+                message,
+                "Give the pass that is read the lower number.",
+            );
+            return None;
+        }
+        Some(Argument::Pass(index))
+    }
+
+    /// A repeated function reads its own last result through its first field argument, which has the same type.
+    pub(super) fn check_repeat(&mut self, draft: &Draft<'a>, arguments: &[Argument]) {
+        let Some((_, range)) = draft.notes.repeat.clone() else {
+            return;
+        };
+        let first = arguments.iter().find_map(|argument| match argument {
+            Argument::Input(index) => {
+                let input = self.inputs.get(*index)?;
+                (input.reads == Reads::Field).then_some(input.ty)
+            }
+            Argument::Pass(index) => self.pass_numbers.get(*index).map(|(_, _, ty)| *ty),
+            _ => None,
+        });
+        match first {
+            Some(ty) if Some(ty) == draft.ty => {}
+            Some(ty) => {
+                let message = format!(
+                    "`{}` is repeated and returns a {}, but its first texture holds a {ty}.",
+                    draft.item.name,
+                    draft.ty.map_or_else(|| "ray".to_owned(), |ty| ty.to_string())
+                );
+                self.at(
+                    range,
+                    message,
+                    "Each repetition reads the last one's result through the first texture.",
+                );
+            }
+            None => {
+                let message = format!("`{}` is repeated but reads no texture.", draft.item.name);
+                self.at(
+                    range,
+                    message,
+                    "Each repetition reads the last one's result through the first `texture_2d_array<f32>` argument.",
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! How wide texels are, and how coarse an atlas may become before charts get lost.
+
+use rayon::prelude::*;
+
+use super::{Atlas, Owner};
+use crate::model::Mesh;
+
+/// Steps of a histogram of widths that a factor of two has.
+const STEPS_A_DOUBLING: f64 = 16.0;
+/// Widths from 2^-64 to 2^64 times the first one.
+const STEPS: usize = 128 * STEPS_A_DOUBLING as usize;
+/// Share of the texels that may be finer than the width of the finest.
+const FINER_SHARE: f64 = 0.02;
+
+/// Levels that are made at most.
+const MOST_LEVELS: u32 = 8;
+/// Least width of a level, texels for one unit of UV.
+const LEAST_SIZE: u32 = 16;
+/// Share of the texels that must be in charts which are wide enough.
+const WIDE_SHARE: f64 = 0.9;
+/// Texels of a chart for each on its rim, at least: the half width of a strip.
+const LEAST_HALF_WIDTH: f64 = 1.5;
+
+impl Atlas {
+    /// Width of the finest texels, model units: the smaller side of those on the surface, all but the finest 2 %, which a
+    /// model stretches out of proportion. Exact to 5 %; 1 when the surface has no area.
+    pub fn finest_texel(&self, mesh: &Mesh) -> f64 {
+        let sides: Vec<(f64, f64)> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .filter_map(|triangle| self.shorter_side(mesh, triangle))
+            .collect();
+        let Some((unit, _)) = sides.first().copied() else {
+            return 1.0;
+        };
+        let mut texels = vec![0.0_f64; STEPS];
+        for (side, area) in &sides {
+            let step = (side / unit).log2() * STEPS_A_DOUBLING + (STEPS / 2) as f64;
+            texels[step.clamp(0.0, (STEPS - 1) as f64) as usize] += area;
+        }
+        let wanted = FINER_SHARE * texels.iter().sum::<f64>();
+        let mut finer = 0.0;
+        let step = texels.iter().position(|area| {
+            finer += area;
+            finer > wanted
+        });
+        let step = step.unwrap_or(STEPS / 2) as f64 - (STEPS / 2) as f64;
+        unit * (step / STEPS_A_DOUBLING).exp2()
+    }
+
+    /// The shorter side of a triangle's texels in model units, and its area in texels; none without area.
+    fn shorter_side(&self, mesh: &Mesh, triangle: usize) -> Option<(f64, f64)> {
+        let corners = mesh.triangles[triangle].map(|vertex| mesh.positions[vertex as usize].map(f64::from));
+        let texels = self.triangle_texels[triangle].map(|corner| corner.map(f64::from));
+        let edge = |to: usize| [0, 1].map(|axis| texels[to][axis] - texels[0][axis]);
+        let ([a, b], [c, d]) = (edge(1), edge(2));
+        let determinant = a * d - b * c;
+        if determinant.abs() < 1e-12 {
+            return None;
+        }
+        let along = |first: f64, second: f64| {
+            let square: f64 = (0..3)
+                .map(|axis| {
+                    let step =
+                        (corners[1][axis] - corners[0][axis]) * first + (corners[2][axis] - corners[0][axis]) * second;
+                    step * step
+                })
+                .sum();
+            square.sqrt()
+        };
+        let side = along(d / determinant, -b / determinant).min(along(-c / determinant, a / determinant));
+        (side.is_finite() && side > 0.0).then_some((side, determinant.abs() / 2.0))
+    }
+
+    /// Coarser levels that still hold nearly all of the surface: each halves the texels of the one before.
+    pub fn usable_levels(&self) -> u32 {
+        let rims = self.rim_texels();
+        let all: f64 = self.charts.iter().map(|chart| f64::from(chart.texels)).sum();
+        let holds = |level: &u32| {
+            let least = LEAST_HALF_WIDTH * f64::from(1_u32 << level);
+            let wide = self.charts.iter().zip(&rims);
+            let wide = wide.filter(|(chart, rim)| f64::from(chart.texels) >= least * f64::from(**rim));
+            let texels: f64 = wide.map(|(chart, _)| f64::from(chart.texels)).sum();
+            self.size >> level >= LEAST_SIZE && texels >= WIDE_SHARE * all
+        };
+        (1..=MOST_LEVELS).take_while(holds).count() as u32
+    }
+
+    /// Owned texels of each chart that have a neighbor in their row or column which is not owned.
+    fn rim_texels(&self) -> Vec<u32> {
+        let [width, height] = self.page_size;
+        let is_owned = |x: u32, y: u32, page: u32| matches!(self.owner(x, y, page), Owner::Triangle(_));
+        let count_row = |row: u32| {
+            let (y, page) = (row % height, row / height);
+            let mut rims: Vec<u32> = Vec::new();
+            for x in 0..width {
+                let Owner::Triangle(triangle) = self.owner(x, y, page) else {
+                    continue;
+                };
+                let is_inside = is_owned(x.wrapping_sub(1), y, page)
+                    && is_owned(x + 1, y, page)
+                    && is_owned(x, y.wrapping_sub(1), page)
+                    && is_owned(x, y + 1, page);
+                if !is_inside {
+                    rims.push(self.triangle_chart[triangle as usize]);
+                }
+            }
+            rims
+        };
+        let rows: Vec<Vec<u32>> = (0..self.pages * height).into_par_iter().map(count_row).collect();
+        let mut rims = vec![0; self.charts.len()];
+        for chart in rows.into_iter().flatten() {
+            rims[chart as usize] += 1;
+        }
+        rims
+    }
+}

@@ -1,0 +1,100 @@
+//! The linked atlas as kernels read it: which triangle is under a texel, where ghosts lead, and the triangles' tables.
+//!
+//! Linked to every kernel. Nodes go through `lib/surface`.
+
+const EMPTY: u32 = 0xffffffffu;
+const GHOST_BIT: u32 = 0x80000000u;
+// Rows of four floats a triangle has in `geometry` and in `frames`, and a link in `ghosts`.
+const GEOMETRY_ROWS: u32 = 6u;
+const FRAME_ROWS: u32 = 4u;
+const GHOST_ROWS: u32 = 4u;
+// Rows of four floats a piece has in `pieces`.
+const PIECE_ROWS: u32 = 3u;
+
+struct Pass {
+    // First tile of this dispatch in the tile list, and one past the last.
+    first_tile: u32,
+    end_tile: u32,
+    // Number of workgroups along x.
+    row_length: u32,
+    // Texels for one unit of UV.
+    size: f32,
+    // As in `Round`.
+    round: u32,
+    rounds: u32,
+    texel: f32,
+    finest: f32,
+}
+
+struct GhostLink {
+    // Texel coordinates of the point over the seam, in the chart of its triangle.
+    target_texel: vec2f,
+    triangle: u32,
+    // The ghost's own texel: column | row << 16, and its page.
+    texel: u32,
+    page: u32,
+    // Page of the target's chart.
+    target_page: u32,
+    chart: u32,
+    // Carries own texel vectors to texel vectors of the target's chart, column by column.
+    target_from_own: vec4f,
+}
+
+// Where a ghost takes stored values from.
+struct GhostRead {
+    // Texel coordinates, and the page.
+    texel: vec2f,
+    page: u32,
+    // The step from the ghost to the nearest owned texel of its own chart: x + 2 | (y + 2) << 3.
+    anchor: u32,
+}
+
+@group(0) @binding(0) var<uniform> dispatch: Pass;
+@group(0) @binding(1) var<storage, read> tiles: array<u32>;
+@group(0) @binding(2) var owners: texture_2d_array<u32>;
+// Tables are textures of bit patterns, row after row of the table: each texel reads a place of its own, which processors
+// do faster from a texture than from a buffer.
+@group(0) @binding(3) var geometry: texture_2d<u32>;
+@group(0) @binding(4) var frames: texture_2d<u32>;
+@group(0) @binding(5) var ghosts: texture_2d<u32>;
+@group(0) @binding(6) var<storage, read> pieces: array<vec4f>;
+// For each texel how far a straight step may go, in texels.
+@group(0) @binding(7) var leaps: texture_2d_array<u32>;
+
+// Where a row of a table is in its texture, which is 8192 wide.
+fn table_texel(row: u32) -> vec2u {
+    return vec2u(row & 8191u, row >> 13u);
+}
+
+fn geometry_row(row: u32) -> vec4f {
+    return bitcast<vec4f>(textureLoad(geometry, table_texel(row), 0));
+}
+
+fn frame_row(row: u32) -> vec4f {
+    return bitcast<vec4f>(textureLoad(frames, table_texel(row), 0));
+}
+
+fn ghost_link(index: u32) -> GhostLink {
+    let row = index * GHOST_ROWS;
+    let a = textureLoad(ghosts, table_texel(row), 0);
+    let b = textureLoad(ghosts, table_texel(row + 1u), 0);
+    let c = textureLoad(ghosts, table_texel(row + 2u), 0);
+    return GhostLink(bitcast<vec2f>(a.xy), a.z, a.w, b.x, b.y, b.z, bitcast<vec4f>(c));
+}
+
+fn ghost_read(index: u32) -> GhostRead {
+    let row = textureLoad(ghosts, table_texel(index * GHOST_ROWS + 3u), 0);
+    return GhostRead(bitcast<vec2f>(row.xy), row.z, row.w);
+}
+
+fn owner_of(texel: vec3i) -> u32 {
+    if texel.x < 0 {
+        return EMPTY;
+    }
+    return textureLoad(owners, texel.xy, texel.z, 0).r;
+}
+
+fn unit_or(v: vec3f, fallback: vec3f) -> vec3f {
+    let square = dot(v, v);
+    return select(fallback, v * inverseSqrt(max(square, 1e-30)), square > 1e-30);
+}

@@ -1,0 +1,49 @@
+//! Sharpen
+//! Lifts what stands out from its surroundings: more contrast at borders and in detail.
+//! @alias unsharp crisp detail contrast highpass
+//! @use heat
+
+struct Params {
+    /// How large the surroundings are.
+    /// @length @range 0 1 @soft 0 0.1 @default 0.01
+    radius: f32,
+    /// How much is added of what stands out.
+    /// @range 0 10 @soft 0 3 @default 1
+    amount: f32,
+}
+
+/// How heat flows.
+/// @pass 1 @texel params.radius / 4
+fn conduction(at: Surface) -> vec3f {
+    return heat_conduction(at, false);
+}
+
+/// What is blurred.
+/// @pass 2 @vector @texel params.radius / 4
+/// @input source The mask to sharpen.
+/// @type mask
+fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
+    return heat_start(surface_here(source, at).x);
+}
+
+/// The surroundings.
+/// @pass 3 @vector @texel params.radius / 4
+/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / texel / texel) - 3, 1) / 4) + 1)
+fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
+    return heat_stage(start, conduction, at, round, params.radius, false);
+}
+
+/// Half of their finish.
+/// @pass 4
+fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
+    let state = surface_here(heat, at);
+    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
+    return heat_finish(heat, at, round, params.radius, center);
+}
+
+/// The sharpened mask; it may reach below 0 and above 1.
+fn mask(at: Surface, round: Round, params: Params, finish: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
+    let around = heat_finish(finish, at, round, params.radius, surface_here(finish, at).x);
+    let own = surface_here(source, at).x;
+    return own + params.amount * (own - around);
+}

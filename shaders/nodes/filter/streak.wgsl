@@ -1,0 +1,61 @@
+//! Streak
+//! Lets a mask run down the surface: stains below screws, rain marks, rust from edges.
+//!
+//! A strong place runs far, a faint one a short way. Where the surface is level nothing runs.
+//! @alias run drip leak stain flow smear trail
+//! @use surface
+
+struct Params {
+    /// Which way it runs, in model space.
+    /// @default 0 -1 0
+    toward: vec3f,
+    /// How far the strongest places run.
+    /// @length @range 0.0001 4 @soft 0.01 1 @default 0.2
+    length: f32,
+    /// The last part of the way, on which it fades: 0 ends at once, 1 fades from the start.
+    /// @range 0 1 @default 0.5
+    fade: f32,
+}
+
+/// The way back up, as long as the surface is steep.
+/// @pass 1 @vector
+/// @input direction Which way it runs instead, place by place. @optional @vector @default 0 0 0
+fn upward(at: Surface, params: Params, direction: vec3f) -> vec3f {
+    let down = select(params.toward, direction, dot(direction, direction) > 1e-12);
+    let along = down * inverseSqrt(max(dot(down, down), 1e-12));
+    return at.normal * dot(at.normal, along) - along;
+}
+
+/// What runs, and how far it would still come: 1 is the whole length.
+/// @pass 2 @vector
+/// @input source What runs down.
+/// @type mask
+fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
+    let value = surface_here(source, at).x;
+    return vec3f(value, value, 0.0);
+}
+
+/// Takes what comes from further up, twice as far each time.
+/// @pass 3 @vector @repeat log2(params.length / texel + 2)
+fn run(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, upward: texture_2d_array<f32>) -> vec3f {
+    let own = surface_here(start, at).xyz;
+    // All ways together are the whole length.
+    let share = f32(1u << min(round.index, 30u)) / (f32(1u << min(round.count, 31u)) - 1.0);
+    let way = params.length * share;
+    let parts = clamp(i32(way / round.texel / 4.0) + 1, 1, 8);
+    var walk = surface_standing(at);
+    for (var part = 0; part < parts && part < 8; part++) {
+        walk = surface_walk(walk, surface_sample(upward, walk).xyz * (way / f32(parts)));
+    }
+    let above = surface_sample(start, walk).xyz;
+    let arrives = above.y - share;
+    // What stands still on level ground does not feed itself.
+    return select(own, vec3f(above.x, arrives, 0.0), arrives > own.y);
+}
+
+/// What has run down, and what it came from.
+fn mask(at: Surface, params: Params, run: texture_2d_array<f32>) -> f32 {
+    let state = surface_here(run, at);
+    let left = 1.0 - (state.x - state.y);
+    return state.x * clamp(left / max(params.fade, 1e-3), 0.0, 1.0);
+}

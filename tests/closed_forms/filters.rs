@@ -1,0 +1,77 @@
+//! Filters that go along the surface, against ways on a ball and on a cube.
+
+use glam::DVec3;
+use sabi_tests::{OnMesh, project};
+
+/// The ball has this radius.
+const RADIUS: f64 = 0.5;
+
+fn on(mesh: &str, nodes: &str, size: u32) -> OnMesh {
+    let graph = format!(r#"{{ "format": "sabi", "version": 1, "fit": "metres", "nodes": {{ {nodes} }} }}"#);
+    OnMesh::new(&graph, &project(&format!("assets/meshes/{mesh}.glb")), size)
+}
+
+/// Owned texels of the ball with their latitude.
+fn latitudes(on_mesh: &OnMesh) -> Vec<(usize, f64)> {
+    let owned = on_mesh.owned();
+    owned
+        .filter_map(|(index, _)| Some((index, (on_mesh.position(index)?.y / RADIUS).clamp(-1.0, 1.0).asin())))
+        .collect()
+}
+
+#[test]
+fn a_walk_up_a_ball_ends_where_its_meridian_says() {
+    // The source and what moves it are the height, from 0 at the lowest to 1 at the highest point of the ball.
+    for distance in [0.05, 0.3, -0.3, 0.6] {
+        let mut on_mesh = on(
+            "sphere",
+            &format!(
+                r#""height": {{ "kind": "surface/position", "params": {{ "along": [0, 1, 0] }} }},
+                "warp": {{ "kind": "filter/warp", "inputs": {{ "source": "height", "by": "height" }},
+                    "params": {{ "distance": {distance} }} }}"#
+            ),
+            256,
+        );
+        let warped = on_mesh.evaluate("warp").component("mask");
+        let (mut squares, mut count) = (0.0, 0.0);
+        for (index, latitude) in latitudes(&on_mesh) {
+            let steep: f64 = latitude.cos() / (2.0 * RADIUS) * f64::abs(distance);
+            let way = distance * steep / (1.0 + steep * steep).sqrt();
+            let expected = 0.5 + 0.5 * (latitude + way / RADIUS).sin();
+            squares += (f64::from(warped[index]) - expected).powi(2);
+            count += 1.0;
+        }
+        let rms = f64::sqrt(squares / count);
+        // Slopes are those of a map whose texels are up to a quarter of the way wide.
+        assert!(rms < 0.006, "{distance}: {rms}");
+    }
+}
+
+#[test]
+fn distances_on_a_ball_are_those_along_great_circles() {
+    // From a cap around the pole; its border is a threshold of the height, exact between texels.
+    for (size, width) in [(256, 0.2), (256, 0.6), (512, 0.1)] {
+        let mut on_mesh = on(
+            "sphere",
+            &format!(
+                r#""height": {{ "kind": "surface/position", "params": {{ "along": [0.3, 1, 0.2] }} }},
+                "distance": {{ "kind": "filter/distance", "inputs": {{ "source": "height" }},
+                    "params": {{ "width": {width}, "threshold": 0.8 }} }}"#
+            ),
+            size,
+        );
+        let distances = on_mesh.evaluate("distance.distance").component("mask");
+        let pole = DVec3::new(0.3, 1.0, 0.2).normalize();
+        let rim = (0.6_f64).acos();
+        let texel = 1.74 / f64::from(size);
+        let mut largest = 0.0_f64;
+        for (index, _) in latitudes(&on_mesh) {
+            let Some(at) = on_mesh.position(index) else { continue };
+            let away = (at.normalize().dot(pole).acos() - rim) * RADIUS;
+            if away > 0.0 && away < 0.95 * width {
+                largest = largest.max((f64::from(distances[index]) - away).abs());
+            }
+        }
+        assert!(largest < 1.5 * texel, "{size}, {width}: {}", largest / texel);
+    }
+}

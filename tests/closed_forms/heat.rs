@@ -1,0 +1,118 @@
+//! Blur as heat flow, against what heat does on a ball and on a cube.
+
+use glam::DVec3;
+use sabi_tests::{OnMesh, extent, project};
+
+/// A blur of a source, given as the members of its node.
+fn graph(source: &str, radius: f64) -> String {
+    format!(
+        r#"{{ "format": "sabi", "version": 1, "fit": "metres", "nodes": {{
+            "source": {{ {source} }},
+            "blur": {{ "kind": "filter/blur", "inputs": {{ "source": "source" }}, "params": {{ "radius": {radius} }} }} }} }}"#
+    )
+}
+
+const WHITE: &str = r#""kind": "noise/white", "params": { "size": 0.08, "seed": 3 }"#;
+
+fn on(mesh: &str, graph: &str, size: u32) -> OnMesh {
+    OnMesh::new(graph, &project(&format!("assets/meshes/{mesh}.glb")), size)
+}
+
+/// Area of each owned texel, and its index.
+fn areas(on_mesh: &OnMesh) -> Vec<(usize, f64)> {
+    let owned = on_mesh.owned();
+    owned
+        .map(|(index, triangle)| {
+            let row = |at: usize| {
+                let [x, y, z, _] = on_mesh.tables.geometry[6 * triangle as usize + at];
+                DVec3::from([x, y, z].map(f64::from))
+            };
+            (index, row(1).cross(row(2)).length())
+        })
+        .collect()
+}
+
+fn mean(areas: &[(usize, f64)], values: &[f32]) -> f64 {
+    let sum: f64 = areas.iter().map(|(index, area)| area * f64::from(values[*index])).sum();
+    sum / areas.iter().map(|(_, area)| area).sum::<f64>()
+}
+
+#[test]
+fn an_even_mask_stays_as_it_is_to_the_last_bit() {
+    for (mesh, radius) in [("cube", 0.3), ("figure", 0.02), ("sphere", 0.002), ("barrel", 0.2)] {
+        let even = r#""kind": "adjust/levels", "params": { "low": 0.3, "high": 0.3 }"#;
+        let mut on_mesh = on(mesh, &graph(even, radius), 64);
+        let blurred = on_mesh.evaluate("blur").component("mask");
+        for index in on_mesh.covered() {
+            let texel = on_mesh.texel(index);
+            assert_eq!(blurred[index].to_bits(), 0.3_f32.to_bits(), "{mesh}, texel {texel:?}");
+        }
+    }
+}
+
+#[test]
+fn a_ramp_over_a_ball_decays_as_the_square_of_the_radius_says() {
+    // The height over the middle is an eigenfunction of the ball: exp(-2 T / S²), and T is half the radius' square.
+    let ramp = r#""kind": "surface/position", "params": { "along": [0, 1, 0] }"#;
+    let mut on_mesh = on("sphere", &graph(ramp, 0.0), 256);
+    let before = on_mesh.evaluate("source").component("mask");
+    let areas = areas(&on_mesh);
+    let ball = areas.iter().filter_map(|(index, _)| on_mesh.position(*index));
+    let reach = ball.fold(0.0, |reach: f64, at| reach.max(at.y));
+    // Both sides are compared where they have most to say.
+    let decay = |after: &[f32]| {
+        let product = |values: &[f32]| -> f64 {
+            let own = mean(&areas, values);
+            areas
+                .iter()
+                .map(|(index, area)| area * (f64::from(values[*index]) - own) * (f64::from(before[*index]) - 0.5))
+                .sum()
+        };
+        product(after) / product(&before)
+    };
+    for share in [0.02, 0.05, 0.1, 0.2, 0.4, 0.6] {
+        on_mesh.set_graph(&graph(ramp, share * reach));
+        let after = on_mesh.evaluate("blur").component("mask");
+        let (seen, expected) = (decay(&after), (-share * share).exp());
+        // The coarsest of these maps has ten texels for a side of the ball's charts.
+        assert!((seen - expected).abs() < 0.01, "{share}: {seen} for {expected}");
+    }
+}
+
+#[test]
+fn what_one_place_gains_another_loses_and_nothing_goes_beyond_what_was() {
+    for (mesh, radius) in [("sphere", 0.03), ("cube", 0.02), ("cube", 0.3), ("figure", 0.05)] {
+        let mut on_mesh = on(mesh, &graph(WHITE, radius), 128);
+        let [before, after] = ["source", "blur"].map(|node| on_mesh.evaluate(node).component("mask"));
+        let areas = areas(&on_mesh);
+        let [low, high] = extent(areas.iter().map(|(index, _)| before[*index]));
+        let [lower, higher] = extent(areas.iter().map(|(index, _)| after[*index]));
+        assert!(low < lower && higher < high, "{mesh}: {low} {lower} {higher} {high}");
+        let lost = mean(&areas, &before) - mean(&areas, &after);
+        assert!(lost.abs() < 0.005, "{mesh} at {radius}: the mean lost {lost}");
+    }
+}
+
+#[test]
+fn both_sides_of_the_seams_of_a_cube_agree() {
+    for radius in [0.03, 0.08, 0.2] {
+        let mut on_mesh = on("cube", &graph(WHITE, radius), 512);
+        let blurred = on_mesh.evaluate("blur").component("mask");
+        let (mut squares, mut largest, mut count) = (0.0, 0.0_f64, 0.0);
+        for seam in on_mesh.seams() {
+            for sample in 0..64 {
+                let along = (f64::from(sample) + 0.5) / 64.0;
+                let side = |side: usize| on_mesh.bilinear(&blurred, seam.triangles[side], seam.weights(side, along));
+                let step = side(0) - side(1);
+                squares += step * step;
+                largest = largest.max(step.abs());
+                count += 1.0;
+            }
+        }
+        let rms = f64::sqrt(squares / count);
+        assert!(
+            rms <= 0.001 && largest <= 0.015,
+            "radius {radius}: rms {rms}, largest {largest}"
+        );
+    }
+}
