@@ -18,6 +18,7 @@ mod rays;
 mod reexport;
 mod relief;
 mod relief_seams;
+mod survey;
 mod texture_sets;
 mod vertex_color;
 mod waves;

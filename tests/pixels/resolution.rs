@@ -7,7 +7,8 @@ use sabi_tests::{OnMesh, extent, range};
 use crate::specimens::{for_each, on_own_mesh};
 
 /// Results of which only the mean is held, each with its reason.
-const EXEMPT: [(&str, &str); 18] = [
+const EXEMPT: [(&str, &str); 26] = [
+    ("adjust/coverage", "its border is narrower than a texel"),
     ("adjust/threshold", "its border is narrower than a texel"),
     ("filter/distance", "what is just at its threshold is on one map only"),
     (
@@ -19,6 +20,12 @@ const EXEMPT: [(&str, &str); 18] = [
     ("filter/streak", "its ways begin at single texels"),
     ("filter/smooth", "its reach is counted in texels, as its text says"),
     ("noise/cells.id", "a map of steps"),
+    ("noise/chips", "its borders are narrower than a texel, and follow rays"),
+    (
+        "noise/chips.height",
+        "its borders are narrower than a texel, and follow rays",
+    ),
+    ("noise/chips.id", "a map of steps"),
     ("noise/cracks.id", "a map of steps"),
     ("noise/dots.id", "a map of steps"),
     ("noise/scratches.id", "a map of steps"),
@@ -31,6 +38,16 @@ const EXEMPT: [(&str, &str); 18] = [
     (
         "noise/wood.height",
         "its years end and its pores begin within less than a texel",
+    ),
+    ("relief/cavity", "bends of a relief that the small map does not carry"),
+    ("relief/edges", "bends of a relief that the small map does not carry"),
+    (
+        "relief/occlusion",
+        "slopes of a relief that the small map does not carry",
+    ),
+    (
+        "relief/occlusion.ao",
+        "slopes of a relief that the small map does not carry",
     ),
     (
         "surface/bent_normal.mask",

@@ -140,6 +140,16 @@ fn noise(seed: u32) -> Value {
 fn connect(nodes: &mut Map<String, Value>, id: &str, input: &Input, seed: u32) {
     let noise_id = format!("{id}_noise");
     match input.ty {
+        // A relief is lower than it is wide.
+        PortType::Mask if input.name == "height" => {
+            let even = json!({ "kind": "noise/simplex", "params": { "size": 1.2, "octaves": 1, "seed": seed } });
+            nodes.insert(noise_id.clone(), even);
+            let params = json!({ "low": 0.0, "high": 0.1 });
+            nodes.insert(
+                id.to_owned(),
+                json!({ "kind": "adjust/levels", "inputs": { "source": noise_id }, "params": params }),
+            );
+        }
         PortType::Mask => {
             nodes.insert(id.to_owned(), noise(seed));
         }

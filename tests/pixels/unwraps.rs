@@ -52,7 +52,8 @@ fn points() -> Vec<[f64; 3]> {
 }
 
 /// Results that jump, so that no two grids of texels agree, each with its reason.
-const EXEMPT: [(&str, &str); 14] = [
+const EXEMPT: [(&str, &str); 19] = [
+    ("adjust/coverage", "its border is narrower than a texel"),
     ("adjust/threshold", "its border is narrower than a texel"),
     ("filter/grow", "its border is as narrow as a texel"),
     (
@@ -60,6 +61,12 @@ const EXEMPT: [(&str, &str); 14] = [
         "a part of a texel in the slope is a texel of the way; a ball's meridians hold it",
     ),
     ("noise/cells.id", "a map of steps"),
+    ("noise/chips", "its borders are narrower than a texel, and follow rays"),
+    (
+        "noise/chips.height",
+        "its borders are narrower than a texel, and follow rays",
+    ),
+    ("noise/chips.id", "a map of steps"),
     ("noise/cracks.id", "a map of steps"),
     ("noise/dots.id", "a map of steps"),
     ("noise/scratches.id", "a map of steps"),
@@ -73,6 +80,7 @@ const EXEMPT: [(&str, &str); 14] = [
         "noise/wood.height",
         "its years end and its pores begin within less than a texel",
     ),
+    ("relief/direction", "the cube's normals turn at its edges"),
     ("surface/bent_normal", "the cube's normals turn at its edges"),
     ("surface/bent_normal.mask", "the cube's normals turn at its edges"),
     ("surface/direction", "the cube's normals turn at its edges"),
@@ -81,15 +89,25 @@ const EXEMPT: [(&str, &str); 14] = [
 /// Marks whose borders are about a texel wide, as thin lines and crisp disks have to be: between its texels, each grid
 /// reads another way across a border. The seams' own tests hold them as strictly as any other result.
 const MARKS: [&str; 4] = ["noise/cracks", "noise/cracks.height", "noise/dots", "noise/scratches"];
-/// Means over rays, which are others on each grid of texels.
-const NOISY: [&str; 4] = [
+/// Means over rays and ways, which are others on each grid of texels.
+const NOISY: [&str; 6] = [
+    "relief/occlusion",
+    "relief/occlusion.ao",
     "surface/curvature",
     "surface/edges",
     "surface/thickness",
     "surface/thickness.depth",
 ];
-/// Results that move places by slopes, or choose one of several texels: a part of a texel makes much of a difference.
-const CHOOSY: [&str; 4] = ["filter/median", "filter/sharpen", "filter/slope_blur", "filter/streak"];
+/// Results that move places by slopes, ask how slopes change, or choose one of several texels: a part of a texel makes
+/// much of a difference.
+const CHOOSY: [&str; 6] = [
+    "filter/median",
+    "filter/sharpen",
+    "filter/slope_blur",
+    "filter/streak",
+    "relief/cavity",
+    "relief/edges",
+];
 /// Root mean square of the difference, as a share of the range: of results in general, and of marks. The most that was
 /// seen of marks is 3.3 %, of dots.
 const TOLERANCE: f64 = 0.01;

@@ -123,6 +123,7 @@ fn describe_kind(kind: &Kind) -> Json {
             Shape::Point => "point",
             Shape::Field => "field",
             Shape::Ray => "ray",
+            Shape::Survey => "survey",
         },
         "inputs": kind.inputs.iter().map(|input| json!({
             "name": input.name,

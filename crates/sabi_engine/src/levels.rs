@@ -47,7 +47,7 @@ impl Levels {
         let levels = plan.steps.iter().map(|step| match step {
             Step::Kernel(kernel) => kernel.level,
             Step::Move(step) => step.levels[0].max(step.levels[1]),
-            Step::Source(_) => 0,
+            Step::Source(_) | Step::Survey(_) => 0,
         });
         for level in levels {
             if level == 0 || self.coarser.contains_key(&level) {

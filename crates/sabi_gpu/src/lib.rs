@@ -13,6 +13,7 @@ mod rays;
 mod readback;
 mod run;
 mod surface;
+mod survey;
 mod tables;
 mod tiles;
 mod uploads;

@@ -25,7 +25,7 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
                 }
             }
             // Only results have keys, and none of them is on its way to another level.
-            Step::Move(_) => {}
+            Step::Move(_) | Step::Survey(_) => {}
             Step::Kernel(kernel) => {
                 let planes = kernel
                     .spec
@@ -54,6 +54,7 @@ fn reads(step: &Step) -> Vec<SlotRef> {
     match step {
         Step::Source(_) => Vec::new(),
         Step::Move(step) => vec![step.from],
+        Step::Survey(step) => vec![step.from],
         Step::Kernel(kernel) => kernel.reads.iter().flatten().copied().collect(),
     }
 }
@@ -67,6 +68,7 @@ fn writes(step: &Step) -> Vec<SlotRef> {
             .map(|(_, slot)| *slot)
             .collect(),
         Step::Move(step) => vec![step.to],
+        Step::Survey(step) => vec![step.to],
         Step::Kernel(kernel) => {
             let scratch = kernel.feedback.iter().map(|feedback| feedback.scratch);
             kernel.writes.iter().flatten().copied().chain(scratch).collect()

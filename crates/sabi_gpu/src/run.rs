@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use sabi_nodes::Library;
 use sabi_nodes::kind::Finds;
 use sabi_nodes::link::{Format, Plane};
-use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotRef, SourceStep, Step};
+use sabi_plan::{KernelStep, MoveStep, Plan, Room, Slot, SlotRef, SourceStep, Step};
 
 use crate::cache::ResultCache;
 use crate::device::Gpu;
@@ -18,6 +18,7 @@ use crate::needs::{last_uses, needed_steps, slot_keys};
 use crate::pipelines::CompiledKernel;
 use crate::pool::{PoolReport, TexturePool, array_view, texture, wgpu_format};
 use crate::rays::{HitRow, RayBuffers, RayRow};
+use crate::survey::SURVEY_EXTENT;
 use crate::tiles::Slices;
 
 /// How a plan is run.
@@ -156,6 +157,11 @@ impl Runner<'_> {
                 self.bring(step)?;
                 vec![(step.node.clone(), 1.0)]
             }
+            Step::Survey(step) => {
+                let [from, to] = [self.texture(step.from)?, self.texture(step.to)?];
+                self.gpu.survey(self.surfaces.finest, [&from, &to], self.options)?;
+                vec![(step.node.clone(), 1.0)]
+            }
             Step::Kernel(kernel) => {
                 self.kernel(kernel, sources)?;
                 kernel
@@ -177,8 +183,13 @@ impl Runner<'_> {
         if let Some(texture) = &self.textures[slot] {
             return Ok(texture.clone());
         }
-        let Slot { format, level } = self.plan.slots[slot];
-        let texture = self.pool.take(self.gpu, format, self.surfaces.at(level)?.extent)?;
+        let Slot { format, room } = self.plan.slots[slot];
+        let extent = match room {
+            Room::Level(level) => self.surfaces.at(level)?.extent,
+            Room::Survey => SURVEY_EXTENT,
+            Room::Single => [1, 1, 1],
+        };
+        let texture = self.pool.take(self.gpu, format, extent)?;
         self.textures[slot] = Some(texture.clone());
         Ok(texture)
     }
@@ -327,6 +338,7 @@ impl Runner<'_> {
                     sources,
                 )?;
             }
+            _ if step.spec.once => slices.submit(&compiled.pipeline, &group, 0, 1),
             _ => slices.run(&compiled.pipeline, &group, self.options.is_canceled)?,
         }
         if step.fills_ghosts {

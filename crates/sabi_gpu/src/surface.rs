@@ -1,6 +1,7 @@
 //! The linked atlas on the device, in working units.
 
-use sabi_surface::atlas::{Atlas, TILE};
+use rayon::prelude::*;
+use sabi_surface::atlas::{Atlas, GHOST_BIT, TILE};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -43,6 +44,8 @@ pub struct GpuSurface {
     /// Texels for one unit of UV.
     pub(crate) size: u32,
     pub(crate) widths: TexelWidths,
+    /// What all owned texels cover, square working units.
+    pub(crate) area: f64,
     bytes: u64,
 }
 
@@ -84,6 +87,7 @@ impl GpuSurface {
             ghosts: Links::of_ghosts(gpu, atlas)?,
             size: atlas.size,
             widths,
+            area: covered_area(atlas, tables),
             bytes: atlas.owners.len() as u64 * 5,
         };
         gpu.wait()?;
@@ -104,4 +108,25 @@ impl GpuSurface {
     pub fn tile_count(&self) -> u32 {
         self.tile_count
     }
+}
+
+/// What all owned texels cover, square working units: the same sum on every machine.
+fn covered_area(atlas: &Atlas, tables: &SurfaceTables) -> f64 {
+    let texel_area = |rows: &[[f32; 4]; 6]| {
+        let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]].map(|row| row.map(f64::from));
+        let across = [b * f - c * e, c * d - a * f, a * e - b * d];
+        across.iter().map(|value| value * value).sum::<f64>().sqrt()
+    };
+    let (triangles, _) = tables.geometry.as_chunks::<6>();
+    let areas: Vec<f64> = triangles.par_iter().map(texel_area).collect();
+    let of_row = |owners: &[u32]| {
+        let owned = owners.iter().filter(|owner| **owner & GHOST_BIT == 0);
+        owned.map(|owner| areas[*owner as usize]).sum::<f64>()
+    };
+    let rows: Vec<f64> = atlas
+        .owners
+        .par_chunks(atlas.page_size[0] as usize)
+        .map(of_row)
+        .collect();
+    rows.iter().sum()
 }

@@ -46,6 +46,9 @@ pub struct Kind {
     pub passes: Vec<Pass>,
     /// The rays over which the outputs are averaged, where the node shoots any.
     pub rays: Option<Rays>,
+    /// The input that is surveyed, by index in [`Kind::inputs`]; its passes then run once for the whole surface, and
+    /// outputs take what they give by value.
+    pub surveyed: Option<usize>,
     /// naga expressions of one evaluation of all outputs, calls expanded: a measure of compile time.
     pub cost: u32,
 }
@@ -59,6 +62,8 @@ pub enum Shape {
     Field,
     /// Results are means over rays that are shot from each place.
     Ray,
+    /// Inputs are values at the same place, and what one of them is over all of the surface.
+    Survey,
 }
 
 /// One member of `struct Params`.
@@ -292,6 +297,8 @@ pub enum Argument {
     Hit,
     /// `round: Round`: which repetition it is, and how wide texels are.
     Round,
+    /// `survey: texture_2d_array<f32>`: the table of the surveyed input.
+    Survey,
 }
 
 impl Argument {

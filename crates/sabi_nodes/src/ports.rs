@@ -4,6 +4,7 @@ mod functions;
 mod inputs;
 mod passes;
 mod rays;
+mod survey;
 #[cfg(test)]
 mod tests;
 
@@ -22,7 +23,7 @@ use inputs::InputNotes;
 
 /// Annotations of a function and of the inputs described in its comment.
 pub(crate) const ANNOTATIONS: &[&str] = &[
-    "input", "pass", "repeat", "texel", "rays", "finds", "vector", "optional", "default", "type", "label",
+    "input", "pass", "repeat", "texel", "surveys", "rays", "finds", "vector", "optional", "default", "type", "label",
 ];
 
 /// Inputs that the flags of an interactive kernel have room for.
@@ -36,6 +37,7 @@ pub(crate) struct Ports {
     /// In ascending order of their numbers.
     pub(crate) passes: Vec<Pass>,
     pub(crate) rays: Option<Rays>,
+    pub(crate) surveyed: Option<usize>,
 }
 
 /// The function of that name that the file itself declares.
@@ -101,9 +103,11 @@ pub(crate) fn read_ports(
         inputs: Vec::new(),
         pass_numbers: Vec::new(),
         shoots: false,
+        surveys: false,
     };
     let drafts = reader.drafts();
     reader.shoots = drafts.iter().any(|draft| draft.ty.is_none());
+    reader.surveys = drafts.iter().any(survey::asks_for_one);
     reader.check_passes(&drafts);
     let mut ports = Ports::default();
     for draft in &drafts {
@@ -123,6 +127,7 @@ pub(crate) fn read_ports(
     }
     ports.passes.sort_by_key(|pass| pass.number);
     reader.check_rays(&drafts, &ports);
+    ports.surveyed = reader.surveyed_input(&drafts, &ports);
     reader.check_described();
     if ports.outputs.is_empty() && reader.faults.is_empty() {
         let range = scan.functions().last().map_or(0..0, |item| item.name_range.clone());
@@ -149,6 +154,8 @@ struct PortReader<'a> {
     pass_numbers: Vec<(u32, String, PortType)>,
     /// Whether there is a function that returns a ray.
     shoots: bool,
+    /// Whether there is a function that takes a survey.
+    surveys: bool,
 }
 
 impl<'a> PortReader<'a> {
@@ -265,6 +272,7 @@ impl<'a> PortReader<'a> {
             ("ray", "Ray") => return Some(Argument::Ray),
             ("hit", "Hit") => return Some(Argument::Hit),
             ("round", "Round") => return Some(Argument::Round),
+            ("survey", _) if is_field(ty) => return Some(Argument::Survey),
             ("index", _) if draft.ty.is_none() => return self.ray_index(member, ty),
             ("at" | "params", _) | (_, "Surface" | "Params") => {
                 self.at(

@@ -101,6 +101,7 @@ fn assemble(
         mut outputs,
         mut passes,
         rays,
+        surveyed,
     } = ports;
     for (output, channels) in outputs.iter_mut().zip(findings.output_channels) {
         output.channels = channels;
@@ -109,7 +110,11 @@ fn assemble(
         pass.function.channels = channels;
     }
     let functions = outputs.iter().chain(passes.iter().map(|pass| &pass.function));
-    let shape = shape(&inputs, functions, rays.is_some());
+    let shape = match (&rays, surveyed) {
+        (Some(_), _) => Shape::Ray,
+        (None, Some(_)) => Shape::Survey,
+        (None, None) => shape(&inputs, functions),
+    };
     Kind {
         id: file.id.clone(),
         version: header.version,
@@ -128,19 +133,18 @@ fn assemble(
         outputs,
         passes,
         rays,
+        surveyed,
         cost: findings.cost,
     }
 }
 
-fn shape<'o>(inputs: &[Input], mut functions: impl Iterator<Item = &'o Output>, shoots: bool) -> Shape {
+fn shape<'o>(inputs: &[Input], mut functions: impl Iterator<Item = &'o Output>) -> Shape {
     let is_texture = |argument: &Argument| match argument {
         Argument::Input(index) => inputs[*index].reads == Reads::Field,
         Argument::Pass(_) => true,
         _ => false,
     };
-    if shoots {
-        Shape::Ray
-    } else if functions.any(|function| function.arguments.iter().any(is_texture)) {
+    if functions.any(|function| function.arguments.iter().any(is_texture)) {
         Shape::Field
     } else {
         Shape::Point

@@ -7,7 +7,7 @@ use sabi_nodes::link::Plane;
 use crate::draft::{Draft, Kept, What};
 use crate::fuse::Value;
 use crate::keys::result_key;
-use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, Step};
+use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, Step, SurveyStep};
 use crate::request::{Mode, Target};
 use crate::schedule::Builder;
 use crate::slots::SlotPool;
@@ -37,7 +37,7 @@ impl Builder<'_, '_> {
         let mut nodes = Names::default();
         for (at, draft) in drafts.into_iter().enumerate() {
             for plane in draft.writes.iter().flatten().chain(&draft.scratch) {
-                slot_of.insert(*plane, pool.take(plane.1.format(), plane.0.level));
+                slot_of.insert(*plane, pool.take(plane.1.format(), plane.0.room()));
             }
             let slots = |planes: &[Option<(Kept, Plane)>]| -> Vec<Option<SlotRef>> {
                 planes.iter().map(|plane| plane.map(|plane| slot_of[&plane])).collect()
@@ -106,6 +106,11 @@ fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRe
             to: writes.into_iter().flatten().next().unwrap_or(step.to),
             ..step
         }),
+        Step::Survey(step) => Step::Survey(SurveyStep {
+            from: reads.into_iter().flatten().next().unwrap_or(step.from),
+            to: writes.into_iter().flatten().next().unwrap_or(step.to),
+            ..step
+        }),
         Step::Kernel(mut kernel) => {
             if let (Some(feedback), Some(slot)) = (&mut kernel.feedback, scratch) {
                 feedback.scratch = slot;
@@ -131,7 +136,7 @@ impl Names {
         let names = match step {
             Step::Source(source) => std::slice::from_ref(&source.id),
             Step::Kernel(kernel) => &kernel.nodes,
-            Step::Move(_) => &[],
+            Step::Move(_) | Step::Survey(_) => &[],
         };
         for name in names {
             if self.seen.insert(name.clone()) {

@@ -6,7 +6,7 @@ use sabi_nodes::link::{Binding, Call, Convert, KernelSpec, Plane, Store, Stored}
 
 use crate::fuse::{self, Value};
 use crate::keys::result_key;
-use crate::plan::{BlockValues, Feedback, KernelStep, RayCount, Step};
+use crate::plan::{BlockValues, Feedback, KernelStep, RayCount, Room, Step};
 use crate::resolve::Behavior;
 use crate::schedule::Builder;
 
@@ -25,6 +25,15 @@ impl Kept {
             level: 0,
         }
     }
+
+    /// How large its texture is.
+    pub(crate) fn room(self) -> Room {
+        match self.what {
+            What::Survey(_) => Room::Survey,
+            What::Found(..) => Room::Single,
+            What::Result(_) | What::Pass(..) | What::Scratch(..) | What::Converted(..) => Room::Level(self.level),
+        }
+    }
 }
 
 /// A result, or what a pass of a field leaves for the next.
@@ -34,7 +43,11 @@ pub(crate) enum What {
     Pass(usize, usize),
     /// Takes turns with a repeated function's result: node, and which of its steps.
     Scratch(usize, usize),
-    /// What a field's input reads, converted: node and index of the input.
+    /// The table of a node's survey.
+    Survey(usize),
+    /// What a pass gives for the whole surface: node and pass.
+    Found(usize, usize),
+    /// What a field's or a survey's input reads, converted: node and index of the input.
     Converted(usize, usize),
 }
 
@@ -72,6 +85,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
                 stores: Vec::new(),
                 on_ghosts,
                 rays: false,
+                once: false,
             },
             blocks: Vec::new(),
             loaded: Vec::new(),
@@ -154,6 +168,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             function,
             inputs,
             passes: Vec::new(),
+            survey: None,
             block,
         });
         self.spec.calls.len() - 1
@@ -224,7 +239,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             }
         };
         let step = KernelStep {
-            fills_ghosts: !self.spec.on_ghosts,
+            fills_ghosts: !self.spec.on_ghosts && !self.spec.once,
             blocks: self.blocks.iter().map(block).collect(),
             spec: self.spec,
             flags: self.flags,

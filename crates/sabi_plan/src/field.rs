@@ -130,6 +130,7 @@ impl Builder<'_, '_> {
             function: function.name.clone(),
             inputs,
             passes,
+            survey: None,
             block,
         });
         let stored = Stored {

@@ -19,6 +19,8 @@ pub(crate) enum Group {
     Field { node: usize, outputs: Vec<usize> },
     /// A node whose results are means over rays.
     Rays { node: usize, outputs: Vec<usize> },
+    /// A node that asks a survey of the whole surface.
+    Survey { node: usize, outputs: Vec<usize> },
     /// Point nodes in evaluation order, each with the results that are needed.
     Points(Vec<(usize, Vec<usize>)>),
 }
@@ -27,9 +29,10 @@ impl Group {
     /// Results that this group makes.
     pub(crate) fn values(&self) -> Vec<Value> {
         match self {
-            Group::Source { node, outputs } | Group::Field { node, outputs } | Group::Rays { node, outputs } => {
-                outputs.iter().map(|output| (*node, *output)).collect()
-            }
+            Group::Source { node, outputs }
+            | Group::Field { node, outputs }
+            | Group::Rays { node, outputs }
+            | Group::Survey { node, outputs } => outputs.iter().map(|output| (*node, *output)).collect(),
             Group::Points(members) => members
                 .iter()
                 .flat_map(|(node, outputs)| outputs.iter().map(|output| (*node, *output)))
@@ -81,6 +84,7 @@ pub(crate) fn groups(
             Behavior::Source(_) => groups.push(Group::Source { node, outputs }),
             Behavior::Shader(kind) if kind.shape == Shape::Field => groups.push(Group::Field { node, outputs }),
             Behavior::Shader(kind) if kind.shape == Shape::Ray => groups.push(Group::Rays { node, outputs }),
+            Behavior::Shader(kind) if kind.shape == Shape::Survey => groups.push(Group::Survey { node, outputs }),
             Behavior::Shader(_) => points.push((node, outputs)),
         }
     }

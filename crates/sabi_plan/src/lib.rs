@@ -20,11 +20,13 @@ mod schedule;
 mod seeds;
 mod slots;
 mod source_values;
+mod survey;
 mod values;
 
 pub use error::{PlanError, Problem};
 pub use plan::{
-    BlockValues, Feedback, KernelStep, MoveStep, Plan, PlannedResult, RayCount, Slot, SlotRef, SourceStep, Step,
+    BlockValues, Feedback, KernelStep, MoveStep, Plan, PlannedResult, RayCount, Room, Slot, SlotRef, SourceStep, Step,
+    SurveyStep,
 };
 pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target};
 pub use resolve::{Behavior, Resolved, ResolvedInput, ResolvedNode};

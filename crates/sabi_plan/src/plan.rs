@@ -25,8 +25,19 @@ pub struct Plan {
 pub struct Slot {
     /// Its format.
     pub format: Format,
-    /// The level of the atlas that it is as large as; 0 is the finest.
-    pub level: u32,
+    /// How large it is.
+    pub room: Room,
+}
+
+/// How large a slot is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Room {
+    /// As a level of the atlas; 0 is the finest.
+    Level(u32),
+    /// The table of a survey.
+    Survey,
+    /// One value for the whole surface.
+    Single,
 }
 
 /// Index into [`Plan::slots`].
@@ -41,6 +52,19 @@ pub enum Step {
     Kernel(KernelStep),
     /// A stored plane is brought to another level.
     Move(MoveStep),
+    /// A stored mask is surveyed over the whole surface.
+    Survey(SurveyStep),
+}
+
+/// A survey: how much of the surface, by its true area, has which value of a mask.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SurveyStep {
+    /// Id of the node that asks.
+    pub node: String,
+    /// Slot of the mask, on the finest level.
+    pub from: SlotRef,
+    /// Slot of the table, see `lib/survey.wgsl`.
+    pub to: SlotRef,
 }
 
 /// A plane on its way from one level of the atlas to another.
@@ -181,6 +205,7 @@ impl fmt::Display for Plan {
                     write_slots(f, " ->", slots)?;
                 }
                 Step::Kernel(kernel) => write_kernel(f, kernel)?,
+                Step::Survey(step) => write!(f, "survey {} <- s{} -> s{}", step.node, step.from, step.to)?,
                 Step::Move(step) => {
                     let [from, to] = step.levels;
                     write!(f, "move s{} -> s{} level {from} -> {to}", step.from, step.to)?;
@@ -206,6 +231,9 @@ fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result 
     write_slots(f, " ->", kernel.writes.iter().copied())?;
     if let Some(feedback) = &kernel.feedback {
         write!(f, " x{} via s{}", feedback.times, feedback.scratch)?;
+    }
+    if kernel.spec.once {
+        f.write_str(" once")?;
     }
     if kernel.level > 0 {
         write!(f, " level {}", kernel.level)?;

@@ -157,6 +157,7 @@ impl Builder<'_, '_> {
             Group::Source { node, outputs } => vec![self.source(*node, outputs)],
             Group::Field { node, outputs } => self.field(*node, outputs),
             Group::Rays { node, outputs } => vec![self.rays(*node, outputs)],
+            Group::Survey { node, outputs } => self.survey(*node, outputs),
             Group::Points(members) if self.planner.mode == Mode::Interactive => members
                 .iter()
                 .map(|(node, outputs)| self.single(*node, outputs[0]))

@@ -4,29 +4,29 @@ use std::collections::BTreeMap;
 
 use sabi_nodes::link::Format;
 
-use crate::plan::{Slot, SlotRef};
+use crate::plan::{Room, Slot, SlotRef};
 
 /// Hands out slots by format.
 #[derive(Debug, Default)]
 pub(crate) struct SlotPool {
     slots: Vec<Slot>,
-    free: BTreeMap<(Format, u32), Vec<SlotRef>>,
+    free: BTreeMap<(Format, Room), Vec<SlotRef>>,
 }
 
 impl SlotPool {
-    /// A slot of that format on that level: the one freed last, or a new one.
-    pub(crate) fn take(&mut self, format: Format, level: u32) -> SlotRef {
-        if let Some(slot) = self.free.get_mut(&(format, level)).and_then(Vec::pop) {
+    /// A slot of that format and size: the one freed last, or a new one.
+    pub(crate) fn take(&mut self, format: Format, room: Room) -> SlotRef {
+        if let Some(slot) = self.free.get_mut(&(format, room)).and_then(Vec::pop) {
             return slot;
         }
-        self.slots.push(Slot { format, level });
+        self.slots.push(Slot { format, room });
         self.slots.len() - 1
     }
 
     /// Gives a slot back.
     pub(crate) fn release(&mut self, slot: SlotRef) {
-        let Slot { format, level } = self.slots[slot];
-        self.free.entry((format, level)).or_default().push(slot);
+        let Slot { format, room } = self.slots[slot];
+        self.free.entry((format, room)).or_default().push(slot);
     }
 
     /// All slots ever taken.

@@ -2,6 +2,7 @@
 //! Selects the parts of the surface that face one way, such as up for dust and moss.
 //!
 //! @alias direction normal facing up slope dust snow
+//! @use facing
 
 struct Params {
     /// The way to face, in model space; no way at all selects nothing.
@@ -17,10 +18,5 @@ struct Params {
 
 /// How much this place faces that way: exactly 1 when it does.
 fn mask(at: Surface, params: Params) -> f32 {
-    let size = length(params.toward);
-    let toward = params.toward / max(size, 1e-12);
-    // The angle by half the chord: exact for small angles, where the arc cosine of a rounded product is not.
-    let angle = 2.0 * asin(min(0.5 * length(at.normal - toward), 1.0));
-    let t = clamp((params.reach - angle) / max(params.reach * params.fade, 1e-4), 0.0, 1.0);
-    return select(0.0, t * t * (3.0 - 2.0 * t), size > 1e-6);
+    return facing(at.normal, params.toward, params.reach, params.fade);
 }

@@ -8,7 +8,7 @@ use sabi_graph::PortType;
 use super::block::BlockLayout;
 use super::sources::{Names, write_block, write_sources};
 use super::{Binding, Call, Convert, INPUTS_A_WORD, KernelSpec, Plane, Store, Stored};
-use crate::kind::{Argument, Channel, InputDefault, Kind, Output};
+use crate::kind::{Argument, Channel, InputDefault, Kind, Output, Shape};
 
 /// A kernel's text and what the host needs to feed it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -146,14 +146,23 @@ fn write_main(out: &mut String, spec: &KernelSpec, kinds: &[&Kind], names: &Name
     out.push_str(
         "@compute @workgroup_size(8, 8)\n\
          fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {\n    \
-         let texel = texel_of(group, local);\n    let owner = owner_of(texel);\n",
+         ",
     );
-    out.push_str(if spec.on_ghosts {
+    out.push_str(if spec.once {
+        "if any(group != vec3u(0u)) || any(local != vec3u(0u)) { return; }\n    let texel = vec3i(0);\n"
+    } else {
+        "let texel = texel_of(group, local);\n    let owner = owner_of(texel);\n"
+    });
+    out.push_str(if spec.once {
+        ""
+    } else if spec.on_ghosts {
         "    if owner == EMPTY { return; }\n"
     } else {
         "    if (owner & GHOST_BIT) != 0u { return; }\n"
     });
-    out.push_str("    let at = surface_at(texel, owner);\n");
+    if !spec.once {
+        out.push_str("    let at = surface_at(texel, owner);\n");
+    }
     let mut bounded = BTreeSet::new();
     for (index, (call, kind)) in spec.calls.iter().zip(kinds).enumerate() {
         if bounded.insert(call.block) {
@@ -210,10 +219,19 @@ pub(super) fn arguments(
             Argument::Ray => "ray".to_owned(),
             Argument::Hit => "hit".to_owned(),
             Argument::Round => "Round(dispatch.round, dispatch.rounds, dispatch.texel, dispatch.finest)".to_owned(),
+            Argument::Survey => {
+                let load = call.survey.unwrap_or_default();
+                field_texture(load, &spec.loads[load])
+            }
             Argument::Pass(pass) if spec.rays => super::rays::mean_name(*pass),
             Argument::Pass(pass) => {
                 let load = call.passes.get(*pass).copied().flatten().unwrap_or_default();
-                field_texture(load, &spec.loads[load])
+                let texture = field_texture(load, &spec.loads[load]);
+                match (kind.shape, spec.loads[load].ty) {
+                    (Shape::Survey, PortType::Mask) => format!("textureLoad({texture}, vec2i(0), 0, 0).x"),
+                    (Shape::Survey, _) => format!("textureLoad({texture}, vec2i(0), 0, 0).xyz"),
+                    _ => texture,
+                }
             }
             Argument::Input(input) => match call.inputs[*input] {
                 Binding::Switch(load) => write_switch(out, index, *input, call, kind, load, &spec.loads[load]),
@@ -243,7 +261,12 @@ fn default_expression(input: usize, block: usize, kind: &Kind) -> String {
     match &input.default {
         InputDefault::Knob(_) => format!("block.knobs_{block}.{}", input.name),
         InputDefault::Expression(expression) => expression.clone(),
-        InputDefault::PlainMaterial | InputDefault::Required => "plain_material()".to_owned(),
+        // What is required is never asked for its default; it still needs a type.
+        InputDefault::PlainMaterial | InputDefault::Required => match input.ty {
+            PortType::Material => "plain_material()".to_owned(),
+            PortType::Mask => "0.0".to_owned(),
+            PortType::Color | PortType::Vector => "vec3f(0.0)".to_owned(),
+        },
     }
 }
 

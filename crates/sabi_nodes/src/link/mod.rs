@@ -33,6 +33,8 @@ pub struct KernelSpec {
     /// Whether the calls are means over rays: all of them of one node that shoots some. The text then has two entry points,
     /// see [`Kernel::rays`].
     pub rays: bool,
+    /// Whether it runs once for the whole surface: one invocation, which writes the texel at the origin.
+    pub once: bool,
 }
 
 /// Evaluation of one function of a node.
@@ -46,6 +48,8 @@ pub struct Call {
     pub inputs: Vec<Binding>,
     /// One for each pass of the kind: the load that holds its result, where the function reads it.
     pub passes: Vec<Option<usize>>,
+    /// The load that holds the table of a survey, where the function asks one.
+    pub survey: Option<usize>,
     /// The parameter block of this call: calls of the same node share one.
     pub block: usize,
 }

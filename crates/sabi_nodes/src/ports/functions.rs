@@ -26,6 +26,8 @@ pub(super) struct FunctionNotes {
     /// Index of the parameter that counts rays.
     pub(super) rays: Option<(usize, Range<usize>)>,
     pub(super) finds: Finds,
+    /// Name of the input that is surveyed.
+    pub(super) surveys: Option<(String, Range<usize>)>,
 }
 
 /// Reads the comment above a function.
@@ -41,7 +43,12 @@ pub(super) fn read_notes(
         ..FunctionNotes::default()
     };
     let mut inputs: Vec<InputNotes> = Vec::new();
-    notes.check(text, ANNOTATIONS, &["pass", "repeat", "texel", "rays", "finds"], faults);
+    notes.check(
+        text,
+        ANNOTATIONS,
+        &["pass", "repeat", "texel", "surveys", "rays", "finds"],
+        faults,
+    );
     for note in notes
         .notes
         .iter()
@@ -54,13 +61,14 @@ pub(super) fn read_notes(
             ("texel", _) => read.texel = formula(text, note, params, faults),
             ("rays", _) => read.rays = rays(text, note, params, faults),
             ("finds", _) => read.finds = finds(text, note, faults),
+            ("surveys", _) => read.surveys = Some((note.joined(), note.whole())),
             (_, Some(input)) => input.add(text, note, faults),
             ("vector", None) => read.vector = Some(note.range.clone()),
             _ => {
                 let mut fault = unknown(
                     text,
                     note,
-                    &["input", "pass", "repeat", "texel", "rays", "finds", "vector"],
+                    &["input", "pass", "repeat", "texel", "surveys", "rays", "finds", "vector"],
                 );
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", note.name);
                 faults.push(fault);

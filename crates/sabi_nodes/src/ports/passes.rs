@@ -33,7 +33,7 @@ impl<'a> PortReader<'a> {
         index: usize,
     ) -> Option<Argument> {
         let (number, _, carried) = self.pass_numbers[index].clone();
-        if self.shoots {
+        if self.shoots || self.surveys {
             return self.mean_argument(
                 member,
                 port_type(ty, carried == PortType::Vector) == Some(carried),

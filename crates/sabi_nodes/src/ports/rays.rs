@@ -49,15 +49,17 @@ impl<'a> PortReader<'a> {
         None
     }
 
-    /// The mean of a pass, by value.
+    /// The mean of a pass, or what it gives for the whole surface, by value.
     pub(super) fn mean_argument(&mut self, member: &Member, is_its_type: bool, pass: usize) -> Option<Argument> {
         if is_its_type {
             return Some(Argument::Pass(pass));
         }
-        let message = format!(
-            "`{}` is the mean of a pass over the rays, and has its type.",
-            member.name
-        );
+        let what = if self.shoots {
+            "the mean of a pass over the rays"
+        } else {
+            "what a pass gives for the whole surface"
+        };
+        let message = format!("`{}` is {what}, and has its type.", member.name);
         let advice = "Give the argument the type that the pass returns.";
         self.at(member.type_range.clone(), message, advice);
         None

@@ -3,7 +3,7 @@
 use sabi_graph::Document;
 
 use super::{Bench, FUSED, UNFUSED, flat, graph};
-use crate::{Mode, Step};
+use crate::{Mode, Plan, Room, Step};
 
 const TWELVE: &str = "
     clouds noise/simplex
@@ -325,4 +325,54 @@ fn a_ladder_of_thousands_of_nodes_is_cut_into_few_kernels() {
         "{}",
         plan.passes()
     );
+}
+
+#[test]
+fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_moved_there() {
+    let plan = |radius: f64| {
+        let lines = format!(
+            "
+            a noise/simplex
+            b filter/blur source=a radius={radius}
+            c filter/sharpen source=a radius={radius}
+            out output/mask source=b
+            crisp output/mask source=c"
+        );
+        let (plan, errors) = Bench::new().plan(&graph(&lines), FUSED);
+        assert_eq!(errors, []);
+        plan
+    };
+    let moves = |plan: &Plan| -> Vec<[u32; 2]> {
+        let levels = plan.steps.iter().filter_map(|step| match step {
+            Step::Move(step) => Some(step.levels),
+            _ => None,
+        });
+        levels.collect()
+    };
+    // Levels here have texels of 0.001, 0.002, 0.004 and 0.008; a blur wants at least four for its radius.
+    assert_eq!(moves(&plan(0.007)), [] as [[u32; 2]; 0]);
+    // Both read the noise on one level, so it goes there once.
+    assert_eq!(moves(&plan(0.016)), [[0, 2], [2, 0], [2, 0]]);
+    assert_eq!(moves(&plan(0.5)), [[0, 3], [3, 0], [3, 0]]);
+    // What reads no texture is known on ghosts as exactly as anywhere.
+    let text = plan(0.016).to_string();
+    assert!(text.contains("pass b -> s1 level 2\n"), "{text}");
+}
+
+#[test]
+fn a_survey_comes_before_what_asks_it_once_and_before_the_results() {
+    let lines = "
+        a noise/simplex
+        b adjust/coverage source=a
+        out output/mask source=b";
+    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(errors, []);
+    assert_eq!(
+        plan.to_string(),
+        "pass a -> s0\nsurvey b <- s0 -> s1\npass b <- s1 -> s2 once\npass b <- s0 s2 -> s3\nresult mask s3\n"
+    );
+    let rooms: Vec<Room> = plan.slots.iter().map(|slot| slot.room).collect();
+    assert_eq!(rooms, [Room::Level(0), Room::Survey, Room::Single, Room::Level(0)]);
+    let (_, errors) = Bench::new().plan(&graph("b adjust/coverage\n out output/mask source=b"), FUSED);
+    assert_eq!(errors.len(), 1, "what is surveyed has to be connected");
 }

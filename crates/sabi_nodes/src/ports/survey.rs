@@ -1,0 +1,83 @@
+//! Passes that ask a survey of the whole surface.
+
+use sabi_graph::PortType;
+
+use super::{Draft, PortReader, Ports};
+use crate::kind::{Argument, InputDefault, Reads};
+use crate::words::list;
+
+/// Whether a function has an argument of that name.
+pub(super) fn asks_for_one(draft: &Draft<'_>) -> bool {
+    draft.item.members.iter().any(|member| member.name == "survey")
+}
+
+impl<'a> PortReader<'a> {
+    /// The input that is surveyed. It has to be connected, and all passes ask the survey and nothing of a place.
+    pub(super) fn surveyed_input(&mut self, drafts: &[Draft<'a>], ports: &Ports) -> Option<usize> {
+        let said = drafts.iter().find_map(|draft| draft.notes.surveys.clone());
+        if !self.faults.is_empty() {
+            return None;
+        }
+        if !self.surveys {
+            let (_, range) = said?;
+            self.at(
+                range,
+                "Nothing here asks a survey.",
+                "Let a pass take `survey: texture_2d_array<f32>`, and read it through lib/survey.",
+            );
+            return None;
+        }
+        self.check_askers(drafts, ports);
+        let Some((name, range)) = said else {
+            let draft = drafts.iter().find(|draft| asks_for_one(draft))?;
+            let advice = "Write `/// @surveys source` above it, with the name of an input.";
+            let range = draft.item.name_range.clone();
+            self.at(
+                range,
+                format!("`{}` does not say what is surveyed.", draft.item.name),
+                advice,
+            );
+            return None;
+        };
+        let found = self.inputs.iter().position(|input| input.name == name);
+        let is_mask = found.is_some_and(|index| {
+            let input = &self.inputs[index];
+            input.ty == PortType::Mask && input.reads == Reads::Value
+        });
+        let Some(index) = found.filter(|_| is_mask) else {
+            let masks = self.inputs.iter().filter(|input| input.ty == PortType::Mask);
+            let names: Vec<String> = masks.map(|input| input.name.clone()).collect();
+            let advice = format!(
+                "Masks that an output takes: {}.",
+                list(names.iter().map(String::as_str))
+            );
+            self.at(range, format!("`{name}` is no mask that could be surveyed."), advice);
+            return None;
+        };
+        self.inputs[index].default = InputDefault::Required;
+        Some(index)
+    }
+
+    /// Only passes ask the survey, and all of them, and they ask nothing else.
+    fn check_askers(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
+        let passes = ports.passes.iter().map(|pass| (&pass.function, true));
+        for (function, is_pass) in ports.outputs.iter().map(|output| (output, false)).chain(passes) {
+            let asks = function.arguments.contains(&Argument::Survey);
+            let of_a_place = |argument: &Argument| !matches!(argument, Argument::Survey | Argument::Params);
+            let draft = drafts.iter().find(|draft| draft.item.name == function.name);
+            let range = draft.map_or(0..0, |draft| draft.item.name_range.clone());
+            if asks && !is_pass {
+                let message = format!(
+                    "`{}` asks a survey, which is asked once and not at every place.",
+                    function.name
+                );
+                let advice = "Make it a pass, and let the output take what it gives, by its name and type.";
+                self.at(range, message, advice);
+            } else if is_pass && (!asks || function.arguments.iter().any(of_a_place)) {
+                let message = format!("The pass `{}` runs once for the whole surface.", function.name);
+                let advice = "Let it take `survey: texture_2d_array<f32>` and `params: Params`, and nothing else.";
+                self.at(range, message, advice);
+            }
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Nodes that ask a survey: a table of the surveyed mask, what the passes find in it once, and the results.
+
+use sabi_graph::PortType;
+use sabi_nodes::kind::{Argument, Kind};
+use sabi_nodes::link::{Binding, Call, Convert, Plane, Stored};
+
+use crate::draft::{Draft, Kept, KernelDraft, What};
+use crate::plan::{Step, SurveyStep};
+use crate::resolve::Behavior;
+use crate::schedule::Builder;
+
+impl Builder<'_, '_> {
+    /// The survey, the passes of the node, each a kernel that runs once, and all results in one kernel.
+    pub(crate) fn survey(&self, node: usize, outputs: &[usize]) -> Vec<Draft> {
+        let Behavior::Shader(kind) = self.node(node).behavior else {
+            unreachable!("surveys are shaders")
+        };
+        let mut drafts = self.table(node, kind);
+        drafts.extend((0..kind.passes.len()).map(|pass| self.found(node, kind, pass)));
+        let mut kernel = KernelDraft::new(self, true);
+        let block = kernel.block(node);
+        for output in outputs {
+            let bindings = self.node(node).inputs.iter().map(|input| match input {
+                None => Binding::Default,
+                Some(input) => Binding::Load(kernel.load((input.node, input.output)), input.convert),
+            });
+            let inputs = bindings.collect();
+            let arguments = &kind.outputs[*output].arguments;
+            let passes = kind.passes.iter().enumerate().map(|(pass, found)| {
+                let is_taken = arguments.contains(&Argument::Pass(pass));
+                is_taken.then(|| kernel.load_kept(What::Found(node, pass), found.function.ty))
+            });
+            let passes = passes.collect();
+            let call = kernel.call(node, *output, inputs, block);
+            kernel.spec.calls[call].passes = passes;
+            kernel.store(call, (node, *output));
+        }
+        drafts.push(kernel.finish());
+        drafts
+    }
+
+    /// The table of the surveyed input.
+    fn table(&self, node: usize, kind: &Kind) -> Vec<Draft> {
+        let index = kind.surveyed.unwrap_or_default();
+        let Some(input) = self.node(node).inputs.get(index).copied().flatten() else {
+            unreachable!("what is surveyed is connected")
+        };
+        let mut drafts = Vec::new();
+        let mut kept = Kept::result((input.node, input.output));
+        if input.convert != Convert::None {
+            let what = What::Converted(node, index);
+            kept = Kept { what, level: 0 };
+            let mut kernel = KernelDraft::new(self, true);
+            let load = kernel.load((input.node, input.output));
+            let stored = Stored {
+                ty: PortType::Mask,
+                channels: Vec::new(),
+            };
+            kernel.store_kept(Binding::Load(load, input.convert), kept, stored);
+            drafts.push(kernel.finish());
+        }
+        let what = What::Survey(node);
+        drafts.push(Draft {
+            step: Step::Survey(SurveyStep {
+                node: self.id(node),
+                from: 0,
+                to: 0,
+            }),
+            reads: vec![Some((kept, Plane::Mask))],
+            writes: vec![Some((Kept { what, level: 0 }, Plane::Vector))],
+            scratch: None,
+        });
+        drafts
+    }
+
+    /// What one pass finds in the table.
+    fn found(&self, node: usize, kind: &Kind, pass: usize) -> Draft {
+        let function = &kind.passes[pass].function;
+        let mut kernel = KernelDraft::new(self, false);
+        kernel.spec.once = true;
+        let block = kernel.block(node);
+        let survey = kernel.load_kept(What::Survey(node), PortType::Vector);
+        kernel.spec.calls.push(Call {
+            kind: kind.id.clone(),
+            function: function.name.clone(),
+            inputs: vec![Binding::Default; kind.inputs.len()],
+            passes: Vec::new(),
+            survey: Some(survey),
+            block,
+        });
+        let what = What::Found(node, pass);
+        let stored = Stored {
+            ty: function.ty,
+            channels: Vec::new(),
+        };
+        kernel.store_kept(Binding::Call(0, Convert::None), Kept { what, level: 0 }, stored);
+        kernel.finish()
+    }
+}

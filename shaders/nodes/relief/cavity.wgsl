@@ -1,0 +1,46 @@
+//! Relief cavity
+//! The grooves and hollows of the relief: where dirt gathers and paint stays.
+//!
+//! As Cavity, but of the relief that the graph itself has made: cracks, scratches, dents. A groove counts by the angle between its
+//! sides.
+//! @alias crevice groove dirt hollow concave micro detail
+//! @use relief
+
+struct Params {
+    /// How far around it is looked.
+    /// @length @range 0.00001 1 @soft 0.001 0.05 @default 0.02
+    width: f32,
+    /// What turns by less does not count.
+    /// @angle @range 0 180 @soft 1 90 @default 8
+    angle: f32,
+    /// How softly the mask falls off: 0 is a sharp band, 1 fades up to a right angle.
+    /// @range 0 1 @default 0.5
+    softness: f32,
+}
+
+/// How heat flows.
+/// @pass 1 @texel params.width / 8
+fn conduction(at: Surface) -> vec3f {
+    return heat_conduction(at, false);
+}
+
+/// The relief, to be smoothed.
+/// @pass 2 @vector @texel params.width / 8
+/// @input height The relief, in model units.
+/// @type mask
+fn start(at: Surface, height: texture_2d_array<f32>) -> vec3f {
+    return heat_start(surface_here(height, at).x);
+}
+
+/// The smoothed relief.
+/// @pass 3 @vector @texel params.width / 8
+/// @repeat 4 * (2 * ceil(max(sqrt(1 + params.width * params.width / texel / texel) - 3, 1) / 4) + 1)
+fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
+    return heat_stage(start, conduction, at, round, 0.5 * params.width, false);
+}
+
+/// 1 in grooves and hollows, 0 elsewhere.
+fn mask(at: Surface, params: Params, heat: texture_2d_array<f32>, height: texture_2d_array<f32>) -> f32 {
+    let bend = relief_bend(heat, height, at, params.width);
+    return bent_beyond(bend, params.angle, params.softness);
+}

@@ -1,0 +1,54 @@
+//! Relief occlusion
+//! How buried a place is in the relief: under rims, between bumps, in cracks.
+//!
+//! As Occlusion, but of the relief that the graph itself has made. Along several ways over the surface it looks how high the
+//! relief rises within the distance.
+//! @alias ambient occlusion ao dirt shadow buried micro detail
+//! @use surface noise
+
+struct Params {
+    /// How far around it is looked.
+    /// @length @range 0.00001 1 @soft 0.001 0.1 @default 0.02
+    distance: f32,
+    /// Ways that are looked along.
+    /// @range 3 10 @default 8
+    ways: u32,
+}
+
+/// Places looked at on each way.
+const STEPS: i32 = 5;
+
+/// The share of light, weighted by its cosine, that the relief takes.
+/// @input height The relief, in model units.
+fn mask(at: Surface, params: Params, height: texture_2d_array<f32>) -> f32 {
+    let own = surface_here(height, at).x;
+    let side = normalize(cross(at.face_normal, select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(at.face_normal.x) > 0.7)));
+    let across = cross(at.face_normal, side);
+    // Every texel looks another way first, so that the few ways show no pattern.
+    let turn = unit_random(pcg3d(bitcast<vec3u>(at.position)).x);
+    var buried = 0.0;
+    for (var way = 0u; way < params.ways; way++) {
+        let toward_turn = turn_of(vec3f(6.2831853 * (f32(way) + turn) / f32(params.ways)));
+        let toward = side * toward_turn.cosine.x + across * toward_turn.sine.x;
+        var walk = surface_standing(at);
+        walk.heading = toward;
+        var steepest = 0.0;
+        var gone = 0.0;
+        for (var step = 1; step <= STEPS; step++) {
+            // Steps grow: near by the relief matters most.
+            let share = f32(step) / f32(STEPS);
+            let next = params.distance * share * share;
+            walk = surface_walk(walk, walk.heading * (next - gone));
+            gone = next;
+            steepest = max(steepest, (surface_sample(height, walk).x - own) / gone);
+        }
+        // The sine of the horizon's angle, squared: cosine-weighted light below it.
+        buried += steepest * steepest / (1.0 + steepest * steepest);
+    }
+    return buried / f32(params.ways);
+}
+
+/// The opposite: white where it is open.
+fn ao(at: Surface, params: Params, height: texture_2d_array<f32>) -> f32 {
+    return 1.0 - mask(at, params, height);
+}

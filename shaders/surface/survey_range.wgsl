@@ -1,0 +1,28 @@
+// Lowest and highest value of a mask over the surface, as numbers that sort like the values.
+
+@group(1) @binding(0) var source: texture_2d_array<f32>;
+@group(1) @binding(1) var<storage, read_write> counts: array<atomic<u32>>;
+
+// Larger values have larger keys, below and above 0.
+fn key_of(value: f32) -> u32 {
+    let bits = bitcast<u32>(value);
+    return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
+    let texel = texel_of(group, local);
+    let owner = owner_of(texel);
+    if owner == EMPTY || (owner & GHOST_BIT) != 0u {
+        return;
+    }
+    let value = textureLoad(source, texel.xy, texel.z, 0).x;
+    // Looking first spares nearly all writes to the two places that everybody wants.
+    let key = key_of(clamp(value, -1e9, 1e9));
+    if key < atomicLoad(&counts[0]) {
+        atomicMin(&counts[0], key);
+    }
+    if key > atomicLoad(&counts[1]) {
+        atomicMax(&counts[1], key);
+    }
+}

@@ -1,0 +1,98 @@
+//! What a survey finds, against the areas of the texels themselves.
+
+use glam::DVec3;
+use sabi_tests::{OnMesh, project};
+
+const MODELS: [&str; 5] = ["bench", "barrel", "figure", "column", "cube"];
+
+fn on(mesh: &str, size: u32, nodes: &str) -> OnMesh {
+    let graph = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
+    OnMesh::new(&graph, &project(&format!("assets/meshes/{mesh}.glb")), size)
+}
+
+/// Mean over the surface by its true area.
+fn mean(on_mesh: &OnMesh, values: &[f32]) -> f64 {
+    let (mut sum, mut whole) = (0.0, 0.0);
+    for (index, triangle) in on_mesh.owned() {
+        let row = |at: usize| {
+            let [x, y, z, _] = on_mesh.tables.geometry[6 * triangle as usize + at];
+            DVec3::from([x, y, z].map(f64::from))
+        };
+        let area = row(1).cross(row(2)).length();
+        sum += area * f64::from(values[index]);
+        whole += area;
+    }
+    sum / whole
+}
+
+#[test]
+fn as_much_is_covered_as_is_asked_for_on_any_model_and_from_any_mask() {
+    let sources = [
+        r#""kind": "noise/simplex", "params": { "size": 0.2 }"#,
+        r#""kind": "surface/position", "params": { "along": [0.2, 1, 0] }"#,
+        r#""kind": "noise/cracks", "params": { "size": 0.2 }"#,
+    ];
+    for mesh in MODELS {
+        for source in sources {
+            for (amount, softness) in [(0.02, 0.1), (0.3, 0.0), (0.3, 0.5), (0.8, 0.1)] {
+                let mut on_mesh = on(
+                    mesh,
+                    256,
+                    &format!(
+                        r#""source": {{ {source} }}, "cover": {{ "kind": "adjust/coverage", "inputs": {{ "source": "source" }},
+                            "params": {{ "amount": {amount}, "softness": {softness} }} }}"#
+                    ),
+                );
+                let mask = on_mesh.evaluate("cover").component("mask");
+                let covered = mean(&on_mesh, &mask);
+                // Lines are 0 on most of the surface: cut hard, all of that or nothing is covered.
+                let is_possible = softness > 0.0 || !source.contains("cracks");
+                assert!(
+                    !is_possible || (covered - amount).abs() < 0.005,
+                    "{mesh}, {source}: {covered} for {amount} at {softness}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn none_and_all_of_an_even_mask_are_covered_as_asked() {
+    for (amount, expected) in [(0.0, 0.0), (0.3, 0.3), (1.0, 1.0)] {
+        let mut on_mesh = on(
+            "cube",
+            64,
+            &format!(
+                r#""even": {{ "kind": "adjust/levels", "params": {{ "low": 0.4, "high": 0.4 }} }},
+                "cover": {{ "kind": "adjust/coverage", "inputs": {{ "source": "even" }}, "params": {{ "amount": {amount} }} }}"#
+            ),
+        );
+        let covered = {
+            let mask = on_mesh.evaluate("cover").component("mask");
+            mean(&on_mesh, &mask)
+        };
+        assert!((covered - expected).abs() < 1e-3, "{covered} for {amount}");
+    }
+}
+
+#[test]
+fn auto_levels_leave_the_shares_that_were_asked_at_both_ends() {
+    for mesh in MODELS {
+        let mut on_mesh = on(
+            mesh,
+            256,
+            r#""source": { "kind": "noise/simplex", "params": { "size": 0.2 } },
+            "auto": { "kind": "adjust/auto_levels", "inputs": { "source": "source" }, "params": { "low": 0.1, "high": 0.8 } }"#,
+        );
+        let mask = on_mesh.evaluate("auto").component("mask");
+        let share = |is_meant: fn(f32) -> bool| {
+            let meant: Vec<f32> = mask.iter().map(|value| f32::from(u8::from(is_meant(*value)))).collect();
+            mean(&on_mesh, &meant)
+        };
+        let (black, white) = (share(|value| value <= 0.0), share(|value| value >= 1.0));
+        assert!(
+            (black - 0.1).abs() < 0.003 && (white - 0.2).abs() < 0.003,
+            "{mesh}: {black}, {white}"
+        );
+    }
+}

@@ -1,0 +1,15 @@
+//! Test
+//! A node with a fault.
+//! @use survey
+
+/// The lowest value.
+/// @pass 1 @surveys source
+fn low(at: Surface, survey: texture_2d_array<f32>) -> f32 {
+    return lowest(survey) + at.position.x;
+}
+
+/// The mask.
+/// @input source What is surveyed.
+fn mask(low: f32, source: f32) -> f32 {
+    return source - low;
+}
