@@ -8,22 +8,11 @@ struct Scale {
 }
 
 @group(1) @binding(0) var<uniform> scale: Scale;
-@group(1) @binding(1) var coarse_owners: texture_2d_array<u32>;
+// The chart that each coarser texel belongs to, or whose ring it is in.
+@group(1) @binding(1) var coarse_charts: texture_2d_array<u32>;
 @group(1) @binding(2) var coarse_frames: texture_2d<u32>;
-@group(1) @binding(3) var coarse_ghosts: texture_2d<u32>;
-@group(1) @binding(4) var coarse: texture_2d_array<f32>;
-@group(1) @binding(5) var fine: texture_storage_2d_array<FORMAT, write>;
-
-// The chart that a coarser texel belongs to, or whose ring it is in.
-fn chart_of(owner: u32) -> u32 {
-    if owner == EMPTY {
-        return EMPTY;
-    }
-    if (owner & GHOST_BIT) != 0u {
-        return textureLoad(coarse_ghosts, table_texel((owner & ~GHOST_BIT) * GHOST_ROWS + 1u), 0).z;
-    }
-    return textureLoad(coarse_frames, table_texel(owner * FRAME_ROWS + 3u), 0).z;
-}
+@group(1) @binding(3) var coarse: texture_2d_array<f32>;
+@group(1) @binding(4) var fine: texture_storage_2d_array<FORMAT, write>;
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
@@ -40,7 +29,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     let point = in_chart + bitcast<vec2f>(coarse_place.xy) - 0.5;
     let corner = floor(point);
     let weight = point - corner;
-    let size = vec2i(textureDimensions(coarse_owners));
+    let size = vec2i(textureDimensions(coarse_charts));
     var nearest = vec4f(0.0);
     var nearest_share = 0.0;
     var taps: array<vec4f, 4>;
@@ -49,7 +38,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         let step = vec2i(i32(tap & 1u), i32(tap >> 1u));
         let near = clamp(vec2i(corner) + step, vec2i(0), size - 1);
         let along = select(1.0 - weight, weight, step == vec2i(1));
-        let counts = chart_of(textureLoad(coarse_owners, near, coarse_page, 0).r) == coarse_place.z;
+        let counts = textureLoad(coarse_charts, near, coarse_page, 0).r == coarse_place.z;
         let share = select(0.0, along.x * along.y, counts);
         let value = textureLoad(coarse, near, coarse_page, 0);
         taps[tap] = value;

@@ -170,3 +170,47 @@ fn what_shoots_rays_gives_the_same_bytes_twice() {
     };
     assert_eq!(bytes(), bytes());
 }
+
+/// What is said of a box of these faces when rays are shot at it.
+fn told(faces_out: bool, faces: usize) -> Vec<String> {
+    const SIDES: [[[f32; 3]; 3]; 6] = [
+        [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+        [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]],
+        [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+        [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]],
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
+    ];
+    let quads = SIDES[..faces].iter().enumerate().map(|(at, [right, up, out])| {
+        let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+        let mut corners =
+            corners.map(|[x, y]| std::array::from_fn(|axis| 0.5 * out[axis] + x * right[axis] + y * up[axis]));
+        if !faces_out {
+            corners.reverse();
+        }
+        let [left, right] = [(at as f32 + 0.1) / 6.0, (at as f32 + 0.9) / 6.0];
+        Quad {
+            corners,
+            uvs: [[left, 0.9], [right, 0.9], [right, 0.1], [left, 0.1]],
+        }
+    });
+    let made = MeshFile::new(quads.collect()).write();
+    let mut on_mesh = OnMesh::new(&graph("occlusion", ""), made.path(), 64);
+    on_mesh.evaluate("rays");
+    on_mesh.workpiece.warnings.clone()
+}
+
+#[test]
+fn rays_say_what_they_cannot_rely_on() {
+    assert_eq!(told(true, 6), [] as [String; 0]);
+    let open = told(true, 5);
+    assert!(
+        open.len() == 1 && open[0].starts_with("The model is open at 4 edges:"),
+        "{open:?}"
+    );
+    let inward = told(false, 6);
+    assert!(
+        inward.len() == 1 && inward[0].starts_with("The model is inside out:"),
+        "{inward:?}"
+    );
+}

@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::Library;
-use sabi_nodes::kind::{Input, InputDefault, Kind, ParamValue, Role};
+use sabi_nodes::kind::{Input, InputDefault, Kind, ParamValue, Reads, Role};
 use sabi_tests::{OnMesh, project};
 use serde_json::{Map, Value, json};
 
@@ -141,7 +141,7 @@ fn connect(nodes: &mut Map<String, Value>, id: &str, input: &Input, seed: u32) {
     let noise_id = format!("{id}_noise");
     match input.ty {
         // A relief is lower than it is wide.
-        PortType::Mask if input.name == "height" => {
+        PortType::Mask if input.name == "height" && input.reads == Reads::Field => {
             let even = json!({ "kind": "noise/simplex", "params": { "size": 1.2, "octaves": 1, "seed": seed } });
             nodes.insert(noise_id.clone(), even);
             let params = json!({ "low": 0.0, "high": 0.1 });

@@ -5,6 +5,9 @@
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
 
+#[path = "bake/surface.rs"]
+mod surface;
+
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -273,6 +276,8 @@ fn main() {
     println!("| what | measured | aim |\n|---|---|---|");
     bench_run(folder.path(), &model);
     bench_noises(folder.path(), &model);
+    surface::bench_rays(folder.path(), &model);
+    surface::bench_filters(folder.path(), &model);
     bench_atlas(folder.path(), &model);
     bench_demo(folder.path());
     bench_planning(folder.path());

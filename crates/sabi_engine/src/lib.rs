@@ -24,6 +24,7 @@ mod preview;
 mod report;
 mod sets;
 mod setting;
+mod solidity;
 mod source;
 mod stages;
 mod watch;

@@ -19,6 +19,7 @@ use crate::pictures::{Pictures, files};
 use crate::prepare::{ModelOptions, Prepared};
 use crate::report::StageTimes;
 use crate::setting::read_typed;
+use crate::solidity;
 use crate::source::{Files, Ground, Sources, kinds_for};
 use crate::stages::{Progress, Stage};
 
@@ -150,6 +151,7 @@ impl Workpiece {
         let path = self.path.display().to_string();
         let said = |error: &PlanError| format!("{path}: {error}");
         self.warn(warnings.iter().map(said));
+        self.warn(solidity::warnings(&plan, &self.prepared));
         if errors.is_empty() {
             return Ok(plan);
         }

@@ -5,23 +5,26 @@ use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
-use sabi_surface::atlas::AtlasLevel;
+use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::links::{GHOST_ROUNDS, Links, Round};
+use crate::links::{GHOST_ROUNDS, LinkRound, Links};
 use crate::pipelines::{FixedKernel, owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::pool::array_view;
 use crate::run::RunOptions;
 use crate::surface::{GpuSurface, TexelWidths};
 use crate::tables::SurfaceTables;
 use crate::tiles::Slices;
+use crate::uploads::texel_texture;
 
 /// A coarser level on the device.
 pub struct CoarseSurface {
     pub(crate) surface: GpuSurface,
     /// Finer texels along a side of a coarser one.
     factor: u32,
+    /// The chart that each texel belongs to, or whose ring it is in.
+    charts: wgpu::TextureView,
     /// Coarser texels that cover no finer one.
     coarse_orphans: Links,
     /// Finer texels with no coarser one near.
@@ -36,8 +39,13 @@ impl CoarseSurface {
         tables: &SurfaceTables,
         widths: TexelWidths,
     ) -> Result<CoarseSurface, GpuError> {
+        let surface = GpuSurface::upload(gpu, &level.atlas, tables, widths)?;
+        let charts = charts(&level.atlas);
+        let bytes = bytemuck::cast_slice(&charts);
+        let format = wgpu::TextureFormat::R32Uint;
         Ok(CoarseSurface {
-            surface: GpuSurface::upload(gpu, &level.atlas, tables, widths)?,
+            charts: texel_texture(gpu, "the charts of a level", format, surface.extent, bytes)?,
+            surface,
             factor: level.factor(),
             coarse_orphans: Links::of_orphans(gpu, &level.coarse_orphans)?,
             fine_orphans: Links::of_orphans(gpu, &level.fine_orphans)?,
@@ -51,6 +59,16 @@ impl CoarseSurface {
         };
         gpu.uniform(bytemuck::bytes_of(&scale))
     }
+}
+
+/// The chart that each texel of an atlas belongs to, or whose ring it is in; [`EMPTY`] where there is none.
+fn charts(atlas: &Atlas) -> Vec<u32> {
+    let chart = |owner: &u32| match *owner {
+        EMPTY => EMPTY,
+        ghost if ghost & GHOST_BIT != 0 => atlas.ghosts[(ghost & !GHOST_BIT) as usize].chart,
+        triangle => atlas.triangle_chart[triangle as usize],
+    };
+    atlas.owners.iter().map(chart).collect()
 }
 
 /// All levels of a surface that a run may use.
@@ -116,7 +134,12 @@ impl Gpu {
         let slices = Slices::new(self, ground, options.submission);
         slices.run(&kernel.pipeline, &group, options.is_canceled)?;
         let of_orphans = Slices::with_links(self, ground, orphans, options.submission);
-        self.fill_links(orphans, of_orphans.surface_group(), (target, format), &[Round::Owned])?;
+        self.fill_links(
+            orphans,
+            of_orphans.surface_group(),
+            (target, format),
+            &[LinkRound::Owned],
+        )?;
         self.fill_links(&ground.ghosts, slices.surface_group(), (target, format), &GHOST_ROUNDS)
     }
 
@@ -162,18 +185,16 @@ impl Gpu {
             uniform_entry(0),
             owners_entry(1),
             table_entry(2),
-            table_entry(3),
-            texture_entry(4),
-            storage_entry(5, format),
+            texture_entry(3),
+            storage_entry(4, format),
         ];
         let kernel = self.fixed_kernel("prolong", Some(format), &text, &entries)?;
         let scale = coarse.scale(self);
         let view = wgpu::BindingResource::TextureView;
         let resources = [
             scale.as_entire_binding(),
-            view(&coarse.surface.owners),
+            view(&coarse.charts),
             view(&coarse.surface.frames),
-            view(&coarse.surface.ghosts.rows),
             view(source),
             view(target),
         ];

@@ -1,5 +1,6 @@
 //! The device: choosing it, textures, pipelines, running a plan, readback.
 
+mod blocks;
 mod cache;
 mod device;
 mod error;

@@ -19,7 +19,7 @@ const ROW: u32 = 32_768;
 
 /// Which texels a link takes its value from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Round {
+pub(crate) enum LinkRound {
     /// Owned texels only.
     Owned,
     /// Ghosts, too, that an earlier round has filled.
@@ -30,9 +30,9 @@ pub(crate) enum Round {
 /// would be read, so that nothing old is handed on. Where the texels of two charts meet halfway, a ghost lies between an
 /// owned texel and a ghost of the other side, whose value depends on it in turn: each further round takes away most of
 /// what is left of that.
-pub(crate) const GHOST_ROUNDS: [Round; 3] = [Round::Owned, Round::WithGhosts, Round::WithGhosts];
+pub(crate) const GHOST_ROUNDS: [LinkRound; 3] = [LinkRound::Owned, LinkRound::WithGhosts, LinkRound::WithGhosts];
 /// The rounds where ghosts hold nearly what they will: in a repeated pass they were filled two repetitions ago.
-pub(crate) const REFRESH_ROUNDS: [Round; 2] = [Round::WithGhosts, Round::WithGhosts];
+pub(crate) const REFRESH_ROUNDS: [LinkRound; 2] = [LinkRound::WithGhosts, LinkRound::WithGhosts];
 
 /// Links on the device.
 pub(crate) struct Links {
@@ -161,7 +161,7 @@ impl Gpu {
         links: &Links,
         surface_group: &wgpu::BindGroup,
         (texture, format): (&wgpu::Texture, Format),
-        rounds: &[Round],
+        rounds: &[LinkRound],
     ) -> Result<(), GpuError> {
         if links.count == 0 {
             return Ok(());
@@ -177,7 +177,7 @@ impl Gpu {
         for round in rounds {
             let constants = Constants {
                 ghost_count: links.count,
-                with_ghosts: u32::from(*round == Round::WithGhosts),
+                with_ghosts: u32::from(*round == LinkRound::WithGhosts),
                 row_length: ROW.min(groups),
                 pad: 0,
             };

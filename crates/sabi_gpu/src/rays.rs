@@ -52,6 +52,8 @@ pub(crate) struct RayBuffers<'a> {
     tiles: usize,
     shot: wgpu::Buffer,
     hits: wgpu::Buffer,
+    /// By which rays come into memory.
+    mapped: wgpu::Buffer,
 }
 
 impl<'a> RayBuffers<'a> {
@@ -74,6 +76,7 @@ impl<'a> RayBuffers<'a> {
             tiles,
             shot: buffer("the rays", size_of::<RayRow>(), wgpu::BufferUsages::COPY_SRC)?,
             hits: buffer("what rays hit", size_of::<HitRow>(), wgpu::BufferUsages::COPY_DST)?,
+            mapped: gpu.readback_buffer((tiles * of_tile * size_of::<RayRow>()) as u64)?,
         })
     }
 
@@ -91,6 +94,7 @@ impl<'a> RayBuffers<'a> {
         caster: &mut dyn SourceFill,
     ) -> Result<(), GpuError> {
         let count = slices.tile_count() as usize;
+        let mut hits = vec![HitRow::MISS; self.tiles * TILE_TEXELS * self.rays.count as usize];
         for first in (0..count).step_by(self.tiles) {
             if is_canceled() {
                 return Err(GpuError::Canceled);
@@ -98,13 +102,14 @@ impl<'a> RayBuffers<'a> {
             let end = (first + self.tiles).min(count);
             slices.submit(shoot, group, first as u32, end as u32);
             let rows = (end - first) * TILE_TEXELS * self.rays.count as usize;
-            let bytes = self.gpu.read_buffer(&self.shot, (rows * size_of::<RayRow>()) as u64)?;
-            let rays: Vec<RayRow> = bytemuck::pod_collect_to_vec(&bytes);
-            let mut hits = vec![HitRow::MISS; rays.len()];
-            caster
-                .cast(&rays, self.rays.finds, &mut hits)
-                .map_err(GpuError::Source)?;
-            self.gpu.queue.write_buffer(&self.hits, 0, bytemuck::cast_slice(&hits));
+            let hits = &mut hits[..rows];
+            let bytes = (rows * size_of::<RayRow>()) as u64;
+            // Rays are followed where they are mapped: there are hundreds of megabytes of them.
+            let cast = self.gpu.look_at(&self.shot, &self.mapped, bytes, |bytes| {
+                caster.cast(bytemuck::cast_slice(bytes), self.rays.finds, hits)
+            })?;
+            cast.map_err(GpuError::Source)?;
+            self.gpu.queue.write_buffer(&self.hits, 0, bytemuck::cast_slice(hits));
             slices.submit(ask, group, first as u32, end as u32);
         }
         self.gpu.wait()

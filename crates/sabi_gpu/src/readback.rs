@@ -76,18 +76,24 @@ impl Gpu {
         self.read_texture(texture, surface.extent, plan.slots[slot].format)
     }
 
-    /// Reads the first bytes of a buffer, when everything submitted is done.
-    pub(crate) fn read_buffer(&self, source: &wgpu::Buffer, bytes: u64) -> Result<Vec<u8>, GpuError> {
-        let buffer = self.readback_buffer(bytes)?;
+    /// Shows the first bytes of a buffer by way of another one, which can be mapped, when everything submitted is done.
+    pub(crate) fn look_at<T>(
+        &self,
+        source: &wgpu::Buffer,
+        by_way_of: &wgpu::Buffer,
+        bytes: u64,
+        look: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, GpuError> {
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, bytes);
+        encoder.copy_buffer_to_buffer(source, 0, by_way_of, 0, bytes);
         self.queue.submit([encoder.finish()]);
-        self.mapped(&buffer, <[u8]>::to_vec)
+        self.mapped(by_way_of, |all| look(&all[..bytes as usize]))
     }
 
-    fn readback_buffer(&self, bytes: u64) -> Result<wgpu::Buffer, GpuError> {
+    /// A buffer that can be mapped to be read.
+    pub(crate) fn readback_buffer(&self, bytes: u64) -> Result<wgpu::Buffer, GpuError> {
         self.guarded("a readback buffer", |device| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("readback"),

@@ -9,11 +9,12 @@ use sabi_nodes::kind::Finds;
 use sabi_nodes::link::{Format, Plane};
 use sabi_plan::{KernelStep, MoveStep, Plan, Room, Slot, SlotRef, SourceStep, Step};
 
+use crate::blocks::block_buffer;
 use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::levels::Surfaces;
-use crate::links::{GHOST_ROUNDS, REFRESH_ROUNDS, Round};
+use crate::links::{GHOST_ROUNDS, LinkRound, REFRESH_ROUNDS};
 use crate::needs::{last_uses, needed_steps, slot_keys};
 use crate::pipelines::CompiledKernel;
 use crate::pool::{PoolReport, TexturePool, array_view, texture, wgpu_format};
@@ -64,6 +65,22 @@ pub struct RunReport {
     pub steps: Vec<StepTime>,
     /// Bytes of textures held, the surface's included.
     pub pool: PoolReport,
+}
+
+/// One repetition of a kernel.
+#[derive(Clone, Copy)]
+struct Round {
+    index: u32,
+    count: u32,
+    /// Tiles of a slice by what the last repetition took.
+    length: Option<u32>,
+}
+
+impl Round {
+    /// How ghosts are filled: a slot is written in every second repetition, so from the third on they hold something.
+    fn of_ghosts(self) -> &'static [LinkRound] {
+        if self.index < 2 { &GHOST_ROUNDS } else { &REFRESH_ROUNDS }
+    }
 }
 
 /// The results of a plan, still on the device.
@@ -267,6 +284,7 @@ impl Runner<'_> {
         let block = block_buffer(self.gpu, &compiled, step);
         let times = step.feedback.as_ref().map_or(1, |feedback| feedback.times);
         let mut last: Option<SlotRef> = None;
+        let mut length = None;
         for round in 0..times {
             let mut reads = step.reads.clone();
             let mut writes = step.writes.clone();
@@ -281,7 +299,12 @@ impl Runner<'_> {
                 last = writes[0];
             }
             let slots = [reads.as_slice(), &writes];
-            self.dispatch(step, &compiled, &block, slots, [round, times], sources)?;
+            let run = Round {
+                index: round,
+                count: times,
+                length,
+            };
+            length = Some(self.dispatch(step, &compiled, &block, slots, run, sources)?);
         }
         Ok(())
     }
@@ -298,9 +321,9 @@ impl Runner<'_> {
         compiled: &CompiledKernel,
         block: &wgpu::Buffer,
         [reads, writes]: [&[Option<SlotRef>]; 2],
-        [round, times]: [u32; 2],
+        round: Round,
         sources: &mut dyn SourceFill,
-    ) -> Result<(), GpuError> {
+    ) -> Result<u32, GpuError> {
         let mut views = Vec::new();
         for slot in reads {
             let texture = match slot {
@@ -326,7 +349,8 @@ impl Runner<'_> {
             std::iter::once(block.as_entire_binding()).chain(textures).chain(shot),
         );
         let surface = self.surfaces.at(step.level)?;
-        let slices = Slices::new(self.gpu, surface, self.options.submission).in_round(round, times);
+        let slices =
+            Slices::new(self.gpu, surface, self.options.submission).in_round(round.index, round.count, round.length);
         self.warm(compiled, &slices, &group)?;
         match (&rays, &compiled.shoot) {
             (Some(rays), Some(shoot)) => {
@@ -342,14 +366,13 @@ impl Runner<'_> {
             _ => slices.run(&compiled.pipeline, &group, self.options.is_canceled)?,
         }
         if step.fills_ghosts {
-            let rounds: &[Round] = if round < 2 { &GHOST_ROUNDS } else { &REFRESH_ROUNDS };
             for (_, texture, format) in written.iter().filter(|(is_kept, ..)| *is_kept) {
                 let texture = (texture, *format);
                 self.gpu
-                    .fill_links(&surface.ghosts, slices.surface_group(), texture, rounds)?;
+                    .fill_links(&surface.ghosts, slices.surface_group(), texture, round.of_ghosts())?;
             }
         }
-        Ok(())
+        Ok(slices.length())
     }
 }
 
@@ -369,32 +392,4 @@ impl Runner<'_> {
         }
         Ok(())
     }
-}
-
-/// The parameter block of a step, laid out as the kernel reads it.
-fn block_buffer(gpu: &Gpu, compiled: &CompiledKernel, step: &KernelStep) -> wgpu::Buffer {
-    let layout = &compiled.kernel.layout;
-    let mut bytes = vec![0_u8; layout.size as usize];
-    let mut put = |offset: u32, data: &[u8]| bytes[offset as usize..][..data.len()].copy_from_slice(data);
-    if let Some(flags) = layout.flags {
-        put(flags, bytemuck::cast_slice(&step.flags));
-    }
-    for (call, values) in layout.calls.iter().zip(&step.blocks) {
-        if let Some(params) = call.params {
-            put(params, &values.params);
-        }
-        for (offset, knob) in call.knobs.iter().zip(&values.knobs) {
-            if let (Some(offset), Some(knob)) = (offset, knob) {
-                put(*offset, bytemuck::cast_slice(knob));
-            }
-        }
-    }
-    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("parameters"),
-        size: u64::from(layout.size),
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-    gpu.queue.write_buffer(&buffer, 0, &bytes);
-    buffer
 }

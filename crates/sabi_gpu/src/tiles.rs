@@ -1,5 +1,6 @@
 //! Kernels run over the covered tiles only, in slices that take about as long as asked.
 
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 use bytemuck::{Pod, Zeroable};
@@ -13,6 +14,9 @@ use crate::surface::GpuSurface;
 const ROW: u32 = 32_768;
 /// Tiles of the first slice of a kernel whose speed is not known yet.
 const FIRST_SLICE: u32 = 512;
+
+/// Repetitions of a quick kernel that are waited for together.
+const UNWATCHED: u32 = 8;
 
 /// As `Pass` in `shaders/lib/atlas.wgsl`.
 #[repr(C)]
@@ -37,6 +41,8 @@ pub(crate) struct Slices<'a> {
     group: wgpu::BindGroup,
     /// Which repetition this is, and how many there are.
     round: [u32; 2],
+    /// Tiles of the next slice.
+    length: Cell<u32>,
 }
 
 impl<'a> Slices<'a> {
@@ -65,13 +71,20 @@ impl<'a> Slices<'a> {
             constants,
             group,
             round: [0, 1],
+            length: Cell::new(FIRST_SLICE),
         }
     }
 
-    /// For one of several repetitions.
-    pub(crate) fn in_round(mut self, round: u32, rounds: u32) -> Slices<'a> {
+    /// For one of several repetitions, which starts with slices as long as the last one ended with.
+    pub(crate) fn in_round(mut self, round: u32, rounds: u32, length: Option<u32>) -> Slices<'a> {
         self.round = [round, rounds];
+        self.length.set(length.unwrap_or(FIRST_SLICE));
         self
+    }
+
+    /// Tiles that a slice may have by what was seen so far.
+    pub(crate) fn length(&self) -> u32 {
+        self.length.get()
     }
 
     /// Number of tiles of the surface.
@@ -98,19 +111,23 @@ impl<'a> Slices<'a> {
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<(), GpuError> {
         let mut first = 0;
-        let mut length = FIRST_SLICE;
         while first < self.surface.tile_count {
             if is_canceled() {
                 return Err(GpuError::Canceled);
             }
-            let end = (first + length).min(self.surface.tile_count);
+            if self.length.get() / UNWATCHED >= self.surface.tile_count && !self.round[0].is_multiple_of(UNWATCHED) {
+                // A small part of what it may take, as the last repetition showed: several of them are one piece of work.
+                self.submit(pipeline, group, 0, self.surface.tile_count);
+                return Ok(());
+            }
+            let end = (first + self.length.get()).min(self.surface.tile_count);
             let started = Instant::now();
             self.submit(pipeline, group, first, end);
             self.gpu.wait()?;
             let taken = started.elapsed().max(Duration::from_micros(10));
             // At most eight times as long as the last one, so that one quick slice does not lead to a long one.
             let scale = (self.target.as_secs_f64() / taken.as_secs_f64()).clamp(0.125, 8.0);
-            length = ((f64::from(end - first) * scale) as u32).max(1);
+            self.length.set(((f64::from(end - first) * scale) as u32).max(1));
             first = end;
         }
         Ok(())

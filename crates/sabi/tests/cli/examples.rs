@@ -10,12 +10,16 @@ use crate::place::Place;
 
 fn examples() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs");
-    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let folders = [folder.clone(), folder.join("thesis")];
+    let files = folders
+        .iter()
+        .flat_map(|folder| fs::read_dir(folder).unwrap())
+        .map(|entry| entry.unwrap().path());
     let mut graphs: Vec<PathBuf> = files
         .filter(|path| path.extension().is_some_and(|ending| ending == "sabi"))
         .collect();
     graphs.sort();
-    assert!(graphs.len() >= 6, "only {} example graphs were found", graphs.len());
+    assert!(graphs.len() >= 9, "only {} example graphs were found", graphs.len());
     graphs
 }
 

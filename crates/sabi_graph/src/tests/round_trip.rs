@@ -87,7 +87,9 @@ proptest! {
 #[test]
 fn the_example_graphs_are_as_a_save_leaves_them() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs");
-    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let folders = [folder.to_owned(), format!("{folder}/thesis")];
+    let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap());
+    let files = files.map(|entry| entry.unwrap().path());
     for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "sabi")) {
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(

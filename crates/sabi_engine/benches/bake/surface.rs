@@ -1,0 +1,127 @@
+//! Rays and filters on the surface, at 1024², on the 30 000-triangle model.
+
+use std::path::Path;
+use std::time::Instant;
+
+use rayon::prelude::*;
+use sabi_engine::{ModelOptions, Prepared, Silent};
+use sabi_graph::Fit;
+use sabi_surface::bvh::Bvh;
+
+use super::{bake_once, graph, row};
+
+const SIZE: u32 = 1024;
+const DISTANCE: f64 = 0.05;
+
+/// The best of three bakes: seconds that a node takes.
+fn node_seconds(folder: &Path, model: &Path, name: &str, nodes: &str) -> f64 {
+    let nodes = format!(r#"{nodes}, "out": {{ "kind": "output/mask", "inputs": {{ "source": "{name}" }} }}"#);
+    let graph = graph(folder, "surface.sabi", &nodes);
+    let once = || {
+        bake_once(&graph, model, folder, SIZE, true, None)["nodes_ms"][name]
+            .as_f64()
+            .unwrap()
+    };
+    (0..3).map(|_| once()).fold(f64::INFINITY, f64::min) / 1000.0
+}
+
+/// Seconds that the hierarchy alone takes for as many rays of the same kind, on all cores.
+fn bare_seconds(prepared: &Prepared, rays: u32) -> (f64, f64) {
+    let bvh = Bvh::build(&prepared.model.mesh);
+    let fit = Fit::Unit;
+    let tables = prepared.tables(&fit, 0);
+    let scale = prepared.working_from_model(&fit) as f32;
+    let [width, _] = prepared.atlas.page_size;
+    let owned = prepared
+        .atlas
+        .owners
+        .iter()
+        .enumerate()
+        .filter(|(_, owner)| **owner >> 31 == 0);
+    let shots: Vec<([f32; 3], [f32; 3])> = owned
+        .flat_map(|(index, &triangle)| {
+            let rows = &tables.geometry[6 * triangle as usize..][..6];
+            let step = [index as u32 % width, index as u32 / width].map(|texel| texel as f32 + 0.5);
+            let step = [step[0] - rows[0][3], step[1] - rows[1][3]];
+            let at = |axis: usize| rows[0][axis] + rows[1][axis] * step[0] + rows[2][axis] * step[1];
+            let normal = |axis: usize| rows[3][axis] + rows[4][axis] * step[0] + rows[5][axis] * step[1];
+            let up = glam::Vec3::new(normal(0), normal(1), normal(2)).normalize_or(glam::Vec3::Y);
+            let origin = glam::Vec3::new(at(0), at(1), at(2)) + up * 1e-5;
+            (0..rays).map(move |ray| {
+                // A sphere on the tip of the normal gives cosine-weighted directions.
+                let turn = (index as u32 * 64 + ray).wrapping_mul(2_654_435_769) as f32 / 4_294_967_296.0;
+                let height = ((ray as f32 + turn) / rays as f32) * 2.0 - 1.0;
+                let round = (1.0 - height * height).max(0.0).sqrt();
+                let (sine, cosine) = (turn * 97.0).sin_cos();
+                let direction = (up + glam::Vec3::new(round * cosine, round * sine, height)).normalize_or(up);
+                ((origin / scale).to_array(), direction.to_array())
+            })
+        })
+        .collect();
+    let reach = DISTANCE as f32 / scale;
+    let best = (0..3)
+        .map(|_| {
+            let started = Instant::now();
+            let hits = shots
+                .par_iter()
+                .with_min_len(1024)
+                .filter(|(origin, direction)| bvh.any(*origin, *direction, reach))
+                .count();
+            std::hint::black_box(hits);
+            started.elapsed().as_secs_f64()
+        })
+        .fold(f64::INFINITY, f64::min);
+    (best, shots.len() as f64)
+}
+
+pub(crate) fn bench_rays(folder: &Path, model: &Path) {
+    let prepared = Prepared::open(&ModelOptions::new(model, SIZE), &Silent).unwrap();
+    for (rays, aim) in [(16, "≤ 1.6 s"), (3, "≤ 0.4 s")] {
+        let nodes = format!(
+            r#""rays": {{ "kind": "surface/occlusion", "params": {{ "distance": {DISTANCE}, "rays": {rays} }} }}"#
+        );
+        let taken = node_seconds(folder, model, "rays", &nodes);
+        let (bare, count) = bare_seconds(&prepared, rays);
+        row(&format!("occlusion, {rays} rays, at {SIZE}²"), taken, "s", aim);
+        row("the same, rays a second", count / taken / 1e6, "M", "");
+        row(
+            "the same, as a multiple of the bare hierarchy",
+            taken / bare,
+            "×",
+            "≤ 1.4 ×",
+        );
+    }
+}
+
+pub(crate) fn bench_filters(folder: &Path, model: &Path) {
+    let on_noise = |kind: &str, params: &str| {
+        format!(
+            r#""noise": {{ "kind": "noise/simplex", "params": {{ "size": 0.05 }} }},
+            "filter": {{ "kind": "filter/{kind}", "inputs": {{ "source": "noise" }}, "params": {{ {params} }} }}"#
+        )
+    };
+    let taken = |kind: &str, params: &str| node_seconds(folder, model, "filter", &on_noise(kind, params));
+    let blur = taken("blur", r#""radius": 0.05"#);
+    row("filter/blur at 1024², radius 0.05", blur, "s", "≤ 0.25 s");
+    let twice = taken("blur", r#""radius": 0.1"#) / blur;
+    row("the same, radius doubled, as a multiple", twice, "×", "≤ 1.5 ×");
+    // Sixty-four repetitions less one, so that what a run costs once falls out.
+    let steps = |steps: u32| taken("smooth", &format!(r#""steps": {steps}"#));
+    let pass = (steps(64) - steps(1)) / 63.0;
+    row("a pass over nine neighbors, ghosts filled", 1000.0 * pass, "ms", "");
+    row("the same, passes a second", 1.0 / pass, "", "");
+    for (kind, params) in [
+        ("distance", r#""width": 0.05"#),
+        ("grow", r#""radius": 0.01"#),
+        ("median", r#""radius": 0.005"#),
+        ("sharpen", r#""radius": 0.01"#),
+        ("streak", ""),
+    ] {
+        row(
+            &format!("filter/{kind} at 1024², {params}"),
+            taken(kind, params),
+            "s",
+            "",
+        );
+    }
+}
