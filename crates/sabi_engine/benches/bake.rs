@@ -150,7 +150,13 @@ fn bench_run(folder: &Path, model: &Path) {
 
 /// Each noise of many points alone: the best of nine runs, on which other work shows least.
 fn bench_noises(folder: &Path, model: &Path) {
-    for kind in ["simplex", "cells", "cracks", "dots", "scratches"] {
+    for (kind, aim) in [
+        ("simplex", "≤ 60 ms"),
+        ("cells", "≤ 60 ms"),
+        ("cracks", "≤ 60 ms"),
+        ("dots", ""),
+        ("scratches", "≤ 60 ms"),
+    ] {
         let nodes = format!(
             r#""noise": {{ "kind": "noise/{kind}" }}, "out": {{ "kind": "output/mask", "inputs": {{ "source": "noise" }} }}"#
         );
@@ -161,7 +167,7 @@ fn bench_noises(folder: &Path, model: &Path) {
                 .unwrap()
         };
         let best = (0..9).map(|_| once()).fold(f64::INFINITY, f64::min);
-        row(&format!("noise/{kind} alone at 1024²"), best, "ms", "≤ 60 ms");
+        row(&format!("noise/{kind} alone at 1024²"), best, "ms", aim);
     }
 }
 

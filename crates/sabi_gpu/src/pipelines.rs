@@ -192,26 +192,29 @@ impl Gpu {
             let next = entries.len() as u32;
             entries.extend([write_entry(next), read_entry(next + 1)]);
         }
-        let names: &[&str] = if kernel.rays { &["main", "shoot"] } else { &["main"] };
-        let (mut pipelines, layout) = self.compute_pipelines("nodes", &kernel.wgsl, &entries, names)?;
-        let shoot = if kernel.rays { pipelines.pop() } else { None };
-        let missing = || GpuError::Driver("a kernel has no entry point".to_owned());
+        let (pipeline, shoot, layout) = if kernel.rays {
+            let ([main, shoot], layout) = self.compute_pipelines("nodes", &kernel.wgsl, &entries, ["main", "shoot"])?;
+            (main, Some(shoot), layout)
+        } else {
+            let ([main], layout) = self.compute_pipelines("nodes", &kernel.wgsl, &entries, ["main"])?;
+            (main, None, layout)
+        };
         Ok(CompiledKernel {
             kernel,
-            pipeline: pipelines.pop().ok_or_else(missing)?,
+            pipeline,
             shoot,
             layout,
             is_warm: false.into(),
         })
     }
 
-    fn compute_pipelines(
+    fn compute_pipelines<const N: usize>(
         &self,
         label: &str,
         wgsl: &str,
         entries: &[wgpu::BindGroupLayoutEntry],
-        names: &[&str],
-    ) -> Result<(Vec<wgpu::ComputePipeline>, wgpu::BindGroupLayout), GpuError> {
+        names: [&str; N],
+    ) -> Result<([wgpu::ComputePipeline; N], wgpu::BindGroupLayout), GpuError> {
         self.guarded(label, |device| {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some(label),
@@ -226,7 +229,7 @@ impl Gpu {
                 bind_group_layouts: &[Some(&self.pipelines.surface_layout), Some(&layout)],
                 immediate_size: 0,
             });
-            let pipeline = |name: &&str| {
+            let pipeline = |name: &str| {
                 device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some(label),
                     layout: Some(&pipeline_layout),
@@ -240,7 +243,7 @@ impl Gpu {
                     cache: None,
                 })
             };
-            (names.iter().map(pipeline).collect(), layout)
+            (names.map(pipeline), layout)
         })
     }
 
@@ -260,9 +263,7 @@ impl Gpu {
         let core = include_str!("../../../shaders/lib/core.wgsl");
         let atlas = include_str!("../../../shaders/lib/atlas.wgsl");
         let text = format!("{wgsl}\n{PLACE_WGSL}\n{atlas}\n{core}");
-        let (mut pipelines, layout) = self.compute_pipelines(name, &text, entries, &["main"])?;
-        let missing = || GpuError::Driver("a kernel has no entry point".to_owned());
-        let pipeline = pipelines.pop().ok_or_else(missing)?;
+        let ([pipeline], layout) = self.compute_pipelines(name, &text, entries, ["main"])?;
         let kernel = Arc::new(FixedKernel { pipeline, layout });
         if let Ok(mut fixed) = self.pipelines.fixed.lock() {
             fixed.insert((name, format), kernel.clone());
