@@ -16,7 +16,7 @@ pub(crate) fn warnings(plan: &Plan, prepared: &Prepared) -> Vec<String> {
     if report.border_edges > 0 {
         told.push(format!(
             "The model is open at {}: rays that should end inside of it leave there, so thickness, edges and creases are \
-             weaker near its openings, and both sides of a thin sheet count as edges of nothing.",
+             weaker near its openings, and a sheet without thickness has none.",
             edges(report.border_edges)
         ));
     } else if signed_volume(&prepared.model.mesh) < 0.0 {
