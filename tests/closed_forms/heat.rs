@@ -1,6 +1,5 @@
 //! Blur as heat flow, against what heat does on a ball and on a cube.
 
-use glam::DVec3;
 use sabi_tests::{OnMesh, extent, project};
 
 /// A blur of a source, given as the members of its node.
@@ -16,25 +15,6 @@ const WHITE: &str = r#""kind": "noise/white", "params": { "size": 0.08, "seed": 
 
 fn on(mesh: &str, graph: &str, size: u32) -> OnMesh {
     OnMesh::new(graph, &project(&format!("assets/meshes/{mesh}.glb")), size)
-}
-
-/// Area of each owned texel, and its index.
-fn areas(on_mesh: &OnMesh) -> Vec<(usize, f64)> {
-    let owned = on_mesh.owned();
-    owned
-        .map(|(index, triangle)| {
-            let row = |at: usize| {
-                let [x, y, z, _] = on_mesh.tables.geometry[6 * triangle as usize + at];
-                DVec3::from([x, y, z].map(f64::from))
-            };
-            (index, row(1).cross(row(2)).length())
-        })
-        .collect()
-}
-
-fn mean(areas: &[(usize, f64)], values: &[f32]) -> f64 {
-    let sum: f64 = areas.iter().map(|(index, area)| area * f64::from(values[*index])).sum();
-    sum / areas.iter().map(|(_, area)| area).sum::<f64>()
 }
 
 #[test]
@@ -56,13 +36,13 @@ fn a_ramp_over_a_ball_decays_as_the_square_of_the_radius_says() {
     let ramp = r#""kind": "surface/position", "params": { "along": [0, 1, 0] }"#;
     let mut on_mesh = on("sphere", &graph(ramp, 0.0), 256);
     let before = on_mesh.evaluate("source").component("mask");
-    let areas = areas(&on_mesh);
+    let areas = on_mesh.areas();
     let ball = areas.iter().filter_map(|(index, _)| on_mesh.position(*index));
     let reach = ball.fold(0.0, |reach: f64, at| reach.max(at.y));
     // Both sides are compared where they have most to say.
-    let decay = |after: &[f32]| {
+    let decay = |on_mesh: &OnMesh, after: &[f32]| {
         let product = |values: &[f32]| -> f64 {
-            let own = mean(&areas, values);
+            let own = on_mesh.mean(values);
             areas
                 .iter()
                 .map(|(index, area)| area * (f64::from(values[*index]) - own) * (f64::from(before[*index]) - 0.5))
@@ -73,7 +53,7 @@ fn a_ramp_over_a_ball_decays_as_the_square_of_the_radius_says() {
     for share in [0.02, 0.05, 0.1, 0.2, 0.4, 0.6] {
         on_mesh.set_graph(&graph(ramp, share * reach));
         let after = on_mesh.evaluate("blur").component("mask");
-        let (seen, expected) = (decay(&after), (-share * share).exp());
+        let (seen, expected) = (decay(&on_mesh, &after), (-share * share).exp());
         // The coarsest of these maps has ten texels for a side of the ball's charts.
         assert!((seen - expected).abs() < 0.01, "{share}: {seen} for {expected}");
     }
@@ -84,11 +64,11 @@ fn what_one_place_gains_another_loses_and_nothing_goes_beyond_what_was() {
     for (mesh, radius) in [("sphere", 0.03), ("cube", 0.02), ("cube", 0.3), ("figure", 0.05)] {
         let mut on_mesh = on(mesh, &graph(WHITE, radius), 128);
         let [before, after] = ["source", "blur"].map(|node| on_mesh.evaluate(node).component("mask"));
-        let areas = areas(&on_mesh);
+        let areas = on_mesh.areas();
         let [low, high] = extent(areas.iter().map(|(index, _)| before[*index]));
         let [lower, higher] = extent(areas.iter().map(|(index, _)| after[*index]));
         assert!(low < lower && higher < high, "{mesh}: {low} {lower} {higher} {high}");
-        let lost = mean(&areas, &before) - mean(&areas, &after);
+        let lost = on_mesh.mean(&before) - on_mesh.mean(&after);
         assert!(lost.abs() < 0.005, "{mesh} at {radius}: the mean lost {lost}");
     }
 }

@@ -1,6 +1,5 @@
 //! What a survey finds, against the areas of the texels themselves.
 
-use glam::DVec3;
 use sabi_tests::{OnMesh, project};
 
 const MODELS: [&str; 5] = ["bench", "barrel", "figure", "column", "cube"];
@@ -8,21 +7,6 @@ const MODELS: [&str; 5] = ["bench", "barrel", "figure", "column", "cube"];
 fn on(mesh: &str, size: u32, nodes: &str) -> OnMesh {
     let graph = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
     OnMesh::new(&graph, &project(&format!("assets/meshes/{mesh}.glb")), size)
-}
-
-/// Mean over the surface by its true area.
-fn mean(on_mesh: &OnMesh, values: &[f32]) -> f64 {
-    let (mut sum, mut whole) = (0.0, 0.0);
-    for (index, triangle) in on_mesh.owned() {
-        let row = |at: usize| {
-            let [x, y, z, _] = on_mesh.tables.geometry[6 * triangle as usize + at];
-            DVec3::from([x, y, z].map(f64::from))
-        };
-        let area = row(1).cross(row(2)).length();
-        sum += area * f64::from(values[index]);
-        whole += area;
-    }
-    sum / whole
 }
 
 #[test]
@@ -44,7 +28,7 @@ fn as_much_is_covered_as_is_asked_for_on_any_model_and_from_any_mask() {
                     ),
                 );
                 let mask = on_mesh.evaluate("cover").component("mask");
-                let covered = mean(&on_mesh, &mask);
+                let covered = on_mesh.mean(&mask);
                 // Lines are 0 on most of the surface: cut hard, all of that or nothing is covered.
                 let is_possible = softness > 0.0 || !source.contains("cracks");
                 assert!(
@@ -69,7 +53,7 @@ fn none_and_all_of_an_even_mask_are_covered_as_asked() {
         );
         let covered = {
             let mask = on_mesh.evaluate("cover").component("mask");
-            mean(&on_mesh, &mask)
+            on_mesh.mean(&mask)
         };
         assert!((covered - expected).abs() < 1e-3, "{covered} for {amount}");
     }
@@ -87,7 +71,7 @@ fn auto_levels_leave_the_shares_that_were_asked_at_both_ends() {
         let mask = on_mesh.evaluate("auto").component("mask");
         let share = |is_meant: fn(f32) -> bool| {
             let meant: Vec<f32> = mask.iter().map(|value| f32::from(u8::from(is_meant(*value)))).collect();
-            mean(&on_mesh, &meant)
+            on_mesh.mean(&meant)
         };
         let (black, white) = (share(|value| value <= 0.0), share(|value| value >= 1.0));
         assert!(

@@ -143,6 +143,25 @@ impl OnMesh {
             .sum()
     }
 
+    /// All owned texels with their true areas, square working units.
+    pub fn areas(&self) -> Vec<(usize, f64)> {
+        let area = |triangle: u32| {
+            let row = |at: usize| {
+                let [x, y, z, _] = self.tables.geometry[6 * triangle as usize + at];
+                DVec3::from([x, y, z].map(f64::from))
+            };
+            row(1).cross(row(2)).length()
+        };
+        self.owned().map(|(index, triangle)| (index, area(triangle))).collect()
+    }
+
+    /// Mean of a result over the surface, by its true area.
+    pub fn mean(&self, values: &[f32]) -> f64 {
+        let areas = self.areas();
+        let sum: f64 = areas.iter().map(|(index, area)| area * f64::from(values[*index])).sum();
+        sum / areas.iter().map(|(_, area)| area).sum::<f64>()
+    }
+
     /// Pairs of owned texels side by side on one chart.
     pub fn neighbors(&self) -> Vec<(usize, usize)> {
         let mut pairs = Vec::new();

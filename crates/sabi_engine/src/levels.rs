@@ -11,27 +11,31 @@ use crate::prepare::Prepared;
 
 /// The levels of one surface that were made so far.
 pub(crate) struct Levels {
-    /// Texel width of each level that may be used, working units, finest first.
-    pub(crate) widths: Vec<f64>,
+    /// Width of the finest texels, working units.
+    finest: f64,
     pub(crate) coarser: BTreeMap<u32, CoarseSurface>,
 }
 
 impl Levels {
     pub(crate) fn new(prepared: &Prepared, fit: &Fit) -> Levels {
-        let finest = prepared.finest_texel() * prepared.working_from_model(fit);
-        let count = prepared.usable_levels();
         Levels {
-            widths: (0..=count).map(|level| finest * f64::from(1_u32 << level)).collect(),
+            finest: prepared.finest_texel() * prepared.working_from_model(fit),
             coarser: BTreeMap::new(),
         }
     }
 
+    /// Texel width of each level that may be used, working units, finest first. The whole atlas is looked at for that, so
+    /// it is asked for graphs only that have filters.
+    pub(crate) fn widths(&self, prepared: &Prepared, has_filters: bool) -> Vec<f64> {
+        let coarser = if has_filters { prepared.usable_levels() } else { 0 };
+        (0..=coarser).map(|level| self.of(level).texel).collect()
+    }
+
     /// Widths of a level's texels.
     pub(crate) fn of(&self, level: u32) -> TexelWidths {
-        let width = |level: u32| self.widths.get(level as usize).copied().unwrap_or(1.0);
         TexelWidths {
-            texel: width(level),
-            finest: width(0),
+            texel: self.finest * f64::from(1_u32 << level),
+            finest: self.finest,
         }
     }
 

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables, Surfaces};
-use sabi_graph::{Fit, FlatGraph, Overrides};
+use sabi_graph::{Fit, FlatGraph, FlatNode, Overrides};
+use sabi_nodes::kind::Shape;
 use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Target};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
@@ -191,6 +192,12 @@ impl Workpiece {
         let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
         let wanted = self.graph.upstream(&wanted);
         let contents = self.pictures.contents(self.folder(), &self.graph, &self.kinds, wanted);
+        let is_filter = |node: &FlatNode| {
+            let kind = self.kinds.library.kind(&node.kind);
+            kind.is_some_and(|kind| kind.shape == Shape::Field)
+        };
+        let has_filters = self.graph.nodes.iter().any(is_filter);
+        let levels = self.levels.widths(&self.prepared, has_filters);
         let planner = Planner {
             graph: &self.graph,
             library: &self.kinds.library,
@@ -201,7 +208,7 @@ impl Workpiece {
                 working_from: &|fit| scale / self.prepared.working_from_model(fit),
                 extent: &|direction| self.prepared.extent(&self.fit, direction),
             },
-            levels: &self.levels.widths,
+            levels: &levels,
             surface_key: self.surface_key,
             mode,
             limits,

@@ -1,7 +1,6 @@
 //! Coarser levels of the surface, and the way of a plane between levels.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
@@ -10,7 +9,7 @@ use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::links::{GHOST_ROUNDS, LinkRound, Links};
-use crate::pipelines::{FixedKernel, owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
+use crate::pipelines::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::pool::array_view;
 use crate::run::RunOptions;
 use crate::surface::{GpuSurface, TexelWidths};
@@ -123,14 +122,39 @@ impl Gpu {
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
         let coarse = surfaces.coarse(from.max(to))?;
-        let views = [array_view(source), array_view(target)];
-        let (ground, orphans, (kernel, group)) = if to > from {
-            let work = self.restriction(surfaces.finest, coarse, &views, format)?;
-            (&coarse.surface, &coarse.coarse_orphans, work)
+        let (restrict, prolong) = (
+            include_str!("../../../shaders/surface/restrict.wgsl"),
+            include_str!("../../../shaders/surface/prolong.wgsl"),
+        );
+        let fine = surfaces.finest;
+        // Both kernels ask, for each texel of the level that is read, whose it is, and where its triangle's chart lies.
+        let (name, text, ground, orphans, whose, frames) = if to > from {
+            let coarse_orphans = &coarse.coarse_orphans;
+            (
+                "restrict",
+                restrict,
+                &coarse.surface,
+                coarse_orphans,
+                &fine.owners,
+                &fine.frames,
+            )
         } else {
-            let work = self.prolongation(coarse, &views, format)?;
-            (surfaces.finest, &coarse.fine_orphans, work)
+            let frames = &coarse.surface.frames;
+            ("prolong", prolong, fine, &coarse.fine_orphans, &coarse.charts, frames)
         };
+        let entries = [
+            uniform_entry(0),
+            owners_entry(1),
+            table_entry(2),
+            texture_entry(3),
+            storage_entry(4, format),
+        ];
+        let text = text.replace("FORMAT", format.wgsl());
+        let kernel = self.fixed_kernel(name, Some(format), &text, &entries)?;
+        let scale = coarse.scale(self);
+        let (source, written) = (array_view(source), array_view(target));
+        let views = [whose, frames, &source, &written].map(wgpu::BindingResource::TextureView);
+        let group = self.bind(&kernel.layout, std::iter::once(scale.as_entire_binding()).chain(views));
         let slices = Slices::new(self, ground, options.submission);
         slices.run(&kernel.pipeline, &group, options.is_canceled)?;
         let of_orphans = Slices::with_links(self, ground, orphans, options.submission);
@@ -141,64 +165,5 @@ impl Gpu {
             &[LinkRound::Owned],
         )?;
         self.fill_links(&ground.ghosts, slices.surface_group(), (target, format), &GHOST_ROUNDS)
-    }
-
-    /// The kernel to a coarser level, and what it binds.
-    fn restriction(
-        &self,
-        fine: &GpuSurface,
-        coarse: &CoarseSurface,
-        [source, target]: &[wgpu::TextureView; 2],
-        format: Format,
-    ) -> Result<(Arc<FixedKernel>, wgpu::BindGroup), GpuError> {
-        let text = include_str!("../../../shaders/surface/restrict.wgsl").replace("FORMAT", format.wgsl());
-        let entries = [
-            uniform_entry(0),
-            owners_entry(1),
-            table_entry(2),
-            texture_entry(3),
-            storage_entry(4, format),
-        ];
-        let kernel = self.fixed_kernel("restrict", Some(format), &text, &entries)?;
-        let scale = coarse.scale(self);
-        let view = wgpu::BindingResource::TextureView;
-        let resources = [
-            scale.as_entire_binding(),
-            view(&fine.owners),
-            view(&fine.frames),
-            view(source),
-            view(target),
-        ];
-        let group = self.bind(&kernel.layout, resources);
-        Ok((kernel, group))
-    }
-
-    /// The kernel to the finest level, and what it binds.
-    fn prolongation(
-        &self,
-        coarse: &CoarseSurface,
-        [source, target]: &[wgpu::TextureView; 2],
-        format: Format,
-    ) -> Result<(Arc<FixedKernel>, wgpu::BindGroup), GpuError> {
-        let text = include_str!("../../../shaders/surface/prolong.wgsl").replace("FORMAT", format.wgsl());
-        let entries = [
-            uniform_entry(0),
-            owners_entry(1),
-            table_entry(2),
-            texture_entry(3),
-            storage_entry(4, format),
-        ];
-        let kernel = self.fixed_kernel("prolong", Some(format), &text, &entries)?;
-        let scale = coarse.scale(self);
-        let view = wgpu::BindingResource::TextureView;
-        let resources = [
-            scale.as_entire_binding(),
-            view(&coarse.charts),
-            view(&coarse.surface.frames),
-            view(source),
-            view(target),
-        ];
-        let group = self.bind(&kernel.layout, resources);
-        Ok((kernel, group))
     }
 }

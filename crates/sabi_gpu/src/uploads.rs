@@ -45,7 +45,7 @@ fn table_extent(what: &'static str, rows: usize, highest: u32) -> Result<wgpu::E
     })
 }
 
-/// A table of rows of four numbers as a texture of bit patterns, see `shaders/surface/place.wgsl`.
+/// A table of rows of four numbers as a texture of bit patterns, see `shaders/lib/atlas.wgsl`.
 pub(crate) fn table_texture(gpu: &Gpu, what: &'static str, bytes: &[u8]) -> Result<wgpu::TextureView, GpuError> {
     let rows = bytes.len() / TABLE_ROW_BYTES;
     let size = table_extent(what, rows, gpu.device.limits().max_texture_dimension_2d)?;

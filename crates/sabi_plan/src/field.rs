@@ -7,7 +7,7 @@ use sabi_nodes::link::{Binding, Call, Convert, Plane, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft, What};
 use crate::plan::{MoveStep, Step};
-use crate::resolve::{Behavior, ResolvedNode};
+use crate::resolve::{Behavior, ResolvedInput, ResolvedNode};
 use crate::schedule::Builder;
 
 /// Most runs of a function.
@@ -79,24 +79,29 @@ impl Builder<'_, '_> {
         let inputs = self.node(node).inputs.iter().enumerate();
         let converted = inputs.filter_map(|(index, input)| {
             let input = input.filter(|input| input.reads == Reads::Field && input.convert != Convert::None)?;
-            let mut kernel = KernelDraft::new(self, true);
-            let load = kernel.load((input.node, input.output));
-            let stored = Stored {
-                ty: if input.ty == PortType::Mask {
-                    PortType::Color
-                } else {
-                    PortType::Mask
-                },
-                channels: Vec::new(),
-            };
-            let kept = Kept {
-                what: What::Converted(node, index),
-                level: 0,
-            };
-            kernel.store_kept(Binding::Load(load, input.convert), kept, stored);
-            Some(kernel.finish())
+            Some(self.conversion(node, index, input).0)
         });
         converted.collect()
+    }
+
+    /// An input stored once more in the type that it is read as.
+    pub(crate) fn conversion(&self, node: usize, index: usize, input: ResolvedInput) -> (Draft, Kept) {
+        let mut kernel = KernelDraft::new(self, true);
+        let load = kernel.load((input.node, input.output));
+        let stored = Stored {
+            ty: if input.ty == PortType::Mask {
+                PortType::Color
+            } else {
+                PortType::Mask
+            },
+            channels: Vec::new(),
+        };
+        let kept = Kept {
+            what: What::Converted(node, index),
+            level: 0,
+        };
+        kernel.store_kept(Binding::Load(load, input.convert), kept, stored);
+        (kernel.finish(), kept)
     }
 
     fn field_step(&self, node: usize, kind: &Kind, function: &Output, kept: Kept, index: usize) -> Draft {

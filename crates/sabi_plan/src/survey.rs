@@ -48,16 +48,9 @@ impl Builder<'_, '_> {
         let mut drafts = Vec::new();
         let mut kept = Kept::result((input.node, input.output));
         if input.convert != Convert::None {
-            let what = What::Converted(node, index);
-            kept = Kept { what, level: 0 };
-            let mut kernel = KernelDraft::new(self, true);
-            let load = kernel.load((input.node, input.output));
-            let stored = Stored {
-                ty: PortType::Mask,
-                channels: Vec::new(),
-            };
-            kernel.store_kept(Binding::Load(load, input.convert), kept, stored);
-            drafts.push(kernel.finish());
+            let (draft, converted) = self.conversion(node, index, input);
+            kept = converted;
+            drafts.push(draft);
         }
         let what = What::Survey(node);
         drafts.push(Draft {
