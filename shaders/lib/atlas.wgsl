@@ -24,6 +24,11 @@ struct Pass {
     rounds: u32,
     texel: f32,
     finest: f32,
+    // The largest coordinate of the model, working units.
+    farthest: f32,
+    pad_1: u32,
+    pad_2: u32,
+    pad_3: u32,
 }
 
 struct GhostLink {
@@ -92,6 +97,29 @@ fn owner_of(texel: vec3i) -> u32 {
         return EMPTY;
     }
     return textureLoad(owners, texel.xy, texel.z, 0).r;
+}
+
+// Normals of a triangle's plane and, at a point of it, of its shading.
+struct Facing {
+    face: vec3f,
+    shading: vec3f,
+}
+
+fn facing_of(triangle: u32, position: vec3f) -> Facing {
+    let g = triangle * GEOMETRY_ROWS;
+    let origin = geometry_row(g);
+    let along_u = geometry_row(g + 1u);
+    let along_v = geometry_row(g + 2u);
+    let turned = select(1.0, -1.0, along_v.w < 0.0);
+    let face = unit_or(cross(along_v.xyz, along_u.xyz) * turned, vec3f(0.0, 1.0, 0.0));
+    // The step in texels whose place is nearest to the point.
+    let away = position - origin.xyz;
+    let metric = vec3f(dot(along_u.xyz, along_u.xyz), dot(along_u.xyz, along_v.xyz), dot(along_v.xyz, along_v.xyz));
+    let right = vec2f(dot(away, along_u.xyz), dot(away, along_v.xyz));
+    let determinant = max(metric.x * metric.z - metric.y * metric.y, 1e-30);
+    let step = vec2f(metric.z * right.x - metric.y * right.y, metric.x * right.y - metric.y * right.x) / determinant;
+    let normal = geometry_row(g + 3u).xyz + geometry_row(g + 4u).xyz * step.x + geometry_row(g + 5u).xyz * step.y;
+    return Facing(face, unit_or(normal, face));
 }
 
 fn unit_or(v: vec3f, fallback: vec3f) -> vec3f {

@@ -1,5 +1,5 @@
 //! Rays: how a place shoots them, and what they hit.
-//! @use noise
+//! @use noise atlas
 
 /// A ray, in model units.
 struct Ray {
@@ -17,6 +17,8 @@ struct Hit {
     is_hit: bool,
     /// How far that is; the ray's reach where nothing is hit.
     distance: f32,
+    /// The triangle, where the rays find the nearest.
+    triangle: u32,
 }
 
 /// A hit as it is stored: the distance, below 0 where there is none, and the triangle.
@@ -32,7 +34,7 @@ fn no_ray() -> Ray {
 
 fn hit_of(stored: RayHit, ray: Ray) -> Hit {
     let is_hit = stored.distance >= 0.0;
-    return Hit(is_hit, select(ray.reach, stored.distance, is_hit));
+    return Hit(is_hit, select(ray.reach, stored.distance, is_hit), stored.triangle);
 }
 
 /// Two numbers from 0 to just below 1 for ray `index` of a place, evenly spread over the rays of each place and without a
@@ -111,16 +113,29 @@ fn ray_out(at: Surface, direction: vec3f, reach: f32) -> Ray {
     return ray_along(at, direction - select(0.0, 2.0 * below, below < 0.0) * at.face_normal, reach);
 }
 
-/// A ray to either side. Its start is lifted off the triangle, to the side it goes to, by more than rounding can move it.
+/// A ray to either side. Its start is lifted off the triangle, to the side it goes to, when it is shot.
 fn ray_along(at: Surface, direction: vec3f, reach: f32) -> Ray {
-    let largest = max(max(abs(at.position.x), abs(at.position.y)), max(abs(at.position.z), 1e-3));
-    let side = select(-1.0, 1.0, dot(direction, at.face_normal) >= 0.0);
-    return Ray(at.position + at.face_normal * (side * largest * 4e-6), reach, direction);
+    return Ray(at.position, reach, direction);
 }
 
 /// A ray to any side, for `bend_by`.
 fn ray_around(at: Surface, index: u32, seed: u32, reach: f32) -> Ray {
     return ray_along(at, even_direction(ray_sample(at, index, seed)), reach);
+}
+
+/// The normals of what a ray hit, of rays that find the nearest.
+fn facing_hit(ray: Ray, hit: Hit) -> Facing {
+    return facing_of(select(0u, hit.triangle, hit.is_hit), ray.origin + ray.direction * hit.distance);
+}
+
+/// How much of the turn between the triangle of a place and the one that a ray hit is seen: the share of it that the
+/// shading turns too. On a hard edge that is all, between the facets of what is shaded as round next to nothing; 0 without
+/// a hit. The rays must find the nearest.
+fn shaded_share(at: Surface, ray: Ray, hit: Hit) -> f32 {
+    let there = facing_hit(ray, hit);
+    let turn = acos(clamp(dot(at.face_normal, there.face), -1.0, 1.0));
+    let shaded = acos(clamp(dot(at.normal, there.shading), -1.0, 1.0));
+    return select(0.0, clamp(shaded / max(turn, 1e-3), 0.0, 1.0), hit.is_hit);
 }
 
 /// What a ray to any side says of the bend; the mean is the share of rays stopped inside less that of those stopped

@@ -1,6 +1,7 @@
 //! Closed forms: results whose value is known without running a kernel.
 
 mod blending;
+mod casters;
 mod cells;
 mod colors;
 mod curves;

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, DEFAULT_BUDGET_BYTES, ModelOptions, Overlap, Overrides, Prepared, Silent,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overlap, Overrides, Prepared, Silent,
     WorkpieceOptions, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
@@ -49,6 +49,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
             overrides: Overrides::default(),
             fit: None,
             adapter: AdapterChoice::Cpu,
+            caster: CasterChoice::Auto,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         },
         output: folder.join("out"),

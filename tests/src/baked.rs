@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Silent, WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Silent, WorkpieceOptions,
+    bake,
 };
 use serde_json::Value as Json;
 use tempfile::TempDir;
@@ -34,6 +35,7 @@ impl Baked {
                 overrides: Overrides::default(),
                 fit: None,
                 adapter: AdapterChoice::Cpu,
+                caster: CasterChoice::Auto,
                 budget_bytes: DEFAULT_BUDGET_BYTES,
             },
             output: output.clone(),

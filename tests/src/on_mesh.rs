@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sabi_engine::{
-    AdapterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Pictures, Prepared, Silent,
-    Workpiece, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Pictures, Prepared,
+    Silent, Workpiece, WorkpieceOptions,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -97,6 +97,7 @@ impl OnMesh {
             overrides: Overrides::default(),
             fit: None,
             adapter: AdapterChoice::Cpu,
+            caster: CasterChoice::Auto,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         };
         let mut prepared = Prepared::open(&options.model, &Silent).unwrap_or_else(|error| panic!("{error}"));
@@ -149,6 +150,7 @@ impl OnMesh {
             is_canceled: &|| false,
             progress: &|_, _| {},
             budget_bytes: DEFAULT_BUDGET_BYTES,
+            caster: CasterChoice::Auto,
         };
         let has_relief = height.is_some() || slope.is_some();
         let normals = has_relief.then(|| {

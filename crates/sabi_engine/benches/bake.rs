@@ -14,7 +14,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Prepared, Silent, WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Prepared, Silent,
+    WorkpieceOptions, bake,
 };
 use serde_json::{Value as Json, json};
 
@@ -62,6 +63,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
             overrides: Overrides::default(),
             fit: None,
             adapter: AdapterChoice::Auto,
+            caster: CasterChoice::Auto,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         },
         output: folder.join("out"),

@@ -94,6 +94,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
             is_canceled: &|| progress.is_canceled(),
             progress: &|_, _| {},
             budget_bytes: request.workpiece.budget_bytes,
+            caster: request.workpiece.caster,
         },
     };
     let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;

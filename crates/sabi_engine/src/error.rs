@@ -53,6 +53,7 @@ impl From<sabi_gpu::GpuError> for EngineError {
             GpuError::Canceled => ErrorKind::Interrupted,
             GpuError::Source(_)
             | GpuError::TooLarge { .. }
+            | GpuError::TooDeep { .. }
             | GpuError::OverBudget { .. }
             | GpuError::OutOfMemory { .. } => ErrorKind::BadInput,
             GpuError::NoAdapter

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_gpu::{CoarseSurface, Gpu, TexelWidths};
+use sabi_gpu::{CoarseSurface, Gpu, Measures};
 use sabi_graph::Fit;
 use sabi_plan::{Plan, Step};
 
@@ -13,13 +13,17 @@ use crate::prepare::Prepared;
 pub(crate) struct Levels {
     /// Width of the finest texels, working units.
     finest: f64,
+    /// Largest coordinate of the model, working units.
+    farthest: f64,
     pub(crate) coarser: BTreeMap<u32, CoarseSurface>,
 }
 
 impl Levels {
     pub(crate) fn new(prepared: &Prepared, fit: &Fit) -> Levels {
+        let scale = prepared.working_from_model(fit);
         Levels {
-            finest: prepared.finest_texel() * prepared.working_from_model(fit),
+            finest: prepared.finest_texel() * scale,
+            farthest: prepared.farthest * scale,
             coarser: BTreeMap::new(),
         }
     }
@@ -32,10 +36,11 @@ impl Levels {
     }
 
     /// Widths of a level's texels.
-    pub(crate) fn of(&self, level: u32) -> TexelWidths {
-        TexelWidths {
+    pub(crate) fn of(&self, level: u32) -> Measures {
+        Measures {
             texel: self.finest * f64::from(1_u32 << level),
             finest: self.finest,
+            farthest: self.farthest,
         }
     }
 

@@ -46,6 +46,6 @@ pub use stages::{Progress, Silent, Stage};
 pub use watch::NodeWatcher;
 pub use workpiece::{Workpiece, WorkpieceOptions};
 
-pub use sabi_gpu::{AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu};
+pub use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu};
 pub use sabi_graph::{Fit, Overrides, nearest};
 pub use sabi_surface::load::Up;

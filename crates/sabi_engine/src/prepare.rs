@@ -85,6 +85,8 @@ pub struct Prepared {
     pub atlas_was_cached: bool,
     /// The largest side of the box around it, model units.
     pub largest_side: f64,
+    /// The largest coordinate, model units.
+    pub(crate) farthest: f64,
     /// Model units in one unit of the file: what all lengths of it were multiplied by.
     pub scale: f64,
 }
@@ -150,7 +152,7 @@ impl Prepared {
         }
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(with_advice(&error)))?;
         progress.advance(Stage::Atlas, 1, 1);
-        let largest_side = largest_side(&model);
+        let (largest_side, farthest) = extents(&model);
         // After the atlas, which has refused meshes that are not whole.
         let pieces = Pieces::of(&model.mesh);
         Ok(Prepared {
@@ -164,6 +166,7 @@ impl Prepared {
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),
             largest_side,
+            farthest,
             scale: f64::from(options.scale),
         })
     }
@@ -279,8 +282,8 @@ fn with_advice(error: &AtlasError) -> String {
     }
 }
 
-/// The largest side of the box around all triangles; 1 for a model without extent.
-fn largest_side(model: &Model) -> f64 {
+/// The largest side of the box around all triangles, and their largest coordinate; 1 for a model without extent.
+fn extents(model: &Model) -> (f64, f64) {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for vertex in model.mesh.triangles.iter().flatten() {
@@ -293,7 +296,15 @@ fn largest_side(model: &Model) -> f64 {
         }
     }
     let side = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-    if side > 0.0 && side.is_finite() { side } else { 1.0 }
+    let farthest = low.iter().chain(&high).map(|at| at.abs()).fold(0.0, f64::max);
+    let sound = |length: f64| {
+        if length > 0.0 && length.is_finite() {
+            length
+        } else {
+            1.0
+        }
+    };
+    (sound(side), sound(farthest))
 }
 
 #[cfg(test)]

@@ -1,10 +1,13 @@
 //! A graph and a model brought together on a device.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use sabi_gpu::{AdapterChoice, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables, Surfaces};
+use sabi_gpu::{
+    AdapterChoice, CasterChoice, DeviceHierarchy, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables,
+    Surfaces,
+};
 use sabi_graph::{Fit, FlatGraph, FlatNode, Overrides};
 use sabi_nodes::kind::Shape;
 use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Target};
@@ -34,6 +37,8 @@ pub struct WorkpieceOptions {
     pub fit: Option<Fit>,
     /// Which adapter.
     pub adapter: AdapterChoice,
+    /// Who follows rays.
+    pub caster: CasterChoice,
     /// Bytes of textures that may be held at once.
     pub budget_bytes: u64,
 }
@@ -54,12 +59,15 @@ pub struct Workpiece {
     pub surface: GpuSurface,
     /// What counts as 1.
     pub fit: Fit,
+    /// Who follows rays.
+    pub caster: CasterChoice,
     /// Time spent so far.
     pub times: StageTimes,
     /// What the artist should know.
     pub warnings: Vec<String>,
     pictures: Pictures,
     tables: SurfaceTables,
+    bvh_on_device: OnceLock<DeviceHierarchy>,
     levels: Levels,
     seed: u32,
     surface_key: [u8; 32],
@@ -138,9 +146,11 @@ impl Workpiece {
             warnings,
             pictures: open.pictures.clone(),
             tables,
+            bvh_on_device: OnceLock::new(),
             levels,
             seed,
             surface_key,
+            caster: options.caster,
             budget_bytes,
         })
     }
@@ -244,6 +254,7 @@ impl Workpiece {
             tables: &self.tables,
             pieces: &self.prepared.pieces,
             bvh: &self.prepared.bvh,
+            bvh_on_device: &self.bvh_on_device,
             working_from_model: self.prepared.working_from_model(&self.fit),
         };
         let files = Files {
@@ -257,6 +268,7 @@ impl Workpiece {
             is_canceled: &|| progress.is_canceled(),
             progress: &|done, of| progress.advance(Stage::Run, done, of),
             budget_bytes: self.budget_bytes,
+            caster: self.caster,
         };
         let surfaces = Surfaces {
             finest: &self.surface,

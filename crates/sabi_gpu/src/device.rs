@@ -234,7 +234,19 @@ impl Gpu {
 
     /// Waits until all submitted work is done; reports what the driver complained about meanwhile.
     pub fn wait(&self) -> Result<(), GpuError> {
-        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.polled(wgpu::PollType::wait_indefinitely())
+    }
+
+    /// Waits until one submission and all before it are done.
+    pub(crate) fn wait_for(&self, submission: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        self.polled(wgpu::PollType::Wait {
+            submission_index: Some(submission),
+            timeout: None,
+        })
+    }
+
+    fn polled(&self, until: wgpu::PollType) -> Result<(), GpuError> {
+        let polled = self.device.poll(until);
         self.complaints.take()?;
         polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))
     }

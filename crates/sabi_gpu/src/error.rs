@@ -58,6 +58,15 @@ pub enum GpuError {
         /// The adapter's limit.
         limit_mib: u64,
     },
+    /// The hierarchy of the model's triangles has too many levels for the kernel that follows rays.
+    #[error(
+        "rays cannot be followed on the device: the model's hierarchy has {depth} levels and the kernel takes 24; choose \
+         --caster cpu"
+    )]
+    TooDeep {
+        /// Its levels.
+        depth: usize,
+    },
     /// A kernel could not be made: a mistake in a node's text, in Sabi or in the driver.
     #[error(
         "the kernel of {nodes} cannot be compiled: {why}. If one of these nodes is your own, look there first; otherwise \

@@ -12,7 +12,7 @@ use crate::links::{GHOST_ROUNDS, LinkRound, Links};
 use crate::pipelines::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::pool::array_view;
 use crate::run::RunOptions;
-use crate::surface::{GpuSurface, TexelWidths};
+use crate::surface::{GpuSurface, Measures};
 use crate::tables::SurfaceTables;
 use crate::tiles::Slices;
 use crate::uploads::texel_texture;
@@ -36,9 +36,9 @@ impl CoarseSurface {
         gpu: &Gpu,
         level: &AtlasLevel,
         tables: &SurfaceTables,
-        widths: TexelWidths,
+        measures: Measures,
     ) -> Result<CoarseSurface, GpuError> {
-        let surface = GpuSurface::upload(gpu, &level.atlas, tables, widths)?;
+        let surface = GpuSurface::upload(gpu, &level.atlas, tables, measures)?;
         let charts = charts(&level.atlas);
         let bytes = bytemuck::cast_slice(&charts);
         let format = wgpu::TextureFormat::R32Uint;

@@ -13,6 +13,9 @@ use crate::pool::wgpu_format;
 /// Reconstruction of a place from the atlas, appended to every kernel.
 pub(crate) const PLACE_WGSL: &str = include_str!("../../../shaders/surface/place.wgsl");
 
+/// Where rays start, appended to kernels that shoot.
+const SHOOT_WGSL: &str = include_str!("../../../shaders/surface/shoot.wgsl");
+
 /// A compiled kernel.
 pub(crate) struct CompiledKernel {
     pub(crate) kernel: Kernel,
@@ -156,11 +159,12 @@ impl Gpu {
             nodes: nodes.join(", "),
             why,
         };
+        let place_and_shoot = format!("{PLACE_WGSL}\n{SHOOT_WGSL}");
         let kernel = link(
             spec,
             |id| library.kind(id),
             |name| library.libraries().text(name),
-            PLACE_WGSL,
+            if spec.rays { &place_and_shoot } else { PLACE_WGSL },
         )
         .map_err(|error| refused(error.to_string()))?;
         let key = *blake3::hash(kernel.wgsl.as_bytes()).as_bytes();

@@ -1,6 +1,6 @@
 //! From the device back into memory.
 
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 use half::f16;
@@ -56,8 +56,27 @@ impl PlaneData {
     }
 }
 
+/// Bytes on their way into memory.
+pub(crate) struct Mapping {
+    submitted: wgpu::SubmissionIndex,
+    bytes: u64,
+    answer: Receiver<Result<(), wgpu::BufferAsyncError>>,
+}
+
+/// Asks for the first bytes of a buffer, to be there when a submission is done.
+fn mapping_of(submitted: wgpu::SubmissionIndex, buffer: &wgpu::Buffer, bytes: u64) -> Mapping {
+    let (sender, answer) = channel();
+    // The receiver is gone only if the wait has failed already.
+    buffer.map_async(wgpu::MapMode::Read, ..bytes, move |mapped| drop(sender.send(mapped)));
+    Mapping {
+        submitted,
+        bytes,
+        answer,
+    }
+}
+
 /// What became of a request to map a buffer, once the device is done.
-fn mapping(answer: Result<Result<(), wgpu::BufferAsyncError>, RecvTimeoutError>) -> Result<(), GpuError> {
+fn mapped(answer: Result<Result<(), wgpu::BufferAsyncError>, RecvTimeoutError>) -> Result<(), GpuError> {
     match answer {
         Ok(Ok(())) => Ok(()),
         Ok(Err(error)) => Err(GpuError::Driver(format!("a result cannot be read back: {error}"))),
@@ -76,20 +95,30 @@ impl Gpu {
         self.read_texture(texture, surface.extent, plan.slots[slot].format)
     }
 
-    /// Shows the first bytes of a buffer by way of another one, which can be mapped, when everything submitted is done.
-    pub(crate) fn look_at<T>(
-        &self,
-        source: &wgpu::Buffer,
-        by_way_of: &wgpu::Buffer,
-        bytes: u64,
-        look: impl FnOnce(&[u8]) -> T,
-    ) -> Result<T, GpuError> {
+    /// Has the first bytes of a buffer brought into another one, which can be mapped; nobody waits yet.
+    pub(crate) fn start_mapping(&self, source: &wgpu::Buffer, by_way_of: &wgpu::Buffer, bytes: u64) -> Mapping {
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(source, 0, by_way_of, 0, bytes);
-        self.queue.submit([encoder.finish()]);
-        self.mapped(by_way_of, |all| look(&all[..bytes as usize]))
+        mapping_of(self.queue.submit([encoder.finish()]), by_way_of, bytes)
+    }
+
+    /// Waits until these bytes are there, but for nothing that was submitted later, and shows them.
+    pub(crate) fn finish_mapping<T>(
+        &self,
+        mapping: Mapping,
+        by_way_of: &wgpu::Buffer,
+        look: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, GpuError> {
+        self.wait_for(mapping.submitted)?;
+        // Where several threads wait for one device, another one of them may be about to pass on the answer.
+        mapped(mapping.answer.recv_timeout(ANSWER_LIMIT))?;
+        let view = by_way_of.get_mapped_range(..mapping.bytes);
+        let seen = look(&view);
+        drop(view);
+        by_way_of.unmap();
+        Ok(seen)
     }
 
     /// A buffer that can be mapped to be read.
@@ -102,21 +131,6 @@ impl Gpu {
                 mapped_at_creation: false,
             })
         })
-    }
-
-    /// Waits for what was submitted, and shows the buffer's bytes.
-    fn mapped<T>(&self, buffer: &wgpu::Buffer, look: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
-        let (sender, answer) = channel();
-        // The receiver is gone only if the wait has failed already.
-        buffer.map_async(wgpu::MapMode::Read, .., move |mapped| drop(sender.send(mapped)));
-        self.wait()?;
-        // Where several threads wait for one device, another one of them may be about to pass on the answer.
-        mapping(answer.recv_timeout(ANSWER_LIMIT))?;
-        let view = buffer.get_mapped_range(..);
-        let seen = look(&view);
-        drop(view);
-        buffer.unmap();
-        Ok(seen)
     }
 
     /// Reads a whole texture, a page at a time.
@@ -152,8 +166,9 @@ impl Gpu {
                     depth_or_array_layers: 1,
                 },
             );
-            self.queue.submit([encoder.finish()]);
-            self.mapped(&buffer, |mapped| {
+            let submitted = self.queue.submit([encoder.finish()]);
+            let mapping = mapping_of(submitted, &buffer, padded * u64::from(height));
+            self.finish_mapping(mapping, &buffer, |mapped| {
                 for line in mapped.chunks_exact(padded as usize) {
                     bytes.extend_from_slice(&line[..row as usize]);
                 }
@@ -165,14 +180,14 @@ impl Gpu {
 
 #[cfg(test)]
 mod tests {
-    use super::{RecvTimeoutError, mapping};
+    use super::{RecvTimeoutError, mapped};
 
     #[test]
     fn a_buffer_that_cannot_be_mapped_is_an_error_and_no_panic() {
-        assert_eq!(mapping(Ok(Ok(()))), Ok(()));
+        assert_eq!(mapped(Ok(Ok(()))), Ok(()));
         let told = "a result cannot be read back";
         for answer in [Ok(Err(wgpu::BufferAsyncError)), Err(RecvTimeoutError::Timeout)] {
-            let error = mapping(answer).expect_err("nothing is mapped").to_string();
+            let error = mapped(answer).expect_err("nothing is mapped").to_string();
             assert!(error.contains(told), "{error}");
         }
     }

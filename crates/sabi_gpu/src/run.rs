@@ -5,7 +5,6 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
-use sabi_nodes::kind::Finds;
 use sabi_nodes::link::{Format, Plane};
 use sabi_plan::{KernelStep, MoveStep, Plan, Room, Slot, SlotRef, SourceStep, Step};
 
@@ -18,7 +17,7 @@ use crate::links::{GHOST_ROUNDS, LinkRound, REFRESH_ROUNDS};
 use crate::needs::{last_uses, needed_steps, slot_keys};
 use crate::pipelines::CompiledKernel;
 use crate::pool::{PoolReport, TexturePool, array_view, texture, wgpu_format};
-use crate::rays::{HitRow, RayBuffers, RayRow};
+use crate::rays::{CasterChoice, RayBuffers, RayKernels, RayScene, caster};
 use crate::survey::SURVEY_EXTENT;
 use crate::tiles::Slices;
 
@@ -32,6 +31,8 @@ pub struct RunOptions<'a> {
     pub progress: &'a dyn Fn(usize, usize),
     /// Bytes of textures that may be held, the surface's owner map included; a cache has its own.
     pub budget_bytes: u64,
+    /// Who follows rays.
+    pub caster: CasterChoice,
 }
 
 /// Makes the results that no kernel makes.
@@ -40,8 +41,8 @@ pub trait SourceFill {
     /// and row by row without padding. Asked for one plane after the other, each dropped before the next.
     fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String>;
 
-    /// Follows rays, one hit for each; all that go nowhere, with a reach of 0, hit nothing.
-    fn cast(&mut self, rays: &[RayRow], finds: Finds, hits: &mut [HitRow]) -> Result<(), String>;
+    /// What rays are followed through.
+    fn scene(&mut self) -> Result<RayScene<'_>, String>;
 }
 
 /// How long a step took.
@@ -341,29 +342,33 @@ impl Runner<'_> {
             views.push(array_view(&texture));
             written.push((slot.is_some(), texture, *format));
         }
-        let textures = views.iter().map(wgpu::BindingResource::TextureView);
         let rays = step.rays.map(|rays| RayBuffers::new(self.gpu, rays)).transpose()?;
-        let shot = rays.iter().flat_map(RayBuffers::bindings);
-        let group = self.gpu.bind(
-            &compiled.layout,
-            std::iter::once(block.as_entire_binding()).chain(textures).chain(shot),
-        );
+        // One for each room that rays are in; without rays both are the same.
+        let bound = |room: usize| {
+            let textures = views.iter().map(wgpu::BindingResource::TextureView);
+            let shot = rays.iter().flat_map(|rays| rays.bindings(room));
+            let resources = std::iter::once(block.as_entire_binding()).chain(textures);
+            self.gpu.bind(&compiled.layout, resources.chain(shot))
+        };
+        let groups = [bound(0), bound(1)];
+        let group = &groups[0];
         let surface = self.surfaces.at(step.level)?;
         let slices =
             Slices::new(self.gpu, surface, self.options.submission).in_round(round.index, round.count, round.length);
-        self.warm(compiled, &slices, &group)?;
+        self.warm(compiled, &slices, group)?;
         match (&rays, &compiled.shoot) {
             (Some(rays), Some(shoot)) => {
-                rays.run(
-                    &slices,
-                    [shoot, &compiled.pipeline],
-                    &group,
-                    self.options.is_canceled,
-                    sources,
-                )?;
+                let kernels = RayKernels {
+                    shoot,
+                    ask: &compiled.pipeline,
+                    groups: &groups,
+                };
+                let scene = sources.scene().map_err(GpuError::Source)?;
+                let caster = caster(self.gpu, self.options.caster, scene)?;
+                rays.run(&slices, &kernels, self.options.is_canceled, caster)?;
             }
-            _ if step.spec.once => slices.submit(&compiled.pipeline, &group, 0, 1),
-            _ => slices.run(&compiled.pipeline, &group, self.options.is_canceled)?,
+            _ if step.spec.once => slices.submit(&compiled.pipeline, group, 0, 1),
+            _ => slices.run(&compiled.pipeline, group, self.options.is_canceled)?,
         }
         if step.fills_ghosts {
             for (_, texture, format) in written.iter().filter(|(is_kept, ..)| *is_kept) {

@@ -13,19 +13,25 @@ use crate::uploads::{storage_buffer, table_texture, texel_texture};
 /// Textures that every kernel binds for the surface: owners, leaps and three tables.
 pub(crate) const SURFACE_TEXTURES: usize = 5;
 
-/// How wide texels are, working units.
+/// How wide texels are and how far the model reaches, working units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TexelWidths {
-    /// Of the level at hand.
+pub struct Measures {
+    /// Width of a texel of the level at hand.
     pub texel: f64,
-    /// Of the finest level.
+    /// Width of a texel of the finest level.
     pub finest: f64,
+    /// The largest coordinate of the model: bounds what rounding does to a place.
+    pub farthest: f64,
 }
 
-impl TexelWidths {
-    /// Of a surface that has one level only.
-    pub fn even(texel: f64) -> TexelWidths {
-        TexelWidths { texel, finest: texel }
+impl Measures {
+    /// Of a surface that has one level only, and reaches no further than 1.
+    pub fn even(texel: f64) -> Measures {
+        Measures {
+            texel,
+            finest: texel,
+            farthest: 1.0,
+        }
     }
 }
 
@@ -43,7 +49,7 @@ pub struct GpuSurface {
     pub(crate) ghosts: Links,
     /// Texels for one unit of UV.
     pub(crate) size: u32,
-    pub(crate) widths: TexelWidths,
+    pub(crate) measures: Measures,
     /// What all owned texels cover, square working units.
     pub(crate) area: f64,
     bytes: u64,
@@ -55,7 +61,7 @@ impl GpuSurface {
         gpu: &Gpu,
         atlas: &Atlas,
         tables: &SurfaceTables,
-        widths: TexelWidths,
+        measures: Measures,
     ) -> Result<GpuSurface, GpuError> {
         let [width, height] = atlas.page_size;
         debug_assert!(width.is_multiple_of(TILE) && height.is_multiple_of(TILE));
@@ -86,7 +92,7 @@ impl GpuSurface {
             pieces: buffer("the pieces", bytemuck::cast_slice(&tables.pieces))?,
             ghosts: Links::of_ghosts(gpu, atlas)?,
             size: atlas.size,
-            widths,
+            measures,
             area: covered_area(atlas, tables),
             bytes: atlas.owners.len() as u64 * 5,
         };

@@ -30,6 +30,8 @@ struct PassConstants {
     rounds: u32,
     texel: f32,
     finest: f32,
+    farthest: f32,
+    pad: [u32; 3],
 }
 
 /// One kernel's way over the tiles.
@@ -85,6 +87,11 @@ impl<'a> Slices<'a> {
     /// Tiles that a slice may have by what was seen so far.
     pub(crate) fn length(&self) -> u32 {
         self.length.get()
+    }
+
+    /// How long a slice is to take.
+    pub(crate) fn target(&self) -> Duration {
+        self.target
     }
 
     /// Number of tiles of the surface.
@@ -150,12 +157,19 @@ impl<'a> Slices<'a> {
             size: self.surface.size as f32,
             round: self.round[0],
             rounds: self.round[1],
-            texel: self.surface.widths.texel as f32,
-            finest: self.surface.widths.finest as f32,
+            texel: self.surface.measures.texel as f32,
+            finest: self.surface.measures.finest as f32,
+            farthest: self.surface.measures.farthest as f32,
+            pad: [0; 3],
         };
         self.gpu
             .queue
             .write_buffer(&self.constants, 0, bytemuck::bytes_of(&constants));
+        self.dispatch(pipeline, group, [row_length, tiles.div_ceil(ROW)]);
+    }
+
+    /// Workgroups with the surface bound, as one submission that is not waited for.
+    pub(crate) fn dispatch(&self, pipeline: &wgpu::ComputePipeline, group: &wgpu::BindGroup, [x, y]: [u32; 2]) {
         let mut encoder = self
             .gpu
             .device
@@ -165,7 +179,7 @@ impl<'a> Slices<'a> {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &self.group, &[]);
             pass.set_bind_group(1, group, &[]);
-            pass.dispatch_workgroups(row_length, tiles.div_ceil(ROW), 1);
+            pass.dispatch_workgroups(x, y, 1);
         }
         self.gpu.queue.submit([encoder.finish()]);
     }

@@ -9,12 +9,12 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
-    AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, HitRow, RayRow, ResultCache, Run, RunOptions,
-    SourceFill, SurfaceTables, Surfaces, TexelWidths,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Measures, RayScene, ResultCache, Run,
+    RunOptions, SourceFill, SurfaceTables, Surfaces,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
-use sabi_nodes::kind::{Finds, Param};
+use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
 use sabi_plan::{FileContents, Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, SourceValues, Target};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
@@ -53,8 +53,8 @@ impl SourceFill for NoSources {
         Err(format!("nobody fills '{}'", step.id))
     }
 
-    fn cast(&mut self, _rays: &[RayRow], _finds: Finds, _hits: &mut [HitRow]) -> Result<(), String> {
-        Err("nobody follows rays".to_owned())
+    fn scene(&mut self) -> Result<RayScene<'_>, String> {
+        Err("there is nothing to follow rays through".to_owned())
     }
 }
 
@@ -70,7 +70,7 @@ impl Bench {
         let mesh = square();
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(size)).unwrap();
         let tables = SurfaceTables::new(&mesh, &Pieces::of(&mesh), &atlas, 1.0, 0);
-        let surface = GpuSurface::upload(&gpu, &atlas, &tables, TexelWidths::even(0.01)).unwrap();
+        let surface = GpuSurface::upload(&gpu, &atlas, &tables, Measures::even(0.01)).unwrap();
         Bench {
             gpu,
             surface,
@@ -169,6 +169,7 @@ fn options<'a>() -> RunOptions<'a> {
         is_canceled: &|| false,
         progress: &|_, _| {},
         budget_bytes: DEFAULT_BUDGET_BYTES,
+        caster: CasterChoice::Auto,
     }
 }
 
@@ -214,6 +215,7 @@ fn a_budget_that_is_too_small_is_a_sentence() {
     let plan = bench.plan(CHAIN, Mode::Bake { fuse: false });
     let small = RunOptions {
         budget_bytes: 1000,
+        caster: CasterChoice::Auto,
         ..options()
     };
     let error = bench.run(&plan, &small, None).err().unwrap();
@@ -237,6 +239,7 @@ fn the_maps_of_owners_and_leaps_count_in_the_budget_and_in_the_peak() {
     let limited = |budget_bytes| {
         let limited = RunOptions {
             budget_bytes,
+            caster: CasterChoice::Auto,
             ..options()
         };
         bench.run(&plan, &limited, None).err()
@@ -341,8 +344,8 @@ impl SourceFill for Counted {
         Ok(vec![0; self.bytes])
     }
 
-    fn cast(&mut self, _rays: &[RayRow], _finds: Finds, _hits: &mut [HitRow]) -> Result<(), String> {
-        Err("nobody follows rays".to_owned())
+    fn scene(&mut self) -> Result<RayScene<'_>, String> {
+        Err("there is nothing to follow rays through".to_owned())
     }
 }
 

@@ -118,6 +118,25 @@ impl Bvh {
         (self.center.to_array(), self.scale)
     }
 
+    /// A triangle in scaled space: its first corner, the edge to it from the second, and the edge from it to the third.
+    pub fn scaled_corner_and_edges(&self, triangle: u32) -> [[f32; 3]; 3] {
+        let Triangle { v0, v1, v2 } = self.triangles[triangle as usize];
+        [v0, v0 - v1, v2 - v0].map(|v| v.to_array())
+    }
+
+    /// Levels of the hierarchy; 0 without triangles.
+    pub fn depth(&self) -> usize {
+        let mut deepest = 0;
+        let mut open: Vec<(u32, usize)> = self.tree.nodes.first().map(|_| (0, 1)).into_iter().collect();
+        while let Some((node, depth)) = open.pop() {
+            deepest = deepest.max(depth);
+            let node = &self.tree.nodes[node as usize];
+            let children = (0..8).filter(|&child| !node.is_leaf(child));
+            open.extend(children.map(|child| (node.child_node_index(child), depth + 1)));
+        }
+        deepest
+    }
+
     fn triangle(&self, primitive: usize) -> &Triangle {
         &self.triangles[self.tree.primitive_indices[primitive] as usize]
     }

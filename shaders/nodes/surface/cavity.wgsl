@@ -16,6 +16,9 @@ struct Params {
     /// How softly the mask falls off: 0 is a sharp band, 1 fades over the whole width.
     /// @range 0 1 @default 0.5
     softness: f32,
+    /// Whether edges inside smooth shading do not count, as those between the facets of a round column.
+    /// @toggle @default on
+    smooth_groups: u32,
     /// Rays for each place; four times as many halve the noise.
     /// @range 2 1024 @soft 8 256 @default 32
     rays: u32,
@@ -25,7 +28,7 @@ struct Params {
 }
 
 /// The rays of a place, to all sides alike.
-/// @rays params.rays @finds any
+/// @rays params.rays @finds nearest
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_around(at, index, params.seed, params.width);
 }
@@ -37,6 +40,6 @@ fn mask(bend: f32, params: Params) -> f32 {
 
 /// The share of rays stopped inside less those stopped outside.
 /// @pass 1
-fn bend(at: Surface, ray: Ray, hit: Hit) -> f32 {
-    return bend_by(at, ray, hit);
+fn bend(at: Surface, ray: Ray, hit: Hit, params: Params) -> f32 {
+    return bend_by(at, ray, hit) * select(1.0, shaded_share(at, ray, hit), params.smooth_groups == 1u);
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sabi_engine::{
-    AdapterChoice, DEFAULT_BUDGET_BYTES, Fit, ModelOptions, Overlap, Overrides, Up, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Fit, ModelOptions, Overlap, Overrides, Up, WorkpieceOptions,
     default_cache_dir, read_setting,
 };
 
@@ -86,6 +86,9 @@ pub(crate) struct WorkpieceArguments {
     /// Where to run: auto, cpu, gpu, or a part of an adapter's name
     #[arg(long, value_name = "ADAPTER", default_value = "auto", value_parser = adapter, help_heading = "Machine")]
     adapter: AdapterChoice,
+    /// Who follows rays: the graphics card (gpu), the processor's cores (cpu), or whichever is faster
+    #[arg(long, value_name = "auto|gpu|cpu", default_value = "auto", help_heading = "Machine")]
+    caster: CasterChoice,
     /// Most memory that textures may take, MiB
     #[arg(long, value_name = "MIB", default_value_t = DEFAULT_BUDGET_BYTES >> 20,
           value_parser = clap::value_parser!(u64).range(16..=1 << 20), help_heading = "Machine")]
@@ -106,6 +109,7 @@ impl WorkpieceArguments {
             },
             fit: self.fit,
             adapter: self.adapter.clone(),
+            caster: self.caster,
             budget_bytes: self.budget << 20,
         })
     }

@@ -6,7 +6,6 @@ mod model;
 mod output_mask;
 mod output_material;
 mod projection;
-mod rays;
 mod sampler;
 mod surface_id;
 mod texels;
@@ -17,9 +16,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use sabi_gpu::{HitRow, RayRow, SourceFill};
+use sabi_gpu::{RayScene, SourceFill};
 use sabi_graph::FlatGraph;
-use sabi_nodes::kind::Finds;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
@@ -120,9 +118,11 @@ impl SourceFill for Sources<'_> {
         }
     }
 
-    fn cast(&mut self, rays: &[RayRow], finds: Finds, hits: &mut [HitRow]) -> Result<(), String> {
-        let bvh = self.ground.bvh.get_or_init(|| Bvh::build(&self.ground.model.mesh));
-        rays::cast(bvh, self.ground.working_from_model, rays, finds, hits);
-        Ok(())
+    fn scene(&mut self) -> Result<RayScene<'_>, String> {
+        Ok(RayScene {
+            bvh: self.ground.bvh.get_or_init(|| Bvh::build(&self.ground.model.mesh)),
+            working_from_model: self.ground.working_from_model,
+            on_device: self.ground.bvh_on_device,
+        })
     }
 }

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use half::f16;
 use rayon::prelude::*;
-use sabi_gpu::SurfaceTables;
+use sabi_gpu::{DeviceHierarchy, SurfaceTables};
 use sabi_nodes::link::{Format, Plane};
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 use sabi_surface::bvh::Bvh;
@@ -23,6 +23,8 @@ pub(crate) struct Ground<'a> {
     pub(crate) pieces: &'a Pieces,
     /// Built when the first ray is shot.
     pub(crate) bvh: &'a OnceLock<Bvh>,
+    /// The same on the device, for a caster there.
+    pub(crate) bvh_on_device: &'a OnceLock<DeviceHierarchy>,
     /// Factor from model units to working units.
     pub(crate) working_from_model: f64,
 }

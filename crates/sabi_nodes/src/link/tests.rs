@@ -7,14 +7,16 @@ use crate::kind::Channel;
 use crate::{Library, validate_wgsl};
 
 const PLACE: &str = include_str!("../../../../shaders/surface/place.wgsl");
+const SHOOT: &str = include_str!("../../../../shaders/surface/shoot.wgsl");
 
 fn linked(spec: &KernelSpec) -> Kernel {
     let library = Library::builtin();
+    let shoot = if spec.rays { SHOOT } else { "" };
     let kernel = link(
         spec,
         |id| library.kind(id),
         |name| library.libraries().text(name),
-        PLACE,
+        &format!("{PLACE}\n{shoot}"),
     );
     let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
     validate_wgsl(&kernel.wgsl).unwrap_or_else(|fault| panic!("{fault}\n{}", kernel.wgsl));

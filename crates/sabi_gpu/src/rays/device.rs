@@ -1,0 +1,99 @@
+//! Rays on the device, by a kernel.
+
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+use sabi_nodes::kind::Finds;
+
+use super::RayRoom;
+use super::hierarchy::{DeviceHierarchy, RayScene};
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pipelines::{FixedKernel, read_entry, table_entry, uniform_entry, write_entry};
+use crate::tiles::Slices;
+
+/// Rays of a workgroup, as in `shaders/surface/cast.wgsl`.
+const GROUP: u32 = 64;
+/// Workgroups in a row of a dispatch; adapters allow 65 535.
+const ROW: u32 = 32_768;
+
+/// As `Cast` in `shaders/surface/cast.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct CastConstants {
+    center: [f32; 3],
+    scale: f32,
+    rays: u32,
+    row_length: u32,
+    is_nearest: u32,
+    pad: u32,
+}
+
+/// Follows rays by a kernel.
+pub(crate) struct OnDevice<'a> {
+    hierarchy: &'a DeviceHierarchy,
+    working_from_model: f64,
+    kernel: Arc<FixedKernel>,
+    constants: wgpu::Buffer,
+}
+
+impl<'a> OnDevice<'a> {
+    pub(super) fn new(gpu: &Gpu, scene: RayScene<'a>) -> Result<OnDevice<'a>, GpuError> {
+        let hierarchy = match scene.on_device.get() {
+            Some(known) => known,
+            None => {
+                let made = DeviceHierarchy::upload(gpu, scene.bvh)?;
+                scene.on_device.get_or_init(|| made)
+            }
+        };
+        let entries = [
+            uniform_entry(0),
+            table_entry(1),
+            table_entry(2),
+            read_entry(3),
+            write_entry(4),
+        ];
+        let text = include_str!("../../../../shaders/surface/cast.wgsl");
+        Ok(OnDevice {
+            hierarchy,
+            working_from_model: scene.working_from_model,
+            kernel: gpu.fixed_kernel("cast", None, text, &entries)?,
+            constants: gpu.uniform(&[0; size_of::<CastConstants>()]),
+        })
+    }
+
+    /// Submits the kernel over the rays of a room.
+    pub(super) fn begin(
+        &mut self,
+        gpu: &Gpu,
+        slices: &Slices<'_>,
+        room: &RayRoom,
+        rays: usize,
+        finds: Finds,
+    ) -> Result<(), GpuError> {
+        let groups = (rays as u32).div_ceil(GROUP);
+        let scale = self.working_from_model;
+        let constants = CastConstants {
+            center: self.hierarchy.center.map(|x| (f64::from(x) * scale) as f32),
+            scale: (f64::from(self.hierarchy.scale) / scale) as f32,
+            rays: rays as u32,
+            row_length: groups.min(ROW),
+            is_nearest: u32::from(finds == Finds::Nearest),
+            pad: 0,
+        };
+        gpu.queue
+            .write_buffer(&self.constants, 0, bytemuck::bytes_of(&constants));
+        let group = gpu.bind(
+            &self.kernel.layout,
+            [
+                self.constants.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&self.hierarchy.nodes),
+                wgpu::BindingResource::TextureView(&self.hierarchy.triangles),
+                room.shot.as_entire_binding(),
+                room.hits.as_entire_binding(),
+            ],
+        );
+        slices.dispatch(&self.kernel.pipeline, &group, [groups.min(ROW), groups.div_ceil(ROW)]);
+        Ok(())
+    }
+}

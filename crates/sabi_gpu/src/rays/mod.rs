@@ -1,0 +1,197 @@
+//! Rays between two kernels: one shoots them, a caster follows them, and the other asks what they hit.
+
+mod caster;
+mod device;
+mod hierarchy;
+mod processor;
+
+use std::time::{Duration, Instant};
+
+use bytemuck::{Pod, Zeroable};
+use sabi_plan::RayCount;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::tiles::Slices;
+
+pub use caster::CasterChoice;
+pub(crate) use caster::{Caster, caster};
+pub use hierarchy::{DeviceHierarchy, RayScene};
+
+/// A ray, as `Ray` in `shaders/lib/rays.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct RayRow {
+    /// Where it starts, working units.
+    pub origin: [f32; 3],
+    /// How far it goes; 0 hits nothing.
+    pub reach: f32,
+    /// Its direction.
+    pub direction: [f32; 3],
+    /// Not used.
+    pub pad: f32,
+}
+
+/// What a ray hit, as `RayHit` in `shaders/lib/rays.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct HitRow {
+    /// How far away, working units; below 0 where nothing is hit.
+    pub distance: f32,
+    /// Which triangle.
+    pub triangle: u32,
+}
+
+impl HitRow {
+    /// Nothing is hit.
+    pub(crate) const MISS: HitRow = HitRow {
+        distance: -1.0,
+        triangle: u32::MAX,
+    };
+}
+
+/// Rays of one slice: bounds what rays take, and how long one slice takes.
+const MOST_RAYS: usize = 1 << 18;
+/// Rays of the first slice, while it is not known how fast they are followed.
+const FIRST_RAYS: usize = 1 << 16;
+/// Texels of a tile.
+const TILE_TEXELS: usize = 64;
+
+/// Room for the rays of a slice of tiles, and for what they hit.
+pub(crate) struct RayRoom {
+    pub(crate) shot: wgpu::Buffer,
+    pub(crate) hits: wgpu::Buffer,
+    /// By which rays come into memory.
+    mapped: wgpu::Buffer,
+}
+
+/// A slice of the surface's tiles.
+#[derive(Clone, Copy, Debug)]
+struct Slice {
+    first: usize,
+    end: usize,
+    /// The room that its rays are in.
+    room: usize,
+}
+
+/// Two rooms that take turns, so that the next slice is shot while the last one is followed.
+pub(crate) struct RayBuffers<'a> {
+    gpu: &'a Gpu,
+    rays: RayCount,
+    /// Tiles that fit into a room.
+    tiles: usize,
+    rooms: [RayRoom; 2],
+}
+
+/// The kernels and what is bound for them, for each room.
+pub(crate) struct RayKernels<'a> {
+    pub(crate) shoot: &'a wgpu::ComputePipeline,
+    pub(crate) ask: &'a wgpu::ComputePipeline,
+    pub(crate) groups: &'a [wgpu::BindGroup; 2],
+}
+
+impl<'a> RayBuffers<'a> {
+    pub(crate) fn new(gpu: &'a Gpu, rays: RayCount) -> Result<RayBuffers<'a>, GpuError> {
+        let of_tile = TILE_TEXELS * rays.count as usize;
+        let tiles = (MOST_RAYS / of_tile).max(1);
+        let buffer = |what: &'static str, row: usize| {
+            gpu.guarded(what, |device| {
+                device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some(what),
+                    size: (tiles * of_tile * row) as u64,
+                    usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+                    mapped_at_creation: false,
+                })
+            })
+        };
+        let room = || {
+            Ok::<_, GpuError>(RayRoom {
+                shot: buffer("the rays", size_of::<RayRow>())?,
+                hits: buffer("what rays hit", size_of::<HitRow>())?,
+                mapped: gpu.readback_buffer((tiles * of_tile * size_of::<RayRow>()) as u64)?,
+            })
+        };
+        Ok(RayBuffers {
+            gpu,
+            rays,
+            tiles,
+            rooms: [room()?, room()?],
+        })
+    }
+
+    /// What is bound for a room.
+    pub(crate) fn bindings(&self, room: usize) -> [wgpu::BindingResource<'_>; 2] {
+        let room = &self.rooms[room];
+        [room.shot.as_entire_binding(), room.hits.as_entire_binding()]
+    }
+
+    /// Shoots, follows and asks, slice by slice. Each texel's rays are in one slice, so its mean is summed in one order.
+    pub(crate) fn run(
+        &self,
+        slices: &Slices<'_>,
+        kernels: &RayKernels<'_>,
+        is_canceled: &dyn Fn() -> bool,
+        mut caster: Caster<'_>,
+    ) -> Result<(), GpuError> {
+        let mut length = (FIRST_RAYS / self.of_tile()).clamp(1, self.tiles);
+        let mut ahead = self.next(slices, kernels, &mut caster, [0, 0], length)?;
+        while let Some(slice) = ahead {
+            if is_canceled() {
+                return Err(GpuError::Canceled);
+            }
+            let started = Instant::now();
+            ahead = self.next(slices, kernels, &mut caster, [slice.end, 1 - slice.room], length)?;
+            let rows = self.rows(slice);
+            caster.finish(self.gpu, &self.rooms[slice.room], rows, self.rays.finds)?;
+            slices.submit(
+                kernels.ask,
+                &kernels.groups[slice.room],
+                slice.first as u32,
+                slice.end as u32,
+            );
+            if caster.is_on_device() {
+                // Or slices pile up on a queue that a window may share.
+                self.gpu.wait()?;
+            }
+            length = self.length_after(slice, started.elapsed(), slices.target());
+        }
+        self.gpu.wait()
+    }
+
+    /// Shoots the next slice, if there is one, and has the caster begin.
+    fn next(
+        &self,
+        slices: &Slices<'_>,
+        kernels: &RayKernels<'_>,
+        caster: &mut Caster<'_>,
+        [first, room]: [usize; 2],
+        length: usize,
+    ) -> Result<Option<Slice>, GpuError> {
+        let end = (first + length).min(slices.tile_count() as usize);
+        if first == end {
+            return Ok(None);
+        }
+        let slice = Slice { first, end, room };
+        slices.submit(kernels.shoot, &kernels.groups[room], first as u32, end as u32);
+        caster.begin(self.gpu, slices, &self.rooms[room], self.rows(slice), self.rays.finds)?;
+        Ok(Some(slice))
+    }
+
+    /// Rays of a slice.
+    fn rows(&self, slice: Slice) -> usize {
+        (slice.end - slice.first) * self.of_tile()
+    }
+
+    /// Rays of a tile.
+    fn of_tile(&self) -> usize {
+        TILE_TEXELS * self.rays.count as usize
+    }
+
+    /// Tiles of the next slice, by how long the last one took.
+    fn length_after(&self, slice: Slice, taken: Duration, target: Duration) -> usize {
+        let tiles = (slice.end - slice.first) as f64;
+        let scale = target.as_secs_f64() / taken.as_secs_f64().max(1e-5);
+        // At most twice as long as the last one, since two are under way at a time.
+        ((tiles * scale.min(2.0)) as usize).clamp(1, self.tiles)
+    }
+}

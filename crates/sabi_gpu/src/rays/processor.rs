@@ -1,0 +1,84 @@
+//! Rays on the processor, on all its cores.
+
+use std::collections::VecDeque;
+
+use rayon::prelude::*;
+use sabi_nodes::kind::Finds;
+
+use super::hierarchy::RayScene;
+use super::{HitRow, RayRoom, RayRow};
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::readback::Mapping;
+
+/// Rays that a thread follows at a time.
+const PART: usize = 1024;
+
+/// Follows rays where they are mapped: there are hundreds of megabytes of them.
+pub(crate) struct OnProcessor<'a> {
+    scene: RayScene<'a>,
+    /// Slices on their way into memory, oldest first.
+    coming: VecDeque<Mapping>,
+    hits: Vec<HitRow>,
+}
+
+impl<'a> OnProcessor<'a> {
+    pub(super) fn new(scene: RayScene<'a>) -> OnProcessor<'a> {
+        OnProcessor {
+            scene,
+            coming: VecDeque::new(),
+            hits: Vec::new(),
+        }
+    }
+
+    /// Has the rays brought into memory.
+    pub(super) fn begin(&mut self, gpu: &Gpu, room: &RayRoom, rays: usize) -> Result<(), GpuError> {
+        let bytes = (rays * size_of::<RayRow>()) as u64;
+        self.coming
+            .push_back(gpu.start_mapping(&room.shot, &room.mapped, bytes));
+        Ok(())
+    }
+
+    /// Follows the oldest rays and writes what they hit.
+    pub(super) fn finish(&mut self, gpu: &Gpu, room: &RayRoom, rays: usize, finds: Finds) -> Result<(), GpuError> {
+        let Some(mapping) = self.coming.pop_front() else {
+            return Ok(());
+        };
+        self.hits.resize(rays, HitRow::MISS);
+        let (scene, hits) = (&self.scene, &mut self.hits);
+        gpu.finish_mapping(mapping, &room.mapped, |bytes| {
+            follow(scene, bytemuck::cast_slice(bytes), finds, hits);
+        })?;
+        gpu.queue.write_buffer(&room.hits, 0, bytemuck::cast_slice(&self.hits));
+        Ok(())
+    }
+}
+
+/// What each ray hits. Rays and hits are in working units, the hierarchy is in the model's own.
+fn follow(scene: &RayScene<'_>, rays: &[RayRow], finds: Finds, hits: &mut [HitRow]) {
+    let (bvh, scale) = (scene.bvh, scene.working_from_model as f32);
+    let follow = |(ray, hit): (&RayRow, &mut HitRow)| {
+        if ray.reach <= 0.0 {
+            *hit = HitRow::MISS;
+            return;
+        }
+        let (origin, reach) = (ray.origin.map(|x| x / scale), ray.reach / scale);
+        *hit = match finds {
+            Finds::Any if bvh.any(origin, ray.direction, reach) => HitRow {
+                distance: 0.0,
+                triangle: u32::MAX,
+            },
+            Finds::Any => HitRow::MISS,
+            Finds::Nearest => bvh
+                .closest(origin, ray.direction, reach)
+                .map_or(HitRow::MISS, |found| HitRow {
+                    distance: found.distance * scale,
+                    triangle: found.triangle,
+                }),
+        };
+    };
+    rays.par_iter()
+        .zip(hits.par_iter_mut())
+        .with_min_len(PART)
+        .for_each(follow);
+}

@@ -1,0 +1,35 @@
+// Where the rays of a texel start. Appended to kernels that shoot.
+
+// For each quarter of a texel whether one triangle lies under it: where the three texels next to it have the same owner.
+// Bit 0 is the quarter towards lower columns and rows, bit 1 adds a column, bit 2 a row.
+fn even_quarters(texel: vec3i, owner: u32) -> u32 {
+    var quarters = 0u;
+    for (var quarter = 0u; quarter < 4u; quarter++) {
+        let step = vec2i(vec2u(quarter & 1u, quarter >> 1u)) * 2 - 1;
+        let is_even = owner_of(texel + vec3i(step.x, 0, 0)) == owner
+            && owner_of(texel + vec3i(0, step.y, 0)) == owner
+            && owner_of(texel + vec3i(step, 0)) == owner;
+        quarters |= select(0u, 1u << quarter, is_even);
+    }
+    return quarters;
+}
+
+// The place of ray `index` in its texel, so that what changes inside a texel is averaged. Roberts' sequence spreads the
+// places of a texel evenly. Over a quarter with several triangles the place stays in the middle: on the plane of one of
+// them it would hang above the other or lie below it.
+fn jittered(center: Surface, quarters: u32, index: u32) -> Surface {
+    let start = pcg3d(vec3u(bitcast<vec2u>(center.texel.xy), bitcast<u32>(center.texel.z) ^ 0x9e3779b9u)).xy;
+    let point = start + index * vec2u(3242174889u, 2447445414u);
+    let quarter = (point.x >> 31u) | ((point.y >> 31u) << 1u);
+    let is_even = ((quarters >> quarter) & 1u) == 1u;
+    let away = select(vec2f(0.0), vec2f(point >> vec2u(8u)) * 5.9604645e-8 - 0.5, is_even);
+    var at = center;
+    at.position += center.texel_step * away.x + center.texel_rise * away.y;
+    return at;
+}
+
+// A ray's start, lifted off its triangle to the side that the ray goes to by more than rounding can move it.
+fn lifted(at: Surface, origin: vec3f, direction: vec3f) -> vec3f {
+    let side = select(-1.0, 1.0, dot(direction, at.face_normal) >= 0.0);
+    return origin + at.face_normal * (side * dispatch.farthest * 4e-6);
+}
