@@ -89,6 +89,26 @@ fn rays_meet_what_trying_every_triangle_meets_at_any_scale() {
 }
 
 #[test]
+fn what_is_as_near_as_a_few_millionths_of_the_models_size_is_met() {
+    // A large face far away, and two small ones upright, a very narrow gap apart: from its middle they are four millionths
+    // of the diagonal away.
+    let gap = 2e-5_f32;
+    let upright = |x: f32| [[x, -0.01, -0.01], [x, 0.01, -0.01], [x, 0.0, 0.02]];
+    let far = [[-1.0, -0.5, -1.0], [1.0, -0.5, -1.0], [0.0, -0.5, 1.0]];
+    let mesh = Mesh {
+        positions: [upright(0.0), upright(gap), far].concat(),
+        triangles: vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]],
+        ..Mesh::default()
+    };
+    let bvh = Bvh::build(&mesh);
+    for direction in [1.0, -1.0_f32] {
+        let hit = bvh.closest([0.5 * gap, 0.001, 0.001], [direction, 0.0, 0.0], 1.0);
+        let distance = hit.map_or(f32::INFINITY, |hit| hit.distance);
+        assert!((distance - 0.5 * gap).abs() < 0.2 * gap, "{direction}: {hit:?}");
+    }
+}
+
+#[test]
 fn building_twice_gives_the_same_hierarchy() {
     let mesh = soup(5, 1.0);
     assert_eq!(Bvh::build(&mesh).tree(), Bvh::build(&mesh).tree());
