@@ -1,5 +1,6 @@
 //! Closed forms: results whose value is known without running a kernel.
 
+mod bends;
 mod blending;
 mod casters;
 mod cells;
@@ -7,11 +8,13 @@ mod colors;
 mod curves;
 mod filters;
 mod heat;
+mod held;
 mod image;
 mod marks;
 mod materials;
 mod model_copy;
 mod noise;
+mod occlusion;
 mod one_sheet;
 mod predecessor;
 mod predecessor_maps;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use sabi_tests::{MeshFile, OnMesh, Quad, project};
 
-fn graph(kind: &str, params: &str) -> String {
+pub(crate) fn graph(kind: &str, params: &str) -> String {
     format!(
         r#"{{ "format": "sabi", "version": 1, "fit": "metres", "nodes": {{
             "rays": {{ "kind": "surface/{kind}", "params": {{ {params} }} }} }} }}"#
@@ -13,7 +13,7 @@ fn graph(kind: &str, params: &str) -> String {
 }
 
 /// Faces without thickness, each alone on its part of the sheet, seen from the side that counts.
-fn faces(corners: &[[[f32; 3]; 4]]) -> OnMesh {
+pub(crate) fn faces(corners: &[[[f32; 3]; 4]]) -> OnMesh {
     let side = 1.0 / corners.len() as f32;
     let quads = corners.iter().enumerate().map(|(at, corners)| {
         let [left, right] = [(at as f32 + 0.05) * side, (at as f32 + 0.95) * side];

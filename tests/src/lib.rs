@@ -7,6 +7,7 @@ mod node_files;
 mod on_mesh;
 mod places;
 mod seams;
+pub mod shapes;
 
 use std::path::{Path, PathBuf};
 
