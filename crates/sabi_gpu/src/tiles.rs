@@ -13,7 +13,7 @@ use crate::surface::GpuSurface;
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
 const ROW: u32 = 32_768;
 /// Tiles of the first slice of a kernel whose speed is not known yet.
-const FIRST_SLICE: u32 = 512;
+pub(crate) const FIRST_SLICE: u32 = 512;
 
 /// Repetitions of a quick kernel that are waited for together.
 const UNWATCHED: u32 = 8;

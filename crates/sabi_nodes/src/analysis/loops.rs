@@ -12,11 +12,19 @@ use crate::kind::Param;
 use crate::params::params_type;
 use crate::scan::Scan;
 
-/// Most rounds and calls of one function for one texel.
+/// Most rounds and calls of one function for one texel, over all of its rays where it is about one: a texel is never cut in
+/// two, and what it takes cannot be interrupted.
 const ROUNDS_LIMIT: u64 = 1 << 16;
 
 const FORM: &str = "Write `for (var i = 0u; i < N; i++)`, where N is a constant, a `u32` or `i32` parameter with `@range`, \
                     or min() or clamp() with a constant; leave early with `break`.";
+
+/// A function that a kernel calls.
+pub(super) struct Asked {
+    pub(super) handle: Handle<Function>,
+    /// How often it is called for one texel.
+    pub(super) times: u64,
+}
 
 /// Checks all loops that `roots` reach; gives the parameters that bound one.
 pub(super) fn check(
@@ -24,7 +32,7 @@ pub(super) fn check(
     scan: &Scan,
     module: &Module,
     params: &[Param],
-    roots: &[Handle<Function>],
+    roots: &[Asked],
     faults: &mut Vec<Fault>,
 ) -> BTreeSet<usize> {
     let mut counter = Counter {
@@ -39,19 +47,14 @@ pub(super) fn check(
         site: None,
         faults: Vec::new(),
     };
-    for root in roots {
-        let function = &module.functions[*root];
-        let rounds = counter.function(*root, vec![None; function.arguments.len()]);
-        if rounds > ROUNDS_LIMIT && counter.faults.is_empty() {
+    for Asked { handle, times } in roots {
+        let function = &module.functions[*handle];
+        let rounds = counter.function(*handle, vec![None; function.arguments.len()]);
+        if rounds.saturating_mul(*times) > ROUNDS_LIMIT && counter.faults.is_empty() {
             let item = scan.functions().find(|item| Some(&item.name) == function.name.as_ref());
             let span = item.map_or(Span::UNDEFINED, |item| Span::from(item.name_range.clone()));
-            counter.faults.push(linked.fault(
-                span,
-                format!(
-                    "This function takes up to {rounds} rounds and calls for each texel; {ROUNDS_LIMIT} are allowed."
-                ),
-                "Make loops shorter, or call less.",
-            ));
+            let (message, advice) = too_many(rounds, *times);
+            counter.faults.push(linked.fault(span, message, advice));
         }
     }
     for fault in counter.faults {
@@ -60,6 +63,24 @@ pub(super) fn check(
         }
     }
     counter.bounding
+}
+
+/// What is wrong with a function that takes so many rounds each time, and what to do.
+fn too_many(rounds: u64, times: u64) -> (String, &'static str) {
+    if times == 1 {
+        let message =
+            format!("This function takes up to {rounds} rounds and calls for each texel; {ROUNDS_LIMIT} are allowed.");
+        return (message, "Make loops shorter, or call less.");
+    }
+    let all = rounds.saturating_mul(times);
+    let message = format!(
+        "This function takes up to {rounds} rounds and calls for each of up to {times} rays, {all} for each texel; \
+         {ROUNDS_LIMIT} are allowed."
+    );
+    (
+        message,
+        "Make loops shorter, call less, or let the `@range` of the rays end earlier.",
+    )
 }
 
 struct Counter<'a, 'm> {

@@ -15,7 +15,7 @@ use naga::{Function, Handle, Module};
 
 use crate::compile::Linked;
 use crate::fault::Fault;
-use crate::kind::{ChannelWrite, Output, Param};
+use crate::kind::{Argument, ChannelWrite, Output, Param};
 use crate::ports::{Ports, function};
 use crate::scan::Scan;
 
@@ -46,6 +46,7 @@ pub(crate) fn analyze(
     let ray = ports.rays.as_ref().and_then(|_| function(module, "ray"));
     let ray = ray.map(|(handle, _)| handle);
     let roots: Vec<Handle<Function>> = outputs.iter().chain(&passes).copied().chain(ray).collect();
+    let asked = asked(module, params, ports);
     let functions = ports
         .outputs
         .iter()
@@ -55,7 +56,7 @@ pub(crate) fn analyze(
     let planned = formulas.flat_map(|formula| formula.params()).chain(counts.clone());
     let planned = planned.map(|param| param as u32).collect();
     let mut faults = usage::check(linked, scan, module, &roots, &planned);
-    let mut params_that_bound_loops = loops::check(linked, scan, module, params, &roots, &mut faults);
+    let mut params_that_bound_loops = loops::check(linked, scan, module, params, &asked, &mut faults);
     if !faults.is_empty() {
         faults.sort_by_key(|fault| (fault.line, fault.column));
         return Err(faults);
@@ -72,4 +73,23 @@ pub(crate) fn analyze(
         output_channels: ports.outputs.iter().map(channels).collect(),
         pass_channels: ports.passes.iter().map(|pass| channels(&pass.function)).collect(),
     })
+}
+
+/// All functions that a kernel calls, with how often each is called for one texel: those about a single ray as often as
+/// there are rays at most.
+fn asked(module: &Module, params: &[Param], ports: &Ports) -> Vec<loops::Asked> {
+    let most = ports.rays.as_ref().and_then(|rays| params.get(rays.count)?.range);
+    let rays = most.map_or(1, |[_, most]| most as u64);
+    let functions = ports
+        .outputs
+        .iter()
+        .chain(ports.passes.iter().map(|pass| &pass.function));
+    let of_ray = |output: &Output| output.arguments.iter().any(Argument::is_of_ray);
+    let functions = functions.map(|output| (output.name.as_str(), if of_ray(output) { rays } else { 1 }));
+    let ray = ports.rays.iter().map(|_| ("ray", rays));
+    let found = functions.chain(ray).filter_map(|(name, times)| {
+        let (handle, _) = function(module, name)?;
+        Some(loops::Asked { handle, times })
+    });
+    found.collect()
 }

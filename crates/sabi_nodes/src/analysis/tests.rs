@@ -10,12 +10,17 @@ use crate::{Libraries, Library, SourceFile, read_kind};
 fn read(text: &str) -> Result<Kind, String> {
     let core = Library::builtin_files().1.text("core").unwrap().to_owned();
     let libraries = Libraries([("core".to_owned(), core)].into());
+    read_with(&libraries, &format!("\n{text}"))
+}
+
+/// The same with libraries; the text begins where the header may go on.
+fn read_with(libraries: &Libraries, text: &str) -> Result<Kind, String> {
     let file = SourceFile {
         path: PathBuf::from("test/node.wgsl"),
         id: "test/node".to_owned(),
-        text: format!("//! Test\n//! A test.\n\n{text}"),
+        text: format!("//! Test\n//! A test.\n{text}"),
     };
-    read_kind(&file, &libraries).map_err(|faults| faults[0].message.clone())
+    read_kind(&file, libraries).map_err(|faults| faults[0].message.clone())
 }
 
 const TWO: &str = "struct Params {\n/// A.\n/// @default 0\na: f32,\n/// B.\n/// @default 0\nb: f32,\n}\n";

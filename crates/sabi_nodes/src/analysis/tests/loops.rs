@@ -1,4 +1,5 @@
-use super::read;
+use super::{read, read_with};
+use crate::Library;
 
 /// Reads a mask with this body; `params` has `steps` 1..16, `signed` -4..4 and `free` without a range.
 fn mask(body: &str) -> Result<crate::kind::Kind, String> {
@@ -149,4 +150,30 @@ fn a_tree_of_calls_cannot_grow_without_limit() {
 fn a_function_that_is_never_called_may_do_as_it_likes() {
     let text = "fn idle() -> f32 { var x = 0.0; loop { x += 1.0; if x > 4.0 { break; } } return x; }\n/// M.\nfn mask(at: Surface) -> f32 { return at.uv.x; }\n";
     assert!(read(text).is_ok());
+}
+
+#[test]
+fn what_is_asked_of_each_ray_counts_as_often_as_there_are_rays() {
+    let node = |in_ray: u32, of_ray: u32, of_mean: u32| {
+        let looped = |rounds: u32| format!("var sum = 0.0; for (var i = 0u; i < {rounds}u; i++) {{ sum += 0.1; }}");
+        let text = format!(
+            "//! @use rays\n\nstruct Params {{\n/// R.\n/// @range 1 256 @default 8\nrays: u32,\n}}\n\
+             /// R.\n/// @rays params.rays\nfn ray(at: Surface, index: u32) -> Ray {{ {} return Ray(at.position, sum + f32(index), at.normal); }}\n\
+             /// P.\n/// @pass 1\nfn near(hit: Hit) -> f32 {{ {} return sum * hit.distance; }}\n\
+             /// M.\nfn mask(near: f32) -> f32 {{ {} return sum * near; }}\n",
+            looped(in_ray),
+            looped(of_ray),
+            looped(of_mean)
+        );
+        read_with(&Library::builtin_files().1, &text)
+    };
+    assert!(node(256, 256, 65536).is_ok());
+    for (in_ray, of_ray) in [(257, 1), (1, 257)] {
+        let message = node(in_ray, of_ray, 1).map(|_| ()).unwrap_err();
+        assert!(
+            message.contains("257 rounds and calls for each of up to 256 rays, 65792"),
+            "{message}"
+        );
+    }
+    assert!(node(1, 1, 65537).is_err());
 }
