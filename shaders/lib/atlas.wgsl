@@ -105,13 +105,23 @@ struct Facing {
     shading: vec3f,
 }
 
+// The normal of a triangle's plane by its steps a texel. The sign of the texel's width, which is with the second of them,
+// says that the chart is mirrored, which turns the cross product over.
+fn face_along(along_u: vec4f, along_v: vec4f) -> vec3f {
+    let turned = select(1.0, -1.0, along_v.w < 0.0);
+    return unit_or(cross(along_v.xyz, along_u.xyz) * turned, vec3f(0.0, 1.0, 0.0));
+}
+
+fn face_of(triangle: u32) -> vec3f {
+    return face_along(geometry_row(triangle * GEOMETRY_ROWS + 1u), geometry_row(triangle * GEOMETRY_ROWS + 2u));
+}
+
 fn facing_of(triangle: u32, position: vec3f) -> Facing {
     let g = triangle * GEOMETRY_ROWS;
     let origin = geometry_row(g);
     let along_u = geometry_row(g + 1u);
     let along_v = geometry_row(g + 2u);
-    let turned = select(1.0, -1.0, along_v.w < 0.0);
-    let face = unit_or(cross(along_v.xyz, along_u.xyz) * turned, vec3f(0.0, 1.0, 0.0));
+    let face = face_along(along_u, along_v);
     // The step in texels whose place is nearest to the point.
     let away = position - origin.xyz;
     let metric = vec3f(dot(along_u.xyz, along_u.xyz), dot(along_u.xyz, along_v.xyz), dot(along_v.xyz, along_v.xyz));

@@ -42,9 +42,7 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
     let tangent_v = frame_row(f + 2u);
     let chart = frame_row(f + 3u);
     let step = spot.point - vec2f(origin.w, along_u.w);
-    // The sign bit of the texel width says that the chart is mirrored, which turns the cross product over.
-    let turned = select(1.0, -1.0, along_v.w < 0.0);
-    let face = unit_or(cross(along_v.xyz, along_u.xyz) * turned, vec3f(0.0, 1.0, 0.0));
+    let face = face_along(along_u, along_v);
     let shading = unit_or(normal.xyz + normal_u.xyz * step.x + normal_v.xyz * step.y, face);
     let direction = tangent.xyz + tangent_u.xyz * step.x + tangent_v.xyz * step.y;
     // A ghost is read by its own chart, so its detail fades with that chart's texels: with those over the seam, coarser or

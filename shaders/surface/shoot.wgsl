@@ -1,17 +1,24 @@
 // Where the rays of a texel start. Appended to kernels that shoot.
 
-// For each quarter of a texel whether one triangle lies under it: where the three texels next to it have the same owner.
-// Bit 0 is the quarter towards lower columns and rows, bit 1 adds a column, bit 2 a row.
-fn even_quarters(texel: vec3i, owner: u32) -> u32 {
-    var quarters = 0u;
-    for (var quarter = 0u; quarter < 4u; quarter++) {
-        let step = vec2i(vec2u(quarter & 1u, quarter >> 1u)) * 2 - 1;
-        let is_even = owner_of(texel + vec3i(step.x, 0, 0)) == owner
-            && owner_of(texel + vec3i(0, step.y, 0)) == owner
-            && owner_of(texel + vec3i(step, 0)) == owner;
-        quarters |= select(0u, 1u << quarter, is_even);
+// For each quarter of a texel whether one plane lies under it and under the quarter across, so that places in the two have
+// the texel's middle as their mean. Bit 0 is the quarter towards lower columns and rows, bit 1 adds a column, bit 2 a row.
+fn even_quarters(texel: vec3i, owner: u32, normal: vec3f) -> u32 {
+    // Around the texel, from the left and on by eighths of a turn.
+    var around = array<vec2i, 8>(
+        vec2i(-1, 0), vec2i(-1, -1), vec2i(0, -1), vec2i(1, -1), vec2i(1, 0), vec2i(1, 1), vec2i(0, 1), vec2i(-1, 1),
+    );
+    var same = 0u;
+    for (var eighth = 0u; eighth < 8u; eighth++) {
+        let other = owner_of(texel + vec3i(around[eighth], 0));
+        let is_same = other == owner || (other & GHOST_BIT) == 0u && dot(face_of(other), normal) > 0.999999;
+        same |= select(0u, 1u << eighth, is_same);
     }
-    return quarters;
+    // Half the way around, from the left to the right and on: a quarter is even if its three eighths are.
+    same |= same << 8u;
+    let corner = same & (same >> 1u) & (same >> 2u);
+    let lower = (corner & (corner >> 4u)) & 1u;
+    let upper = (corner >> 2u) & (corner >> 6u) & 1u;
+    return lower | (lower << 3u) | (upper << 1u) | (upper << 2u);
 }
 
 // The place of ray `index` in its texel, so that what changes inside a texel is averaged. Roberts' sequence spreads the
@@ -31,5 +38,5 @@ fn jittered(center: Surface, quarters: u32, index: u32) -> Surface {
 // A ray's start, lifted off its triangle to the side that the ray goes to by more than rounding can move it.
 fn lifted(at: Surface, origin: vec3f, direction: vec3f) -> vec3f {
     let side = select(-1.0, 1.0, dot(direction, at.face_normal) >= 0.0);
-    return origin + at.face_normal * (side * dispatch.farthest * 4e-6);
+    return origin + at.face_normal * (side * dispatch.farthest * 1e-6);
 }

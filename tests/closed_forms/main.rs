@@ -22,6 +22,7 @@ mod rays;
 mod reexport;
 mod relief;
 mod relief_seams;
+mod shading;
 mod survey;
 mod texture_sets;
 mod vertex_color;

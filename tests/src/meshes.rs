@@ -24,6 +24,8 @@ pub struct MeshFile {
     pub base_color: Option<Vec<u8>>,
     /// An encoded normal map.
     pub normal: Option<Vec<u8>>,
+    /// Shading normals of all corners, four a face; those of the faces themselves if none.
+    pub normals: Option<Vec<[f32; 3]>>,
     /// A second set of texture coordinates, four a face, that the pictures are laid out by.
     pub picture_uvs: Option<Vec<[[f32; 2]; 4]>>,
     /// More encoded pictures, each where the material's JSON has it: `/pbrMetallicRoughness/baseColorTexture`.
@@ -161,7 +163,8 @@ impl MeshFile {
             bytes: Vec::new(),
         };
         let positions: Vec<[f32; 3]> = self.quads.iter().flat_map(|quad| quad.corners).collect();
-        let normals: Vec<[f32; 3]> = self.quads.iter().flat_map(|quad| [normal(quad.corners); 4]).collect();
+        let flat = || self.quads.iter().flat_map(|quad| [normal(quad.corners); 4]).collect();
+        let normals: Vec<[f32; 3]> = self.normals.clone().unwrap_or_else(flat);
         let uvs: Vec<[f32; 2]> = self.quads.iter().flat_map(|quad| quad.uvs).collect();
         let indices: Vec<u16> = (0..self.quads.len() as u16)
             .flat_map(|quad| [0, 1, 2, 0, 2, 3].map(|corner| 4 * quad + corner))

@@ -12,7 +12,7 @@ use sabi_plan::RayCount;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::tiles::Slices;
+use crate::tiles::{FIRST_SLICE, Slices};
 
 pub use caster::CasterChoice;
 pub(crate) use caster::{Caster, caster};
@@ -133,7 +133,8 @@ impl<'a> RayBuffers<'a> {
         is_canceled: &dyn Fn() -> bool,
         mut caster: Caster<'_>,
     ) -> Result<(), GpuError> {
-        let mut length = (FIRST_RAYS / self.of_tile()).clamp(1, self.tiles);
+        // Never longer than the first slice of any kernel: how long the node takes for a ray is not known.
+        let mut length = (FIRST_RAYS / self.of_tile()).clamp(1, self.tiles.min(FIRST_SLICE as usize));
         let mut ahead = self.next(slices, kernels, &mut caster, [0, 0], length)?;
         while let Some(slice) = ahead {
             if is_canceled() {

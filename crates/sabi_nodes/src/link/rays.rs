@@ -34,10 +34,7 @@ pub(super) fn write(
     write_shoot(out, spec, kind, rays, names);
     write_start(out, "main");
     out.push_str("    if owner == EMPTY || (owner & GHOST_BIT) != 0u { return; }\n");
-    out.push_str(
-        "    let at = surface_at(texel, owner);\n    let center = at;\n    \
-         let quarters = even_quarters(texel, owner);\n",
-    );
+    out.push_str("    let at = surface_at(texel, owner);\n");
     write_bounded(out, call.block, kind, names);
     let _ = writeln!(out, "    let count = bounded_{}.{count};", call.block);
     let averaged = Averaged::of(spec, kind)?;
@@ -51,7 +48,6 @@ pub(super) fn write(
     }
     out.push_str(
         "    for (var index = 0u; index < count; index++) {\n    \
-         let at = jittered(center, quarters, index);\n    \
          let ray = shot_rays[place * count + index];\n    \
          let hit = hit_of(shot_hits[place * count + index], ray);\n",
     );
@@ -129,7 +125,7 @@ fn write_shoot(out: &mut String, spec: &KernelSpec, kind: &Kind, rays: &Rays, na
         "    if owner == EMPTY || (owner & GHOST_BIT) != 0u {\n        \
          for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = no_ray(); }\n        \
          return;\n    }\n    let center = surface_at(texel, owner);\n    \
-         let quarters = even_quarters(texel, owner);\n    \
+         let quarters = even_quarters(texel, owner, center.face_normal);\n    \
          for (var index = 0u; index < count; index++) {\n    \
          let at = jittered(center, quarters, index);\n",
     );
