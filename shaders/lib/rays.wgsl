@@ -32,8 +32,10 @@ fn no_ray() -> Ray {
     return Ray(vec3f(0.0), 0.0, vec3f(0.0, 1.0, 0.0));
 }
 
+/// What a ray hit, of what was stored for it or for a longer one of the same start and direction.
 fn hit_of(stored: RayHit, ray: Ray) -> Hit {
-    let is_hit = stored.distance >= 0.0;
+    // The distance of a hit at the very end may have been rounded up.
+    let is_hit = stored.distance >= 0.0 && stored.distance <= ray.reach * 1.000001;
     return Hit(is_hit, select(ray.reach, stored.distance, is_hit), stored.triangle);
 }
 

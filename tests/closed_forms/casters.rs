@@ -1,7 +1,9 @@
 //! The two casters, each the other's oracle: the same rays followed by the processor and by a kernel.
 
-use sabi_engine::CasterChoice;
-use sabi_tests::{MeshFile, OnMesh, Quad, project};
+use sabi_engine::{CasterChoice, Hits, Kinds, ModelOptions};
+use sabi_gpu::ResultCache;
+use sabi_plan::Mode;
+use sabi_tests::{Asked, MeshFile, OnMesh, Quad, project};
 
 /// Most texels that may differ: where a ray passes an edge within rounding, either answer is right.
 const OUTLIERS: f64 = 0.002;
@@ -58,7 +60,7 @@ fn one_triangle_and_one_without_area_are_no_matter_to_either() {
         corners: [[0.5; 3]; 4],
         uvs: [[0.95; 2]; 4],
     };
-    for quads in [vec![one.clone()], vec![one, flat]] {
+    for quads in [vec![one], vec![one, flat]] {
         let made = MeshFile::new(quads).write();
         let mut on_mesh = OnMesh::new(&graph("curvature", r#""radius": 0.3"#), made.path(), 64);
         for caster in [CasterChoice::Cpu, CasterChoice::Gpu] {
@@ -76,4 +78,95 @@ fn one_triangle_and_one_without_area_are_no_matter_to_either() {
             assert_eq!(bent, None, "a plane does not bend, {caster}");
         }
     }
+}
+
+#[test]
+fn what_longer_rays_hit_says_what_shorter_ones_would() {
+    let path = project("assets/meshes/figure.glb");
+    let mut on_mesh = OnMesh::new(&graph("occlusion", ""), &path, 128);
+    let mut cache = ResultCache::new(1 << 30);
+    let owned: Vec<usize> = on_mesh.owned().map(|(index, _)| index).collect();
+    for (kind, length, settings) in [
+        (
+            "occlusion",
+            "distance",
+            [r#""falloff": "none""#, r#""falloff": "linear""#],
+        ),
+        ("thickness", "distance", [r#""seed": 3"#, r#""seed": 4"#]),
+        ("edges", "width", [r#""angle": 20"#, r#""angle": 60"#]),
+        ("cavity", "width", [r#""softness": 0.1"#, r#""smooth_groups": false"#]),
+        ("rounded_normal", "radius", [r#""rays": 8"#, r#""rays": 9"#]),
+    ] {
+        for (setting, length_now) in settings.into_iter().zip([0.02, 0.05]) {
+            on_mesh.set_graph(&graph(kind, &format!(r#""{length}": {length_now}, {setting}"#)));
+            let shot = on_mesh.evaluate("rays").components();
+            on_mesh.workpiece.hits = Hits::Remembered;
+            let asked = Asked {
+                mode: Mode::Interactive,
+                cache: Some(&mut cache),
+            };
+            let remembered = on_mesh.evaluate_as("rays", asked).components();
+            on_mesh.workpiece.hits = Hits::Shot;
+            for ((name, shot), (_, remembered)) in shot.iter().zip(&remembered) {
+                let apart = owned.iter().filter(|&&at| (shot[at] - remembered[at]).abs() > 1e-3);
+                let share = apart.count() as f64 / owned.len() as f64;
+                assert!(share <= OUTLIERS, "{kind} {setting}, {name}: {share}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_slider_that_only_makes_rays_shorter_shoots_none() {
+    let path = project("assets/meshes/figure.glb");
+    let mut on_mesh = OnMesh::new(&graph("edges", ""), &path, 128);
+    on_mesh.workpiece.hits = Hits::Remembered;
+    let mut cache = ResultCache::new(1 << 30);
+    let mut held = |params: &str| {
+        on_mesh.set_graph(&graph("edges", params));
+        let asked = Asked {
+            mode: Mode::Interactive,
+            cache: Some(&mut cache),
+        };
+        on_mesh.evaluate_as("rays", asked);
+        cache.bytes().0
+    };
+    // Nothing is kept but hits: what is remembered is nobody's result.
+    let first = held(r#""width": 0.02"#);
+    assert!(first > 0);
+    for same in [r#""width": 0.1"#, r#""width": 0.001, "angle": 70"#, r#""softness": 1"#] {
+        assert_eq!(held(same), first, "{same}");
+    }
+    let [other_rays, longer] = [r#""rays": 8"#, r#""width": 3"#].map(&mut held);
+    assert!(
+        other_rays > first && longer > other_rays,
+        "{first}, {other_rays}, {longer}"
+    );
+}
+
+#[test]
+fn rays_are_shot_once_for_a_model_and_its_knobs_however_often_it_is_opened() {
+    let cache = tempfile::tempdir().unwrap();
+    let path = project("assets/meshes/figure.glb");
+    let evaluate = |params: &str| {
+        let model = ModelOptions {
+            cache_dir: Some(cache.path().to_owned()),
+            ..ModelOptions::new(&path, 64)
+        };
+        let mut on_mesh = OnMesh::on_model(&graph("thickness", params), Kinds::builtin(), model, |_| {});
+        let evaluated = on_mesh.evaluate("rays");
+        (!evaluated.report.found_on_disk.is_empty(), evaluated.bytes())
+    };
+    let (was_found, first) = evaluate("");
+    assert!(!was_found);
+    assert_eq!(evaluate(""), (true, first.clone()));
+    assert!(!evaluate(r#""distance": 0.2"#).0 && !evaluate(r#""seed": 1"#).0);
+    // A file that is cut short is no result.
+    for file in std::fs::read_dir(cache.path().join("rays")).unwrap() {
+        let path = file.unwrap().path();
+        let bytes = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+    }
+    assert_eq!(evaluate(""), (false, first.clone()));
+    assert_eq!(evaluate(""), (true, first));
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use sabi_export::{BakeWriter, Committed, Padding, SetOptions, preset};
-use sabi_gpu::{Run, RunOptions};
+use sabi_gpu::{Hits, Run, RunOptions};
 use sabi_graph::{Fit, FlatGraph, FlatNode};
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 use serde_json::{Map, Value as Json, json};
@@ -95,6 +95,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
             progress: &|_, _| {},
             budget_bytes: request.workpiece.budget_bytes,
             caster: request.workpiece.caster,
+            hits: Hits::Shot,
         },
     };
     let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
@@ -276,6 +277,7 @@ fn report(
         "fused": plan.fused(),
         "peak_texture_bytes": run.report.pool.peak_bytes,
         "atlas_cached": workpiece.prepared.atlas_was_cached,
+        "rays_cached": run.report.found_on_disk,
         "unwrapping_cached": workpiece.prepared.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
         "stages_ms": times.json(),
         "nodes_ms": nodes_ms,

@@ -9,6 +9,7 @@ mod describe;
 mod document;
 mod error;
 mod folder;
+mod kept_rays;
 mod kinds;
 mod levels;
 mod maps;
@@ -46,6 +47,6 @@ pub use stages::{Progress, Silent, Stage};
 pub use watch::NodeWatcher;
 pub use workpiece::{Workpiece, WorkpieceOptions};
 
-pub use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu};
+pub use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits};
 pub use sabi_graph::{Fit, Overrides, nearest};
 pub use sabi_surface::load::Up;

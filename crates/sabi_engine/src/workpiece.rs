@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
-    AdapterChoice, CasterChoice, DeviceHierarchy, Gpu, GpuSurface, ResultCache, Run, RunOptions, SurfaceTables,
+    AdapterChoice, CasterChoice, DeviceHierarchy, Gpu, GpuSurface, Hits, ResultCache, Run, RunOptions, SurfaceTables,
     Surfaces,
 };
 use sabi_graph::{Fit, FlatGraph, FlatNode, Overrides};
@@ -15,6 +15,7 @@ use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
+use crate::kept_rays::KeptRays;
 use crate::kinds::Kinds;
 use crate::levels::Levels;
 use crate::overlap::Sharing;
@@ -61,6 +62,8 @@ pub struct Workpiece {
     pub fit: Fit,
     /// Who follows rays.
     pub caster: CasterChoice,
+    /// Whether all rays are shot, or what is known of longer ones will do, as while a knob is moved.
+    pub hits: Hits,
     /// Time spent so far.
     pub times: StageTimes,
     /// What the artist should know.
@@ -69,6 +72,7 @@ pub struct Workpiece {
     tables: SurfaceTables,
     bvh_on_device: OnceLock<DeviceHierarchy>,
     levels: Levels,
+    kept_rays: KeptRays,
     seed: u32,
     surface_key: [u8; 32],
     budget_bytes: u64,
@@ -151,6 +155,8 @@ impl Workpiece {
             seed,
             surface_key,
             caster: options.caster,
+            hits: Hits::Shot,
+            kept_rays: KeptRays::new(options.model.cache_dir.as_deref()),
             budget_bytes,
         })
     }
@@ -262,13 +268,14 @@ impl Workpiece {
             folder: self.folder(),
             graph: &self.graph,
         };
-        let mut sources = Sources::new(ground, files);
+        let mut sources = Sources::new(ground, files, &self.kept_rays);
         let options = RunOptions {
             submission,
             is_canceled: &|| progress.is_canceled(),
             progress: &|done, of| progress.advance(Stage::Run, done, of),
             budget_bytes: self.budget_bytes,
             caster: self.caster,
+            hits: self.hits,
         };
         let surfaces = Surfaces {
             finest: &self.surface,

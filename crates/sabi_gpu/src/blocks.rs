@@ -1,12 +1,17 @@
 //! Parameters on their way to a kernel.
 
-use sabi_plan::KernelStep;
+use sabi_plan::{KernelStep, Reach};
 
 use crate::device::Gpu;
 use crate::pipelines::CompiledKernel;
 
-/// The parameter block of a step, laid out as the kernel reads it.
-pub(crate) fn block_buffer(gpu: &Gpu, compiled: &CompiledKernel, step: &KernelStep) -> wgpu::Buffer {
+/// The parameter block of a step, laid out as the kernel reads it; with a reach, for rays as long as they come.
+pub(crate) fn block_buffer(
+    gpu: &Gpu,
+    compiled: &CompiledKernel,
+    step: &KernelStep,
+    reach: Option<Reach>,
+) -> wgpu::Buffer {
     let layout = &compiled.kernel.layout;
     let mut bytes = vec![0_u8; layout.size as usize];
     let mut put = |offset: u32, data: &[u8]| bytes[offset as usize..][..data.len()].copy_from_slice(data);
@@ -16,6 +21,9 @@ pub(crate) fn block_buffer(gpu: &Gpu, compiled: &CompiledKernel, step: &KernelSt
     for (call, values) in layout.calls.iter().zip(&step.blocks) {
         if let Some(params) = call.params {
             put(params, &values.params);
+            if let Some(reach) = reach {
+                put(params + reach.offset as u32, &reach.longest.to_le_bytes());
+            }
         }
         for (offset, knob) in call.knobs.iter().zip(&values.knobs) {
             if let (Some(offset), Some(knob)) = (offset, knob) {

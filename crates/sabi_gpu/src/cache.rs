@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, SlotRef};
 
+use crate::rays::HitMemory;
+
 /// Names the content of one texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ResultKey {
@@ -26,6 +28,8 @@ pub struct ResultCache {
     bytes: u64,
     runs: u64,
     kept: BTreeMap<ResultKey, Kept>,
+    /// What rays hit, within a quarter of the budget.
+    pub(crate) hits: HitMemory,
 }
 
 impl ResultCache {
@@ -36,12 +40,13 @@ impl ResultCache {
             bytes: 0,
             runs: 0,
             kept: BTreeMap::new(),
+            hits: HitMemory::new(budget_bytes / 4),
         }
     }
 
     /// Bytes held, and allowed.
     pub fn bytes(&self) -> (u64, u64) {
-        (self.bytes, self.budget_bytes)
+        (self.bytes + self.hits.bytes(), self.budget_bytes)
     }
 
     /// Textures of the slots whose content is known.
@@ -73,7 +78,7 @@ impl ResultCache {
                 self.bytes -= before.bytes;
             }
         }
-        while self.bytes > self.budget_bytes {
+        while self.bytes + self.hits.bytes() > self.budget_bytes {
             let oldest = self
                 .kept
                 .iter()

@@ -24,7 +24,7 @@ pub use device::{AdapterChoice, AdapterKind, AdapterSummary, Gpu, adapters};
 pub use error::GpuError;
 pub use levels::{CoarseSurface, Surfaces};
 pub use pool::{DEFAULT_BUDGET_BYTES, PoolReport};
-pub use rays::{CasterChoice, DeviceHierarchy, RayScene};
+pub use rays::{CasterChoice, DeviceHierarchy, Hits, RayScene};
 pub use readback::PlaneData;
 pub use run::{Run, RunOptions, RunReport, SourceFill, StepTime};
 pub use surface::{GpuSurface, Measures};

@@ -1,7 +1,9 @@
 //! Runs a plan: step by step, in submissions of a size that can be interrupted.
 
+mod dispatch;
+mod rays;
+
 use std::collections::BTreeMap;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
@@ -15,11 +17,9 @@ use crate::error::GpuError;
 use crate::levels::Surfaces;
 use crate::links::{GHOST_ROUNDS, LinkRound, REFRESH_ROUNDS};
 use crate::needs::{last_uses, needed_steps, slot_keys};
-use crate::pipelines::CompiledKernel;
-use crate::pool::{PoolReport, TexturePool, array_view, texture, wgpu_format};
-use crate::rays::{CasterChoice, RayBuffers, RayKernels, RayScene, caster};
+use crate::pool::{PoolReport, TexturePool, texture, wgpu_format};
+use crate::rays::{CasterChoice, HitMemory, Hits, RayScene};
 use crate::survey::SURVEY_EXTENT;
-use crate::tiles::Slices;
 
 /// How a plan is run.
 pub struct RunOptions<'a> {
@@ -33,6 +33,8 @@ pub struct RunOptions<'a> {
     pub budget_bytes: u64,
     /// Who follows rays.
     pub caster: CasterChoice,
+    /// Whether all rays are shot, or what is known of longer ones will do.
+    pub hits: Hits,
 }
 
 /// Makes the results that no kernel makes.
@@ -43,6 +45,19 @@ pub trait SourceFill {
 
     /// What rays are followed through.
     fn scene(&mut self) -> Result<RayScene<'_>, String>;
+
+    /// Whether results of rays are kept from run to run.
+    fn keeps_rays(&self) -> bool {
+        false
+    }
+
+    /// Results that were kept under a key.
+    fn kept_rays(&mut self, _key: &[u8; 32]) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Keeps results under a key.
+    fn keep_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
 }
 
 /// How long a step took.
@@ -64,6 +79,8 @@ pub struct RunReport {
     pub run: Duration,
     /// Steps that ran; those whose results were cached are not among them.
     pub steps: Vec<StepTime>,
+    /// Nodes whose rays were not shot, since their results were kept from an earlier run.
+    pub found_on_disk: Vec<String>,
     /// Bytes of textures held, the surface's included.
     pub pool: PoolReport,
 }
@@ -101,9 +118,13 @@ impl Gpu {
         plan: &Plan,
         options: &RunOptions<'_>,
         sources: &mut dyn SourceFill,
-        cache: Option<&mut ResultCache>,
+        mut cache: Option<&mut ResultCache>,
     ) -> Result<Run, GpuError> {
         let started = Instant::now();
+        let keys = slot_keys(plan);
+        let known = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.known(&keys));
+        let keeps_all = cache.is_some();
+        let memory = cache.as_deref_mut().map(|cache| &mut cache.hits);
         let mut runner = Runner {
             gpu: self,
             surfaces,
@@ -114,9 +135,10 @@ impl Gpu {
             pool: TexturePool::new(options.budget_bytes, surfaces.finest.texture_bytes()),
             report: RunReport::default(),
             open_planes: BTreeMap::new(),
+            memory: memory.filter(|_| options.hits == Hits::Remembered),
+            is_remembered: false,
+            found_on_disk: Vec::new(),
         };
-        let keys = slot_keys(plan);
-        let known = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.known(&keys));
         let steps = needed_steps(plan, &known);
         for (slot, texture) in known {
             runner.textures[slot] = Some(texture);
@@ -124,7 +146,7 @@ impl Gpu {
         let last_use = last_uses(plan);
         for (done, at) in steps.iter().enumerate() {
             runner.step(&plan.steps[*at], sources)?;
-            if cache.is_none() {
+            if !keeps_all {
                 runner.release_after(*at, &last_use);
             }
             (options.progress)(done + 1, steps.len());
@@ -134,11 +156,16 @@ impl Gpu {
             textures,
             pool,
             mut report,
+            is_remembered,
+            found_on_disk,
             ..
         } = runner;
+        report.found_on_disk = found_on_disk;
         report.pool = pool.report();
         report.run = started.elapsed().saturating_sub(report.compile);
-        if let Some(cache) = cache {
+        if let Some(cache) = cache
+            && !is_remembered
+        {
             cache.keep(&keys, &textures, plan, surfaces.finest.texels());
         }
         Ok(Run { textures, report, pool })
@@ -157,6 +184,11 @@ struct Runner<'a> {
     /// One-texel textures for planes that an interactive kernel binds and nobody has: those that are written apart from
     /// those that are read, since no texture may be both in one dispatch.
     open_planes: BTreeMap<(Format, bool), wgpu::Texture>,
+    /// What long rays hit, where that will do.
+    memory: Option<&'a mut HitMemory>,
+    /// Whether a result comes from there.
+    is_remembered: bool,
+    found_on_disk: Vec<String>,
 }
 
 impl Runner<'_> {
@@ -282,7 +314,7 @@ impl Runner<'_> {
         let compiling = Instant::now();
         let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
         self.report.compile += compiling.elapsed();
-        let block = block_buffer(self.gpu, &compiled, step);
+        let block = block_buffer(self.gpu, &compiled, step, None);
         let times = step.feedback.as_ref().map_or(1, |feedback| feedback.times);
         let mut last: Option<SlotRef> = None;
         let mut length = None;
@@ -314,87 +346,5 @@ impl Runner<'_> {
         let [from, to] = [self.texture(step.from)?, self.texture(step.to)?];
         let (gpu, surfaces) = (self.gpu, self.surfaces);
         gpu.move_plane(surfaces, step.levels, [&from, &to], step.format, self.options)
-    }
-
-    fn dispatch(
-        &mut self,
-        step: &KernelStep,
-        compiled: &CompiledKernel,
-        block: &wgpu::Buffer,
-        [reads, writes]: [&[Option<SlotRef>]; 2],
-        round: Round,
-        sources: &mut dyn SourceFill,
-    ) -> Result<u32, GpuError> {
-        let mut views = Vec::new();
-        for slot in reads {
-            let texture = match slot {
-                Some(slot) => self.texture(*slot)?,
-                None => self.open_plane(Format::Rgba16Float, false)?,
-            };
-            views.push(array_view(&texture));
-        }
-        let mut written = Vec::new();
-        for (slot, format) in writes.iter().zip(&compiled.kernel.writes) {
-            let texture = match slot {
-                Some(slot) => self.texture(*slot)?,
-                None => self.open_plane(*format, true)?,
-            };
-            views.push(array_view(&texture));
-            written.push((slot.is_some(), texture, *format));
-        }
-        let rays = step.rays.map(|rays| RayBuffers::new(self.gpu, rays)).transpose()?;
-        // One for each room that rays are in; without rays both are the same.
-        let bound = |room: usize| {
-            let textures = views.iter().map(wgpu::BindingResource::TextureView);
-            let shot = rays.iter().flat_map(|rays| rays.bindings(room));
-            let resources = std::iter::once(block.as_entire_binding()).chain(textures);
-            self.gpu.bind(&compiled.layout, resources.chain(shot))
-        };
-        let groups = [bound(0), bound(1)];
-        let group = &groups[0];
-        let surface = self.surfaces.at(step.level)?;
-        let slices =
-            Slices::new(self.gpu, surface, self.options.submission).in_round(round.index, round.count, round.length);
-        self.warm(compiled, &slices, group)?;
-        match (&rays, &compiled.shoot) {
-            (Some(rays), Some(shoot)) => {
-                let kernels = RayKernels {
-                    shoot,
-                    ask: &compiled.pipeline,
-                    groups: &groups,
-                };
-                let scene = sources.scene().map_err(GpuError::Source)?;
-                let caster = caster(self.gpu, self.options.caster, scene)?;
-                rays.run(&slices, &kernels, self.options.is_canceled, caster)?;
-            }
-            _ if step.spec.once => slices.submit(&compiled.pipeline, group, 0, 1),
-            _ => slices.run(&compiled.pipeline, group, self.options.is_canceled)?,
-        }
-        if step.fills_ghosts {
-            for (_, texture, format) in written.iter().filter(|(is_kept, ..)| *is_kept) {
-                let texture = (texture, *format);
-                self.gpu
-                    .fill_links(&surface.ghosts, slices.surface_group(), texture, round.of_ghosts())?;
-            }
-        }
-        Ok(slices.length())
-    }
-}
-
-impl Runner<'_> {
-    /// Has the driver compile a kernel that never ran.
-    fn warm(
-        &mut self,
-        compiled: &CompiledKernel,
-        slices: &Slices<'_>,
-        group: &wgpu::BindGroup,
-    ) -> Result<(), GpuError> {
-        if !compiled.is_warm.load(Ordering::Relaxed) {
-            let warming = Instant::now();
-            slices.warm(&compiled.pipeline, group)?;
-            compiled.is_warm.store(true, Ordering::Relaxed);
-            self.report.compile += warming.elapsed();
-        }
-        Ok(())
     }
 }

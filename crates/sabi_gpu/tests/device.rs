@@ -9,8 +9,8 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Measures, RayScene, ResultCache, Run,
-    RunOptions, SourceFill, SurfaceTables, Surfaces,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Hits, Measures, RayScene,
+    ResultCache, Run, RunOptions, SourceFill, SurfaceTables, Surfaces,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
@@ -170,6 +170,7 @@ fn options<'a>() -> RunOptions<'a> {
         progress: &|_, _| {},
         budget_bytes: DEFAULT_BUDGET_BYTES,
         caster: CasterChoice::Auto,
+        hits: Hits::Shot,
     }
 }
 
@@ -215,7 +216,6 @@ fn a_budget_that_is_too_small_is_a_sentence() {
     let plan = bench.plan(CHAIN, Mode::Bake { fuse: false });
     let small = RunOptions {
         budget_bytes: 1000,
-        caster: CasterChoice::Auto,
         ..options()
     };
     let error = bench.run(&plan, &small, None).err().unwrap();
@@ -239,7 +239,6 @@ fn the_maps_of_owners_and_leaps_count_in_the_budget_and_in_the_peak() {
     let limited = |budget_bytes| {
         let limited = RunOptions {
             budget_bytes,
-            caster: CasterChoice::Auto,
             ..options()
         };
         bench.run(&plan, &limited, None).err()

@@ -266,6 +266,11 @@ pub struct Rays {
     pub count: usize,
     /// What is asked of each ray.
     pub finds: Finds,
+    /// The length that says how far rays go, by index in [`Kind::params`]. Nothing else of a ray hangs on it, so what longer
+    /// rays hit tells what shorter ones do.
+    pub reach: Option<usize>,
+    /// Parameters that rays hang on, by index in [`Kind::params`].
+    pub reads: Vec<usize>,
 }
 
 /// What is asked of a ray.

@@ -23,7 +23,8 @@ use inputs::InputNotes;
 
 /// Annotations of a function and of the inputs described in its comment.
 pub(crate) const ANNOTATIONS: &[&str] = &[
-    "input", "pass", "repeat", "texel", "surveys", "rays", "finds", "vector", "optional", "default", "type", "label",
+    "input", "pass", "repeat", "texel", "surveys", "rays", "finds", "reach", "vector", "optional", "default", "type",
+    "label",
 ];
 
 /// Inputs that the flags of an interactive kernel have room for.
@@ -236,9 +237,14 @@ impl<'a> PortReader<'a> {
     fn output(&mut self, draft: &Draft<'a>, ty: PortType) -> Output {
         let arguments = self.arguments(draft);
         self.check_repeat(draft, &arguments);
-        if let Some((_, range)) = &draft.notes.rays {
+        let of_rays = [&draft.notes.rays, &draft.notes.reach];
+        for (_, range) in of_rays.into_iter().flatten() {
             let message = format!("`{}` shoots no rays.", draft.item.name);
-            self.at(range.clone(), message, "`@rays` belongs above the function `ray`.");
+            self.at(
+                range.clone(),
+                message,
+                "`@rays` and `@reach` belong above the function `ray`.",
+            );
         }
         if let (Some((_, range)), None) = (&draft.notes.texel, &draft.notes.pass) {
             let message = format!(

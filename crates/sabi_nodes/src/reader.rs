@@ -100,9 +100,12 @@ fn assemble(
         inputs,
         mut outputs,
         mut passes,
-        rays,
+        mut rays,
         surveyed,
     } = ports;
+    if let Some(rays) = &mut rays {
+        rays.reads = findings.params_of_rays;
+    }
     for (output, channels) in outputs.iter_mut().zip(findings.output_channels) {
         output.channels = channels;
     }

@@ -6,7 +6,7 @@ use sabi_nodes::link::{Binding, Call, Convert, KernelSpec, Plane, Store, Stored}
 
 use crate::fuse::{self, Value};
 use crate::keys::result_key;
-use crate::plan::{BlockValues, Feedback, KernelStep, RayCount, Room, Step};
+use crate::plan::{BlockValues, Feedback, KernelStep, Room, Step, StepRays};
 use crate::resolve::Behavior;
 use crate::schedule::Builder;
 
@@ -69,7 +69,7 @@ pub(crate) struct KernelDraft<'b, 'p, 'a> {
     writes: Vec<Option<(Kept, Plane)>>,
     pub(crate) flags: [u32; 4],
     pub(crate) repeat: Option<(u32, usize, Kept)>,
-    pub(crate) rays: Option<RayCount>,
+    pub(crate) rays: Option<Box<StepRays>>,
     /// Level of the atlas that it runs on.
     pub(crate) level: u32,
     keys: Vec<[u8; 32]>,

@@ -1,5 +1,7 @@
 //! A result's key names everything that can change it: there are no dirty flags.
 
+use sabi_nodes::kind::Kind;
+
 use crate::request::Planner;
 use crate::resolve::{Behavior, Resolved, ResolvedNode};
 
@@ -7,20 +9,15 @@ impl Planner<'_> {
     /// Key of a node's results: source text with its libraries, values, keys of the inputs, surface.
     pub(crate) fn node_key(&self, index: usize, ready: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> [u8; 32] {
         let mut hash = blake3::Hasher::new();
-        let mut part = |bytes: &[u8]| {
-            hash.update(&(bytes.len() as u64).to_le_bytes());
-            hash.update(bytes);
-        };
-        part(&self.surface_key);
+        hash.update(&self.surface_key);
         let node = &self.graph.nodes[index];
-        part(node.kind.as_bytes());
+        part(&mut hash, node.kind.as_bytes());
+        if let Behavior::Shader(kind) = ready.behavior {
+            self.hash_text(&mut hash, kind);
+        }
+        let mut part = |bytes: &[u8]| part(&mut hash, bytes);
         match ready.behavior {
-            Behavior::Shader(kind) => {
-                part(kind.source.as_bytes());
-                for name in std::iter::once("core").chain(kind.libraries.iter().map(String::as_str)) {
-                    part(self.library.libraries().text(name).unwrap_or_default().as_bytes());
-                }
-            }
+            Behavior::Shader(_) => {}
             Behavior::Source(kind) | Behavior::Sink(kind) => {
                 part(&kind.content);
                 part(&ready.source_values.key_bytes());
@@ -47,6 +44,20 @@ impl Planner<'_> {
         }
         *hash.finalize().as_bytes()
     }
+
+    /// Adds the text of a kind and of its libraries.
+    pub(crate) fn hash_text(&self, hash: &mut blake3::Hasher, kind: &Kind) {
+        part(hash, kind.source.as_bytes());
+        for name in std::iter::once("core").chain(kind.libraries.iter().map(String::as_str)) {
+            part(hash, self.library.libraries().text(name).unwrap_or_default().as_bytes());
+        }
+    }
+}
+
+/// Adds bytes that cannot be taken for part of what comes before or after.
+fn part(hash: &mut blake3::Hasher, bytes: &[u8]) {
+    hash.update(&(bytes.len() as u64).to_le_bytes());
+    hash.update(bytes);
 }
 
 /// Key of one result of a node.

@@ -14,6 +14,7 @@ mod keys;
 mod muted;
 mod order;
 mod plan;
+mod rays;
 mod request;
 mod resolve;
 mod schedule;
@@ -25,8 +26,8 @@ mod values;
 
 pub use error::{PlanError, Problem};
 pub use plan::{
-    BlockValues, Feedback, KernelStep, MoveStep, Plan, PlannedResult, RayCount, Room, Slot, SlotRef, SourceStep, Step,
-    SurveyStep,
+    BlockValues, Feedback, KernelStep, MoveStep, Plan, PlannedResult, Reach, Room, Slot, SlotRef, SourceStep, Step,
+    StepRays, SurveyStep,
 };
 pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target};
 pub use resolve::{Behavior, Resolved, ResolvedInput, ResolvedNode};

@@ -120,7 +120,7 @@ pub struct KernelStep {
     /// How often it runs, each time reading its own last result.
     pub feedback: Option<Feedback>,
     /// The rays that it is a mean over.
-    pub rays: Option<RayCount>,
+    pub rays: Option<Box<StepRays>>,
     /// Level of the atlas that it runs on; all that it reads and writes is there.
     pub level: u32,
     /// Ids of the nodes in it, in order; none where it only converts.
@@ -132,12 +132,25 @@ pub struct KernelStep {
 }
 
 /// The rays of a kernel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RayCount {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepRays {
     /// For each texel.
     pub count: u32,
     /// What is asked of each.
     pub finds: Finds,
+    /// Names what the longest of such rays hit, whatever the other parameters say; none where rays hang on inputs.
+    pub key: Option<[u8; 32]>,
+    /// What makes them that long.
+    pub reach: Option<Reach>,
+}
+
+/// The parameter that says how far rays go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Where it stands in the bytes of `struct Params`.
+    pub offset: usize,
+    /// The longest that a slider gives, or what it has now if that is longer, working units.
+    pub longest: f32,
 }
 
 /// Repetition of a field.

@@ -3,14 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
-use sabi_nodes::kind::{Channel, Kind, ParamValue};
+use sabi_nodes::kind::{Channel, Kind};
 use sabi_nodes::link::{Binding, INPUTS_A_WORD, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft};
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Readers, Value};
 use crate::keys::result_key;
-use crate::plan::{Plan, RayCount, SourceStep, Step};
+use crate::plan::{Plan, SourceStep, Step};
 use crate::request::{Mode, Planner, Target};
 use crate::resolve::{Behavior, Resolved, ResolvedNode};
 
@@ -284,14 +284,8 @@ impl Builder<'_, '_> {
             let call = kernel.call(node, *output, inputs, block);
             kernel.store(call, (node, *output));
         }
-        if let Behavior::Shader(Kind { rays: Some(rays), .. }) = ready.behavior {
-            kernel.rays = Some(RayCount {
-                count: match ready.values.get(rays.count) {
-                    Some(ParamValue::Unsigned(count)) => *count,
-                    _ => 1,
-                },
-                finds: rays.finds,
-            });
+        if let Behavior::Shader(kind @ Kind { rays: Some(rays), .. }) = ready.behavior {
+            kernel.rays = Some(Box::new(self.planner.step_rays(node, ready, kind, rays)));
         }
         kernel.finish()
     }

@@ -5,22 +5,21 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The folder holds no more than this; the oldest files make room.
-const LIMIT_BYTES: u64 = 4 << 30;
-
 /// Tells two processes' temporary files apart, and two threads'.
 static WRITES: AtomicU64 = AtomicU64::new(0);
 
 /// A kind of kept thing.
-pub(crate) struct Kind {
+pub struct Kind {
     /// First bytes of its files.
-    pub(crate) magic: &'static [u8; 12],
+    pub magic: &'static [u8; 12],
     /// How their names begin, before a dash and the key.
-    pub(crate) prefix: &'static str,
+    pub prefix: &'static str,
+    /// A folder holds no more than this; the oldest files make room.
+    pub limit_bytes: u64,
 }
 
 /// How names of all kinds begin: nothing else in the folder is touched.
-const PREFIXES: [&str; 2] = ["atlas-", "sheet-"];
+const PREFIXES: [&str; 3] = ["atlas-", "sheet-", "rays-"];
 
 impl Kind {
     fn file(&self, folder: &Path, key: &[u8; 32]) -> PathBuf {
@@ -33,7 +32,7 @@ impl Kind {
 }
 
 /// What was kept under a key, unless it is not there, of another key, cut short or damaged.
-pub(crate) fn read(folder: &Path, kind: &Kind, key: &[u8; 32]) -> Option<Vec<u8>> {
+pub fn read(folder: &Path, kind: &Kind, key: &[u8; 32]) -> Option<Vec<u8>> {
     let mut bytes = fs::read(kind.file(folder, key)).ok()?;
     let rest = bytes.strip_prefix(kind.magic)?.strip_prefix(key)?;
     let (length, rest) = rest.split_first_chunk::<8>()?;
@@ -44,7 +43,7 @@ pub(crate) fn read(folder: &Path, kind: &Kind, key: &[u8; 32]) -> Option<Vec<u8>
 }
 
 /// Keeps bytes under a key: magic, key, length and hash stand before them.
-pub(crate) fn keep(folder: &Path, kind: &Kind, key: &[u8; 32], payload: &[u8]) -> io::Result<()> {
+pub fn keep(folder: &Path, kind: &Kind, key: &[u8; 32], payload: &[u8]) -> io::Result<()> {
     let mut head = Vec::with_capacity(84);
     head.extend_from_slice(kind.magic);
     head.extend_from_slice(key);
@@ -52,7 +51,7 @@ pub(crate) fn keep(folder: &Path, kind: &Kind, key: &[u8; 32], payload: &[u8]) -
     head.extend_from_slice(blake3::hash(payload).as_bytes());
     let file = kind.file(folder, key);
     write(folder, &file, &[&head, payload])?;
-    make_room(folder, &file, LIMIT_BYTES)
+    make_room(folder, &file, kind.limit_bytes)
 }
 
 /// Writes under a temporary name first: whoever reads meanwhile sees the old file or the new one.

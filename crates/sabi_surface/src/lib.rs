@@ -2,7 +2,7 @@
 
 pub mod atlas;
 pub mod bvh;
-mod disk;
+pub mod disk;
 pub mod load;
 pub mod model;
 pub mod pieces;

@@ -19,7 +19,7 @@ struct Params {
 }
 
 /// The rays of a place: inward, by the cosine of their angle.
-/// @rays params.rays @finds nearest
+/// @rays params.rays @finds nearest @reach params.distance
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     let inward = cosine_direction(-at.face_normal, ray_sample(at, index, params.seed));
     return ray_along(at, inward, params.distance);

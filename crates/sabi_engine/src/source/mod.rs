@@ -23,6 +23,7 @@ use sabi_plan::{SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
+use crate::kept_rays::KeptRays;
 use crate::pictures::{OpenPicture, Pictures, path_of};
 
 pub(crate) use levels::Levels;
@@ -74,17 +75,19 @@ pub(crate) struct Sources<'a> {
     ground: Ground<'a>,
     files: Files<'a>,
     model: model::ModelSource<'a>,
+    kept_rays: &'a KeptRays,
     /// What cannot be shown, as sentences.
     pub(crate) warnings: Vec<String>,
 }
 
 impl<'a> Sources<'a> {
     /// Sources that have not opened anything yet.
-    pub(crate) fn new(ground: Ground<'a>, files: Files<'a>) -> Sources<'a> {
+    pub(crate) fn new(ground: Ground<'a>, files: Files<'a>, kept_rays: &'a KeptRays) -> Sources<'a> {
         Sources {
             ground,
             files,
             model: model::ModelSource::default(),
+            kept_rays,
             warnings: Vec::new(),
         }
     }
@@ -116,6 +119,18 @@ impl SourceFill for Sources<'_> {
                 step.id
             )),
         }
+    }
+
+    fn keeps_rays(&self) -> bool {
+        self.kept_rays.is_open()
+    }
+
+    fn kept_rays(&mut self, key: &[u8; 32]) -> Option<Vec<u8>> {
+        self.kept_rays.find(key)
+    }
+
+    fn keep_rays(&mut self, key: &[u8; 32], results: &[u8]) {
+        self.warnings.extend(self.kept_rays.keep(key, results));
     }
 
     fn scene(&mut self) -> Result<RayScene<'_>, String> {

@@ -7,10 +7,10 @@ use sabi_nodes::kind::Finds;
 
 use super::RayRoom;
 use super::device::OnDevice;
-use super::hierarchy::RayScene;
 use super::processor::OnProcessor;
 use crate::device::{AdapterKind, Gpu};
 use crate::error::GpuError;
+use crate::run::SourceFill;
 use crate::tiles::Slices;
 
 /// Who is to follow rays.
@@ -55,18 +55,30 @@ pub(crate) enum Caster<'a> {
     OnDevice(OnDevice<'a>),
 }
 
-/// The caster of choice for a scene.
-pub(crate) fn caster<'a>(gpu: &Gpu, choice: CasterChoice, scene: RayScene<'a>) -> Result<Caster<'a>, GpuError> {
+/// Whether a choice means the device, as far as one can tell before the scene is known.
+pub(crate) fn follows_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
+    match choice {
+        CasterChoice::Cpu => false,
+        CasterChoice::Gpu => true,
+        CasterChoice::Auto => gpu.summary().kind != AdapterKind::Cpu,
+    }
+}
+
+/// The caster of choice for the scene.
+pub(crate) fn caster<'s>(
+    gpu: &Gpu,
+    choice: CasterChoice,
+    sources: &'s mut dyn SourceFill,
+) -> Result<Caster<'s>, GpuError> {
+    let scene = sources.scene().map_err(GpuError::Source)?;
     let on_processor = || Caster::OnProcessor(OnProcessor::new(scene));
     let on_device = || Ok(Caster::OnDevice(OnDevice::new(gpu, scene)?));
-    match choice {
-        CasterChoice::Cpu => Ok(on_processor()),
-        CasterChoice::Gpu => on_device(),
-        CasterChoice::Auto if gpu.summary().kind == AdapterKind::Cpu => Ok(on_processor()),
-        CasterChoice::Auto => match on_device() {
-            Err(GpuError::TooLarge { .. } | GpuError::TooDeep { .. }) => Ok(on_processor()),
-            made => made,
-        },
+    if !follows_on_device(gpu, choice) {
+        return Ok(on_processor());
+    }
+    match on_device() {
+        Err(GpuError::TooLarge { .. } | GpuError::TooDeep { .. }) if choice == CasterChoice::Auto => Ok(on_processor()),
+        made => made,
     }
 }
 

@@ -3,20 +3,24 @@
 mod caster;
 mod device;
 mod hierarchy;
+mod memory;
 mod processor;
 
 use std::time::{Duration, Instant};
 
 use bytemuck::{Pod, Zeroable};
-use sabi_plan::RayCount;
+use sabi_nodes::kind::Finds;
+use sabi_plan::StepRays;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::tiles::{FIRST_SLICE, Slices};
 
 pub use caster::CasterChoice;
-pub(crate) use caster::{Caster, caster};
+pub(crate) use caster::{Caster, caster, follows_on_device};
 pub use hierarchy::{DeviceHierarchy, RayScene};
+pub use memory::Hits;
+pub(crate) use memory::{HitMemory, KeptHits};
 
 /// A ray, as `Ray` in `shaders/lib/rays.wgsl`.
 #[repr(C)]
@@ -77,21 +81,38 @@ struct Slice {
 /// Two rooms that take turns, so that the next slice is shot while the last one is followed.
 pub(crate) struct RayBuffers<'a> {
     gpu: &'a Gpu,
-    rays: RayCount,
+    rays: StepRays,
     /// Tiles that fit into a room.
     tiles: usize,
     rooms: [RayRoom; 2],
 }
 
-/// The kernels and what is bound for them, for each room.
-pub(crate) struct RayKernels<'a> {
+/// The bind group of a kernel for each room.
+pub(crate) type RoomGroups = [wgpu::BindGroup; 2];
+
+/// A step's way over its tiles.
+pub(crate) struct RayPass<'a> {
+    pub(crate) slices: &'a Slices<'a>,
     pub(crate) shoot: &'a wgpu::ComputePipeline,
     pub(crate) ask: &'a wgpu::ComputePipeline,
-    pub(crate) groups: &'a [wgpu::BindGroup; 2],
+    pub(crate) groups: RoomGroups,
+    pub(crate) is_canceled: &'a dyn Fn() -> bool,
+}
+
+impl RayPass<'_> {
+    fn shoot(&self, groups: &RoomGroups, slice: Slice) {
+        let [first, end] = [slice.first as u32, slice.end as u32];
+        self.slices.submit(self.shoot, &groups[slice.room], first, end);
+    }
+
+    fn ask(&self, slice: Slice) {
+        let [first, end] = [slice.first as u32, slice.end as u32];
+        self.slices.submit(self.ask, &self.groups[slice.room], first, end);
+    }
 }
 
 impl<'a> RayBuffers<'a> {
-    pub(crate) fn new(gpu: &'a Gpu, rays: RayCount) -> Result<RayBuffers<'a>, GpuError> {
+    pub(crate) fn new(gpu: &'a Gpu, rays: StepRays) -> Result<RayBuffers<'a>, GpuError> {
         let of_tile = TILE_TEXELS * rays.count as usize;
         let tiles = (MOST_RAYS / of_tile).max(1);
         let buffer = |what: &'static str, row: usize| {
@@ -126,56 +147,87 @@ impl<'a> RayBuffers<'a> {
     }
 
     /// Shoots, follows and asks, slice by slice. Each texel's rays are in one slice, so its mean is summed in one order.
-    pub(crate) fn run(
+    pub(crate) fn run(&self, pass: &RayPass<'_>, caster: &mut Caster<'_>) -> Result<(), GpuError> {
+        self.follow(pass, &pass.groups, self.rays.finds, caster, |slice, _| {
+            pass.ask(slice);
+            Ok(())
+        })
+    }
+
+    /// Shoots by other parameters, which make rays as long as they come, and keeps what is nearest.
+    pub(crate) fn remember(
         &self,
-        slices: &Slices<'_>,
-        kernels: &RayKernels<'_>,
-        is_canceled: &dyn Fn() -> bool,
-        mut caster: Caster<'_>,
+        pass: &RayPass<'_>,
+        longest: &RoomGroups,
+        caster: &mut Caster<'_>,
+    ) -> Result<Vec<KeptHits>, GpuError> {
+        let mut slices = Vec::new();
+        self.follow(pass, longest, Finds::Nearest, caster, |slice, room| {
+            let tiles = [slice.first, slice.end];
+            slices.push(memory::kept(self.gpu, tiles, self.rays.count, &room.hits)?);
+            Ok(())
+        })?;
+        Ok(slices)
+    }
+
+    /// Shoots, and asks what is remembered of longer rays.
+    pub(crate) fn recall(&self, pass: &RayPass<'_>, kept: &[KeptHits]) -> Result<(), GpuError> {
+        for (at, known) in kept.iter().enumerate() {
+            if (pass.is_canceled)() {
+                return Err(GpuError::Canceled);
+            }
+            let slice = Slice {
+                first: known.first,
+                end: known.end,
+                room: at % 2,
+            };
+            pass.shoot(&pass.groups, slice);
+            memory::copy(self.gpu, &known.hits, &self.rooms[slice.room].hits, known.hits.size());
+            pass.ask(slice);
+            self.gpu.wait()?;
+        }
+        Ok(())
+    }
+
+    /// Shoots and follows slice by slice; `then` is told when the hits of one are in its room, or will be for what is
+    /// submitted next.
+    fn follow(
+        &self,
+        pass: &RayPass<'_>,
+        groups: &RoomGroups,
+        finds: Finds,
+        caster: &mut Caster<'_>,
+        mut then: impl FnMut(Slice, &RayRoom) -> Result<(), GpuError>,
     ) -> Result<(), GpuError> {
+        let count = pass.slices.tile_count() as usize;
+        let begin = |caster: &mut Caster<'_>, [first, room]: [usize; 2], length: usize| {
+            let end = (first + length).min(count);
+            let slice = Slice { first, end, room };
+            if first < end {
+                pass.shoot(groups, slice);
+                caster.begin(self.gpu, pass.slices, &self.rooms[room], self.rows(slice), finds)?;
+            }
+            Ok::<_, GpuError>((first < end).then_some(slice))
+        };
         // Never longer than the first slice of any kernel: how long the node takes for a ray is not known.
         let mut length = (FIRST_RAYS / self.of_tile()).clamp(1, self.tiles.min(FIRST_SLICE as usize));
-        let mut ahead = self.next(slices, kernels, &mut caster, [0, 0], length)?;
+        let mut ahead = begin(caster, [0, 0], length)?;
         while let Some(slice) = ahead {
-            if is_canceled() {
+            if (pass.is_canceled)() {
                 return Err(GpuError::Canceled);
             }
             let started = Instant::now();
-            ahead = self.next(slices, kernels, &mut caster, [slice.end, 1 - slice.room], length)?;
-            let rows = self.rows(slice);
-            caster.finish(self.gpu, &self.rooms[slice.room], rows, self.rays.finds)?;
-            slices.submit(
-                kernels.ask,
-                &kernels.groups[slice.room],
-                slice.first as u32,
-                slice.end as u32,
-            );
+            ahead = begin(caster, [slice.end, 1 - slice.room], length)?;
+            let room = &self.rooms[slice.room];
+            caster.finish(self.gpu, room, self.rows(slice), finds)?;
+            then(slice, room)?;
             if caster.is_on_device() {
                 // Or slices pile up on a queue that a window may share.
                 self.gpu.wait()?;
             }
-            length = self.length_after(slice, started.elapsed(), slices.target());
+            length = self.length_after(slice, started.elapsed(), pass.slices.target());
         }
         self.gpu.wait()
-    }
-
-    /// Shoots the next slice, if there is one, and has the caster begin.
-    fn next(
-        &self,
-        slices: &Slices<'_>,
-        kernels: &RayKernels<'_>,
-        caster: &mut Caster<'_>,
-        [first, room]: [usize; 2],
-        length: usize,
-    ) -> Result<Option<Slice>, GpuError> {
-        let end = (first + length).min(slices.tile_count() as usize);
-        if first == end {
-            return Ok(None);
-        }
-        let slice = Slice { first, end, room };
-        slices.submit(kernels.shoot, &kernels.groups[room], first as u32, end as u32);
-        caster.begin(self.gpu, slices, &self.rooms[room], self.rows(slice), self.rays.finds)?;
-        Ok(Some(slice))
     }
 
     /// Rays of a slice.

@@ -30,6 +30,8 @@ pub(crate) struct Findings {
     pub(crate) output_channels: Vec<Vec<ChannelWrite>>,
     /// For each pass, in order.
     pub(crate) pass_channels: Vec<Vec<ChannelWrite>>,
+    /// Indices of the parameters that rays hang on.
+    pub(crate) params_of_rays: Vec<usize>,
 }
 
 /// Checks use of parameters and inputs, and loops; measures cost and channels.
@@ -72,6 +74,7 @@ pub(crate) fn analyze(
         cost: cost::cost(module, &outputs),
         output_channels: ports.outputs.iter().map(channels).collect(),
         pass_channels: ports.passes.iter().map(|pass| channels(&pass.function)).collect(),
+        params_of_rays: ray.map_or_else(Vec::new, |ray| usage::params_of(module, ray, params.len())),
     })
 }
 

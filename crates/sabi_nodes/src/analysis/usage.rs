@@ -42,12 +42,7 @@ pub(super) fn check(
     roots: &[Handle<Function>],
     planned: &BTreeSet<u32>,
 ) -> Vec<Fault> {
-    // Callees stand before their callers.
-    let mut uses: Vec<Vec<Use>> = Vec::with_capacity(module.functions.len());
-    for (_, function) in module.functions.iter() {
-        let of = argument_uses(module, function, &uses);
-        uses.push(of);
-    }
+    let uses = all_uses(module);
     let mut faults = Vec::new();
     let params = params_type(module).map(|(handle, _)| handle);
     let mut of_params = Use::Members(planned.clone());
@@ -85,6 +80,33 @@ pub(super) fn check(
         }
     }
     faults
+}
+
+/// Parameters that a function reads, by index, of so many.
+pub(super) fn params_of(module: &Module, root: Handle<Function>, count: usize) -> Vec<usize> {
+    let params = params_type(module).map(|(handle, _)| handle);
+    let function = &module.functions[root];
+    let mut of_params = Use::Members(BTreeSet::new());
+    for (argument, used) in function.arguments.iter().zip(&all_uses(module)[root.index()]) {
+        if Some(argument.ty) == params {
+            of_params.merge(used);
+        }
+    }
+    match of_params {
+        Use::Members(members) => members.into_iter().map(|member| member as usize).collect(),
+        Use::Whole => (0..count).collect(),
+    }
+}
+
+/// How each function uses its arguments.
+fn all_uses(module: &Module) -> Vec<Vec<Use>> {
+    // Callees stand before their callers.
+    let mut uses: Vec<Vec<Use>> = Vec::with_capacity(module.functions.len());
+    for (_, function) in module.functions.iter() {
+        let of = argument_uses(module, function, &uses);
+        uses.push(of);
+    }
+    uses
 }
 
 /// How a function uses each of its arguments, given its callees.

@@ -26,6 +26,8 @@ pub(super) struct FunctionNotes {
     /// Index of the parameter that counts rays.
     pub(super) rays: Option<(usize, Range<usize>)>,
     pub(super) finds: Finds,
+    /// Index of the parameter that says how far rays go.
+    pub(super) reach: Option<(usize, Range<usize>)>,
     /// Name of the input that is surveyed.
     pub(super) surveys: Option<(String, Range<usize>)>,
 }
@@ -46,7 +48,7 @@ pub(super) fn read_notes(
     notes.check(
         text,
         ANNOTATIONS,
-        &["pass", "repeat", "texel", "surveys", "rays", "finds"],
+        &["pass", "repeat", "texel", "surveys", "rays", "finds", "reach"],
         faults,
     );
     for note in notes
@@ -61,6 +63,7 @@ pub(super) fn read_notes(
             ("texel", _) => read.texel = formula(text, note, params, faults),
             ("rays", _) => read.rays = rays(text, note, params, faults),
             ("finds", _) => read.finds = finds(text, note, faults),
+            ("reach", _) => read.reach = reach(text, note, params, faults),
             ("surveys", _) => read.surveys = Some((note.joined(), note.whole())),
             (_, Some(input)) => input.add(text, note, faults),
             ("vector", None) => read.vector = Some(note.range.clone()),
@@ -68,7 +71,9 @@ pub(super) fn read_notes(
                 let mut fault = unknown(
                     text,
                     note,
-                    &["input", "pass", "repeat", "texel", "surveys", "rays", "finds", "vector"],
+                    &[
+                        "input", "pass", "repeat", "texel", "surveys", "rays", "finds", "reach", "vector",
+                    ],
                 );
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", note.name);
                 faults.push(fault);
@@ -147,6 +152,27 @@ fn rays(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) 
         Ok(index) => Some((index, note.whole())),
         Err((message, advice)) => {
             faults.push(text.fault(note.whole(), message, advice));
+            None
+        }
+    }
+}
+
+/// `@reach params.distance`.
+fn reach(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(usize, Range<usize>)> {
+    let written = note.joined();
+    let named = |param: &Param| written.strip_prefix("params.") == Some(param.name.as_str());
+    let index = params.iter().position(named);
+    match index {
+        Some(index) if params[index].role == Role::Length && params[index].ty == ParamType::F32 => {
+            Some((index, note.whole()))
+        }
+        _ => {
+            faults.push(text.fault(
+                note.whole(),
+                "`@reach` takes a parameter that is a `@length`.",
+                "Write `@reach params.distance` where rays go as far as that length, or less, and nothing else of them \
+                 hangs on it.",
+            ));
             None
         }
     }

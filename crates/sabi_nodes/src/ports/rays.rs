@@ -36,6 +36,9 @@ impl<'a> PortReader<'a> {
             arguments,
             count,
             finds: draft.notes.finds,
+            reach: draft.notes.reach.as_ref().map(|(reach, _)| *reach),
+            // Known once the functions have been looked into.
+            reads: Vec::new(),
         })
     }
 

@@ -12,6 +12,7 @@ const FORMAT_VERSION: u32 = 3;
 const KIND: Kind = Kind {
     magic: b"sabi atlas\r\n",
     prefix: "atlas",
+    limit_bytes: 4 << 30,
 };
 
 /// A name for the atlas of a mesh: a hash of everything that can change it.

@@ -11,6 +11,7 @@ const FORMAT_VERSION: u32 = 2;
 const KIND: Kind = Kind {
     magic: b"sabi sheet\r\n",
     prefix: "sheet",
+    limit_bytes: 4 << 30,
 };
 
 /// A name for a sheet: a hash of everything that can change it.

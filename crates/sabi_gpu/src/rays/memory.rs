@@ -1,0 +1,125 @@
+//! What long rays hit, kept so that sliders which only make them shorter shoot none.
+
+use std::collections::BTreeMap;
+
+use super::{HitRow, TILE_TEXELS};
+use crate::device::Gpu;
+use crate::error::GpuError;
+
+/// Who says what rays hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hits {
+    /// Rays that are shot now, as they are asked for.
+    #[default]
+    Shot,
+    /// While a knob is moved: rays as long as it allows, shot once and kept in the result cache. What is within a shorter
+    /// one's reach follows from that, so results differ from those of shot rays by rounding only; they are kept as
+    /// nobody's results all the same. Without a cache, or where it has no room, rays are shot.
+    Remembered,
+}
+
+/// The hits of some tiles.
+pub(crate) struct KeptHits {
+    pub(crate) first: usize,
+    pub(crate) end: usize,
+    pub(crate) hits: wgpu::Buffer,
+}
+
+struct Memory {
+    slices: Vec<KeptHits>,
+    bytes: u64,
+    last_used: u64,
+}
+
+/// Hits by the key of their rays, the least recently used ones dropped first.
+pub(crate) struct HitMemory {
+    budget_bytes: u64,
+    uses: u64,
+    kept: BTreeMap<[u8; 32], Memory>,
+}
+
+impl HitMemory {
+    pub(crate) fn new(budget_bytes: u64) -> HitMemory {
+        HitMemory {
+            budget_bytes,
+            uses: 0,
+            kept: BTreeMap::new(),
+        }
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.kept.values().map(|memory| memory.bytes).sum()
+    }
+
+    /// Whether the hits of so many rays for each texel of so many tiles may be kept.
+    pub(crate) fn has_room(&self, tiles: usize, rays: u32) -> bool {
+        bytes_of(tiles, rays) <= self.budget_bytes
+    }
+
+    /// Whether there are hits under a key.
+    pub(crate) fn knows(&self, key: &[u8; 32]) -> bool {
+        self.kept.contains_key(key)
+    }
+
+    /// The hits under a key, none if there are none.
+    pub(crate) fn recall(&mut self, key: &[u8; 32]) -> &[KeptHits] {
+        self.uses += 1;
+        match self.kept.get_mut(key) {
+            Some(memory) => {
+                memory.last_used = self.uses;
+                &memory.slices
+            }
+            None => &[],
+        }
+    }
+
+    /// Keeps hits; makes room for them first.
+    pub(crate) fn keep(&mut self, key: [u8; 32], slices: Vec<KeptHits>) {
+        let bytes = slices.iter().map(|slice| slice.hits.size()).sum();
+        while self.bytes() + bytes > self.budget_bytes {
+            let oldest = self.kept.iter().min_by_key(|(_, memory)| memory.last_used);
+            let Some(oldest) = oldest.map(|(key, _)| *key) else {
+                break;
+            };
+            self.kept.remove(&oldest);
+        }
+        self.uses += 1;
+        let last_used = self.uses;
+        let memory = Memory {
+            slices,
+            bytes,
+            last_used,
+        };
+        self.kept.insert(key, memory);
+    }
+}
+
+/// Bytes of the hits of some tiles.
+pub(super) fn bytes_of(tiles: usize, rays: u32) -> u64 {
+    (tiles * TILE_TEXELS * size_of::<HitRow>()) as u64 * u64::from(rays)
+}
+
+/// Copies hits that are in a room to a buffer of their own.
+pub(super) fn kept(gpu: &Gpu, [first, end]: [usize; 2], rays: u32, room: &wgpu::Buffer) -> Result<KeptHits, GpuError> {
+    let bytes = bytes_of(end - first, rays);
+    let hits = gpu.guarded("what rays hit", |device| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("kept hits"),
+            size: bytes,
+            usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    })?;
+    copy(gpu, room, &hits, bytes);
+    Ok(KeptHits { first, end, hits })
+}
+
+/// Copies the first bytes of a buffer to another one.
+pub(super) fn copy(gpu: &Gpu, from: &wgpu::Buffer, to: &wgpu::Buffer, bytes: u64) {
+    let mut encoder = gpu
+        .device
+        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_buffer_to_buffer(from, 0, to, 0, bytes);
+    gpu.queue.submit([encoder.finish()]);
+}

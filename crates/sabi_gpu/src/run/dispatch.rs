@@ -1,0 +1,110 @@
+//! One kernel over the tiles of its level.
+
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use sabi_nodes::link::Format;
+use sabi_plan::{KernelStep, SlotRef};
+
+use super::{Round, Runner, SourceFill};
+use crate::error::GpuError;
+use crate::pipelines::CompiledKernel;
+use crate::pool::array_view;
+use crate::tiles::Slices;
+
+/// What a kernel reads and writes.
+pub(super) struct Bound {
+    views: Vec<wgpu::TextureView>,
+    /// Textures of results that are kept.
+    pub(super) written: Vec<(wgpu::Texture, Format)>,
+}
+
+impl Bound {
+    /// What is bound besides buffers.
+    pub(super) fn resources(&self) -> impl Iterator<Item = wgpu::BindingResource<'_>> {
+        self.views.iter().map(wgpu::BindingResource::TextureView)
+    }
+}
+
+impl Runner<'_> {
+    pub(super) fn dispatch(
+        &mut self,
+        step: &KernelStep,
+        compiled: &CompiledKernel,
+        block: &wgpu::Buffer,
+        slots: [&[Option<SlotRef>]; 2],
+        round: Round,
+        sources: &mut dyn SourceFill,
+    ) -> Result<u32, GpuError> {
+        let bound = self.bound(compiled, slots)?;
+        let surface = self.surfaces.at(step.level)?;
+        let slices =
+            Slices::new(self.gpu, surface, self.options.submission).in_round(round.index, round.count, round.length);
+        if let (Some(rays), Some(shoot)) = (step.rays.as_deref().copied(), &compiled.shoot) {
+            self.rays(step, rays, compiled, shoot, &bound, &slices, sources)?;
+        } else {
+            let block = std::iter::once(block.as_entire_binding());
+            let group = self.gpu.bind(&compiled.layout, block.chain(bound.resources()));
+            self.warm(compiled, &slices, &group)?;
+            if step.spec.once {
+                slices.submit(&compiled.pipeline, &group, 0, 1);
+            } else {
+                slices.run(&compiled.pipeline, &group, self.options.is_canceled)?;
+            }
+        }
+        if step.fills_ghosts {
+            for (texture, format) in &bound.written {
+                let texture = (texture, *format);
+                self.gpu
+                    .fill_links(&surface.ghosts, slices.surface_group(), texture, round.of_ghosts())?;
+            }
+        }
+        Ok(slices.length())
+    }
+
+    /// The textures of a kernel's slots, with open ones where there is nothing.
+    fn bound(
+        &mut self,
+        compiled: &CompiledKernel,
+        [reads, writes]: [&[Option<SlotRef>]; 2],
+    ) -> Result<Bound, GpuError> {
+        let mut bound = Bound {
+            views: Vec::new(),
+            written: Vec::new(),
+        };
+        for slot in reads {
+            let texture = match slot {
+                Some(slot) => self.texture(*slot)?,
+                None => self.open_plane(Format::Rgba16Float, false)?,
+            };
+            bound.views.push(array_view(&texture));
+        }
+        for (slot, format) in writes.iter().zip(&compiled.kernel.writes) {
+            let texture = match slot {
+                Some(slot) => self.texture(*slot)?,
+                None => self.open_plane(*format, true)?,
+            };
+            bound.views.push(array_view(&texture));
+            if slot.is_some() {
+                bound.written.push((texture, *format));
+            }
+        }
+        Ok(bound)
+    }
+
+    /// Has the driver compile a kernel that never ran.
+    pub(super) fn warm(
+        &mut self,
+        compiled: &CompiledKernel,
+        slices: &Slices<'_>,
+        group: &wgpu::BindGroup,
+    ) -> Result<(), GpuError> {
+        if !compiled.is_warm.load(Ordering::Relaxed) {
+            let warming = Instant::now();
+            slices.warm(&compiled.pipeline, group)?;
+            compiled.is_warm.store(true, Ordering::Relaxed);
+            self.report.compile += warming.elapsed();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,114 @@
+//! A kernel that is a mean over rays: found on disk, asked of what is remembered, or shot.
+
+use sabi_plan::{KernelStep, StepRays};
+
+use super::dispatch::Bound;
+use super::{Runner, SourceFill};
+use crate::blocks::block_buffer;
+use crate::error::GpuError;
+use crate::pipelines::CompiledKernel;
+use crate::rays::{Hits, RayBuffers, RayPass, caster, follows_on_device};
+use crate::tiles::Slices;
+
+impl Runner<'_> {
+    #[expect(clippy::too_many_arguments, reason = "a step, its kernel, and what both run on")]
+    pub(super) fn rays(
+        &mut self,
+        step: &KernelStep,
+        rays: StepRays,
+        compiled: &CompiledKernel,
+        shoot: &wgpu::ComputePipeline,
+        bound: &Bound,
+        slices: &Slices<'_>,
+        sources: &mut dyn SourceFill,
+    ) -> Result<(), GpuError> {
+        let is_kept = self.options.hits == Hits::Shot && sources.keeps_rays();
+        let key = is_kept.then(|| self.disk_key(step, compiled, bound));
+        if let Some(found) = key.and_then(|key| sources.kept_rays(&key))
+            && self.put_back(bound, &found)
+        {
+            self.found_on_disk.extend(step.nodes.iter().cloned());
+            return Ok(());
+        }
+        let buffers = RayBuffers::new(self.gpu, rays)?;
+        let groups = |reach| {
+            let block = block_buffer(self.gpu, compiled, step, reach);
+            [0, 1].map(|room| {
+                let block = std::iter::once(block.as_entire_binding());
+                let resources = block.chain(bound.resources()).chain(buffers.bindings(room));
+                self.gpu.bind(&compiled.layout, resources)
+            })
+        };
+        let pass = RayPass {
+            slices,
+            shoot,
+            ask: &compiled.pipeline,
+            groups: groups(None),
+            is_canceled: self.options.is_canceled,
+        };
+        let longest = groups(rays.reach);
+        self.warm(compiled, slices, &pass.groups[0])?;
+        let (gpu, choice) = (self.gpu, self.options.caster);
+        match self.memory.as_deref_mut().zip(rays.key) {
+            Some((memory, key)) if memory.has_room(slices.tile_count() as usize, rays.count) => {
+                if !memory.knows(&key) {
+                    let mut caster = caster(gpu, choice, sources)?;
+                    memory.keep(key, buffers.remember(&pass, &longest, &mut caster)?);
+                }
+                buffers.recall(&pass, memory.recall(&key))?;
+                self.is_remembered = true;
+            }
+            _ => buffers.run(&pass, &mut caster(gpu, choice, sources)?)?,
+        }
+        if let Some(key) = key {
+            sources.keep_rays(&key, &self.taken_down(bound)?);
+        }
+        Ok(())
+    }
+
+    /// Names the results of a step over runs: what they are, the very kernel, and what may round differently.
+    fn disk_key(&self, step: &KernelStep, compiled: &CompiledKernel, bound: &Bound) -> [u8; 32] {
+        let mut hash = blake3::Hasher::new_derive_key("sabi results of rays");
+        let mut part = |bytes: &[u8]| {
+            hash.update(&(bytes.len() as u64).to_le_bytes());
+            hash.update(bytes);
+        };
+        let adapter = self.gpu.summary();
+        let is_on_device = follows_on_device(self.gpu, self.options.caster);
+        part(env!("CARGO_PKG_VERSION").as_bytes());
+        part(compiled.kernel.wgsl.as_bytes());
+        part(adapter.name.as_bytes());
+        part(adapter.driver.as_bytes());
+        part(&[u8::from(is_on_device), bound.written.len() as u8]);
+        for key in &step.keys {
+            part(key);
+        }
+        *hash.finalize().as_bytes()
+    }
+
+    /// Writes kept results where a kernel would have; not if they are of another size.
+    fn put_back(&self, bound: &Bound, found: &[u8]) -> bool {
+        let texels = self.surfaces.finest.texels();
+        let sizes = bound.written.iter().map(|(_, format)| texels * format.texel_bytes());
+        if sizes.clone().sum::<u64>() != found.len() as u64 {
+            return false;
+        }
+        let mut rest = found;
+        for ((texture, format), size) in bound.written.iter().zip(sizes) {
+            let (plane, others) = rest.split_at(size as usize);
+            self.upload(texture, *format, plane);
+            rest = others;
+        }
+        true
+    }
+
+    /// The results of a kernel, to be kept.
+    fn taken_down(&self, bound: &Bound) -> Result<Vec<u8>, GpuError> {
+        let mut bytes = Vec::new();
+        for (texture, format) in &bound.written {
+            let plane = self.gpu.read_texture(texture, self.surfaces.finest.extent, *format)?;
+            bytes.extend_from_slice(plane.bytes());
+        }
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,61 @@
+//! What is known of a kernel's rays before they are shot.
+
+use sabi_nodes::kind::{Argument, Kind, ParamValue, Rays};
+
+use crate::plan::{Reach, StepRays};
+use crate::request::Planner;
+use crate::resolve::ResolvedNode;
+
+impl Planner<'_> {
+    /// The rays of a node.
+    pub(crate) fn step_rays(&self, index: usize, ready: &ResolvedNode<'_>, kind: &Kind, rays: &Rays) -> StepRays {
+        let count = match ready.values.get(rays.count) {
+            Some(ParamValue::Unsigned(count)) => *count,
+            _ => 1,
+        };
+        let reach = rays.reach.map(|reach| self.reach(index, ready, kind, reach));
+        let is_input = |argument: &Argument| matches!(argument, Argument::Input(_));
+        let hangs_on_inputs = rays.arguments.iter().any(is_input);
+        StepRays {
+            count,
+            finds: rays.finds,
+            key: (!hangs_on_inputs).then(|| self.rays_key(ready, kind, rays, reach)),
+            reach,
+        }
+    }
+
+    /// How far the rays of a node go at most.
+    fn reach(&self, index: usize, ready: &ResolvedNode<'_>, kind: &Kind, reach: usize) -> Reach {
+        let param = &kind.params[reach];
+        let node = &self.graph.nodes[index];
+        let now = match ready.values.get(reach) {
+            Some(ParamValue::Floats(numbers)) => numbers.first().copied().unwrap_or(0.0),
+            _ => 0.0,
+        };
+        let farthest = param.soft.map_or(now, |[_, high]| high.max(now));
+        let working = f64::from(farthest) * node.length_scale * (self.lengths.working_from)(&node.fit);
+        Reach {
+            offset: param.offset as usize,
+            longest: working as f32,
+        }
+    }
+
+    /// Names the longest rays: their node's text, the parameters that they hang on, the surface.
+    fn rays_key(&self, ready: &ResolvedNode<'_>, kind: &Kind, rays: &Rays, reach: Option<Reach>) -> [u8; 32] {
+        let mut hash = blake3::Hasher::new_derive_key("sabi rays");
+        hash.update(&self.surface_key);
+        self.hash_text(&mut hash, kind);
+        let own = rays.reads.iter().filter(|param| rays.reach != Some(**param));
+        for index in own.chain([&rays.count]) {
+            let param = &kind.params[*index];
+            let bytes = ready.params.get(param.offset as usize..).unwrap_or_default();
+            let size = 4 * param.ty.components();
+            hash.update(&(*index as u64).to_le_bytes());
+            hash.update(bytes.get(..size).unwrap_or(bytes));
+        }
+        if let Some(reach) = reach {
+            hash.update(&reach.longest.to_le_bytes());
+        }
+        *hash.finalize().as_bytes()
+    }
+}
