@@ -4,14 +4,19 @@ mod faults;
 mod keys;
 mod passes;
 mod random;
+mod symbols;
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use sabi_graph::{Document, FlatGraph, FlatRef, Overrides, PortType, flatten};
-use sabi_nodes::Library;
 use sabi_nodes::kind::{Channel, Param};
+use sabi_nodes::{Library, SourceFile};
 
 use crate::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, SourcePort, Target};
+
+/// Texel widths of the levels of the surface.
+const LEVELS: [f64; 4] = [0.001, 0.002, 0.004, 0.008];
 
 const FUSED: Mode = Mode::Bake { fuse: true };
 const UNFUSED: Mode = Mode::Bake { fuse: false };
@@ -39,9 +44,62 @@ fn kind(id: &str, inputs: Vec<SourcePort>, outputs: Vec<SourcePort>) -> SourceKi
     }
 }
 
+/// A node whose passes go down by levels and up again, and read each other and its input on all of them.
+const STAIRS: &str = "//! Stairs
+//! Passes on other levels than what they read.
+//! @use surface
+
+struct Params {
+    /// How wide the upper steps are.
+    /// @length @range 0 1 @default 0.1
+    upper_width: f32,
+    /// How wide the lowest step is.
+    /// @length @range 0 1 @default 0.1
+    lower_width: f32,
+}
+
+/// Down.
+/// @pass 1 @texel params.upper_width / 4
+/// @input source What goes down.
+fn upper(at: Surface, source: texture_2d_array<f32>) -> f32 {
+    return surface_here(source, at).x;
+}
+
+/// Further down.
+/// @pass 2 @texel params.lower_width / 2 @repeat 3
+fn lower(at: Surface, upper: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
+    return surface_here(upper, at).x + surface_here(source, at).x;
+}
+
+/// Up again.
+/// @pass 3 @texel params.upper_width / 4
+fn back(at: Surface, lower: texture_2d_array<f32>, upper: texture_2d_array<f32>) -> f32 {
+    return surface_here(lower, at).x + surface_here(upper, at).x;
+}
+
+/// All of it.
+fn mask(at: Surface, back: texture_2d_array<f32>, lower: texture_2d_array<f32>, params: Params) -> f32 {
+    return surface_here(back, at).x + surface_here(lower, at).x + params.upper_width + params.lower_width;
+}
+";
+
+/// The built-in nodes and the stairs, read once: random tests need them hundreds of times.
+fn library() -> Library {
+    let mut library = Library::builtin();
+    let stairs = SourceFile {
+        path: "test/stairs.wgsl".into(),
+        id: "test/stairs".to_owned(),
+        text: STAIRS.to_owned(),
+    };
+    library.replace(stairs).unwrap();
+    library
+}
+
+static LIBRARY: OnceLock<Library> = OnceLock::new();
+
 /// A bench of its own: the built-in nodes, one source and the two sinks.
 struct Bench {
-    library: Library,
+    library: &'static Library,
     sources: BTreeMap<String, SourceKind>,
     sinks: BTreeMap<String, SourceKind>,
     files: FileContents,
@@ -53,7 +111,7 @@ impl Bench {
         let by_id = |kinds: Vec<SourceKind>| kinds.into_iter().map(|kind| (kind.id.clone(), kind)).collect();
         let material = port("material", PortType::Material, &Channel::ALL);
         Bench {
-            library: Library::builtin(),
+            library: LIBRARY.get_or_init(library),
             sources: by_id(vec![kind("source/model", Vec::new(), vec![material.clone()])]),
             sinks: by_id(vec![
                 kind("output/material", vec![material], Vec::new()),
@@ -70,7 +128,7 @@ impl Bench {
     fn with_planner<T>(&self, graph: &FlatGraph, mode: Mode, work: impl FnOnce(&Planner<'_>) -> T) -> T {
         work(&Planner {
             graph,
-            library: &self.library,
+            library: self.library,
             sources: &self.sources,
             sinks: &self.sinks,
             files: &self.files,
@@ -78,7 +136,7 @@ impl Bench {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],
             },
-            levels: &[0.001, 0.002, 0.004, 0.008],
+            levels: &LEVELS,
             surface_key: [7; 32],
             mode,
             limits: self.limits,

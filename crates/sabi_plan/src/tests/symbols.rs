@@ -1,0 +1,278 @@
+//! Plans carried out with symbols in place of pixels: a slot holds a hash of the call that filled it and of all that went
+//! into it. A slot given away too early, read before it is filled, or read on another level than it is on, shows.
+
+use std::collections::BTreeSet;
+
+use sabi_nodes::link::{Binding, Call, Convert, INPUTS_A_WORD, Plane};
+
+use crate::{KernelStep, Plan, Room, Slot, Step};
+
+pub(super) fn hash(parts: &[&[u8]]) -> u64 {
+    let mut hash = blake3::Hasher::new();
+    for part in parts {
+        hash.update(&(part.len() as u64).to_le_bytes());
+        hash.update(part);
+    }
+    let bytes = hash.finalize();
+    u64::from_le_bytes(bytes.as_bytes()[..8].try_into().unwrap())
+}
+
+/// What a function is called with.
+#[derive(Default)]
+pub(super) struct Given {
+    pub(super) inputs: Vec<(u64, Convert)>,
+    /// By pass of its kind, 0 where it takes none of it.
+    pub(super) passes: Vec<u64>,
+    pub(super) survey: Option<u64>,
+}
+
+pub(super) const OPEN: (u64, Convert) = (0, Convert::None);
+
+pub(super) fn call_symbol(kind: &str, function: &str, params: &[u8], given: &Given) -> u64 {
+    let inputs: Vec<u8> = given
+        .inputs
+        .iter()
+        .flat_map(|(symbol, convert)| [symbol.to_le_bytes().as_slice(), &[*convert as u8]].concat())
+        .collect();
+    let taken = given.passes.iter().any(|pass| *pass != 0);
+    let passes: Vec<u8> = given
+        .passes
+        .iter()
+        .filter(|_| taken)
+        .flat_map(|pass| pass.to_le_bytes())
+        .collect();
+    let survey: Vec<u8> = given.survey.iter().flat_map(|survey| survey.to_le_bytes()).collect();
+    hash(&[kind.as_bytes(), function.as_bytes(), params, &inputs, &passes, &survey])
+}
+
+pub(super) fn source_symbol(id: &str, output: &str) -> u64 {
+    hash(&[b"source", id.as_bytes(), output.as_bytes()])
+}
+
+pub(super) fn converted(symbol: u64, convert: Convert) -> u64 {
+    match convert {
+        Convert::None => symbol,
+        _ => hash(&[b"converted", &symbol.to_le_bytes(), &[convert as u8]]),
+    }
+}
+
+pub(super) fn surveyed(symbol: u64) -> u64 {
+    hash(&[b"surveyed", &symbol.to_le_bytes()])
+}
+
+/// What a plane is on another level; between two coarser ones by way of the finest.
+pub(super) fn moved(symbol: u64, from: u32, to: u32) -> u64 {
+    match [from, to] {
+        _ if from == to => symbol,
+        [0, _] | [_, 0] => hash(&[b"moved", &symbol.to_le_bytes(), &from.to_le_bytes(), &to.to_le_bytes()]),
+        _ => moved(moved(symbol, from, 0), 0, to),
+    }
+}
+
+/// What is in a slot.
+#[derive(Clone, Copy)]
+struct Held {
+    symbol: u64,
+    plane: Plane,
+    /// The step that filled it.
+    step: usize,
+}
+
+/// A plan underway.
+struct Execution<'p> {
+    plan: &'p Plan,
+    slots: Vec<Option<Held>>,
+    /// Which planes, named by the steps that made them and where they put them, were brought to which level.
+    moves: BTreeSet<(usize, usize, u32)>,
+    step: usize,
+}
+
+/// Carries a plan out; answers what its results are.
+pub(super) fn from_plan(plan: &Plan) -> Vec<u64> {
+    let mut execution = Execution {
+        plan,
+        slots: vec![None; plan.slots.len()],
+        moves: BTreeSet::new(),
+        step: 0,
+    };
+    for (at, step) in plan.steps.iter().enumerate() {
+        execution.step = at;
+        execution.carry_out(step);
+    }
+    let results = plan.results.iter().map(|result| {
+        let planes = result.stored.planes();
+        let held: Vec<Held> = result
+            .slots
+            .iter()
+            .map(|slot| execution.read(*slot, Room::Level(0)))
+            .collect();
+        assert!(held.iter().zip(&planes).all(|(held, plane)| held.plane == *plane));
+        held[0].symbol
+    });
+    results.collect()
+}
+
+impl Execution<'_> {
+    fn carry_out(&mut self, step: &Step) {
+        match step {
+            Step::Source(source) => {
+                for (output, planes) in &source.writes {
+                    for (plane, slot) in planes {
+                        self.write(*slot, Room::Level(0), source_symbol(&source.id, output), *plane);
+                    }
+                }
+            }
+            Step::Survey(step) => {
+                let table = surveyed(self.read(step.from, Room::Level(0)).symbol);
+                self.write(step.to, Room::Survey, table, Plane::Vector);
+            }
+            Step::Move(step) => {
+                let [from, to] = step.levels;
+                assert!(from != to && (from == 0 || to == 0), "from {from} to {to}");
+                let held = self.read(step.from, Room::Level(from));
+                assert!(self.moves.insert((held.step, step.from, to)), "moved to {to} twice");
+                assert_eq!(step.format, held.plane.format());
+                self.write(step.to, Room::Level(to), moved(held.symbol, from, to), held.plane);
+            }
+            Step::Kernel(kernel) => self.run(kernel),
+        }
+    }
+
+    fn read(&self, slot: usize, room: Room) -> Held {
+        assert_eq!(
+            self.plan.slots[slot].room, room,
+            "the room that step {} reads",
+            self.step
+        );
+        self.slots[slot].unwrap()
+    }
+
+    fn write(&mut self, slot: usize, room: Room, symbol: u64, plane: Plane) {
+        let format = plane.format();
+        assert_eq!(
+            self.plan.slots[slot],
+            Slot { format, room },
+            "what step {} writes",
+            self.step
+        );
+        let step = self.step;
+        self.slots[slot] = Some(Held { symbol, plane, step });
+    }
+
+    fn run(&mut self, kernel: &KernelStep) {
+        let times = kernel.feedback.as_ref().map_or(1, |feedback| feedback.times);
+        let room = if kernel.spec.once {
+            Room::Single
+        } else {
+            Room::Level(kernel.level)
+        };
+        let mut last = None;
+        for round in 0..times {
+            let mut reads = kernel.reads.clone();
+            let mut writes = kernel.writes.clone();
+            if let Some(feedback) = &kernel.feedback {
+                if last.is_some() {
+                    reads[feedback.read] = last;
+                }
+                if (times - 1 - round) % 2 == 1 {
+                    writes[0] = Some(feedback.scratch);
+                }
+                last = writes[0];
+            }
+            let symbols = self.calls(kernel, &reads);
+            let mut at = 0;
+            for store in &kernel.spec.stores {
+                for plane in store.stored.planes() {
+                    if let Some(slot) = writes[at] {
+                        assert!(!reads.contains(&Some(slot)), "a kernel reads what it writes");
+                        let symbol = self.stored_symbol(kernel, store.value, &symbols, &reads);
+                        self.write(slot, room, symbol, plane);
+                    }
+                    at += 1;
+                }
+            }
+        }
+    }
+
+    fn calls(&self, kernel: &KernelStep, reads: &[Option<usize>]) -> Vec<u64> {
+        let mut symbols: Vec<u64> = Vec::new();
+        for call in &kernel.spec.calls {
+            let inputs = (0..call.inputs.len()).map(|input| self.input_symbol(kernel, call, input, &symbols, reads));
+            let pass = |load: &Option<usize>| load.map_or(0, |load| self.held(kernel, load, reads));
+            let given = Given {
+                inputs: inputs.collect(),
+                passes: call.passes.iter().map(pass).collect(),
+                survey: call.survey.map(|load| self.held(kernel, load, reads)),
+            };
+            let params = &kernel.blocks[call.block].params;
+            symbols.push(call_symbol(&call.kind, &call.function, params, &given));
+        }
+        symbols
+    }
+
+    /// What a store holds: a call's result, or a load that is converted.
+    fn stored_symbol(&self, kernel: &KernelStep, value: Binding, symbols: &[u64], reads: &[Option<usize>]) -> u64 {
+        match value {
+            Binding::Call(call, Convert::None) => symbols[call],
+            Binding::Load(load, convert) => converted(self.held(kernel, load, reads), convert),
+            other => panic!("{other:?} is never stored"),
+        }
+    }
+
+    /// What all planes of a load hold.
+    fn held(&self, kernel: &KernelStep, load: usize, reads: &[Option<usize>]) -> u64 {
+        let first: usize = kernel.spec.loads[..load]
+            .iter()
+            .map(|stored| stored.planes().len())
+            .sum();
+        let planes = kernel.spec.loads[load].planes().len();
+        let symbols = reads[first..first + planes].iter().flatten().map(|slot| {
+            let takes = |call: &Call| call.passes.contains(&Some(load));
+            let room = match self.plan.slots[*slot].room {
+                // The table for what looks something up in it once, and what was found for what takes it.
+                Room::Survey if kernel.spec.once => Room::Survey,
+                Room::Single if kernel.level == 0 && kernel.spec.calls.iter().any(takes) => Room::Single,
+                _ => Room::Level(kernel.level),
+            };
+            self.read(*slot, room).symbol
+        });
+        let symbols: Vec<u64> = symbols.collect();
+        assert!(
+            symbols.windows(2).all(|pair| pair[0] == pair[1]),
+            "planes of different results"
+        );
+        symbols.first().copied().unwrap_or(0)
+    }
+
+    fn input_symbol(
+        &self,
+        kernel: &KernelStep,
+        call: &Call,
+        input: usize,
+        symbols: &[u64],
+        reads: &[Option<usize>],
+    ) -> (u64, Convert) {
+        let held = |load| self.held(kernel, load, reads);
+        match call.inputs[input] {
+            Binding::Default => OPEN,
+            Binding::Call(from, convert) => (symbols[from], convert),
+            Binding::Load(load, convert) => (held(load), convert),
+            Binding::Field(load) => (held(load), Convert::None),
+            Binding::Switch(load) => match (kernel.flags[0] >> (2 * input)) & 3 {
+                0 => OPEN,
+                2 => (held(load), Convert::Gray),
+                3 => (held(load), Convert::Luminance),
+                _ => {
+                    let shift = 5 * (input % INPUTS_A_WORD);
+                    let present = (kernel.flags[1 + input / INPUTS_A_WORD] >> shift) & 31;
+                    let is_material = kernel.spec.loads[load].planes().len() > 1;
+                    assert!(
+                        !is_material || present & 3 == 3,
+                        "a material has at least color and surface"
+                    );
+                    (held(load), Convert::None)
+                }
+            },
+        }
+    }
+}
