@@ -1,5 +1,6 @@
 //! What rays cannot rely on: models that are open, inside out, or have no clear inside.
 
+use glam::DVec3;
 use sabi_plan::{Plan, Step};
 use sabi_surface::model::Mesh;
 
@@ -19,12 +20,8 @@ pub(crate) fn warnings(plan: &Plan, prepared: &Prepared) -> Vec<String> {
              weaker near its openings, and a sheet without thickness has none.",
             edges(report.border_edges)
         ));
-    } else if signed_volume(&prepared.model.mesh) < 0.0 {
-        told.push(
-            "The model is inside out: its faces look inward, so edges and creases change places and all of it counts as \
-             buried. Turn its faces around in a modeling program."
-                .to_owned(),
-        );
+    } else {
+        told.extend(about_inside(&prepared.model.mesh).map(str::to_owned));
     }
     if report.nonmanifold_edges > 0 {
         told.push(format!(
@@ -42,11 +39,36 @@ fn edges(count: u32) -> String {
     }
 }
 
-/// Six times the volume that the faces enclose, below 0 where they look inward.
-fn signed_volume(mesh: &Mesh) -> f64 {
-    let volume = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize].map(f64::from));
-        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+/// What is wrong with the inside of a closed model.
+fn about_inside(mesh: &Mesh) -> Option<&'static str> {
+    let (volume, area) = measured(mesh);
+    if volume.abs() <= LEAST_VOLUME * area.powf(1.5) {
+        return Some(
+            "The model has no inside: its faces lie back to back, so rays pass between them, and thickness, edges and \
+             creases find nothing. Give it a thickness in a modeling program.",
+        );
+    }
+    (volume < 0.0).then_some(
+        "The model is inside out: its faces look inward, so edges and creases change places and all of it counts as buried. \
+         Turn its faces around in a modeling program.",
+    )
+}
+
+/// Less volume than this for an area is what rounding leaves of none: a sheet of paper has dozens of times as much.
+const LEAST_VOLUME: f64 = 1e-6;
+
+/// The volume that the faces enclose, below 0 where they look inward, and their area.
+fn measured(mesh: &Mesh) -> (f64, f64) {
+    let place = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
+    // From a corner of its own, so that a model far from the middle of its scene loses nothing to rounding.
+    let Some(origin) = mesh.triangles.first().map(|triangle| place(triangle[0])) else {
+        return (0.0, 0.0);
     };
-    mesh.triangles.iter().map(volume).sum()
+    let measures = mesh.triangles.iter().map(|triangle| {
+        let [a, b, c] = triangle.map(|vertex| place(vertex) - origin);
+        (a.dot(b.cross(c)) / 6.0, (b - a).cross(c - a).length() / 2.0)
+    });
+    measures.fold((0.0, 0.0), |(volume, area), (more, wider)| {
+        (volume + more, area + wider)
+    })
 }
