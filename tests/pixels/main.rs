@@ -1,6 +1,7 @@
 //! Pixels: what kernels make of every node, seen on the software adapter. Kinds are found by enumeration: a new node
 //! file is held to everything here without being named.
 
+mod broken_models;
 mod fields;
 mod golden;
 mod groups;

@@ -16,6 +16,7 @@ mod model_options;
 mod nothing_lost;
 mod outputs;
 mod place;
+mod rays;
 mod reference;
 mod settings;
 mod unwrapping;
