@@ -16,6 +16,7 @@ mod model_copy;
 mod noise;
 mod occlusion;
 mod one_sheet;
+mod placement;
 mod predecessor;
 mod predecessor_maps;
 mod rays;

@@ -34,6 +34,8 @@ pub struct MeshFile {
     pub factors: Value,
     /// Colors of the corners, four for each face; none for a model without.
     pub colors: Vec<[f32; 4]>,
+    /// What else its node's JSON says: where it stands.
+    pub node: Value,
 }
 
 /// A picture of a model's material.
@@ -162,6 +164,7 @@ impl MeshFile {
             }),
             bytes: Vec::new(),
         };
+        merge(&mut file.json["nodes"][0], &self.node);
         let positions: Vec<[f32; 3]> = self.quads.iter().flat_map(|quad| quad.corners).collect();
         let flat = || self.quads.iter().flat_map(|quad| [normal(quad.corners); 4]).collect();
         let normals: Vec<[f32; 3]> = self.normals.clone().unwrap_or_else(flat);

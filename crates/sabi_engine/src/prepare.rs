@@ -93,8 +93,8 @@ pub struct Prepared {
 
 /// What is known about an unwrapped model.
 ///
-/// To write it out with UVs that its maps fit: [`Prepared::model`] has the mesh that was unwrapped, in world space. Its
-/// positions, normals, tangents and colors go into the file as they are, every set of `texture_uvs` as the `TEXCOORD` of its
+/// To write it out with UVs that its maps fit: [`Prepared::model`] has the mesh that was unwrapped, in world space around
+/// [`Model::middle`]. Its positions, normals, tangents and colors go into the file as they are, every set of `texture_uvs` as the `TEXCOORD` of its
 /// number, and `uvs`, which the maps are laid out by, as [`Unwrapping::uv_set`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unwrapping {

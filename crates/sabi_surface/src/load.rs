@@ -4,6 +4,7 @@
 //! sentence, and never panic.
 
 mod error;
+mod far;
 mod format;
 mod gltf;
 mod normals;

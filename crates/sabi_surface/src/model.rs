@@ -11,6 +11,8 @@ pub struct Model {
     pub stem: String,
     /// All triangles.
     pub mesh: Mesh,
+    /// What is the origin of [`Model::mesh`] in the file's own world: zero, but for models that stand far from it.
+    pub middle: [f64; 3],
     /// Materials in use, in the file's order. Never empty: a model without any has one unnamed.
     pub materials: Vec<ModelMaterial>,
     /// Encoded pictures that the materials name.
@@ -28,7 +30,7 @@ pub struct Model {
     pub warnings: Vec<String>,
 }
 
-/// Indexed triangles in world space: right-handed, +Y up, meters as far as the file knows.
+/// Indexed triangles in world space around [`Model::middle`]: right-handed, +Y up, meters as far as the file knows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions, finite.

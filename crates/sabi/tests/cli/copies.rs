@@ -104,3 +104,22 @@ fn outputs_for_materials_on_one_sheet_share_its_maps() {
         assert_eq!(channels, maps);
     }
 }
+
+#[test]
+fn a_copy_of_a_model_far_away_stands_where_the_model_does() {
+    let place = Place::new();
+    let corners = "v 4000 0 -9000\nv 4001 0 -9000\nv 4000 1 -9000\n";
+    place.write("far.obj", format!("{corners}vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"));
+    place.bake("rust.sabi", "far.obj", &["--model"]).good();
+    let glb = place.read("out/far.glb");
+    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    let copy: Json = serde_json::from_slice(&glb[20..20 + length]).unwrap();
+    assert_eq!(
+        copy["nodes"][0]["translation"],
+        serde_json::json!([4000.5, 0.5, -9000.0])
+    );
+    let positions = &copy["accessors"][copy["meshes"][0]["primitives"][0]["attributes"]["POSITION"]
+        .as_u64()
+        .unwrap() as usize];
+    assert_eq!(positions["min"], serde_json::json!([-0.5, -0.5, 0.0]));
+}

@@ -52,7 +52,11 @@ pub(super) fn glb(
             "meshes",
             json!({ "name": name, "primitives": primitives }),
         );
-        let node = push(&mut document, "nodes", json!({ "name": name, "mesh": mesh }));
+        let mut node = json!({ "name": name, "mesh": mesh });
+        if model.middle != [0.0; 3] {
+            node["translation"] = json!(model.middle);
+        }
+        let node = push(&mut document, "nodes", node);
         push(&mut document["scenes"][0], "nodes", json!(node));
     }
     let mut container = Container::glb(Vec::new());

@@ -21,6 +21,7 @@ use self::material::Materials;
 use self::primitive::{Outcome, Source};
 use self::scene::Instance;
 use super::error::{Fault, damaged};
+use super::far::far_middle;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, TextureUvs};
@@ -60,6 +61,12 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     model.mesh.texture_uvs = empty_sets(pieces.values().flatten());
     let mut materials = Materials::default();
     let world_from_file = options.world_from_file();
+    let middle = far_middle(instances.iter().flat_map(|instance| {
+        let pieces = pieces.get(&instance.mesh).into_iter().flatten();
+        pieces.map(|piece| (&piece.piece, world_from_file * instance.file_from_mesh))
+    }));
+    let world_from_file = DMat4::from_translation(-middle) * world_from_file;
+    model.middle = middle.to_array();
     let mut lost = 0;
     for instance in &instances {
         let pieces = pieces.get(&instance.mesh).into_iter().flatten();

@@ -10,9 +10,12 @@ mod statements;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use glam::DMat4;
+
 use self::library::Library;
 use self::statements::{Corner, NONE, Statements};
 use super::error::Fault;
+use super::far::far_middle;
 use super::normals::{self, Missing};
 use super::piece::Piece;
 use super::tangents;
@@ -52,7 +55,11 @@ pub(super) fn read(
     };
     let (piece, without_uvs) = triangulate(&statements, &mut warnings);
     model.without_uvs = without_uvs;
-    let mut placed = complete(piece, &mut warnings).placed(options.world_from_file());
+    let piece = complete(piece, &mut warnings);
+    let world_from_file = options.world_from_file();
+    let middle = far_middle([(&piece, world_from_file)].into_iter());
+    model.middle = middle.to_array();
+    let mut placed = piece.placed(DMat4::from_translation(-middle) * world_from_file);
     if placed.drop_broken() > 0 {
         warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
     }

@@ -40,6 +40,25 @@ fn nodes_compose_and_name_the_parts() {
 }
 
 #[test]
+fn a_model_far_away_is_brought_to_the_middle_and_keeps_its_shape() {
+    let shape = Gltf::triangle().model().mesh;
+    for (translation, middle) in [
+        ([60.0, 0.0, 0.0], [0.0; 3]),
+        ([3e6, -5e6, 0.0], [3e6 + 0.5, -5e6 + 0.5, 0.0]),
+    ] {
+        let mut file = Gltf::triangle();
+        file.json["nodes"][0]["translation"] = json!(translation);
+        let model = file.model();
+        assert_eq!(model.middle, middle);
+        for (moved, own) in model.mesh.positions.iter().zip(&shape.positions) {
+            let expected: [f64; 3] =
+                std::array::from_fn(|axis| f64::from(own[axis]) + translation[axis] - middle[axis]);
+            assert_eq!(moved.map(f64::from), expected);
+        }
+    }
+}
+
+#[test]
 fn a_mirrored_instance_keeps_its_outside_out_and_its_texture_mirrored() {
     let mut file = Gltf::triangle();
     file.json["nodes"][0]["scale"] = json!([-1, 1, 1]);
