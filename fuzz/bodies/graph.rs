@@ -45,6 +45,7 @@ fn plan(graph: &FlatGraph) {
             levels: &[0.001],
             surface_key: [0; 32],
             mode,
+            most_rays: None,
             limits: Limits::default(),
         };
         let (_plan, errors) = planner.plan(&targets);

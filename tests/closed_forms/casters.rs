@@ -170,3 +170,33 @@ fn rays_are_shot_once_for_a_model_and_its_knobs_however_often_it_is_opened() {
     assert_eq!(evaluate(""), (false, first.clone()));
     assert_eq!(evaluate(""), (true, first));
 }
+
+#[test]
+fn a_first_picture_of_a_few_rays_has_the_same_mean_and_is_nobodys_result() {
+    let path = project("assets/meshes/figure.glb");
+    let mut on_mesh = OnMesh::new(&graph("occlusion", r#""rays": 64, "distance": 0.3"#), &path, 128);
+    let mut cache = ResultCache::new(1 << 30);
+    let mut picture = |most_rays| {
+        on_mesh.workpiece.most_rays = most_rays;
+        let asked = Asked {
+            mode: Mode::Interactive,
+            cache: Some(&mut cache),
+        };
+        let evaluated = on_mesh.evaluate_as("rays", asked);
+        let values = evaluated.component("mask");
+        let owned: Vec<f32> = on_mesh.owned().map(|(index, _)| values[index]).collect();
+        (evaluated.ran().len(), owned)
+    };
+    let (first, grainy) = picture(Some(2));
+    let (then, fine) = picture(None);
+    assert_eq!(
+        (first, then),
+        (1, 1),
+        "each is made, and the second is not taken for the first"
+    );
+    assert!(grainy.iter().all(|share| [0.0, 0.5, 1.0].contains(share)), "two rays");
+    let mean = |values: &[f32]| values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64;
+    // Two rays a place: four standard deviations of a half over as many as there are.
+    let chance = 4.0 * 0.5 / (2.0 * grainy.len() as f64).sqrt();
+    assert!((mean(&grainy) - mean(&fine)).abs() < chance);
+}

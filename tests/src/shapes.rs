@@ -47,11 +47,10 @@ fn random(seed: u32, [x, y]: [u32; 2], which: u32) -> f64 {
 /// A patch over the unit square; `at` goes right and up as seen from outside.
 pub fn patch(at: impl Fn(f64, f64) -> DVec3, place: Place, cut: Cut) -> Vec<Quad> {
     let [columns, rows] = cut.steps;
+    let is_border = |[x, y]: [u32; 2]| x.is_multiple_of(columns) || y.is_multiple_of(rows);
     // Less than a quarter of a face: whichever way a face is divided, its triangles keep their side.
     let moved = |corner: [u32; 2], axis: usize| match cut.scatter {
-        Some(seed) if corner[0] % columns > 0 && corner[1] % rows > 0 => {
-            0.48 * (random(seed, corner, axis as u32) - 0.5)
-        }
+        Some(seed) if !is_border(corner) => 0.48 * (random(seed, corner, axis as u32) - 0.5),
         _ => 0.0,
     };
     let share = |corner: [u32; 2]| {

@@ -22,6 +22,7 @@ pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds, files: &'a Fil
         levels: &[0.001],
         surface_key: [0; 32],
         mode: Mode::Bake { fuse: true },
+        most_rays: None,
         limits: Limits {
             sampled_textures: 16,
             storage_textures: 8,

@@ -64,6 +64,8 @@ pub struct Workpiece {
     pub caster: CasterChoice,
     /// Whether all rays are shot, or what is known of longer ones will do, as while a knob is moved.
     pub hits: Hits,
+    /// For a first picture, which is grainy and quick: no place shoots more rays than this. None for all of them.
+    pub most_rays: Option<u32>,
     /// Time spent so far.
     pub times: StageTimes,
     /// What the artist should know.
@@ -156,6 +158,7 @@ impl Workpiece {
             surface_key,
             caster: options.caster,
             hits: Hits::Shot,
+            most_rays: None,
             kept_rays: KeptRays::new(options.model.cache_dir.as_deref()),
             budget_bytes,
         })
@@ -227,6 +230,7 @@ impl Workpiece {
             levels: &levels,
             surface_key: self.surface_key,
             mode,
+            most_rays: self.most_rays,
             limits,
         };
         planner.plan(targets)

@@ -94,6 +94,7 @@ impl Bench {
             levels: &[0.01],
             surface_key: [0; 32],
             mode,
+            most_rays: None,
             limits: self.gpu.limits(),
         };
         let out = graph.find("out").unwrap();

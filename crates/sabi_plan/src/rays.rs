@@ -4,7 +4,7 @@ use sabi_nodes::kind::{Argument, Kind, ParamValue, Rays};
 
 use crate::plan::{Reach, StepRays};
 use crate::request::Planner;
-use crate::resolve::ResolvedNode;
+use crate::resolve::{Behavior, ResolvedNode};
 
 impl Planner<'_> {
     /// The rays of a node.
@@ -21,6 +21,16 @@ impl Planner<'_> {
             finds: rays.finds,
             key: (!hangs_on_inputs).then(|| self.rays_key(ready, kind, rays, reach)),
             reach,
+        }
+    }
+
+    /// Has a node shoot no more rays than a first picture takes.
+    pub(crate) fn limit_rays(&self, behavior: Behavior<'_>, values: &mut [ParamValue]) {
+        let Behavior::Shader(Kind { rays: Some(rays), .. }) = behavior else {
+            return;
+        };
+        if let (Some(most), Some(ParamValue::Unsigned(count))) = (self.most_rays, values.get_mut(rays.count)) {
+            *count = (*count).min(most);
         }
     }
 

@@ -154,6 +154,8 @@ pub struct Planner<'a> {
     pub surface_key: [u8; 32],
     /// How to cut.
     pub mode: Mode,
+    /// For a first picture, which is grainy and quick: no place shoots more rays than this. None for all of them.
+    pub most_rays: Option<u32>,
     /// What the adapter allows.
     pub limits: Limits,
 }

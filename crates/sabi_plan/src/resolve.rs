@@ -170,7 +170,8 @@ impl<'a> Planner<'a> {
                 Err(problem) => problems.push(problem),
             }
         }
-        let values = read_params(params(behavior), node, &mut problems);
+        let mut values = read_params(params(behavior), node, &mut problems);
+        self.limit_rays(behavior, &mut values);
         let knobs = match behavior {
             Behavior::Shader(kind) => read_knobs(kind, node, &mut problems),
             Behavior::Source(_) | Behavior::Sink(_) => Vec::new(),

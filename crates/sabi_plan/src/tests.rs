@@ -139,6 +139,7 @@ impl Bench {
             levels: &LEVELS,
             surface_key: [7; 32],
             mode,
+            most_rays: None,
             limits: self.limits,
         })
     }

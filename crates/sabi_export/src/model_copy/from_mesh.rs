@@ -52,11 +52,7 @@ pub(super) fn glb(
             "meshes",
             json!({ "name": name, "primitives": primitives }),
         );
-        let mut node = json!({ "name": name, "mesh": mesh });
-        if model.middle != [0.0; 3] {
-            node["translation"] = json!(model.middle);
-        }
-        let node = push(&mut document, "nodes", node);
+        let node = push(&mut document, "nodes", node(name, mesh, model.middle));
         push(&mut document["scenes"][0], "nodes", json!(node));
     }
     let mut container = Container::glb(Vec::new());
@@ -84,6 +80,15 @@ pub(super) fn glb(
     warnings.extend(textures.warnings());
     extensions::keep_lists_true(&mut document, &BTreeSet::new());
     (container, document)
+}
+
+/// A node that stands where the model does.
+fn node(name: &str, mesh: usize, middle: [f64; 3]) -> Json {
+    let mut node = json!({ "name": name, "mesh": mesh });
+    if middle != [0.0; 3] {
+        node["translation"] = json!(middle);
+    }
+    node
 }
 
 /// Texture coordinates by their number.

@@ -9,8 +9,18 @@ use super::Piece;
 /// better than a hundred-thousandth of its size.
 const FAR: f64 = 100.0;
 
+/// What places pieces, each with what places it in the file, near the middle of the world, and where that is in the file's
+/// own: zero, unless they are far away.
+pub(super) fn brought_near<'p>(
+    world_from_file: DMat4,
+    pieces: impl Iterator<Item = (&'p Piece, DMat4)>,
+) -> (DMat4, [f64; 3]) {
+    let middle = far_middle(pieces.map(|(piece, file_from_mesh)| (piece, world_from_file * file_from_mesh)));
+    (DMat4::from_translation(-middle) * world_from_file, middle.to_array())
+}
+
 /// The middle of placed pieces where they all are far away, else zero.
-pub(super) fn far_middle<'p>(placed: impl Iterator<Item = (&'p Piece, DMat4)>) -> DVec3 {
+fn far_middle<'p>(placed: impl Iterator<Item = (&'p Piece, DMat4)>) -> DVec3 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for (piece, world_from_mesh) in placed {
         for at in &piece.positions {

@@ -10,7 +10,7 @@ mod scene;
 mod skin;
 mod storage;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DMat4;
 use rayon::prelude::*;
@@ -21,7 +21,7 @@ use self::material::Materials;
 use self::primitive::{Outcome, Source};
 use self::scene::Instance;
 use super::error::{Fault, damaged};
-use super::far::far_middle;
+use super::far::brought_near;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, TextureUvs};
@@ -42,7 +42,6 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     };
     let instances = scene::instances(&source, &mut warnings)?;
     check_size(&source, &instances)?;
-
     let pieces = source.pieces(instances.iter().map(|instance| instance.mesh))?;
     let has = |what: fn(&Outcome) -> bool| pieces.values().flatten().any(what);
     let with_uvs = has(|piece| !piece.piece.uvs.is_empty());
@@ -52,21 +51,16 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     }
 
     let without_uvs = gather_warnings(&source, pieces.values().flatten(), with_uvs, &mut warnings);
+    let (world_from_file, middle) = world(options, &instances, &pieces);
     let mut model = Model {
         stem: super::stem(name),
+        middle,
         without_uvs: without_uvs.into_iter().collect(),
         ..Model::default()
     };
     model.mesh.uv_set = with_uvs.then_some(options.uv_set);
     model.mesh.texture_uvs = empty_sets(pieces.values().flatten());
     let mut materials = Materials::default();
-    let world_from_file = options.world_from_file();
-    let middle = far_middle(instances.iter().flat_map(|instance| {
-        let pieces = pieces.get(&instance.mesh).into_iter().flatten();
-        pieces.map(|piece| (&piece.piece, world_from_file * instance.file_from_mesh))
-    }));
-    let world_from_file = DMat4::from_translation(-middle) * world_from_file;
-    model.middle = middle.to_array();
     let mut lost = 0;
     for instance in &instances {
         let pieces = pieces.get(&instance.mesh).into_iter().flatten();
@@ -95,6 +89,15 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     materials.finish(&source, name, resolve, &mut model, &mut warnings);
     model.warnings = warnings.finish();
     Ok(model)
+}
+
+/// What places the file's meshes in the world, and where the middle of that is; see [`Model::middle`].
+fn world(options: &LoadOptions, instances: &[Instance], pieces: &BTreeMap<usize, Vec<Outcome>>) -> (DMat4, [f64; 3]) {
+    let placed = instances.iter().flat_map(|instance| {
+        let pieces = pieces.get(&instance.mesh).into_iter().flatten();
+        pieces.map(|piece| (&piece.piece, instance.file_from_mesh))
+    });
+    brought_near(options.world_from_file(), placed)
 }
 
 /// The sets that textures of the pieces are laid out by, without coordinates yet.

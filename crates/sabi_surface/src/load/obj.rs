@@ -15,7 +15,7 @@ use glam::DMat4;
 use self::library::Library;
 use self::statements::{Corner, NONE, Statements};
 use super::error::Fault;
-use super::far::far_middle;
+use super::far::brought_near;
 use super::normals::{self, Missing};
 use super::piece::Piece;
 use super::tangents;
@@ -55,11 +55,8 @@ pub(super) fn read(
     };
     let (piece, without_uvs) = triangulate(&statements, &mut warnings);
     model.without_uvs = without_uvs;
-    let piece = complete(piece, &mut warnings);
-    let world_from_file = options.world_from_file();
-    let middle = far_middle([(&piece, world_from_file)].into_iter());
-    model.middle = middle.to_array();
-    let mut placed = piece.placed(DMat4::from_translation(-middle) * world_from_file);
+    let (mut placed, middle) = placed(&complete(piece, &mut warnings), options);
+    model.middle = middle;
     if placed.drop_broken() > 0 {
         warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
     }
@@ -85,6 +82,13 @@ pub(super) fn read(
     model.mesh = mesh;
     model.warnings = warnings.finish();
     Ok(model)
+}
+
+/// The piece in the world, and where the middle of that is; see [`Model::middle`].
+fn placed(piece: &Piece, options: &LoadOptions) -> (Piece, [f64; 3]) {
+    let pieces = [(piece, DMat4::IDENTITY)];
+    let (world_from_file, middle) = brought_near(options.world_from_file(), pieces.into_iter());
+    (piece.placed(world_from_file), middle)
 }
 
 /// Faces become triangles, and corners that agree in everything one vertex; names what has no UVs where others have.
