@@ -13,6 +13,7 @@ const OPEN: &str = "The model is open at ";
 const INSIDE_OUT: &str = "The model is inside out: ";
 const UNCLEAR: &str = "More than two faces meet at ";
 const FLAT: &str = "The model has no inside: ";
+const THROUGH: &str = "The model passes through itself at ";
 
 /// A flat face of one unit, moved; `right` and `up` as seen from outside.
 fn sheet(corner: DVec3, right: DVec3, up: DVec3, place: Place) -> Vec<Quad> {
@@ -47,6 +48,15 @@ fn faces_without_area() -> Vec<Quad> {
     quads
 }
 
+/// A band that runs along an eight, through itself in the middle.
+fn eight() -> Vec<Quad> {
+    let at = |s: f64, t: f64| {
+        let turn = std::f64::consts::TAU * (s + 0.01);
+        DVec3::new(turn.sin(), t, (2.0 * turn).sin())
+    };
+    patch(at, on_sheet(0, 1), Cut::even(10))
+}
+
 /// Models by name, with what is said of them.
 fn models() -> Vec<(&'static str, Vec<Quad>, &'static [&'static str])> {
     let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
@@ -73,6 +83,7 @@ fn models() -> Vec<(&'static str, Vec<Quad>, &'static [&'static str])> {
         ("a fin", fin, &[OPEN, UNCLEAR]),
         ("a cube inside out", turned_in(cube(Cut::even(1))), &[INSIDE_OUT]),
         ("two cubes through each other", crossing, &[]),
+        ("a band through itself", eight(), &[OPEN, THROUGH]),
         ("a sheet seen from both sides", two_sided, &[FLAT]),
         ("a sheet doubled", doubled, &[FLAT, UNCLEAR]),
         ("faces without area", faces_without_area(), &[OPEN, UNCLEAR]),

@@ -81,6 +81,8 @@ pub struct Prepared {
     pub bvh: OnceLock<Bvh>,
     finest_texel: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
+    /// What rays cannot rely on, as sentences.
+    pub(crate) solidity: OnceLock<Vec<String>>,
     /// Whether the atlas was found on disk.
     pub atlas_was_cached: bool,
     /// The largest side of the box around it, model units.
@@ -165,6 +167,7 @@ impl Prepared {
             bvh: OnceLock::new(),
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),
+            solidity: OnceLock::new(),
             largest_side,
             farthest,
             scale: f64::from(options.scale),

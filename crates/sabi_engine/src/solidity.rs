@@ -1,7 +1,9 @@
-//! What rays cannot rely on: models that are open, inside out, or have no clear inside.
+//! What rays cannot rely on: models that are open, inside out, pass through themselves, or have no clear inside.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 use sabi_plan::{Plan, Step};
+use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Mesh;
 
 use crate::prepare::Prepared;
@@ -12,6 +14,10 @@ pub(crate) fn warnings(plan: &Plan, prepared: &Prepared) -> Vec<String> {
     if !plan.steps.iter().any(shoots) {
         return Vec::new();
     }
+    prepared.solidity.get_or_init(|| about(prepared)).clone()
+}
+
+fn about(prepared: &Prepared) -> Vec<String> {
     let report = &prepared.atlas.report;
     let mut told = Vec::new();
     if report.border_edges > 0 {
@@ -29,8 +35,49 @@ pub(crate) fn warnings(plan: &Plan, prepared: &Prepared) -> Vec<String> {
             edges(report.nonmanifold_edges)
         ));
     }
+    let crossings = crossings(prepared);
+    if crossings > 0 {
+        told.push(format!(
+            "The model passes through itself at {}: what lies inside it counts as close by, so creases and occlusion are \
+             stronger there and thickness ends at what is buried.",
+            edges(crossings)
+        ));
+    }
     told
 }
+
+/// Edges that pass through a face of the same piece, each counted for each of its triangles. Parts that are put together
+/// from several pieces are meant to reach into each other.
+fn crossings(prepared: &Prepared) -> u32 {
+    let mesh = &prepared.model.mesh;
+    let bvh = prepared.bvh.get_or_init(|| Bvh::build(mesh));
+    let pieces = &prepared.pieces.triangle_piece;
+    let place = |vertex: u32| Vec3::from(mesh.positions[vertex as usize]);
+    let crosses = |triangle: u32, [from, to]: [u32; 2]| {
+        let (start, way) = (place(from), place(to) - place(from));
+        let length = way.length();
+        let own = mesh.triangles[triangle as usize].map(place);
+        let counts = |other: u32| {
+            let corners = mesh.triangles[other as usize].map(place);
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+            let beyond = [start, start + way].map(|end| (end - corners[0]).dot(normal));
+            // Both ends stand off the face, on either side of it: faces that touch do not pass through each other.
+            pieces[other as usize] == pieces[triangle as usize]
+                && beyond[0] * beyond[1] < 0.0
+                && beyond.iter().all(|beyond| beyond.abs() > OFF_FACE * length)
+                && !own.iter().any(|corner| corners.contains(corner))
+        };
+        bvh.any_of(start.to_array(), way.to_array(), length, counts)
+    };
+    let of_triangle = |(triangle, [a, b, c]): (usize, &[u32; 3])| {
+        let edges = [[*a, *b], [*b, *c], [*c, *a]];
+        edges.into_iter().filter(|edge| crosses(triangle as u32, *edge)).count() as u32
+    };
+    mesh.triangles.par_iter().enumerate().map(of_triangle).sum()
+}
+
+/// How far an edge's ends stand off a face that it passes through, as a share of its length.
+const OFF_FACE: f32 = 1e-3;
 
 fn edges(count: u32) -> String {
     match count {

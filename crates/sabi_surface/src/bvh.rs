@@ -109,6 +109,20 @@ impl Bvh {
         })
     }
 
+    /// Whether a ray meets a triangle that counts, by its number, within `max` model units.
+    pub fn any_of(&self, origin: [f32; 3], direction: [f32; 3], max: f32, counts: impl Fn(u32) -> bool) -> bool {
+        self.scaled(origin, direction, max).is_some_and(|ray| {
+            !self.tree.ray_traverse_miss(ray, |ray, id| {
+                let triangle = self.tree.primitive_indices[id];
+                if counts(triangle) {
+                    self.triangles[triangle as usize].intersect(ray)
+                } else {
+                    f32::INFINITY
+                }
+            })
+        })
+    }
+
     /// The hierarchy, in scaled space; `primitive_indices` lead to triangles of the mesh.
     pub fn tree(&self) -> &CwBvh {
         &self.tree
