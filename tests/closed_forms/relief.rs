@@ -18,7 +18,11 @@ fn is_inside(position: DVec3) -> bool {
 
 /// Largest distance between the decoded slope and the true one, as a share of the steepest slope.
 fn largest_error(waves: Waves, chart: Chart, size: u32) -> f64 {
-    let mut on_mesh = waves.on(&plane(chart), size);
+    error_of(waves, waves.on(&plane(chart), size))
+}
+
+/// The same of waves that are there.
+fn error_of(waves: Waves, mut on_mesh: OnMesh) -> f64 {
     let slopes = decoded_slopes(&mut on_mesh, "waves");
     let inside: Vec<_> = slopes
         .into_iter()
@@ -59,6 +63,34 @@ fn the_slope_of_a_sine_is_its_derivative() {
                 assert!(
                     error < allowed,
                     "{name}, waves of {wavelength} at {degrees}°: {error:.5}, allowed {allowed:.5}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_slope_of_a_blurred_sine_is_that_of_what_heat_leaves() {
+    let turned = Chart {
+        degrees: 30.0,
+        is_mirrored: true,
+        ..Chart::straight(0.65)
+    };
+    for (name, chart) in [("straight", Chart::straight(1.0)), ("turned", turned)] {
+        for degrees in [0.0, 35.0] {
+            for texels in [0.5, 1.0] {
+                let waves = Waves::new(degrees, 0.25, 0.02);
+                let width = texel(chart, 128);
+                let radius = texels * width;
+                let filter = format!(r#""kind": "filter/blur", "params": {{ "radius": {radius} }}"#);
+                let on_mesh = waves.filtered_on(&filter, &plane(chart), 128);
+                let error = error_of(waves.blurred(radius), on_mesh);
+                // As without a blur.
+                let step = waves.wave_number() * width;
+                let allowed = 0.1875 * step * step + 2e-4;
+                assert!(
+                    error < allowed,
+                    "{name}, waves at {degrees}°, a blur of {texels} texels: {error:.5}, allowed {allowed:.5}"
                 );
             }
         }

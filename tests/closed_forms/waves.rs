@@ -29,6 +29,40 @@ fn material(at: Surface, params: Params) -> Material {
 }
 ";
 
+/// The same waves as a mask from 0 to 1.
+const WAVES_MASK: &str = "\
+//! Waves as a mask
+//! A wave between 0 and 1.
+
+struct Params {
+    /// Direction in which the waves follow each other.
+    /// @default 1 0 0
+    along: vec3f,
+    /// From crest to crest.
+    /// @length @range 0.001 10 @default 0.25
+    wavelength: f32,
+}
+
+/// The waves.
+fn mask(at: Surface, params: Params) -> f32 {
+    let turns = dot(at.position, params.along) / params.wavelength;
+    return 0.5 + 0.5 * sin(6.2831853 * (turns - floor(turns)));
+}
+";
+
+/// A filter that leaves all texels of charts as they are: what stands on ghosts afterwards came over the seams.
+const KEEP: &str = "\
+//! Keep
+//! Does nothing, as a filter.
+//! @use surface
+
+/// The same mask.
+/// @input source Any mask.
+fn mask(at: Surface, source: texture_2d_array<f32>) -> f32 {
+    return surface_here(source, at).x;
+}
+";
+
 /// Waves over a plane.
 #[derive(Clone, Copy)]
 pub(crate) struct Waves {
@@ -73,6 +107,35 @@ impl Waves {
             self.along.x, self.along.y, self.along.z, self.wavelength, self.amplitude
         );
         OnMesh::with_kinds(&graph, folder.kinds(), mesh.path(), size)
+    }
+
+    /// The waves as a mask that goes through a filter, given as the members of its node, and is the height of a layer
+    /// then, on a model whose largest side is 1.
+    pub(crate) fn filtered_on(&self, filter: &str, mesh: &MadeMesh, size: u32) -> OnMesh {
+        let folder = NodeFolder::new(&[("own/waves_mask", WAVES_MASK), ("own/keep", KEEP)]);
+        let graph = format!(
+            r#"{{ "format": "sabi", "version": 1, "nodes": {{
+                "source": {{ "kind": "own/waves_mask", "params": {{
+                    "along": [{}, {}, {}], "wavelength": {} }} }},
+                "filter": {{ {filter}, "inputs": {{ "source": "source" }} }},
+                "waves": {{ "kind": "effect/layer", "inputs": {{ "height_map": "filter" }},
+                    "params": {{ "height": {} }} }} }} }}"#,
+            self.along.x,
+            self.along.y,
+            self.along.z,
+            self.wavelength,
+            2.0 * self.amplitude
+        );
+        OnMesh::with_kinds(&graph, folder.kinds(), mesh.path(), size)
+    }
+
+    /// What a blur of that radius leaves of them: heat after the time radius² / 2.
+    pub(crate) fn blurred(&self, radius: f64) -> Waves {
+        let exponent = -0.5 * (self.wave_number() * radius).powi(2);
+        Waves {
+            amplitude: self.amplitude * exponent.exp(),
+            ..*self
+        }
     }
 }
 

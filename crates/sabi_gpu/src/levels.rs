@@ -8,7 +8,7 @@ use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::links::{GHOST_ROUNDS, LinkRound, Links};
+use crate::links::{LinkRound, Links};
 use crate::pipelines::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::pool::array_view;
 use crate::run::RunOptions;
@@ -164,6 +164,11 @@ impl Gpu {
             (target, format),
             &[LinkRound::Owned],
         )?;
-        self.fill_links(&ground.ghosts, slices.surface_group(), (target, format), &GHOST_ROUNDS)
+        self.fill_links(
+            &ground.ghosts,
+            slices.surface_group(),
+            (target, format),
+            LinkRound::of(false, false),
+        )
     }
 }

@@ -24,15 +24,31 @@ pub(crate) enum LinkRound {
     Owned,
     /// Ghosts, too, that an earlier round has filled.
     WithGhosts,
+    /// As before, along cubics instead of straight lines: where a slope is taken over a seam, straight lines would flatten
+    /// crests there.
+    Cubic,
 }
 
-/// The rounds that fill ghosts: the first one from owned texels alone, along straight lines where not all are owned that
+/// All rounds that fill ghosts. The first one reads owned texels alone, along straight lines where not all are owned that
 /// would be read, so that nothing old is handed on. Where the texels of two charts meet halfway, a ghost lies between an
 /// owned texel and a ghost of the other side, whose value depends on it in turn: each further round takes away most of
-/// what is left of that.
-pub(crate) const GHOST_ROUNDS: [LinkRound; 3] = [LinkRound::Owned, LinkRound::WithGhosts, LinkRound::WithGhosts];
-/// The rounds where ghosts hold nearly what they will: in a repeated pass they were filled two repetitions ago.
-pub(crate) const REFRESH_ROUNDS: [LinkRound; 2] = [LinkRound::WithGhosts, LinkRound::WithGhosts];
+/// what is left of that. The cubic ones are for results: slopes are taken of them.
+const ALL_ROUNDS: [LinkRound; 6] = [
+    LinkRound::Owned,
+    LinkRound::WithGhosts,
+    LinkRound::WithGhosts,
+    LinkRound::Cubic,
+    LinkRound::Cubic,
+    LinkRound::Cubic,
+];
+
+impl LinkRound {
+    /// The rounds for ghosts that may hold something old, or, as those of a repeated pass two repetitions later, nearly
+    /// what they will; and for results or what is only passed on.
+    pub(crate) fn of(holds_nearly: bool, is_result: bool) -> &'static [LinkRound] {
+        &ALL_ROUNDS[usize::from(holds_nearly)..if is_result { 6 } else { 3 }]
+    }
+}
 
 /// Links on the device.
 pub(crate) struct Links {
@@ -166,7 +182,7 @@ impl Gpu {
         if links.count == 0 {
             return Ok(());
         }
-        let [gather, scatter] = self.ghost_kernels(format)?;
+        let [gather, refine, scatter] = self.ghost_kernels(format)?;
         // All rounds of all fields take turns with it: what one submission gathers, the same one writes.
         let values = &links.values;
         let view = array_view(texture);
@@ -184,8 +200,9 @@ impl Gpu {
             let constants = self.uniform(bytemuck::bytes_of(&constants));
             let view = wgpu::BindingResource::TextureView(&view);
             let constants = constants.as_entire_binding();
+            let gather = if *round == LinkRound::Cubic { &refine } else { &gather };
             let steps = [
-                (&gather, [constants.clone(), view.clone(), values.as_entire_binding()]),
+                (gather, [constants.clone(), view.clone(), values.as_entire_binding()]),
                 (&scatter, [constants, values.as_entire_binding(), view]),
             ];
             for (kernel, resources) in steps {
@@ -201,15 +218,18 @@ impl Gpu {
         Ok(())
     }
 
-    /// The kernel that computes ghosts, and the one that writes them to textures of a format.
-    fn ghost_kernels(&self, format: Format) -> Result<[Arc<FixedKernel>; 2], GpuError> {
+    /// The kernels that compute ghosts, along straight lines and cubics, and the one that writes them to textures of a
+    /// format.
+    fn ghost_kernels(&self, format: Format) -> Result<[Arc<FixedKernel>; 3], GpuError> {
         let gather_text = include_str!("../../../shaders/surface/gather_ghosts.wgsl");
+        let refine_text = include_str!("../../../shaders/surface/refine_ghosts.wgsl");
         let gather_entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
         let scatter_text =
             include_str!("../../../shaders/surface/scatter_ghosts.wgsl").replace("FORMAT", format.wgsl());
         let scatter_entries = [uniform_entry(0), read_entry(1), storage_entry(2, format)];
         Ok([
             self.fixed_kernel("gather ghosts", None, gather_text, &gather_entries)?,
+            self.fixed_kernel("refine ghosts", None, refine_text, &gather_entries)?,
             self.fixed_kernel("scatter ghosts", Some(format), &scatter_text, &scatter_entries)?,
         ])
     }

@@ -15,7 +15,7 @@ use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::levels::Surfaces;
-use crate::links::{GHOST_ROUNDS, LinkRound, REFRESH_ROUNDS};
+use crate::links::LinkRound;
 use crate::needs::{last_uses, needed_steps, slot_keys};
 use crate::pool::{PoolReport, TexturePool, texture, wgpu_format};
 use crate::rays::{CasterChoice, HitMemory, Hits, RayScene};
@@ -96,8 +96,11 @@ struct Round {
 
 impl Round {
     /// How ghosts are filled: a slot is written in every second repetition, so from the third on they hold something.
-    fn of_ghosts(self) -> &'static [LinkRound] {
-        if self.index < 2 { &GHOST_ROUNDS } else { &REFRESH_ROUNDS }
+    ///
+    /// Only results are filled along cubics: what a filter hands on between its own passes may be distances that must not
+    /// be shorter than a way there is.
+    fn of_ghosts(self, is_result: bool) -> &'static [LinkRound] {
+        LinkRound::of(self.index >= 2, is_result && self.index + 1 == self.count)
     }
 }
 

@@ -53,10 +53,11 @@ impl Runner<'_> {
             }
         }
         if step.fills_ghosts {
+            let rounds = round.of_ghosts(!step.keys.is_empty());
             for (texture, format) in &bound.written {
                 let texture = (texture, *format);
                 self.gpu
-                    .fill_links(&surface.ghosts, slices.surface_group(), texture, round.of_ghosts())?;
+                    .fill_links(&surface.ghosts, slices.surface_group(), texture, rounds)?;
             }
         }
         Ok(slices.length())
