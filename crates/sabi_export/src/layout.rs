@@ -1,5 +1,6 @@
 //! Which atlas texel feeds each pixel of a texture set.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, TILE};
@@ -95,8 +96,9 @@ pub fn layouts(atlas: &Atlas) -> Vec<SetLayout> {
 }
 
 impl SetLayout {
-    /// The layout of one set. Owned texels go before ghosts, lower charts before higher ones. Ghosts outside the tile are
-    /// dropped; an owned texel outside goes to the tile it falls in where that has a set, else it wraps.
+    /// The layout of one set. Owned texels go before ghosts, the inner ring before the outer one, lower charts before higher
+    /// ones. Ghosts outside the tile are dropped; an owned texel outside goes to the tile it falls in where that has a set,
+    /// else it wraps.
     pub fn new(atlas: &Atlas, key: SetKey) -> SetLayout {
         SetLayout::gather(atlas, key, false)
     }
@@ -190,18 +192,42 @@ impl SetLayout {
             return None;
         }
         let pixel = inside[1] * self.size as usize + inside[0];
-        let holder = claim(atlas, self.source[pixel] as usize).map(|(chart, _)| chart);
-        let before = (self.cover[pixel], holder);
-        let taken = before.0 == Cover::Owned && cover == Cover::Owned;
-        self.collisions += u64::from(taken);
-        let wins = cover > before.0 || (cover == before.0 && before.1.is_some_and(|other| chart_index < other));
-        let loser = if wins { self.source[pixel] } else { texel as u32 };
+        let (before, other) = (self.cover[pixel], self.source[pixel]);
+        self.collisions += u64::from(before == Cover::Owned && cover == Cover::Owned);
+        let wins = match cover.cmp(&before) {
+            Ordering::Greater => true,
+            Ordering::Less => false,
+            Ordering::Equal => rank(atlas, texel) < rank(atlas, other as usize),
+        };
+        let loser = if wins { other } else { texel as u32 };
         if wins {
             self.source[pixel] = texel as u32;
             self.cover[pixel] = cover;
         }
-        (before.0 != Cover::Empty).then_some((pixel as u32, loser))
+        (before != Cover::Empty).then_some((pixel as u32, loser))
     }
+}
+
+/// Of two texels that claim a pixel in the same way, the one that ranks lower goes first: that of the inner ring, which is
+/// read wherever its chart ends, before that of the outer one; then the lower chart's.
+fn rank(atlas: &Atlas, texel: usize) -> (bool, u32) {
+    match claim(atlas, texel) {
+        Some((chart, Cover::Ghost)) => (!is_beside(atlas, texel, chart), chart),
+        Some((chart, _)) => (false, chart),
+        None => (true, u32::MAX),
+    }
+}
+
+/// Whether one of the eight texels around a texel is a chart's own.
+fn is_beside(atlas: &Atlas, texel: usize, chart: u32) -> bool {
+    let [width, height] = atlas.page_size.map(|side| (side as usize).max(1));
+    let (x, y, page) = (texel % width, texel / width % height, texel / width / height);
+    let rows = y.saturating_sub(1)..(y + 2).min(height);
+    let around =
+        rows.flat_map(|y| (x.saturating_sub(1)..(x + 2).min(width)).map(move |x| (page * height + y) * width + x));
+    around
+        .into_iter()
+        .any(|near| claim(atlas, near) == Some((chart, Cover::Owned)))
 }
 
 /// The chart that a texel belongs to, and how.

@@ -72,6 +72,25 @@ fn key(material: u32, uv_tile: [i32; 2], udim: Option<u32>) -> SetKey {
 }
 
 #[test]
+fn a_texel_between_two_charts_goes_to_the_nearer_one() {
+    // Two texels apart in the user's layout, further on the page: their rings of two share places on the map.
+    let mut atlas = atlas(
+        16,
+        32,
+        &[(0, [0, 0], [0, 0], 2..5, 2..12), (0, [8, 0], [0, 0], 15..18, 2..12)],
+    );
+    for y in 2..12 {
+        for (x, chart) in [(6, 0), (13, 1)] {
+            atlas.owners[32 * y + x] = GHOST_BIT | atlas.ghosts.len() as u32;
+            atlas.ghosts.push(loose_ghost([x as u32, y as u32, 0], chart));
+        }
+    }
+    let layout = &layouts(&atlas)[0];
+    let sources = [5, 6].map(|x| layout.source[5 * 16 + x]);
+    assert_eq!(sources, [5 * 32 + 5, 5 * 32 + 14], "the inner ring of each");
+}
+
+#[test]
 fn a_chart_in_its_place_is_copied_texel_for_texel() {
     let atlas = atlas(16, 16, &[(0, [0, 0], [0, 0], 2..10, 3..9)]);
     assert_eq!(set_keys(&atlas), [key(0, [0, 0], None)]);
