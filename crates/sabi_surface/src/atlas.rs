@@ -9,7 +9,7 @@
 
 mod build;
 mod cache;
-mod charts;
+pub(crate) mod charts;
 mod codec;
 mod error;
 mod fill;

@@ -6,4 +6,5 @@ pub mod disk;
 pub mod load;
 pub mod model;
 pub mod pieces;
+pub mod seams;
 pub mod unwrap;

@@ -1,0 +1,96 @@
+//! Seams: edges of the surface that a map shows twice, once on each of the two charts beside them.
+
+use crate::atlas::Atlas;
+use crate::atlas::charts::is_seam;
+use crate::atlas::topology::{NO_TWIN, Topology};
+use crate::model::Mesh;
+
+/// An edge as the two triangles beside it have it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seam {
+    /// The two triangles, indices into [`Mesh::triangles`].
+    pub triangles: [u32; 2],
+    /// For each of them which of its three corners stand at the start and at the end of the edge: the same two places.
+    pub corners: [[u8; 2]; 2],
+}
+
+impl Seam {
+    /// The vertices at the start and at the end of the edge, as one of the two triangles has them.
+    pub fn vertices(&self, mesh: &Mesh, side: usize) -> [usize; 2] {
+        let corners = mesh.triangles[self.triangles[side] as usize];
+        self.corners[side].map(|corner| corners[usize::from(corner)] as usize)
+    }
+}
+
+/// All seams of a mesh, in the order of their edges: where triangles that meet in space lie on different charts, or apart
+/// on one. Edges of more than two triangles count where the atlas links them.
+pub fn seams(mesh: &Mesh, atlas: &Atlas) -> Vec<Seam> {
+    let topology = Topology::new(mesh);
+    let mut seams = Vec::new();
+    for (edge, &twin) in topology.twins.iter().enumerate() {
+        let edge = edge as u32;
+        if twin == NO_TWIN || twin < edge {
+            continue;
+        }
+        let triangles = [edge / 3, twin / 3];
+        let [one, other] = triangles.map(|triangle| atlas.triangle_chart.get(triangle as usize));
+        if one == other && !is_seam(mesh, &topology, edge, twin) {
+            continue;
+        }
+        let corners = |edge: u32| [edge % 3, (edge + 1) % 3].map(|corner| corner as u8);
+        let place = |side: usize, corner: u8| topology.corners[(3 * triangles[side]) as usize + usize::from(corner)];
+        let (first, mut second) = (corners(edge), corners(twin));
+        if place(0, first[0]) != place(1, second[0]) {
+            second.swap(0, 1);
+        }
+        seams.push(Seam {
+            triangles,
+            corners: [first, second],
+        });
+    }
+    seams
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atlas::AtlasOptions;
+
+    /// Faces of a plane, each of two triangles with vertices of its own, side by side in space and so far apart in UV.
+    fn strip(faces: u16, apart: f32) -> Mesh {
+        let mut mesh = Mesh::default();
+        for face in 0..faces {
+            let (x, u) = (f32::from(face), f32::from(face) * (0.2 + apart));
+            let first = mesh.positions.len() as u32;
+            mesh.positions
+                .extend([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 1.0, 0.0]]);
+            mesh.uvs.extend([[u, 0.2], [u + 0.2, 0.2], [u + 0.2, 0.0], [u, 0.0]]);
+            mesh.triangles
+                .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+        mesh.normals = vec![[0.0, 0.0, 1.0]; mesh.positions.len()];
+        mesh.tangents = vec![[1.0, 0.0, 0.0, 1.0]; mesh.positions.len()];
+        mesh.triangle_material = vec![0; mesh.triangles.len()];
+        mesh.triangle_part = vec![0; mesh.triangles.len()];
+        mesh
+    }
+
+    fn found(mesh: &Mesh) -> Vec<Seam> {
+        seams(mesh, &Atlas::build(mesh, &AtlasOptions::new(64)).unwrap())
+    }
+
+    #[test]
+    fn an_edge_is_a_seam_where_its_two_sides_are_apart_on_the_map() {
+        assert_eq!(found(&strip(3, 0.0)), [], "one chart, though no vertex is shared");
+        let mesh = strip(3, 0.1);
+        let seams = found(&mesh);
+        assert_eq!(
+            seams.iter().map(|seam| seam.triangles).collect::<Vec<_>>(),
+            [[0, 3], [2, 5]]
+        );
+        for seam in seams {
+            let [one, other] = [0, 1].map(|side| seam.vertices(&mesh, side).map(|vertex| mesh.positions[vertex]));
+            assert_eq!(one, other, "both sides tell the same way along the edge");
+        }
+    }
+}
