@@ -14,6 +14,7 @@ mod names;
 mod padding;
 pub mod preset;
 mod record;
+mod seams;
 mod staging;
 mod write;
 
@@ -25,5 +26,6 @@ pub use model_copy::{CopiedFile, FinishedCopy, MapFile, MaterialMaps, ModelCopy}
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, OutputRecord};
+pub use seams::SeamSamples;
 pub use staging::Staging;
 pub use write::{BakeWriter, Committed, SetOptions, SetWriter, Written};

@@ -1,0 +1,148 @@
+//! Linear least squares over the texels beside seams, by conjugate gradients in a fixed order: the same bits on every
+//! machine and with any number of threads.
+
+use super::Sample;
+
+/// What a squared change of a texel weighs, against a squared difference over a texel's length of seam. A difference that
+/// is even along the seam shrinks to this share of itself; one that changes from texel to texel keeps more, since to take
+/// it away texels would have to change by more than it is.
+const CHANGE_WEIGHT: f64 = 0.03;
+/// The residual that is good enough, as a share of the first one.
+const GOOD_ENOUGH: f64 = 1e-3;
+/// Iterations after which the best so far is taken.
+const MOST_ITERATIONS: usize = 100;
+
+/// For each side of a sample the rows that bring a reading to what is compared, and the first side's numbers minus the
+/// second's.
+pub(super) type Compared<const N: usize, const K: usize> = ([[[f32; N]; K]; 2], [f64; K]);
+
+/// Both sides of every sample, compared in `K` numbers; a texel has `N` values.
+pub(super) struct System<'a, const N: usize, const K: usize> {
+    pub(super) samples: &'a [Sample],
+    /// Number of texels.
+    pub(super) texels: usize,
+    /// The rows of each sample.
+    pub(super) rows: Vec<[[[f32; N]; K]; 2]>,
+    /// The differences of each sample as they are.
+    pub(super) differences: Vec<[f64; K]>,
+}
+
+impl<const N: usize, const K: usize> System<'_, N, K> {
+    /// The mean of the squared differences along all seams that count.
+    pub(super) fn mean_square(&self) -> f64 {
+        let (mut sum, mut length) = (0.0, 0.0);
+        let each = self.samples.iter().zip(&self.rows).zip(&self.differences);
+        for ((sample, _), difference) in each.filter(|((_, rows), _)| **rows != [[[0.0; N]; K]; 2]) {
+            sum += f64::from(sample.length) * difference.iter().map(|x| x * x).sum::<f64>();
+            length += f64::from(sample.length);
+        }
+        if length > 0.0 { sum / length } else { 0.0 }
+    }
+
+    /// The changes of all texels that make the differences as small as the weight of changes lets them.
+    pub(super) fn changes(&self) -> Vec<[f64; N]> {
+        let mut changes = vec![[0.0; N]; self.texels];
+        let mut residual = vec![[0.0; N]; self.texels];
+        for (index, difference) in self.differences.iter().enumerate() {
+            self.scatter(index, difference.map(|x| -x), &mut residual);
+        }
+        let scales = self.scales();
+        let scaled = |residual: &[[f64; N]]| -> Vec<[f64; N]> {
+            let pairs = residual.iter().zip(&scales);
+            pairs
+                .map(|(values, scale)| std::array::from_fn(|at| values[at] / scale[at]))
+                .collect()
+        };
+        let mut toward = scaled(&residual);
+        let mut step = toward.clone();
+        let mut size = dot(&residual, &toward);
+        let enough = size * GOOD_ENOUGH * GOOD_ENOUGH;
+        for _ in 0..MOST_ITERATIONS {
+            // Not below 0: numbers that are none end it, too.
+            if !(size > enough && size.is_finite()) {
+                break;
+            }
+            let image = self.image(&step);
+            let stride = size / dot(&step, &image);
+            add(&mut changes, &step, stride);
+            add(&mut residual, &image, -stride);
+            toward = scaled(&residual);
+            let before = std::mem::replace(&mut size, dot(&residual, &toward));
+            let keep = size / before;
+            for (step, toward) in step.iter_mut().zip(&toward) {
+                *step = std::array::from_fn(|at| toward[at] + keep * step[at]);
+            }
+        }
+        changes
+    }
+
+    /// The system's matrix times a vector.
+    fn image(&self, vector: &[[f64; N]]) -> Vec<[f64; N]> {
+        let mut image: Vec<[f64; N]> = vector.iter().map(|values| values.map(|x| CHANGE_WEIGHT * x)).collect();
+        for (index, sample) in self.samples.iter().enumerate() {
+            let mut compared = [0.0; K];
+            for (side, reading) in sample.sides.iter().enumerate() {
+                let mut read = [0.0; N];
+                for (weight, texel) in reading.weights().into_iter().zip(reading.texels) {
+                    let values = &vector[texel as usize];
+                    for at in 0..N {
+                        read[at] += weight * values[at];
+                    }
+                }
+                for (row, compared) in self.rows[index][side].iter().zip(&mut compared) {
+                    let product: f64 = row.iter().zip(&read).map(|(a, b)| f64::from(*a) * b).sum();
+                    *compared += if side == 0 { product } else { -product };
+                }
+            }
+            self.scatter(index, compared, &mut image);
+        }
+        image
+    }
+
+    /// Adds what a sample's compared numbers ask of the texels that it reads.
+    fn scatter(&self, index: usize, compared: [f64; K], to: &mut [[f64; N]]) {
+        let sample = &self.samples[index];
+        for (side, reading) in sample.sides.iter().enumerate() {
+            let sign = if side == 0 { 1.0 } else { -1.0 };
+            let mut pull = [0.0; N];
+            for (row, compared) in self.rows[index][side].iter().zip(compared) {
+                for at in 0..N {
+                    pull[at] += sign * f64::from(sample.length) * f64::from(row[at]) * compared;
+                }
+            }
+            for (weight, texel) in reading.weights().into_iter().zip(reading.texels) {
+                let values = &mut to[texel as usize];
+                for at in 0..N {
+                    values[at] += weight * pull[at];
+                }
+            }
+        }
+    }
+
+    /// The diagonal of the matrix, which the iterations are scaled by.
+    fn scales(&self) -> Vec<[f64; N]> {
+        let mut scales = vec![[CHANGE_WEIGHT; N]; self.texels];
+        for (sample, rows) in self.samples.iter().zip(&self.rows) {
+            for (reading, rows) in sample.sides.iter().zip(rows) {
+                for (weight, texel) in reading.weights().into_iter().zip(reading.texels) {
+                    for at in 0..N {
+                        let squares: f64 = rows.iter().map(|row| f64::from(row[at]).powi(2)).sum();
+                        scales[texel as usize][at] += f64::from(sample.length) * weight * weight * squares;
+                    }
+                }
+            }
+        }
+        scales
+    }
+}
+
+fn dot<const N: usize>(a: &[[f64; N]], b: &[[f64; N]]) -> f64 {
+    let pairs = a.as_flattened().iter().zip(b.as_flattened());
+    pairs.map(|(a, b)| a * b).sum()
+}
+
+fn add<const N: usize>(to: &mut [[f64; N]], from: &[[f64; N]], factor: f64) {
+    for (to, from) in to.as_flattened_mut().iter_mut().zip(from.as_flattened()) {
+        *to += factor * from;
+    }
+}
