@@ -23,6 +23,7 @@ mod rays;
 mod reexport;
 mod relief;
 mod relief_seams;
+mod seam_erasure;
 mod shading;
 mod survey;
 mod texture_sets;

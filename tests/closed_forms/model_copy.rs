@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overlap, Overrides, Prepared, Silent,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overlap, Overrides, Prepared, Seams, Silent,
     WorkpieceOptions, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
@@ -58,6 +58,8 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         material: None,
         all_maps: false,
         padding: None,
+        // What is read back is held against what was written, texel by texel.
+        seams: if copies_model { Seams::Erase } else { Seams::Keep },
         fuse: true,
         force: false,
         model: copies_model,

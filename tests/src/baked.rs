@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Silent, WorkpieceOptions,
-    bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Seams, Silent, WorkpieceOptions, bake,
 };
 use serde_json::Value as Json;
 use tempfile::TempDir;
@@ -25,6 +24,14 @@ impl Baked {
     /// # Panics
     /// If it fails.
     pub fn new(graph: &str, mesh: &Path, size: u32) -> Baked {
+        Baked::with_seams(graph, mesh, size, Seams::Erase)
+    }
+
+    /// The same, with the differences at seams erased or kept.
+    ///
+    /// # Panics
+    /// If it fails.
+    pub fn with_seams(graph: &str, mesh: &Path, size: u32, seams: Seams) -> Baked {
         let folder = tempfile::tempdir().expect("a folder for maps");
         let (path, output) = (folder.path().join("test.sabi"), folder.path().join("out"));
         fs::write(&path, graph).expect("the graph's file");
@@ -43,6 +50,7 @@ impl Baked {
             material: None,
             all_maps: false,
             padding: None,
+            seams,
             fuse: true,
             force: false,
             model: false,

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Prepared, Silent,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Prepared, Seams, Silent,
     WorkpieceOptions, bake,
 };
 use serde_json::{Value as Json, json};
@@ -72,6 +72,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         material: None,
         all_maps: false,
         padding: None,
+        seams: Seams::Erase,
         fuse,
         force: false,
         model: false,

@@ -21,6 +21,7 @@ use crate::modelless::{refuse_faults, targets};
 use crate::outputs::{clashes, nothing_comes_out, outputs};
 use crate::overlap::Sharing;
 use crate::report::{BakeReport, StageTime, StageTimes};
+use crate::seams::{ModelSeams, Seams};
 use crate::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::source::{OUTPUT_MASK, SOURCE_MODEL, mask_name};
 use crate::stages::Progress;
@@ -45,6 +46,8 @@ pub struct BakeRequest {
     pub all_maps: bool,
     /// How far maps reach out of the charts, texels; none for everywhere.
     pub padding: Option<u32>,
+    /// What becomes of differences at seams.
+    pub seams: Seams,
     /// Whether point nodes are fused.
     pub fuse: bool,
     /// Whether a folder that has files but no earlier maps is taken all the same.
@@ -89,6 +92,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
         plan: &plan,
         options,
         padding: request.padding.map_or(Padding::Infinite, Padding::Texels),
+        seams: ModelSeams::new(request.seams, &workpiece.prepared),
         run_options: RunOptions {
             submission: SUBMISSION,
             is_canceled: &|| progress.is_canceled(),

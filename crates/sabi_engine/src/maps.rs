@@ -1,10 +1,11 @@
 //! Results become maps: read back, brought into the model's own layout, and written.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use sabi_export::{
-    BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, Padding, PaddingMap, SetKey, SetLayout,
-    SetOptions,
+    BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, Padding, PaddingMap, SeamSamples, SetKey,
+    SetLayout, SetOptions,
 };
 use sabi_gpu::{PlaneData, Run, RunOptions};
 use sabi_graph::PortType;
@@ -15,6 +16,7 @@ use sabi_plan::{Plan, PlannedResult, SlotRef};
 use crate::error::EngineError;
 use crate::mixing::Mixing;
 use crate::prepare::{Overlap, Prepared};
+use crate::seams::ModelSeams;
 use crate::stages::{Progress, Stage};
 use crate::workpiece::{Workpiece, stop_if_canceled};
 
@@ -48,6 +50,7 @@ pub(crate) struct MapWriter<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) options: SetOptions,
     pub(crate) padding: Padding,
+    pub(crate) seams: ModelSeams<'a>,
     pub(crate) run_options: RunOptions<'a>,
 }
 
@@ -100,6 +103,7 @@ impl MapWriter<'_> {
                         mixing: Mixing::new(atlas, &work.materials),
                         padding: PaddingMap::new(&layout, self.padding),
                         layout,
+                        seams: OnceLock::new(),
                     }
                 })
                 .collect();
@@ -138,6 +142,7 @@ struct OpenSet<'a> {
     mixing: Mixing<'a>,
     layout: SetLayout,
     padding: PaddingMap,
+    seams: OnceLock<SeamSamples>,
 }
 
 /// Maps on their way to disk.
@@ -271,6 +276,9 @@ impl Maps<'_> {
                     normal.iter_mut().for_each(|part| *part /= length);
                 }
             }
+        }
+        if planes.iter().any(Option::is_some) && self.from.seams.erase(&set.layout, &set.seams, channel, &mut pixels) {
+            set.padding.pad(channel, &mut pixels);
         }
         let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
         let done = writer.channel(channel, pixels)?;

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use sabi_engine::Seams;
 
 use super::WorkpieceArguments;
 
@@ -39,6 +40,9 @@ pub(crate) struct BakeArguments {
     /// How far maps reach over the edges of charts, texels, or 'infinite' [default: 16 at size 2048]
     #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
     pub(crate) padding: Option<Padding>,
+    /// What heights and normals differ by on both sides of a seam: erased, by changing the texels beside it, or kept
+    #[arg(long, value_enum, default_value_t = AtSeams::Erase, help_heading = "Maps")]
+    pub(crate) seams: AtSeams,
     /// Bake into a folder that has files but no earlier maps
     #[arg(long, help_heading = "Maps")]
     pub(crate) force: bool,
@@ -61,6 +65,22 @@ impl BakeArguments {
             Some(Padding::Texels(texels)) => Some(texels),
             // As coarser levels of a map shrink it, the same part of the map stays covered.
             None => Some((self.workpiece.model.size / 128).max(2)),
+        }
+    }
+}
+
+/// What becomes of differences at seams.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum AtSeams {
+    Erase,
+    Keep,
+}
+
+impl From<AtSeams> for Seams {
+    fn from(at_seams: AtSeams) -> Seams {
+        match at_seams {
+            AtSeams::Erase => Seams::Erase,
+            AtSeams::Keep => Seams::Keep,
         }
     }
 }

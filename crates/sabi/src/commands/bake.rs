@@ -51,6 +51,7 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
         material: arguments.workpiece.material.clone(),
         all_maps: arguments.all_maps,
         padding: arguments.padding_texels(),
+        seams: arguments.seams.into(),
         fuse: !arguments.no_fuse,
         force: arguments.force,
         model: arguments.copies_model,

@@ -118,6 +118,20 @@ fn an_earlier_bake_is_replaced_and_what_else_is_there_stays() {
 }
 
 #[test]
+fn seams_of_heights_and_normals_are_erased_unless_they_are_to_be_kept() {
+    let place = Place::new();
+    let maps = |more: &[&str]| {
+        place.bake("rust.sabi", "sphere.glb", more).good();
+        ["height.exr", "normal.png", "base_color.png", "roughness.png"]
+            .map(|channel| place.read(&format!("out/sphere_{channel}")))
+    };
+    let (plain, erased, kept) = (maps(&[]), maps(&["--seams", "erase"]), maps(&["--seams", "keep"]));
+    assert!(plain == erased);
+    let differs: Vec<bool> = plain.iter().zip(&kept).map(|(one, other)| one != other).collect();
+    assert_eq!(differs, [true, true, false, false]);
+}
+
+#[test]
 fn how_a_model_is_taken_changes_the_maps() {
     let place = Place::new();
     let map = |more: &[&str]| {

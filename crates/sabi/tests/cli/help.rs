@@ -44,13 +44,14 @@ fn the_examples_of_the_help_are_command_lines_that_are_understood() {
 fn a_command_line_that_makes_no_sense_ends_with_2() {
     let place = Place::new();
     let bake = ["bake", "clouds.sabi", "--mesh", "cube.glb", "-o", "out"];
-    let wrong: [&[&str]; 9] = [
+    let wrong: [&[&str]; 10] = [
         &["--size", "15"],
         &["--size", "8193"],
         &["--fit", "0"],
         &["--scale", "nan"],
         &["--padding", "-1"],
         &["--overlap", "mean"],
+        &["--seams", "blur"],
         &["--up", "w"],
         &["--budget", "0"],
         &["--colour"],
