@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overlap, Overrides, Prepared, Seams, Silent,
-    WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overlap, Overrides, Prepared, Seams,
+    Silent, WorkpieceOptions, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
 use sabi_image::{Pixels, decode};

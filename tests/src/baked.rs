@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Seams, Silent, WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Seams, Silent,
+    WorkpieceOptions, bake,
 };
 use serde_json::Value as Json;
 use tempfile::TempDir;

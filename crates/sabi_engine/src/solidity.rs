@@ -59,7 +59,9 @@ fn crossings(prepared: &Prepared) -> u32 {
         let own = mesh.triangles[triangle as usize].map(place);
         let counts = |other: u32| {
             let corners = mesh.triangles[other as usize].map(place);
-            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+            let normal = (corners[1] - corners[0])
+                .cross(corners[2] - corners[0])
+                .normalize_or_zero();
             let beyond = [start, start + way].map(|end| (end - corners[0]).dot(normal));
             // Both ends stand off the face, on either side of it: faces that touch do not pass through each other.
             pieces[other as usize] == pieces[triangle as usize]
