@@ -6,6 +6,7 @@ mod casters;
 mod cells;
 mod colors;
 mod curves;
+mod denoise;
 mod filters;
 mod heat;
 mod held;

@@ -152,6 +152,7 @@ impl OnMesh {
             budget_bytes: DEFAULT_BUDGET_BYTES,
             caster: CasterChoice::Auto,
             hits: Hits::Shot,
+            times_ghosts: false,
         };
         let has_relief = height.is_some() || slope.is_some();
         let normals = has_relief.then(|| {

@@ -100,6 +100,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
             budget_bytes: request.workpiece.budget_bytes,
             caster: request.workpiece.caster,
             hits: Hits::Shot,
+            times_ghosts: false,
         },
     };
     let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;

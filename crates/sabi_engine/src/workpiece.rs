@@ -66,6 +66,8 @@ pub struct Workpiece {
     pub hits: Hits,
     /// For a first picture, which is grainy and quick: no place shoots more rays than this. None for all of them.
     pub most_rays: Option<u32>,
+    /// Whether runs say what part of them the filling of ghosts took.
+    pub times_ghosts: bool,
     /// Time spent so far.
     pub times: StageTimes,
     /// What the artist should know.
@@ -159,6 +161,7 @@ impl Workpiece {
             caster: options.caster,
             hits: Hits::Shot,
             most_rays: None,
+            times_ghosts: false,
             kept_rays: KeptRays::new(options.model.cache_dir.as_deref()),
             budget_bytes,
         })
@@ -280,6 +283,7 @@ impl Workpiece {
             budget_bytes: self.budget_bytes,
             caster: self.caster,
             hits: self.hits,
+            times_ghosts: self.times_ghosts,
         };
         let surfaces = Surfaces {
             finest: &self.surface,

@@ -35,6 +35,8 @@ pub struct RunOptions<'a> {
     pub caster: CasterChoice,
     /// Whether all rays are shot, or what is known of longer ones will do.
     pub hits: Hits,
+    /// Whether the time that ghosts take is measured, which takes a little time itself.
+    pub times_ghosts: bool,
 }
 
 /// Makes the results that no kernel makes.
@@ -79,6 +81,8 @@ pub struct RunReport {
     pub run: Duration,
     /// Steps that ran; those whose results were cached are not among them.
     pub steps: Vec<StepTime>,
+    /// The part of `run` in which ghosts were filled, if that was measured.
+    pub ghosts: Duration,
     /// Nodes whose rays were not shot, since their results were kept from an earlier run.
     pub found_on_disk: Vec<String>,
     /// Bytes of textures held, the surface's included.

@@ -172,6 +172,7 @@ fn options<'a>() -> RunOptions<'a> {
         budget_bytes: DEFAULT_BUDGET_BYTES,
         caster: CasterChoice::Auto,
         hits: Hits::Shot,
+        times_ghosts: false,
     }
 }
 

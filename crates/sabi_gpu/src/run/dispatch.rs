@@ -54,13 +54,26 @@ impl Runner<'_> {
         }
         if step.fills_ghosts {
             let rounds = round.of_ghosts(!step.keys.is_empty());
+            let started = self.watched()?;
             for (texture, format) in &bound.written {
                 let texture = (texture, *format);
                 self.gpu
                     .fill_links(&surface.ghosts, slices.surface_group(), texture, rounds)?;
             }
+            if let (Some(started), Some(ended)) = (started, self.watched()?) {
+                self.report.ghosts += ended - started;
+            }
         }
         Ok(slices.length())
+    }
+
+    /// The time when the device is done with everything; none where nobody measures.
+    fn watched(&self) -> Result<Option<Instant>, GpuError> {
+        if !self.options.times_ghosts {
+            return Ok(None);
+        }
+        self.gpu.wait()?;
+        Ok(Some(Instant::now()))
     }
 
     /// The textures of a kernel's slots, with open ones where there is nothing.

@@ -1,0 +1,40 @@
+//! Grain of rays: taken out where nothing is, kept where something is.
+
+use sabi_tests::{OnMesh, project};
+
+const NODES: &str = r#"
+    "few": { "kind": "surface/occlusion", "params": { "distance": 0.15, "rays": 16 } },
+    "many": { "kind": "surface/occlusion", "params": { "distance": 0.15, "rays": 256, "seed": 9 } },
+    "clean": { "kind": "filter/denoise", "inputs": { "source": "few" } },
+    "edge": { "kind": "surface/direction", "params": { "reach": 90, "fade": 0 } },
+    "kept": { "kind": "filter/denoise", "inputs": { "source": "edge" } }"#;
+
+fn graph() -> String {
+    format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {NODES} }} }}"#)
+}
+
+/// Root of the mean squared difference over owned texels.
+fn apart(on_mesh: &OnMesh, one: &[f32], other: &[f32]) -> f64 {
+    let squares = on_mesh
+        .owned()
+        .map(|(index, _)| f64::from(one[index] - other[index]).powi(2));
+    let (sum, count) = squares.fold((0.0, 0), |(sum, count), square| (sum + square, count + 1));
+    (sum / f64::from(count)).sqrt()
+}
+
+#[test]
+fn occlusion_of_a_few_rays_comes_as_near_to_that_of_many_as_four_times_as_many_would() {
+    let mut on_mesh = OnMesh::new(&graph(), &project("assets/meshes/figure.glb"), 256);
+    let mut of = |node: &str| on_mesh.evaluate(node).component("mask");
+    let [few, many, clean] = ["few", "many", "clean"].map(&mut of);
+    let (grainy, left) = (apart(&on_mesh, &few, &many), apart(&on_mesh, &clean, &many));
+    assert!(left < grainy / 2.0, "{left} of {grainy}");
+}
+
+#[test]
+fn a_border_that_is_no_grain_stays_where_it_is() {
+    let mut on_mesh = OnMesh::new(&graph(), &project("assets/meshes/cube.glb"), 256);
+    let mut of = |node: &str| on_mesh.evaluate(node).component("mask");
+    let [edge, kept] = ["edge", "kept"].map(&mut of);
+    assert!(apart(&on_mesh, &edge, &kept) < 0.01);
+}
