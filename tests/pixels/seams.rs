@@ -8,7 +8,7 @@ use sabi_tests::{OnMesh, range};
 use crate::specimens::{for_each, on_own_mesh, own_mesh, specimens};
 
 /// Kinds whose result itself jumps at the edges of the cube, each with its reason. The ball holds them.
-const JUMPS_ON_THE_CUBE: [(&str, &str); 5] = [
+const JUMPS_ON_THE_CUBE: [(&str, &str); 6] = [
     (
         "relief/cavity",
         "a relief has a kink over each edge of the cube, a groove less than a texel wide",
@@ -20,6 +20,10 @@ const JUMPS_ON_THE_CUBE: [(&str, &str); 5] = [
     ("relief/direction", "the cube's normals turn at its edges"),
     ("surface/bent_normal", "the cube's normals turn at its edges"),
     ("surface/direction", "the cube's normals turn at its edges"),
+    (
+        "surface/rounded_normal",
+        "its slope leans to either side of each edge of the cube",
+    ),
 ];
 
 /// Places looked at on each seam.
