@@ -35,8 +35,10 @@ fn jittered(center: Surface, quarters: u32, index: u32) -> Surface {
     return at;
 }
 
-// A ray's start, lifted off its triangle to the side that the ray goes to by more than rounding can move it.
+// A ray's start, lifted off its triangle to the side that the ray goes to: by more than rounding can move it, and by the
+// 256th of a texel that the atlas rounds corners to, or a place just beyond the edge of its triangle would lie below the next.
 fn lifted(at: Surface, origin: vec3f, direction: vec3f) -> vec3f {
     let side = select(-1.0, 1.0, dot(direction, at.face_normal) >= 0.0);
-    return origin + at.face_normal * (side * dispatch.farthest * 1e-6);
+    let lift = max(dispatch.farthest * 1e-6, at.texel_size / 256.0);
+    return origin + at.face_normal * (side * lift);
 }

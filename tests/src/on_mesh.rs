@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Hits, Kinds, ModelOptions, OpenGraph, Overrides, Pictures,
-    Prepared, Silent, Workpiece, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Pictures, Prepared,
+    Silent, Workpiece, WorkpieceOptions,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -145,15 +145,7 @@ impl OnMesh {
             Some(result.slots[at])
         };
         let (height, slope) = (slot(Channel::Height), slot(Channel::Slope));
-        let options = RunOptions {
-            submission: SUBMISSION,
-            is_canceled: &|| false,
-            progress: &|_, _| {},
-            budget_bytes: DEFAULT_BUDGET_BYTES,
-            caster: CasterChoice::Auto,
-            hits: Hits::Shot,
-            times_ghosts: false,
-        };
+        let options = RunOptions::new(SUBMISSION, DEFAULT_BUDGET_BYTES);
         let has_relief = height.is_some() || slope.is_some();
         let normals = has_relief.then(|| {
             gpu.normals(surface, &mut run, height, slope, &options)

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use sabi_export::{BakeWriter, Committed, Padding, SetOptions, preset};
-use sabi_gpu::{Hits, Run, RunOptions};
+use sabi_gpu::{Run, RunOptions};
 use sabi_graph::{Fit, FlatGraph, FlatNode};
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 use serde_json::{Map, Value as Json, json};
@@ -94,13 +94,8 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
         padding: request.padding.map_or(Padding::Infinite, Padding::Texels),
         seams: ModelSeams::new(request.seams, &workpiece.prepared),
         run_options: RunOptions {
-            submission: SUBMISSION,
             is_canceled: &|| progress.is_canceled(),
-            progress: &|_, _| {},
-            budget_bytes: request.workpiece.budget_bytes,
-            caster: request.workpiece.caster,
-            hits: Hits::Shot,
-            times_ghosts: false,
+            ..RunOptions::new(SUBMISSION, request.workpiece.budget_bytes)
         },
     };
     let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;

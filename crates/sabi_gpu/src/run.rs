@@ -39,6 +39,21 @@ pub struct RunOptions<'a> {
     pub times_ghosts: bool,
 }
 
+impl RunOptions<'_> {
+    /// A run that nobody stops or watches, with rays shot by whoever is quicker.
+    pub fn new(submission: Duration, budget_bytes: u64) -> Self {
+        RunOptions {
+            submission,
+            is_canceled: &|| false,
+            progress: &|_, _| {},
+            budget_bytes,
+            caster: CasterChoice::Auto,
+            hits: Hits::Shot,
+            times_ghosts: false,
+        }
+    }
+}
+
 /// Makes the results that no kernel makes.
 pub trait SourceFill {
     /// One plane of the result `output` of a step, ghosts included: texels in the plane's storage format, page by page

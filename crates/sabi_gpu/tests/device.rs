@@ -9,8 +9,8 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Hits, Measures, RayScene,
-    ResultCache, Run, RunOptions, SourceFill, SurfaceTables, Surfaces,
+    AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Measures, RayScene, ResultCache, Run, RunOptions,
+    SourceFill, SurfaceTables, Surfaces,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
@@ -165,15 +165,7 @@ fn sinks() -> BTreeMap<String, SourceKind> {
 }
 
 fn options<'a>() -> RunOptions<'a> {
-    RunOptions {
-        submission: Duration::from_millis(25),
-        is_canceled: &|| false,
-        progress: &|_, _| {},
-        budget_bytes: DEFAULT_BUDGET_BYTES,
-        caster: CasterChoice::Auto,
-        hits: Hits::Shot,
-        times_ghosts: false,
-    }
+    RunOptions::new(Duration::from_millis(25), DEFAULT_BUDGET_BYTES)
 }
 
 const FUSED: Mode = Mode::Bake { fuse: true };

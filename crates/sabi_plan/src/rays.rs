@@ -24,14 +24,14 @@ impl Planner<'_> {
         }
     }
 
-    /// Has a node shoot no more rays than a first picture takes.
-    pub(crate) fn limit_rays(&self, behavior: Behavior<'_>, values: &mut [ParamValue]) {
-        let Behavior::Shader(Kind { rays: Some(rays), .. }) = behavior else {
-            return;
-        };
-        if let (Some(most), Some(ParamValue::Unsigned(count))) = (self.most_rays, values.get_mut(rays.count)) {
+    /// A node's values, with no more rays than a first picture takes.
+    pub(crate) fn limited(&self, behavior: Behavior<'_>, mut values: Vec<ParamValue>) -> Vec<ParamValue> {
+        if let Behavior::Shader(Kind { rays: Some(rays), .. }) = behavior
+            && let (Some(most), Some(ParamValue::Unsigned(count))) = (self.most_rays, values.get_mut(rays.count))
+        {
             *count = (*count).min(most);
         }
+        values
     }
 
     /// How far the rays of a node go at most.

@@ -170,8 +170,7 @@ impl<'a> Planner<'a> {
                 Err(problem) => problems.push(problem),
             }
         }
-        let mut values = read_params(params(behavior), node, &mut problems);
-        self.limit_rays(behavior, &mut values);
+        let values = self.limited(behavior, read_params(params(behavior), node, &mut problems));
         let knobs = match behavior {
             Behavior::Shader(kind) => read_knobs(kind, node, &mut problems),
             Behavior::Source(_) | Behavior::Sink(_) => Vec::new(),
