@@ -63,7 +63,7 @@ struct GhostRead {
 @group(0) @binding(4) var frames: texture_2d<u32>;
 @group(0) @binding(5) var ghosts: texture_2d<u32>;
 @group(0) @binding(6) var<storage, read> pieces: array<vec4f>;
-// For each texel how far a straight step may go, in texels.
+// For each texel how far a straight step may go, in texels, in six bits, and in two bits what planes lie under it.
 @group(0) @binding(7) var leaps: texture_2d_array<u32>;
 
 // Where a row of a table is in its texture, which is 8192 wide.
@@ -112,8 +112,14 @@ fn face_along(along_u: vec4f, along_v: vec4f) -> vec3f {
     return unit_or(cross(along_v.xyz, along_u.xyz) * turned, vec3f(0.0, 1.0, 0.0));
 }
 
-fn face_of(triangle: u32) -> vec3f {
-    return face_along(geometry_row(triangle * GEOMETRY_ROWS + 1u), geometry_row(triangle * GEOMETRY_ROWS + 2u));
+fn leap_of(texel: vec3i) -> f32 {
+    return f32(textureLoad(leaps, texel.xy, texel.z, 0).r & 63u);
+}
+
+// Whether one plane lies under two quarters of a texel that face each other: bit 0 for those towards lower columns and rows
+// and towards higher ones, bit 1 for the other two.
+fn planes_under(texel: vec3i) -> u32 {
+    return textureLoad(leaps, texel.xy, texel.z, 0).r >> 6u;
 }
 
 fn facing_of(triangle: u32, position: vec3f) -> Facing {

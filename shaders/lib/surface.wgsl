@@ -101,7 +101,7 @@ fn surface_walk(start: Walk, way: vec3f) -> Walk {
         let along = vec2f(dot(along_u, walk.heading), dot(along_v, walk.heading));
         let turned = vec2f(metric.z * along.x - metric.y * along.y, metric.x * along.y - metric.y * along.x);
         steps = turned / max(area, 1e-30);
-        let leap = select(f32(textureLoad(leaps, texel.xy, texel.z, 0).r), 0.0, is_ghost);
+        let leap = select(leap_of(texel), 0.0, is_ghost);
         let reach = max(leap, 1.0) / max(length(steps), 1e-20);
         let stride = min(walk.left, reach);
         walk.texel += steps * stride;

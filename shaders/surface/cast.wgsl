@@ -117,7 +117,8 @@ fn cast_ray(ray: CastRay) -> CastHit {
     var best = CastHit(-1.0, 0xffffffffu);
     let size = length(ray.direction);
     var reach = ray.reach * casting.scale;
-    if !(reach > 0.0 && size > 0.0) {
+    // What is no number goes nowhere: every box would seem to be on its way.
+    if !(reach > 0.0 && size > 0.0 && size < 1e30 && all(abs(ray.origin) < vec3f(1e30))) {
         return best;
     }
     let direction = ray.direction / size;

@@ -13,3 +13,4 @@ mod seams;
 mod specimens;
 mod units;
 mod unwraps;
+mod wild_nodes;

@@ -5,6 +5,7 @@ mod cache;
 mod device;
 mod error;
 mod finish;
+mod leaps;
 mod levels;
 mod links;
 mod needs;

@@ -5,6 +5,7 @@ use sabi_surface::atlas::{Atlas, GHOST_BIT, TILE};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::leaps::leaps;
 use crate::links::Links;
 use crate::pool::Extent;
 use crate::tables::SurfaceTables;
@@ -86,7 +87,13 @@ impl GpuSurface {
             tile_count: tiles.len() as u32,
             tiles: buffer("the tile list", bytemuck::cast_slice(&tiles))?,
             owners: texel_texture(gpu, "the owner map", wgpu::TextureFormat::R32Uint, extent, owners)?,
-            leaps: texel_texture(gpu, "the leap map", wgpu::TextureFormat::R8Uint, extent, &atlas.leap)?,
+            leaps: texel_texture(
+                gpu,
+                "the leap map",
+                wgpu::TextureFormat::R8Uint,
+                extent,
+                &leaps(atlas, tables),
+            )?,
             geometry: table_texture(gpu, "the triangles", bytemuck::cast_slice(&tables.geometry))?,
             frames: table_texture(gpu, "the tangent frames", bytemuck::cast_slice(&tables.frames))?,
             pieces: buffer("the pieces", bytemuck::cast_slice(&tables.pieces))?,

@@ -63,7 +63,9 @@ fn any_hit(ray: Ray) -> bool {
     var stack: array<u32, 48>;
     var depth = 0u;
     var node = 0u;
-    loop {
+    var is_hit = false;
+    var is_done = false;
+    while !is_done {
         let left_low = node_row(node * 4u);
         let left_high = node_row(node * 4u + 1u);
         let right_low = node_row(node * 4u + 2u);
@@ -73,15 +75,11 @@ fn any_hit(ray: Ray) -> bool {
         let left_count = bitcast<u32>(left_high.w);
         let right_count = bitcast<u32>(right_high.w);
         if left < 1e30 && left_count > 0u {
-            if meets(bitcast<u32>(left_low.w), left_count, ray) {
-                return true;
-            }
+            is_hit = meets(bitcast<u32>(left_low.w), left_count, ray);
             left = 1e30;
         }
-        if right < 1e30 && right_count > 0u {
-            if meets(bitcast<u32>(right_low.w), right_count, ray) {
-                return true;
-            }
+        if !is_hit && right < 1e30 && right_count > 0u {
+            is_hit = meets(bitcast<u32>(right_low.w), right_count, ray);
             right = 1e30;
         }
         let is_left_first = left <= right;
@@ -91,16 +89,18 @@ fn any_hit(ray: Ray) -> bool {
             stack[min(depth, 47u)] = far;
             depth += 1u;
         }
-        if min(left, right) < 1e30 {
+        if is_hit {
+            is_done = true;
+        } else if min(left, right) < 1e30 {
             node = near;
+        } else if depth == 0u {
+            is_done = true;
         } else {
-            if depth == 0u {
-                return false;
-            }
             depth -= 1u;
             node = stack[min(depth, 47u)];
         }
     }
+    return is_hit;
 }
 
 @compute @workgroup_size(64)

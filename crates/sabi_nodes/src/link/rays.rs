@@ -125,9 +125,9 @@ fn write_shoot(out: &mut String, spec: &KernelSpec, kind: &Kind, rays: &Rays, na
         "    if owner == EMPTY || (owner & GHOST_BIT) != 0u {\n        \
          for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = no_ray(); }\n        \
          return;\n    }\n    let center = surface_at(texel, owner);\n    \
-         let quarters = even_quarters(texel, owner, center.face_normal);\n    \
+         let planes = planes_under(texel);\n    \
          for (var index = 0u; index < count; index++) {\n    \
-         let at = jittered(center, quarters, index);\n",
+         let at = jittered(center, planes, index);\n",
     );
     let arguments = arguments(out, 0, call, &rays.arguments, kind, spec);
     let prefix = names.prefix(kind);

@@ -1,0 +1,66 @@
+//! How far one may step from a texel, and whether a plane lies under it.
+
+use rayon::prelude::*;
+use sabi_surface::atlas::{Atlas, GHOST_BIT};
+
+use crate::tables::SurfaceTables;
+
+/// The longest step that six bits hold.
+const FARTHEST: u8 = 63;
+/// Cosine of the angle between two triangles from which on they are one plane.
+const ONE_PLANE: f32 = 0.999_999;
+/// Steps around a texel by eighths of a turn, to the first one again.
+const AROUND: [[i32; 2]; 9] = [
+    [-1, 0],
+    [-1, -1],
+    [0, -1],
+    [1, -1],
+    [1, 0],
+    [1, 1],
+    [0, 1],
+    [-1, 1],
+    [-1, 0],
+];
+
+/// A byte for each texel, as `leaps` in `shaders/lib/atlas.wgsl` is read.
+pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
+    let faces: Vec<[f32; 3]> = tables.geometry.as_chunks::<6>().0.iter().map(face).collect();
+    let [width, height] = atlas.page_size.map(|side| side as usize);
+    let page = width * height;
+    let byte = |index: usize| {
+        let leap = atlas.leap[index].min(FARTHEST);
+        let owner = atlas.owners[index];
+        if owner & GHOST_BIT != 0 {
+            return leap;
+        }
+        let [x, y] = [index % width, index % page / width];
+        let is_plane = |[right, down]: [i32; 2]| {
+            let place = x
+                .checked_add_signed(right as isize)
+                .zip(y.checked_add_signed(down as isize));
+            place.filter(|(x, y)| *x < width && *y < height).is_some_and(|(x, y)| {
+                let other = atlas.owners[index / page * page + y * width + x];
+                other == owner
+                    || other & GHOST_BIT == 0 && dot(faces[other as usize], faces[owner as usize]) > ONE_PLANE
+            })
+        };
+        // A quarter is a plane if its three neighbors are of it; places in it and in the one across it have the middle as
+        // their mean.
+        let same = AROUND.map(is_plane);
+        let corner = |first: usize| same[first..first + 3].iter().all(|same| *same);
+        leap | u8::from(corner(0) && corner(4)) << 6 | u8::from(corner(2) && corner(6)) << 7
+    };
+    (0..atlas.owners.len()).into_par_iter().map(byte).collect()
+}
+
+/// The direction that a triangle faces; to the other side on mirrored charts, which no two texels of a chart differ in.
+fn face(rows: &[[f32; 4]; 6]) -> [f32; 3] {
+    let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]];
+    let across = [b * f - c * e, c * d - a * f, a * e - b * d];
+    let length = dot(across, across).sqrt().max(f32::MIN_POSITIVE);
+    across.map(|x| x / length)
+}
+
+fn dot(one: [f32; 3], other: [f32; 3]) -> f32 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
