@@ -87,6 +87,26 @@ fn ghost_link(index: u32) -> GhostLink {
     return GhostLink(bitcast<vec2f>(a.xy), a.z, a.w, b.x, b.y, b.z, bitcast<vec4f>(c));
 }
 
+// A ghost between four owned texels over the seam, where plain links are bound in the place of all.
+struct PlainLink {
+    // The lowest of the four, and its page.
+    corner: vec2i,
+    page: i32,
+    // How far the point lies from it towards the highest.
+    weight: vec2f,
+    // The ghost itself.
+    texel: vec2i,
+    own_page: i32,
+}
+
+fn plain_link(index: u32) -> PlainLink {
+    let row = textureLoad(ghosts, table_texel(index), 0);
+    let pages = vec2i(i32(row.w & 0xffffu), i32(row.w >> 16u));
+    let corner = vec2i(i32(row.x & 0xffffu), i32(row.x >> 16u));
+    let weight = vec2f(f32(row.y & 0xffffu), f32(row.y >> 16u)) / 65536.0;
+    return PlainLink(corner, pages.x, weight, vec2i(i32(row.z & 0xffffu), i32(row.z >> 16u)), pages.y);
+}
+
 fn ghost_read(index: u32) -> GhostRead {
     let row = textureLoad(ghosts, table_texel(index * GHOST_ROWS + 3u), 0);
     return GhostRead(bitcast<vec2f>(row.xy), row.z, row.w);

@@ -282,14 +282,22 @@ fn bench_millions(folder: &Path) {
 fn main() {
     let folder = tempfile::tempdir().unwrap();
     let model = peer_model();
+    // `cargo bench --bench bake -- rays filters` runs these alone.
+    let named: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with('-')).collect();
+    let is_wanted = |name: &str| named.is_empty() || named.iter().any(|wanted| wanted == name);
     println!("| what | measured | aim |\n|---|---|---|");
-    bench_run(folder.path(), &model);
-    bench_noises(folder.path(), &model);
-    surface::bench_rays(folder.path(), &model);
-    surface::bench_filters(folder.path(), &model);
-    bench_atlas(folder.path(), &model);
-    bench_demo(folder.path());
-    bench_planning(folder.path());
-    bench_memory(folder.path(), &model);
-    bench_millions(folder.path());
+    let parts: [(&str, &dyn Fn()); 9] = [
+        ("run", &|| bench_run(folder.path(), &model)),
+        ("noises", &|| bench_noises(folder.path(), &model)),
+        ("rays", &|| surface::bench_rays(folder.path(), &model)),
+        ("filters", &|| surface::bench_filters(folder.path(), &model)),
+        ("atlas", &|| bench_atlas(folder.path(), &model)),
+        ("demo", &|| bench_demo(folder.path())),
+        ("planning", &|| bench_planning(folder.path())),
+        ("memory", &|| bench_memory(folder.path(), &model)),
+        ("millions", &|| bench_millions(folder.path())),
+    ];
+    for (_, bench) in parts.iter().filter(|(name, _)| is_wanted(name)) {
+        bench();
+    }
 }

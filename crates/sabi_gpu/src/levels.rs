@@ -164,11 +164,6 @@ impl Gpu {
             (target, format),
             &[LinkRound::Owned],
         )?;
-        self.fill_links(
-            &ground.ghosts,
-            slices.surface_group(),
-            (target, format),
-            LinkRound::of(false, false),
-        )
+        self.fill_ghosts(ground, (target, format), LinkRound::of(false, false))
     }
 }

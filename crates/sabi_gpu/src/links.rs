@@ -10,6 +10,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pipelines::{FixedKernel, read_entry, storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::pool::array_view;
+use crate::surface::GpuSurface;
 use crate::uploads::{storage_buffer, table_texture};
 
 /// Links a workgroup.
@@ -20,6 +21,8 @@ const ROW: u32 = 32_768;
 /// Which texels a link takes its value from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LinkRound {
+    /// The four owned texels around a plain ghost's point.
+    Plain,
     /// Owned texels only.
     Owned,
     /// Ghosts, too, that an earlier round has filled.
@@ -48,6 +51,55 @@ impl LinkRound {
     pub(crate) fn of(holds_nearly: bool, is_result: bool) -> &'static [LinkRound] {
         &ALL_ROUNDS[usize::from(holds_nearly)..if is_result { 6 } else { 3 }]
     }
+}
+
+/// The links of a surface's ghosts: all of them for kernels, and in two parts to fill them.
+pub(crate) struct GhostLinks {
+    pub(crate) all: Links,
+    /// Those between four owned texels, which are known at once.
+    plain: Links,
+    /// The others, which hang on ghosts or lack texels.
+    coupled: Links,
+}
+
+impl GhostLinks {
+    /// Those of an atlas' ghosts.
+    pub(crate) fn of(gpu: &Gpu, atlas: &Atlas) -> Result<GhostLinks, GpuError> {
+        let rows: Vec<LinkRow> = atlas
+            .ghosts
+            .iter()
+            .map(|ghost| LinkRow::of_ghost(atlas, ghost))
+            .collect();
+        let plain = rows.iter().filter_map(|row| plain_row(atlas, row));
+        let coupled = rows.iter().filter(|row| plain_row(atlas, row).is_none()).copied();
+        Ok(GhostLinks {
+            plain: Links::upload(gpu, &plain.collect::<Vec<_>>())?,
+            coupled: Links::upload(gpu, &coupled.collect::<Vec<_>>())?,
+            all: Links::upload(gpu, &rows)?,
+        })
+    }
+}
+
+/// The one row of a ghost between four owned texels, as `plain_link` in `shaders/lib/atlas.wgsl` reads it; none of others.
+fn plain_row(atlas: &Atlas, row: &LinkRow) -> Option<[u32; 4]> {
+    let place = row.read_texel.map(|at| f64::from(at) - 0.5);
+    let corner = place.map(f64::floor);
+    let [column, line] = corner.map(|at| at as u32);
+    let is_owned = |x: u32, y: u32| {
+        let [width, height] = atlas.page_size;
+        x < width && y < height && matches!(atlas.owner(x, y, row.read_page), Owner::Triangle(_))
+    };
+    let taps = [(0, 0), (1, 0), (0, 1), (1, 1)];
+    if corner.iter().any(|at| *at < 0.0) || !taps.iter().all(|(x, y)| is_owned(column + x, line + y)) {
+        return None;
+    }
+    let [along, down] = [0, 1].map(|axis| ((place[axis] - corner[axis]) * 65536.0) as u32 & 0xffff);
+    Some([
+        column | line << 16,
+        along | down << 16,
+        row.texel,
+        row.read_page | row.page << 16,
+    ])
 }
 
 /// Links on the device.
@@ -135,23 +187,13 @@ fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
 }
 
 impl Links {
-    /// Those of an atlas' ghosts.
-    pub(crate) fn of_ghosts(gpu: &Gpu, atlas: &Atlas) -> Result<Links, GpuError> {
-        let rows: Vec<LinkRow> = atlas
-            .ghosts
-            .iter()
-            .map(|ghost| LinkRow::of_ghost(atlas, ghost))
-            .collect();
-        Links::upload(gpu, &rows)
-    }
-
     /// Those of texels without a counterpart.
     pub(crate) fn of_orphans(gpu: &Gpu, orphans: &[Orphan]) -> Result<Links, GpuError> {
         let rows: Vec<LinkRow> = orphans.iter().map(LinkRow::of_orphan).collect();
         Links::upload(gpu, &rows)
     }
 
-    fn upload(gpu: &Gpu, rows: &[LinkRow]) -> Result<Links, GpuError> {
+    fn upload<Row: Pod>(gpu: &Gpu, rows: &[Row]) -> Result<Links, GpuError> {
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         Ok(Links {
             rows: table_texture(gpu, "the links over seams", bytemuck::cast_slice(rows))?,
@@ -171,25 +213,61 @@ struct Constants {
 }
 
 impl Gpu {
+    /// Refreshes the ghosts of one texture: plain ones once, what hangs on them round by round, and with cubics all again.
+    pub(crate) fn fill_ghosts(
+        &self,
+        surface: &GpuSurface,
+        texture: (&wgpu::Texture, Format),
+        rounds: &[LinkRound],
+    ) -> Result<(), GpuError> {
+        let GhostLinks { all, plain, coupled } = &surface.ghosts;
+        let cubic = rounds.iter().position(|round| *round == LinkRound::Cubic);
+        let (straight, cubic) = rounds.split_at(cubic.unwrap_or(rounds.len()));
+        let parts = [(plain, &[LinkRound::Plain][..]), (coupled, straight), (all, cubic)];
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        for (links, rounds) in parts {
+            if links.count > 0 && !rounds.is_empty() {
+                let group = self.surface_group(surface, links);
+                self.encode_links(&mut encoder, links, &group, texture, rounds)?;
+            }
+        }
+        self.queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
     /// Refreshes the linked texels of one texture; `surface_group` binds the surface with the links as its ghosts.
     pub(crate) fn fill_links(
         &self,
         links: &Links,
         surface_group: &wgpu::BindGroup,
-        (texture, format): (&wgpu::Texture, Format),
+        texture: (&wgpu::Texture, Format),
         rounds: &[LinkRound],
     ) -> Result<(), GpuError> {
         if links.count == 0 {
             return Ok(());
         }
-        let [gather, refine, scatter] = self.ghost_kernels(format)?;
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.encode_links(&mut encoder, links, surface_group, texture, rounds)?;
+        self.queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    fn encode_links(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        links: &Links,
+        surface_group: &wgpu::BindGroup,
+        (texture, format): (&wgpu::Texture, Format),
+        rounds: &[LinkRound],
+    ) -> Result<(), GpuError> {
         // All rounds of all fields take turns with it: what one submission gathers, the same one writes.
         let values = &links.values;
         let view = array_view(texture);
         let groups = links.count.div_ceil(GROUP);
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for round in rounds {
             let constants = Constants {
                 ghost_count: links.count,
@@ -200,10 +278,10 @@ impl Gpu {
             let constants = self.uniform(bytemuck::bytes_of(&constants));
             let view = wgpu::BindingResource::TextureView(&view);
             let constants = constants.as_entire_binding();
-            let gather = if *round == LinkRound::Cubic { &refine } else { &gather };
+            let [gather, scatter] = self.link_kernels(*round, format)?;
             let steps = [
                 (gather, [constants.clone(), view.clone(), values.as_entire_binding()]),
-                (&scatter, [constants, values.as_entire_binding(), view]),
+                (scatter, [constants, values.as_entire_binding(), view]),
             ];
             for (kernel, resources) in steps {
                 let group = self.bind(&kernel.layout, resources);
@@ -214,23 +292,41 @@ impl Gpu {
                 pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);
             }
         }
-        self.queue.submit([encoder.finish()]);
         Ok(())
     }
 
-    /// The kernels that compute ghosts, along straight lines and cubics, and the one that writes them to textures of a
-    /// format.
-    fn ghost_kernels(&self, format: Format) -> Result<[Arc<FixedKernel>; 3], GpuError> {
-        let gather_text = include_str!("../../../shaders/surface/gather_ghosts.wgsl");
-        let refine_text = include_str!("../../../shaders/surface/refine_ghosts.wgsl");
+    /// The kernels of a round: one that computes ghosts, and one that writes them to textures of a format.
+    fn link_kernels(&self, round: LinkRound, format: Format) -> Result<[Arc<FixedKernel>; 2], GpuError> {
+        let (name, gather) = match round {
+            LinkRound::Plain => (
+                "gather plain",
+                include_str!("../../../shaders/surface/gather_plain.wgsl"),
+            ),
+            LinkRound::Owned | LinkRound::WithGhosts => (
+                "gather ghosts",
+                include_str!("../../../shaders/surface/gather_ghosts.wgsl"),
+            ),
+            LinkRound::Cubic => (
+                "refine ghosts",
+                include_str!("../../../shaders/surface/refine_ghosts.wgsl"),
+            ),
+        };
         let gather_entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
-        let scatter_text =
-            include_str!("../../../shaders/surface/scatter_ghosts.wgsl").replace("FORMAT", format.wgsl());
+        let (scatter_name, scatter) = match round {
+            LinkRound::Plain => (
+                "scatter plain",
+                include_str!("../../../shaders/surface/scatter_plain.wgsl"),
+            ),
+            _ => (
+                "scatter ghosts",
+                include_str!("../../../shaders/surface/scatter_ghosts.wgsl"),
+            ),
+        };
+        let scatter = scatter.replace("FORMAT", format.wgsl());
         let scatter_entries = [uniform_entry(0), read_entry(1), storage_entry(2, format)];
         Ok([
-            self.fixed_kernel("gather ghosts", None, gather_text, &gather_entries)?,
-            self.fixed_kernel("refine ghosts", None, refine_text, &gather_entries)?,
-            self.fixed_kernel("scatter ghosts", Some(format), &scatter_text, &scatter_entries)?,
+            self.fixed_kernel(name, None, gather, &gather_entries)?,
+            self.fixed_kernel(scatter_name, Some(format), &scatter, &scatter_entries)?,
         ])
     }
 

@@ -6,7 +6,7 @@ use sabi_surface::atlas::{Atlas, GHOST_BIT, TILE};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::leaps::leaps;
-use crate::links::Links;
+use crate::links::GhostLinks;
 use crate::pool::Extent;
 use crate::tables::SurfaceTables;
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
@@ -47,7 +47,7 @@ pub struct GpuSurface {
     pub(crate) frames: wgpu::TextureView,
     pub(crate) pieces: wgpu::Buffer,
     /// Where ghosts lead.
-    pub(crate) ghosts: Links,
+    pub(crate) ghosts: GhostLinks,
     /// Texels for one unit of UV.
     pub(crate) size: u32,
     pub(crate) measures: Measures,
@@ -97,7 +97,7 @@ impl GpuSurface {
             geometry: table_texture(gpu, "the triangles", bytemuck::cast_slice(&tables.geometry))?,
             frames: table_texture(gpu, "the tangent frames", bytemuck::cast_slice(&tables.frames))?,
             pieces: buffer("the pieces", bytemuck::cast_slice(&tables.pieces))?,
-            ghosts: Links::of_ghosts(gpu, atlas)?,
+            ghosts: GhostLinks::of(gpu, atlas)?,
             size: atlas.size,
             measures,
             area: covered_area(atlas, tables),

@@ -49,23 +49,13 @@ pub(crate) struct Slices<'a> {
 
 impl<'a> Slices<'a> {
     pub(crate) fn new(gpu: &'a Gpu, surface: &'a GpuSurface, target: Duration) -> Slices<'a> {
-        Slices::with_links(gpu, surface, &surface.ghosts, target)
+        Slices::with_links(gpu, surface, &surface.ghosts.all, target)
     }
 
     /// The surface with other links in the place of its ghosts'.
     pub(crate) fn with_links(gpu: &'a Gpu, surface: &'a GpuSurface, links: &Links, target: Duration) -> Slices<'a> {
         let constants = gpu.uniform(&[0; size_of::<PassConstants>()]);
-        let resources = [
-            constants.as_entire_binding(),
-            surface.tiles.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&surface.owners),
-            wgpu::BindingResource::TextureView(&surface.geometry),
-            wgpu::BindingResource::TextureView(&surface.frames),
-            wgpu::BindingResource::TextureView(&links.rows),
-            surface.pieces.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&surface.leaps),
-        ];
-        let group = gpu.bind(&gpu.pipelines.surface_layout, resources);
+        let group = gpu.surface_group_with(surface, links, &constants);
         Slices {
             gpu,
             surface,
@@ -182,5 +172,27 @@ impl<'a> Slices<'a> {
             pass.dispatch_workgroups(x, y, 1);
         }
         self.gpu.queue.submit([encoder.finish()]);
+    }
+}
+
+impl Gpu {
+    /// A surface with some links as its ghosts, for kernels that run over links and not over tiles.
+    pub(crate) fn surface_group(&self, surface: &GpuSurface, links: &Links) -> wgpu::BindGroup {
+        let constants = self.uniform(&[0; size_of::<PassConstants>()]);
+        self.surface_group_with(surface, links, &constants)
+    }
+
+    fn surface_group_with(&self, surface: &GpuSurface, links: &Links, constants: &wgpu::Buffer) -> wgpu::BindGroup {
+        let resources = [
+            constants.as_entire_binding(),
+            surface.tiles.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&surface.owners),
+            wgpu::BindingResource::TextureView(&surface.geometry),
+            wgpu::BindingResource::TextureView(&surface.frames),
+            wgpu::BindingResource::TextureView(&links.rows),
+            surface.pieces.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&surface.leaps),
+        ];
+        self.bind(&self.pipelines.surface_layout, resources)
     }
 }

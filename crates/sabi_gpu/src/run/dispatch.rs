@@ -56,9 +56,7 @@ impl Runner<'_> {
             let rounds = round.of_ghosts(!step.keys.is_empty());
             let started = self.watched()?;
             for (texture, format) in &bound.written {
-                let texture = (texture, *format);
-                self.gpu
-                    .fill_links(&surface.ghosts, slices.surface_group(), texture, rounds)?;
+                self.gpu.fill_ghosts(surface, (texture, *format), rounds)?;
             }
             if let (Some(started), Some(ended)) = (started, self.watched()?) {
                 self.report.ghosts += ended - started;

@@ -1,0 +1,22 @@
+// Writes the gathered values to plain ghost texels. FORMAT is the storage format of the field.
+
+struct Scatter {
+    ghost_count: u32,
+    with_ghosts: u32,
+    row_length: u32,
+    pad: u32,
+}
+
+@group(1) @binding(0) var<uniform> scatter: Scatter;
+@group(1) @binding(1) var<storage, read> values: array<vec4f>;
+@group(1) @binding(2) var field: texture_storage_2d_array<FORMAT, write>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
+    let index = (group.y * scatter.row_length + group.x) * 64u + local;
+    if index >= scatter.ghost_count {
+        return;
+    }
+    let link = plain_link(index);
+    textureStore(field, link.texel, link.own_page, values[index]);
+}
