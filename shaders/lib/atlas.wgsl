@@ -87,8 +87,9 @@ fn ghost_link(index: u32) -> GhostLink {
     return GhostLink(bitcast<vec2f>(a.xy), a.z, a.w, b.x, b.y, b.z, bitcast<vec4f>(c));
 }
 
-// A ghost between four owned texels over the seam, where plain links are bound in the place of all.
-struct PlainLink {
+// A ghost and the four texels around its point over the seam, where tables of plain or coupled ghosts are bound in the
+// place of that of all.
+struct FillLink {
     // The lowest of the four, and its page.
     corner: vec2i,
     page: i32,
@@ -99,12 +100,12 @@ struct PlainLink {
     own_page: i32,
 }
 
-fn plain_link(index: u32) -> PlainLink {
-    let row = textureLoad(ghosts, table_texel(index), 0);
+fn fill_link(table_row: u32) -> FillLink {
+    let row = textureLoad(ghosts, table_texel(table_row), 0);
     let pages = vec2i(i32(row.w & 0xffffu), i32(row.w >> 16u));
     let corner = vec2i(i32(row.x & 0xffffu), i32(row.x >> 16u));
     let weight = vec2f(f32(row.y & 0xffffu), f32(row.y >> 16u)) / 65536.0;
-    return PlainLink(corner, pages.x, weight, vec2i(i32(row.z & 0xffffu), i32(row.z >> 16u)), pages.y);
+    return FillLink(corner, pages.x, weight, vec2i(i32(row.z & 0xffffu), i32(row.z >> 16u)), pages.y);
 }
 
 fn ghost_read(index: u32) -> GhostRead {

@@ -5,7 +5,8 @@ struct Gather {
     ghost_count: u32,
     with_ghosts: u32,
     row_length: u32,
-    pad: u32,
+    // Rows of the table for a ghost.
+    rows: u32,
 }
 
 @group(1) @binding(0) var<uniform> gather: Gather;
@@ -18,7 +19,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     if index >= gather.ghost_count {
         return;
     }
-    let link = plain_link(index);
+    let link = fill_link(index * gather.rows);
     let a = textureLoad(field, link.corner, link.page, 0);
     let b = textureLoad(field, link.corner + vec2i(1, 0), link.page, 0);
     let c = textureLoad(field, link.corner + vec2i(0, 1), link.page, 0);

@@ -1,6 +1,6 @@
 //! Texels that hold what other texels hold: ghosts over seams, and those without a counterpart on another level.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
@@ -27,6 +27,10 @@ pub(crate) enum LinkRound {
     Owned,
     /// Ghosts, too, that an earlier round has filled.
     WithGhosts,
+    /// As the two before, of coupled ghosts.
+    CoupledOwned,
+    /// See there.
+    Coupled,
     /// As before, along cubics instead of straight lines: where a slope is taken over a seam, straight lines would flatten
     /// crests there.
     Cubic,
@@ -46,10 +50,27 @@ const ALL_ROUNDS: [LinkRound; 6] = [
 ];
 
 impl LinkRound {
-    /// The rounds for ghosts that may hold something old, or, as those of a repeated pass two repetitions later, nearly
-    /// what they will; and for results or what is only passed on.
-    pub(crate) fn of(holds_nearly: bool, is_result: bool) -> &'static [LinkRound] {
-        &ALL_ROUNDS[usize::from(holds_nearly)..if is_result { 6 } else { 3 }]
+    /// The same round for coupled ghosts.
+    fn of_coupled(self) -> LinkRound {
+        match self {
+            LinkRound::Owned => LinkRound::CoupledOwned,
+            _ => LinkRound::Coupled,
+        }
+    }
+
+    /// The rounds for ghosts that may hold something old; for results or what is only passed on.
+    pub(crate) fn of(is_result: bool) -> &'static [LinkRound] {
+        if is_result { &ALL_ROUNDS } else { &ALL_ROUNDS[..3] }
+    }
+
+    /// The same for ghosts that hold nearly what they will, as those of a repeated pass two repetitions later: until the
+    /// last repetition one round keeps up with what changes.
+    pub(crate) fn again(is_last: bool, is_result: bool) -> &'static [LinkRound] {
+        match (is_last, is_result) {
+            (false, _) => &ALL_ROUNDS[2..3],
+            (true, false) => &ALL_ROUNDS[1..3],
+            (true, true) => &ALL_ROUNDS[1..],
+        }
     }
 }
 
@@ -70,36 +91,44 @@ impl GhostLinks {
             .iter()
             .map(|ghost| LinkRow::of_ghost(atlas, ghost))
             .collect();
-        let plain = rows.iter().filter_map(|row| plain_row(atlas, row));
-        let coupled = rows.iter().filter(|row| plain_row(atlas, row).is_none()).copied();
+        let (plain, coupled): (Vec<_>, Vec<_>) = rows
+            .iter()
+            .map(|row| fill_rows(atlas, row))
+            .partition(|[_, known]| known[1] == 0xf);
+        let plain: Vec<[u32; 4]> = plain.into_iter().map(|[row, _]| row).collect();
         Ok(GhostLinks {
-            plain: Links::upload(gpu, &plain.collect::<Vec<_>>())?,
-            coupled: Links::upload(gpu, &coupled.collect::<Vec<_>>())?,
-            all: Links::upload(gpu, &rows)?,
+            plain: Links::upload(gpu, &plain, 1)?,
+            coupled: Links::upload(gpu, &coupled, 2)?,
+            all: Links::upload(gpu, &rows, 4)?,
         })
     }
 }
 
-/// The one row of a ghost between four owned texels, as `plain_link` in `shaders/lib/atlas.wgsl` reads it; none of others.
-fn plain_row(atlas: &Atlas, row: &LinkRow) -> Option<[u32; 4]> {
-    let place = row.read_texel.map(|at| f64::from(at) - 0.5);
-    let corner = place.map(f64::floor);
-    let [column, line] = corner.map(|at| at as u32);
-    let is_owned = |x: u32, y: u32| {
-        let [width, height] = atlas.page_size;
-        x < width && y < height && matches!(atlas.owner(x, y, row.read_page), Owner::Triangle(_))
+/// How a ghost is filled, as `fill_link` in `shaders/lib/atlas.wgsl` and `gather_coupled.wgsl` read it: the lowest of the
+/// four texels around its point, how far it lies from that in 65536ths, itself, and both pages; then bits of those of the
+/// four that are there, of those that are owned, and the step to the owned texel that it takes its value from without them.
+fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
+    let [width, height] = atlas.page_size;
+    let place = [(row.read_texel[0], width), (row.read_texel[1], height)]
+        .map(|(at, side)| (f64::from(at) - 0.5).clamp(0.0, f64::from(side - 2)));
+    let [column, line] = place.map(|at| at as u32);
+    let [along, down] = place.map(|at| ((at - at.floor()) * 65536.0) as u32 & 0xffff);
+    let bits = |is_meant: &dyn Fn(Owner) -> bool| {
+        let taps = [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate();
+        let meant = taps.filter(|(_, (x, y))| is_meant(atlas.owner(column + x, line + y, row.read_page)));
+        meant.fold(0, |bits, (tap, _)| bits | 1 << tap)
     };
-    let taps = [(0, 0), (1, 0), (0, 1), (1, 1)];
-    if corner.iter().any(|at| *at < 0.0) || !taps.iter().all(|(x, y)| is_owned(column + x, line + y)) {
-        return None;
-    }
-    let [along, down] = [0, 1].map(|axis| ((place[axis] - corner[axis]) * 65536.0) as u32 & 0xffff);
-    Some([
-        column | line << 16,
-        along | down << 16,
-        row.texel,
-        row.read_page | row.page << 16,
-    ])
+    let there = bits(&|owner| !matches!(owner, Owner::Empty));
+    let owned = bits(&|owner| matches!(owner, Owner::Triangle(_)));
+    [
+        [
+            column | line << 16,
+            along | down << 16,
+            row.texel,
+            row.read_page | row.page << 16,
+        ],
+        [there, owned, row.anchor, 0],
+    ]
 }
 
 /// Links on the device.
@@ -107,6 +136,10 @@ pub(crate) struct Links {
     /// As `ghosts` in `shaders/lib/atlas.wgsl`.
     pub(crate) rows: wgpu::TextureView,
     count: u32,
+    /// For rounds over owned texels only, and with ghosts.
+    constants: [wgpu::Buffer; 2],
+    /// The surface with these as its ghosts, once they are filled.
+    surface: OnceLock<wgpu::BindGroup>,
     /// Room for one value a link, on its way from where it is gathered to where it is written.
     values: wgpu::Buffer,
 }
@@ -190,12 +223,23 @@ impl Links {
     /// Those of texels without a counterpart.
     pub(crate) fn of_orphans(gpu: &Gpu, orphans: &[Orphan]) -> Result<Links, GpuError> {
         let rows: Vec<LinkRow> = orphans.iter().map(LinkRow::of_orphan).collect();
-        Links::upload(gpu, &rows)
+        Links::upload(gpu, &rows, 4)
     }
 
-    fn upload<Row: Pod>(gpu: &Gpu, rows: &[Row]) -> Result<Links, GpuError> {
+    fn upload<Row: Pod>(gpu: &Gpu, rows: &[Row], of_ghost: u32) -> Result<Links, GpuError> {
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        let constants = [0, 1].map(|with_ghosts| {
+            let constants = Constants {
+                ghost_count: rows.len() as u32,
+                with_ghosts,
+                row_length: ROW.min((rows.len() as u32).div_ceil(GROUP)),
+                rows: of_ghost,
+            };
+            gpu.uniform(bytemuck::bytes_of(&constants))
+        });
         Ok(Links {
+            constants,
+            surface: OnceLock::new(),
             rows: table_texture(gpu, "the links over seams", bytemuck::cast_slice(rows))?,
             count: rows.len() as u32,
             values: storage_buffer(gpu, "the values over seams", 16 * rows.len() as u64, limit)?,
@@ -209,7 +253,7 @@ struct Constants {
     ghost_count: u32,
     with_ghosts: u32,
     row_length: u32,
-    pad: u32,
+    rows: u32,
 }
 
 impl Gpu {
@@ -223,14 +267,19 @@ impl Gpu {
         let GhostLinks { all, plain, coupled } = &surface.ghosts;
         let cubic = rounds.iter().position(|round| *round == LinkRound::Cubic);
         let (straight, cubic) = rounds.split_at(cubic.unwrap_or(rounds.len()));
-        let parts = [(plain, &[LinkRound::Plain][..]), (coupled, straight), (all, cubic)];
+        let of_coupled: Vec<LinkRound> = straight.iter().map(|round| round.of_coupled()).collect();
+        let parts = [
+            (plain, &[LinkRound::Plain][..]),
+            (coupled, &of_coupled[..]),
+            (all, cubic),
+        ];
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for (links, rounds) in parts {
             if links.count > 0 && !rounds.is_empty() {
-                let group = self.surface_group(surface, links);
-                self.encode_links(&mut encoder, links, &group, texture, rounds)?;
+                let group = links.surface.get_or_init(|| self.surface_group(surface, links));
+                self.encode_links(&mut encoder, links, group, texture, rounds)?;
             }
         }
         self.queue.submit([encoder.finish()]);
@@ -269,15 +318,9 @@ impl Gpu {
         let view = array_view(texture);
         let groups = links.count.div_ceil(GROUP);
         for round in rounds {
-            let constants = Constants {
-                ghost_count: links.count,
-                with_ghosts: u32::from(*round == LinkRound::WithGhosts),
-                row_length: ROW.min(groups),
-                pad: 0,
-            };
-            let constants = self.uniform(bytemuck::bytes_of(&constants));
+            let with_ghosts = [LinkRound::WithGhosts, LinkRound::Coupled].contains(round);
+            let constants = links.constants[usize::from(with_ghosts)].as_entire_binding();
             let view = wgpu::BindingResource::TextureView(&view);
-            let constants = constants.as_entire_binding();
             let [gather, scatter] = self.link_kernels(*round, format)?;
             let steps = [
                 (gather, [constants.clone(), view.clone(), values.as_entire_binding()]),
@@ -302,6 +345,10 @@ impl Gpu {
                 "gather plain",
                 include_str!("../../../shaders/surface/gather_plain.wgsl"),
             ),
+            LinkRound::CoupledOwned | LinkRound::Coupled => (
+                "gather coupled",
+                include_str!("../../../shaders/surface/gather_coupled.wgsl"),
+            ),
             LinkRound::Owned | LinkRound::WithGhosts => (
                 "gather ghosts",
                 include_str!("../../../shaders/surface/gather_ghosts.wgsl"),
@@ -313,9 +360,9 @@ impl Gpu {
         };
         let gather_entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
         let (scatter_name, scatter) = match round {
-            LinkRound::Plain => (
-                "scatter plain",
-                include_str!("../../../shaders/surface/scatter_plain.wgsl"),
+            LinkRound::Plain | LinkRound::CoupledOwned | LinkRound::Coupled => (
+                "scatter filled",
+                include_str!("../../../shaders/surface/scatter_filled.wgsl"),
             ),
             _ => (
                 "scatter ghosts",

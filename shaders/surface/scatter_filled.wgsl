@@ -1,10 +1,11 @@
-// Writes the gathered values to plain ghost texels. FORMAT is the storage format of the field.
+// Writes the gathered values to plain or coupled ghost texels. FORMAT is the storage format of the field.
 
 struct Scatter {
     ghost_count: u32,
     with_ghosts: u32,
     row_length: u32,
-    pad: u32,
+    // Rows of the table for a ghost.
+    rows: u32,
 }
 
 @group(1) @binding(0) var<uniform> scatter: Scatter;
@@ -17,6 +18,6 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     if index >= scatter.ghost_count {
         return;
     }
-    let link = plain_link(index);
+    let link = fill_link(index * scatter.rows);
     textureStore(field, link.texel, link.own_page, values[index]);
 }
