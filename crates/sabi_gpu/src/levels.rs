@@ -164,6 +164,6 @@ impl Gpu {
             (target, format),
             &[LinkRound::Owned],
         )?;
-        self.fill_ghosts(ground, (target, format), LinkRound::of(false))
+        self.fill_ghosts(ground, (target, format), LinkRound::of(false, false))
     }
 }

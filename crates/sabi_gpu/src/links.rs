@@ -1,10 +1,12 @@
 //! Texels that hold what other texels hold: ghosts over seams, and those without a counterpart on another level.
 
+mod rows;
+
 use std::sync::{Arc, OnceLock};
 
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
-use sabi_surface::atlas::{Atlas, Ghost, Orphan, Owner};
+use sabi_surface::atlas::{Atlas, Orphan};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -12,6 +14,7 @@ use crate::pipelines::{FixedKernel, read_entry, storage_entry, texture_entry, un
 use crate::pool::array_view;
 use crate::surface::GpuSurface;
 use crate::uploads::{storage_buffer, table_texture};
+use rows::{LinkRow, fill_rows};
 
 /// Links a workgroup.
 const GROUP: u32 = 64;
@@ -58,19 +61,10 @@ impl LinkRound {
         }
     }
 
-    /// The rounds for ghosts that may hold something old; for results or what is only passed on.
-    pub(crate) fn of(is_result: bool) -> &'static [LinkRound] {
-        if is_result { &ALL_ROUNDS } else { &ALL_ROUNDS[..3] }
-    }
-
-    /// The same for ghosts that hold nearly what they will, as those of a repeated pass two repetitions later: until the
-    /// last repetition one round keeps up with what changes.
-    pub(crate) fn again(is_last: bool, is_result: bool) -> &'static [LinkRound] {
-        match (is_last, is_result) {
-            (false, _) => &ALL_ROUNDS[2..3],
-            (true, false) => &ALL_ROUNDS[1..3],
-            (true, true) => &ALL_ROUNDS[1..],
-        }
+    /// The rounds for ghosts that may hold something old, or, as those of a repeated pass two repetitions later, nearly
+    /// what they will; and for results or what is only passed on.
+    pub(crate) fn of(holds_nearly: bool, is_result: bool) -> &'static [LinkRound] {
+        &ALL_ROUNDS[usize::from(holds_nearly)..if is_result { 6 } else { 3 }]
     }
 }
 
@@ -104,33 +98,6 @@ impl GhostLinks {
     }
 }
 
-/// How a ghost is filled, as `fill_link` in `shaders/lib/atlas.wgsl` and `gather_coupled.wgsl` read it: the lowest of the
-/// four texels around its point, how far it lies from that in 65536ths, itself, and both pages; then bits of those of the
-/// four that are there, of those that are owned, and the step to the owned texel that it takes its value from without them.
-fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
-    let [width, height] = atlas.page_size;
-    let place = [(row.read_texel[0], width), (row.read_texel[1], height)]
-        .map(|(at, side)| (f64::from(at) - 0.5).clamp(0.0, f64::from(side - 2)));
-    let [column, line] = place.map(|at| at as u32);
-    let [along, down] = place.map(|at| ((at - at.floor()) * 65536.0) as u32 & 0xffff);
-    let bits = |is_meant: &dyn Fn(Owner) -> bool| {
-        let taps = [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate();
-        let meant = taps.filter(|(_, (x, y))| is_meant(atlas.owner(column + x, line + y, row.read_page)));
-        meant.fold(0, |bits, (tap, _)| bits | 1 << tap)
-    };
-    let there = bits(&|owner| !matches!(owner, Owner::Empty));
-    let owned = bits(&|owner| matches!(owner, Owner::Triangle(_)));
-    [
-        [
-            column | line << 16,
-            along | down << 16,
-            row.texel,
-            row.read_page | row.page << 16,
-        ],
-        [there, owned, row.anchor, 0],
-    ]
-}
-
 /// Links on the device.
 pub(crate) struct Links {
     /// As `ghosts` in `shaders/lib/atlas.wgsl`.
@@ -142,81 +109,6 @@ pub(crate) struct Links {
     surface: OnceLock<wgpu::BindGroup>,
     /// Room for one value a link, on its way from where it is gathered to where it is written.
     values: wgpu::Buffer,
-}
-
-/// Four rows, as `ghost_link` and `ghost_read` in `shaders/lib/atlas.wgsl` read them.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct LinkRow {
-    target_texel: [f32; 2],
-    triangle: u32,
-    texel: u32,
-    page: u32,
-    target_page: u32,
-    chart: u32,
-    pad: u32,
-    target_from_own: [f32; 4],
-    read_texel: [f32; 2],
-    read_page: u32,
-    anchor: u32,
-}
-
-impl LinkRow {
-    fn of_ghost(atlas: &Atlas, ghost: &Ghost) -> LinkRow {
-        let [[a, b], [c, d]] = ghost.target_from_own;
-        let page = |triangle: u32| atlas.charts[atlas.triangle_chart[triangle as usize] as usize].page;
-        LinkRow {
-            target_texel: ghost.target_texel,
-            triangle: ghost.target_triangle,
-            texel: ghost.texel[0] | (ghost.texel[1] << 16),
-            page: ghost.texel[2],
-            target_page: page(ghost.target_triangle),
-            chart: ghost.chart,
-            pad: 0,
-            target_from_own: [a, b, c, d],
-            read_texel: ghost.read_texel,
-            read_page: page(ghost.read_triangle),
-            anchor: anchor(atlas, ghost),
-        }
-    }
-
-    fn of_orphan(orphan: &Orphan) -> LinkRow {
-        let [x, y, page] = orphan.from;
-        let texel = [x as f32 + 0.5, y as f32 + 0.5];
-        LinkRow {
-            target_texel: texel,
-            triangle: 0,
-            texel: orphan.texel[0] | (orphan.texel[1] << 16),
-            page: orphan.texel[2],
-            target_page: page,
-            chart: 0,
-            pad: 0,
-            target_from_own: [1.0, 0.0, 0.0, 1.0],
-            read_texel: texel,
-            read_page: page,
-            anchor: packed_step([0, 0]),
-        }
-    }
-}
-
-/// A step of at most two texels each way, as `gather_ghosts.wgsl` reads it.
-fn packed_step([x, y]: [i32; 2]) -> u32 {
-    (x + 2) as u32 | ((y + 2) as u32) << 3
-}
-
-/// The step from a ghost to the nearest owned texel of its own chart.
-fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
-    let steps = (0..25).map(|index| [index % 5 - 2, index / 5 - 2]);
-    let is_owned = |[x, y]: &[i32; 2]| {
-        let [column, row, page] = ghost.texel;
-        let place = column.checked_add_signed(*x).zip(row.checked_add_signed(*y));
-        place.is_some_and(|(column, row)| match atlas.owner(column, row, page) {
-            Owner::Triangle(triangle) => atlas.triangle_chart[triangle as usize] == ghost.chart,
-            Owner::Ghost(_) | Owner::Empty => false,
-        })
-    };
-    let nearest = steps.filter(is_owned).min_by_key(|[x, y]| x * x + y * y);
-    packed_step(nearest.unwrap_or([0, 0]))
 }
 
 impl Links {

@@ -119,12 +119,7 @@ impl Round {
     /// Only results are filled along cubics: what a filter hands on between its own passes may be distances that must not
     /// be shorter than a way there is.
     fn of_ghosts(self, is_result: bool) -> &'static [LinkRound] {
-        let is_last = self.index + 1 == self.count;
-        if self.index >= 2 {
-            LinkRound::again(is_last, is_result)
-        } else {
-            LinkRound::of(is_result && is_last)
-        }
+        LinkRound::of(self.index >= 2, is_result && self.index + 1 == self.count)
     }
 }
 
