@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sabi_surface::atlas::{Atlas, GHOST_BIT};
 
-use crate::tables::SurfaceTables;
+use crate::tables::{SurfaceTables, texel_across};
 
 /// The longest step that six bits hold.
 const FARTHEST: u8 = 63;
@@ -55,10 +55,9 @@ pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
 
 /// The direction that a triangle faces; to the other side on mirrored charts, which no two texels of a chart differ in.
 fn face(rows: &[[f32; 4]; 6]) -> [f32; 3] {
-    let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]];
-    let across = [b * f - c * e, c * d - a * f, a * e - b * d];
-    let length = dot(across, across).sqrt().max(f32::MIN_POSITIVE);
-    across.map(|x| x / length)
+    let across = texel_across(rows);
+    let length = across.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+    across.map(|x| (x / length) as f32)
 }
 
 fn dot(one: [f32; 3], other: [f32; 3]) -> f32 {

@@ -8,7 +8,7 @@ use crate::error::GpuError;
 use crate::leaps::leaps;
 use crate::links::GhostLinks;
 use crate::pool::Extent;
-use crate::tables::SurfaceTables;
+use crate::tables::{SurfaceTables, texel_across};
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
 
 /// Textures that every kernel binds for the surface: owners, leaps and three tables.
@@ -125,11 +125,7 @@ impl GpuSurface {
 
 /// What all owned texels cover, square working units: the same sum on every machine.
 fn covered_area(atlas: &Atlas, tables: &SurfaceTables) -> f64 {
-    let texel_area = |rows: &[[f32; 4]; 6]| {
-        let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]].map(|row| row.map(f64::from));
-        let across = [b * f - c * e, c * d - a * f, a * e - b * d];
-        across.iter().map(|value| value * value).sum::<f64>().sqrt()
-    };
+    let texel_area = |rows: &[[f32; 4]; 6]| texel_across(rows).iter().map(|value| value * value).sum::<f64>().sqrt();
     let (triangles, _) = tables.geometry.as_chunks::<6>();
     let areas: Vec<f64> = triangles.par_iter().map(texel_area).collect();
     let of_row = |owners: &[u32]| {

@@ -51,6 +51,12 @@ impl SurfaceTables {
     }
 }
 
+/// What a texel of a triangle covers, by its geometry: a vector along its normal, turned around on mirrored charts.
+pub(crate) fn texel_across(rows: &[[f32; 4]; 6]) -> [f64; 3] {
+    let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]].map(|row| row.map(f64::from));
+    [b * f - c * e, c * d - a * f, a * e - b * d]
+}
+
 /// Rows of one triangle: geometry and frames.
 type TriangleRows = ([[f32; 4]; 6], [[f32; 4]; 4]);
 

@@ -133,10 +133,14 @@ impl Bvh {
         (self.center.to_array(), self.scale)
     }
 
-    /// A triangle in scaled space: its first corner, the edge to it from the second, and the edge from it to the third.
-    pub fn scaled_corner_and_edges(&self, triangle: u32) -> [[f32; 3]; 3] {
-        let Triangle { v0, v1, v2 } = self.triangles[triangle as usize];
-        [v0, v0 - v1, v2 - v0].map(|v| v.to_array())
+    /// The triangles in the order of the tree and in scaled space, three rows each: the first corner, with the triangle's
+    /// number as a bit pattern, the edge to it from the second, and the edge from it to the third.
+    pub fn scaled_triangle_rows(&self) -> Vec<[[f32; 4]; 3]> {
+        let rows = |number: &u32| {
+            let Triangle { v0, v1, v2 } = self.triangles[*number as usize];
+            [(v0, f32::from_bits(*number)), (v0 - v1, 0.0), (v2 - v0, 0.0)].map(|(v, last)| [v.x, v.y, v.z, last])
+        };
+        self.tree.primitive_indices.iter().map(rows).collect()
     }
 
     /// Levels of the hierarchy; 0 without triangles.

@@ -91,15 +91,7 @@ pub(crate) struct Kernel {
 impl Kernel {
     /// The one that Sabi uses.
     pub(crate) fn wide(machine: &Machine, bvh: &Bvh, shot: &[Ray]) -> Kernel {
-        let rows = bvh.tree().primitive_indices.iter().map(|triangle| {
-            let [corner, one, two] = bvh.scaled_corner_and_edges(*triangle);
-            [
-                [corner[0], corner[1], corner[2], f32::from_bits(*triangle)],
-                [one[0], one[1], one[2], 0.0],
-                [two[0], two[1], two[2], 0.0],
-            ]
-        });
-        let rows: Vec<[[f32; 4]; 3]> = rows.collect();
+        let rows = bvh.scaled_triangle_rows();
         let (center, scale) = bvh.scaled_from_model();
         let mut constants: Vec<u8> = center.iter().chain([&scale]).flat_map(|x| x.to_le_bytes()).collect();
         let [row, _] = groups_of(shot.len());

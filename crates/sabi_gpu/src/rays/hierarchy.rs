@@ -38,16 +38,7 @@ impl DeviceHierarchy {
         if depth > DEEPEST {
             return Err(GpuError::TooDeep { depth });
         }
-        let rows = |primitive: &u32| {
-            let [corner, one, two] = bvh.scaled_corner_and_edges(*primitive);
-            let number = f32::from_bits(*primitive);
-            [
-                [corner[0], corner[1], corner[2], number],
-                [one[0], one[1], one[2], 0.0],
-                [two[0], two[1], two[2], 0.0],
-            ]
-        };
-        let triangles: Vec<[[f32; 4]; 3]> = bvh.tree().primitive_indices.iter().map(rows).collect();
+        let triangles = bvh.scaled_triangle_rows();
         let (center, scale) = bvh.scaled_from_model();
         let nodes = bytemuck::cast_slice(&bvh.tree().nodes);
         Ok(DeviceHierarchy {
