@@ -1,5 +1,5 @@
-// Computes what coupled ghost texels hold: not all of the four texels around their point over the seam are owned. As
-// `gather_ghosts` does, of a table that says in two rows what is there.
+// Computes what coupled ghost texels hold: not all of the four texels around their point over the seam are owned. A table
+// says in two rows what is there. Orphans, which take the value of one owned texel, are read alike.
 
 struct Gather {
     ghost_count: u32,
@@ -45,7 +45,9 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     sum += select(vec4f(0.0), shares.z * (c - nearest), is_counted.z);
     sum += select(vec4f(0.0), shares.w * (d - nearest), is_counted.w);
     var filled = select(anchor, nearest + sum / max(total, 1e-6), largest > 0.0);
-    // See `gather_ghosts`.
+    // Only part of what is around the point over the seam is owned: what is there lies the further away. Between it and
+    // the own chart's last texel the ghost is where a straight line says. Two ghosts that lie on one another, where both
+    // charts end a texel before the seam, would else hand what they do not know to and fro.
     let away = 1.0 - total;
     if gather.with_ghosts == 0u && away > 0.0 {
         filled += (anchor - filled) * (away / (away + max(length(vec2f(step)), 1.0)));

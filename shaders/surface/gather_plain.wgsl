@@ -1,5 +1,5 @@
-// Computes what plain ghost texels hold, those whose point over the seam lies between four owned texels: as
-// `gather_ghosts` does, of a table that says all of it in one row.
+// Computes what plain ghost texels hold, those whose point over the seam lies between four owned texels; a table says all
+// of it in one row.
 
 struct Gather {
     ghost_count: u32,

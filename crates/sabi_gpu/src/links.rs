@@ -14,7 +14,7 @@ use crate::pipelines::{FixedKernel, read_entry, storage_entry, texture_entry, un
 use crate::pool::array_view;
 use crate::surface::GpuSurface;
 use crate::uploads::{storage_buffer, table_texture};
-use rows::{LinkRow, fill_rows};
+use rows::{LinkRow, fill_rows, orphan_rows};
 
 /// Links a workgroup.
 const GROUP: u32 = 64;
@@ -30,10 +30,6 @@ pub(crate) enum LinkRound {
     Owned,
     /// Ghosts, too, that an earlier round has filled.
     WithGhosts,
-    /// As the two before, of coupled ghosts.
-    CoupledOwned,
-    /// See there.
-    Coupled,
     /// As before, along cubics instead of straight lines: where a slope is taken over a seam, straight lines would flatten
     /// crests there.
     Cubic,
@@ -53,14 +49,6 @@ const ALL_ROUNDS: [LinkRound; 6] = [
 ];
 
 impl LinkRound {
-    /// The same round for coupled ghosts.
-    fn of_coupled(self) -> LinkRound {
-        match self {
-            LinkRound::Owned => LinkRound::CoupledOwned,
-            _ => LinkRound::Coupled,
-        }
-    }
-
     /// The rounds for ghosts that may hold something old, or, as those of a repeated pass two repetitions later, nearly
     /// what they will; and for results or what is only passed on.
     pub(crate) fn of(holds_nearly: bool, is_result: bool) -> &'static [LinkRound] {
@@ -114,8 +102,8 @@ pub(crate) struct Links {
 impl Links {
     /// Those of texels without a counterpart.
     pub(crate) fn of_orphans(gpu: &Gpu, orphans: &[Orphan]) -> Result<Links, GpuError> {
-        let rows: Vec<LinkRow> = orphans.iter().map(LinkRow::of_orphan).collect();
-        Links::upload(gpu, &rows, 4)
+        let rows: Vec<[[u32; 4]; 2]> = orphans.iter().map(orphan_rows).collect();
+        Links::upload(gpu, &rows, 2)
     }
 
     fn upload<Row: Pod>(gpu: &Gpu, rows: &[Row], of_ghost: u32) -> Result<Links, GpuError> {
@@ -159,12 +147,7 @@ impl Gpu {
         let GhostLinks { all, plain, coupled } = &surface.ghosts;
         let cubic = rounds.iter().position(|round| *round == LinkRound::Cubic);
         let (straight, cubic) = rounds.split_at(cubic.unwrap_or(rounds.len()));
-        let of_coupled: Vec<LinkRound> = straight.iter().map(|round| round.of_coupled()).collect();
-        let parts = [
-            (plain, &[LinkRound::Plain][..]),
-            (coupled, &of_coupled[..]),
-            (all, cubic),
-        ];
+        let parts = [(plain, &[LinkRound::Plain][..]), (coupled, straight), (all, cubic)];
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -210,8 +193,8 @@ impl Gpu {
         let view = array_view(texture);
         let groups = links.count.div_ceil(GROUP);
         for round in rounds {
-            let with_ghosts = [LinkRound::WithGhosts, LinkRound::Coupled].contains(round);
-            let constants = links.constants[usize::from(with_ghosts)].as_entire_binding();
+            let with_ghosts = usize::from(*round == LinkRound::WithGhosts);
+            let constants = links.constants[with_ghosts].as_entire_binding();
             let view = wgpu::BindingResource::TextureView(&view);
             let [gather, scatter] = self.link_kernels(*round, format)?;
             let steps = [
@@ -237,13 +220,9 @@ impl Gpu {
                 "gather plain",
                 include_str!("../../../shaders/surface/gather_plain.wgsl"),
             ),
-            LinkRound::CoupledOwned | LinkRound::Coupled => (
+            LinkRound::Owned | LinkRound::WithGhosts => (
                 "gather coupled",
                 include_str!("../../../shaders/surface/gather_coupled.wgsl"),
-            ),
-            LinkRound::Owned | LinkRound::WithGhosts => (
-                "gather ghosts",
-                include_str!("../../../shaders/surface/gather_ghosts.wgsl"),
             ),
             LinkRound::Cubic => (
                 "refine ghosts",
@@ -252,11 +231,11 @@ impl Gpu {
         };
         let gather_entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
         let (scatter_name, scatter) = match round {
-            LinkRound::Plain | LinkRound::CoupledOwned | LinkRound::Coupled => (
+            LinkRound::Plain | LinkRound::Owned | LinkRound::WithGhosts => (
                 "scatter filled",
                 include_str!("../../../shaders/surface/scatter_filled.wgsl"),
             ),
-            _ => (
+            LinkRound::Cubic => (
                 "scatter ghosts",
                 include_str!("../../../shaders/surface/scatter_ghosts.wgsl"),
             ),

@@ -38,27 +38,9 @@ impl LinkRow {
             anchor: anchor(atlas, ghost),
         }
     }
-
-    pub(super) fn of_orphan(orphan: &Orphan) -> LinkRow {
-        let [x, y, page] = orphan.from;
-        let texel = [x as f32 + 0.5, y as f32 + 0.5];
-        LinkRow {
-            target_texel: texel,
-            triangle: 0,
-            texel: orphan.texel[0] | (orphan.texel[1] << 16),
-            page: orphan.texel[2],
-            target_page: page,
-            chart: 0,
-            pad: 0,
-            target_from_own: [1.0, 0.0, 0.0, 1.0],
-            read_texel: texel,
-            read_page: page,
-            anchor: packed_step([0, 0]),
-        }
-    }
 }
 
-/// A step of at most two texels each way, as `gather_ghosts.wgsl` reads it.
+/// A step of at most two texels each way, as `gather_coupled.wgsl` reads it.
 fn packed_step([x, y]: [i32; 2]) -> u32 {
     (x + 2) as u32 | ((y + 2) as u32) << 3
 }
@@ -102,5 +84,15 @@ pub(super) fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
             row.read_page | row.page << 16,
         ],
         [there, owned, row.anchor, 0],
+    ]
+}
+
+/// The same of a texel that takes the value of one owned texel.
+pub(super) fn orphan_rows(orphan: &Orphan) -> [[u32; 4]; 2] {
+    let packed = |[x, y, _]: [u32; 3]| x | y << 16;
+    let pages = orphan.from[2] | orphan.texel[2] << 16;
+    [
+        [packed(orphan.from), 0, packed(orphan.texel), pages],
+        [1, 1, packed_step([0, 0]), 0],
     ]
 }

@@ -46,14 +46,13 @@ impl Runner<'_> {
             groups: groups(None),
             is_canceled: self.options.is_canceled,
         };
-        let longest = groups(rays.reach);
         self.warm(compiled, slices, &pass.groups[0])?;
         let (gpu, choice) = (self.gpu, self.options.caster);
         match self.memory.as_deref_mut().zip(rays.key) {
             Some((memory, key)) if memory.has_room(slices.tile_count() as usize, rays.count) => {
                 if !memory.knows(&key) {
                     let mut caster = caster(gpu, choice, sources)?;
-                    memory.keep(key, buffers.remember(&pass, &longest, &mut caster)?);
+                    memory.keep(key, buffers.remember(&pass, &groups(rays.reach), &mut caster)?);
                 }
                 buffers.recall(&pass, memory.recall(&key))?;
                 self.is_remembered = true;
