@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use sabi_surface::disk::{self, Kind};
 
-/// Results take four bytes a texel and more.
+/// The number in the magic rises whenever rays start or are followed differently: keys name nodes, kernels and adapters, not
+/// what the program does between them. Results take four bytes a texel and more.
 const KIND: Kind = Kind {
     magic: b"sabi rays 1\n",
     prefix: "rays",

@@ -309,8 +309,8 @@ pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineErro
     Ok(())
 }
 
-/// Names the surface: the atlas by what it is made of, and where every triangle lies in space. Results are kept in
-/// memory only, so the program itself need not be part of it.
+/// Names the surface: the atlas by what it is made of, and where every triangle lies in space. The program itself need not be
+/// part of it: results are kept in memory, and those of rays on disk have a version of their own.
 fn surface_key(prepared: &Prepared, tables: &SurfaceTables) -> [u8; 32] {
     let mut hash = blake3::Hasher::new();
     hash.update(&atlas_key(
