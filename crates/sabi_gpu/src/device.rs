@@ -222,6 +222,16 @@ impl Gpu {
         })
     }
 
+    /// The device, for those that draw with it too.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// The device's queue.
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.queue
+    }
+
     /// The adapter in use.
     pub fn summary(&self) -> &AdapterSummary {
         &self.summary
@@ -251,8 +261,8 @@ impl Gpu {
         polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))
     }
 
-    /// Runs `make` and turns what the driver says about it into an error.
-    pub(crate) fn guarded<T>(&self, what: &str, make: impl FnOnce(&wgpu::Device) -> T) -> Result<T, GpuError> {
+    /// Runs `make` and turns what the driver says about it into an error that names `what` was made.
+    pub fn guarded<T>(&self, what: &str, make: impl FnOnce(&wgpu::Device) -> T) -> Result<T, GpuError> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let made = make(&self.device);

@@ -1,0 +1,1 @@
+//! Where the eye is: orbit, pan, zoom and focus.

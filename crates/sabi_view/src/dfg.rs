@@ -1,0 +1,1 @@
+//! What a specular lobe reflects of a white surrounding, as a table.

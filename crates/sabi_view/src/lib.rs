@@ -1,0 +1,12 @@
+//! The PBR viewport: a model with its maps, lit by an environment and lights, seen by a camera.
+//!
+//! Directions and places are right-handed with +Y up. What is drawn lies in view space: the model's box is centered and its
+//! largest side is 1, so that no model is too small or too large to be seen.
+
+mod camera;
+mod dfg;
+mod environment;
+mod error;
+mod pick;
+
+pub use error::ViewError;
