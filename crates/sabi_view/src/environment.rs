@@ -1,1 +1,87 @@
-//! Light from all around.
+//! Light from all around, ready to be looked up: mirrored by every roughness, gathered by matte surfaces, and as a picture.
+
+mod backdrop;
+mod cube_bytes;
+mod irradiance;
+mod panorama;
+mod prefilter;
+
+use glam::{DVec3, Vec3, Vec4};
+use sabi_gpu::Gpu;
+
+use crate::error::ViewError;
+pub use panorama::Panorama;
+
+/// An environment on the device. Its axes are those of the scene: see [`Panorama`].
+pub struct Environment {
+    specular: wgpu::Texture,
+    backdrop: wgpu::Texture,
+    irradiance: [[f32; 4]; 9],
+}
+
+impl Environment {
+    /// Makes everything that is looked up of a panorama; waits until the device is done.
+    pub fn new(gpu: &Gpu, panorama: &Panorama) -> Result<Environment, ViewError> {
+        let levels = backdrop::levels(panorama);
+        let backdrop = backdrop::upload(gpu, &levels)?;
+        let specular = prefilter::prefilter(gpu, &backdrop)?;
+        Ok(Environment {
+            specular,
+            backdrop,
+            irradiance: rows(&irradiance::irradiance(&levels[0])),
+        })
+    }
+
+    /// As [`Environment::new`], with the part that takes long as [`Environment::prefiltered_bytes`] gave it for the same
+    /// panorama.
+    pub fn from_prefiltered(gpu: &Gpu, panorama: &Panorama, prefiltered: &[u8]) -> Result<Environment, ViewError> {
+        let specular = cube_bytes::upload(gpu, prefiltered)?;
+        let levels = backdrop::levels(panorama);
+        Ok(Environment {
+            specular,
+            backdrop: backdrop::upload(gpu, &levels)?,
+            irradiance: rows(&irradiance::irradiance(&levels[0])),
+        })
+    }
+
+    /// What surfaces mirror, to be kept: level by level from roughness 0 to 1, in each the faces +X -X +Y -Y +Z -Z, in each
+    /// the rows from the top; a texel is four half floats, little-endian. The side of a face halves from level to level.
+    pub fn prefiltered_bytes(&self, gpu: &Gpu) -> Result<Vec<u8>, ViewError> {
+        cube_bytes::read(gpu, &self.specular)
+    }
+
+    /// Irradiance divided by pi, linear, at a normal of unit length: what a white matte surface sends out.
+    pub fn irradiance_at(&self, normal: Vec3) -> Vec3 {
+        let row = |row: [f32; 4]| Vec4::from_array(row).truncate().as_dvec3();
+        irradiance::evaluate(&self.irradiance.map(row), normal).as_vec3()
+    }
+}
+
+/// What is bound by those that draw.
+#[allow(dead_code, reason = "the renderer, which reads it, comes next")]
+impl Environment {
+    /// Light by direction as surfaces mirror it, by level: at perceptual roughness `r` it is `r * (levels - 1)`.
+    pub(crate) fn specular(&self) -> wgpu::TextureView {
+        prefilter::cube_view(&self.specular)
+    }
+
+    /// Levels of [`Environment::specular`].
+    pub(crate) fn specular_levels(&self) -> u32 {
+        self.specular.mip_level_count()
+    }
+
+    /// Irradiance divided by pi, linear: the sum of these rows times 1, x, y, z, xy, yz, zx, 3y² - 1 and x² - z² of a
+    /// normal of unit length; the fourth number of a row is 0.
+    pub(crate) fn irradiance(&self) -> [[f32; 4]; 9] {
+        self.irradiance
+    }
+
+    /// The panorama as a picture with all its levels, see [`Panorama::place`].
+    pub(crate) fn backdrop(&self) -> wgpu::TextureView {
+        self.backdrop.create_view(&Default::default())
+    }
+}
+
+fn rows(coefficients: &[DVec3; 9]) -> [[f32; 4]; 9] {
+    coefficients.map(|color| color.as_vec3().extend(0.0).to_array())
+}

@@ -9,4 +9,5 @@ mod environment;
 mod error;
 mod pick;
 
+pub use environment::{Environment, Panorama};
 pub use error::ViewError;

@@ -1,0 +1,98 @@
+//! The table against closed forms and a plain sum over half vectors.
+
+use std::f64::consts::PI;
+use std::time::Instant;
+
+use super::{SIDE, integrate, places, table};
+
+/// The same integral over half vectors on a grid of 256 by 256 angles, with the distribution of normals as their weight;
+/// light and its weight follow from them (Walter et al. 2007, equations 20 and 38). The tangent of the first angle is that
+/// of the half vector over alpha.
+fn reference(n_v: f64, roughness: f64) -> [f64; 2] {
+    let alpha = roughness * roughness;
+    let smith = |cos: f64| 0.5 * ((1.0 + alpha * alpha * (1.0 / (cos * cos) - 1.0)).sqrt() - 1.0);
+    let sin_v = (1.0 - n_v * n_v).sqrt();
+    let mut sums = [0.0; 2];
+    let steps = 256;
+    let middle = |step: i32| (f64::from(step) + 0.5) / f64::from(steps);
+    for (along, around) in (0..steps).flat_map(|along| (0..steps).map(move |around| (along, around))) {
+        let angle = 0.5 * PI * middle(along);
+        let share = 0.5 * PI * (2.0 * angle).sin();
+        let tangent = alpha * angle.tan();
+        let cos_h = 1.0 / (1.0 + tangent * tangent).sqrt();
+        let sin_h = tangent * cos_h;
+        let v_h = sin_v * sin_h * (PI * middle(around)).cos() + n_v * cos_h;
+        let n_l = 2.0 * v_h * cos_h - n_v;
+        if v_h > 0.0 && n_l > 0.0 {
+            let weight = share * v_h / (n_v * cos_h) / (1.0 + smith(n_l) + smith(n_v));
+            let fresnel = (1.0 - v_h).powi(5);
+            sums[0] += weight * (1.0 - fresnel);
+            sums[1] += weight * fresnel;
+        }
+    }
+    sums.map(|sum| sum / f64::from(steps * steps))
+}
+
+#[test]
+fn the_table_is_what_a_fine_sum_gives() {
+    let mut worst = [0.0f64; 2];
+    for roughness in [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0] {
+        for n_v in [0.004, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 0.99] {
+            let (own, expected) = (integrate(&places(), n_v, roughness), reference(n_v, roughness));
+            for part in 0..2 {
+                let error = (own[part] - expected[part]).abs();
+                worst[part] = worst[part].max(error);
+                assert!(
+                    error < 2e-3,
+                    "roughness {roughness}, cosine {n_v}: {own:?} and {expected:?}"
+                );
+            }
+        }
+    }
+    println!("largest errors {worst:?}");
+}
+
+/// All of the light that a mirror of roughness 1 sends back in one bounce is 1 - mu ln((1 + mu) / mu).
+#[test]
+fn roughness_1_is_its_closed_form() {
+    for n_v in [0.05, 0.2, 0.5, 0.8, 1.0f64] {
+        let [scale, bias] = integrate(&places(), n_v, 1.0);
+        let expected = 1.0 - n_v * ((1.0 + n_v) / n_v).ln();
+        let error = scale + bias - expected;
+        assert!(error.abs() < 1e-3, "cosine {n_v}: {error}");
+    }
+}
+
+#[test]
+fn no_light_is_won() {
+    let started = Instant::now();
+    let table = table();
+    println!("the table took {:?}", started.elapsed());
+    assert_eq!(table.len(), (SIDE * SIDE) as usize);
+    for [scale, bias] in table {
+        assert!(
+            *scale >= 0.0 && *bias >= 0.0 && scale + bias <= 1.0 + 1e-6,
+            "{scale} {bias}"
+        );
+    }
+}
+
+/// With what bounces more than once (Fdez-Agüera 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based
+/// Lighting), under light of 1 from all around.
+fn furnace([scale, bias]: [f32; 2], f0: f32, albedo: f32) -> f32 {
+    let once = f0 * scale + bias;
+    let lost = 1.0 - scale - bias;
+    let mean = f0 + (1.0 - f0) / 21.0;
+    let more = once * mean / (1.0 - lost * mean);
+    once + more * lost + albedo * (1.0 - once - more * lost)
+}
+
+#[test]
+fn white_metal_and_white_plastic_vanish_in_a_white_furnace() {
+    for entry in table() {
+        for (f0, albedo) in [(1.0, 0.0), (0.04, 1.0)] {
+            let seen = furnace(*entry, f0, albedo);
+            assert!((seen - 1.0).abs() < 0.01, "F0 {f0}, albedo {albedo}: {seen}");
+        }
+    }
+}

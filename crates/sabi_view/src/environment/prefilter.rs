@@ -1,0 +1,311 @@
+//! What surfaces of every roughness mirror of an environment, made once on the device.
+
+use std::f32::consts::PI;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Vec3, Vec4, vec3};
+use sabi_gpu::Gpu;
+
+use crate::error::ViewError;
+
+/// Texels along a side of a face at roughness 0.
+pub(super) const FACE_SIDE: u32 = 256;
+/// Levels of roughness: level `i` has perceptual roughness `i / (LEVELS - 1)`, the square root of the width of GGX.
+pub(super) const LEVELS: u32 = 7;
+/// Levels of what is filtered, down to a texel a face.
+const SOURCE_LEVELS: u32 = FACE_SIDE.ilog2() + 1;
+/// Directions of light for each level but the first, which is a plain picture. What is rougher has wider lobes and fewer
+/// texels.
+const DIRECTIONS: [u32; LEVELS as usize] = [0, 64, 128, 256, 256, 512, 512];
+/// Places along a side of a texel at which the panorama is read.
+const PLACES: u32 = 4;
+
+const CUBE_WGSL: &str = include_str!("../../../../shaders/view/cube.wgsl");
+const PANORAMA_WGSL: &str = include_str!("../../../../shaders/view/panorama.wgsl");
+
+/// As `Pass` in `shaders/view/cube.wgsl`.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct Pass {
+    side: u32,
+    count: u32,
+    lod: f32,
+    unused: u32,
+}
+
+/// Texels along a side of a face at a level.
+pub(super) fn side_of(level: u32) -> u32 {
+    FACE_SIDE >> level
+}
+
+/// A cube map of half floats with these levels, whose content is undefined.
+pub(super) fn cube(gpu: &Gpu, label: &str, levels: u32) -> Result<wgpu::Texture, ViewError> {
+    let cube = gpu.guarded("an environment", |device| {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d {
+                width: FACE_SIDE,
+                height: FACE_SIDE,
+                depth_or_array_layers: 6,
+            },
+            mip_level_count: levels,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba16Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::STORAGE_BINDING
+                | wgpu::TextureUsages::COPY_SRC
+                | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        })
+    })?;
+    Ok(cube)
+}
+
+/// The whole cube map, to be read by direction.
+pub(super) fn cube_view(cube: &wgpu::Texture) -> wgpu::TextureView {
+    cube.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::Cube),
+        ..Default::default()
+    })
+}
+
+/// The faces of one level, to be read or written texel by texel.
+fn level_view(cube: &wgpu::Texture, level: u32) -> wgpu::TextureView {
+    cube.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        base_mip_level: level,
+        mip_level_count: Some(1),
+        ..Default::default()
+    })
+}
+
+/// The prefiltered cube map of a panorama on the device.
+pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture) -> Result<wgpu::Texture, ViewError> {
+    let source = cube(gpu, "environment", SOURCE_LEVELS)?;
+    let made = cube(gpu, "prefiltered environment", LEVELS)?;
+    let mut work = Work::new(gpu);
+    let resample = Step::new(gpu, "panorama to cube", RESAMPLE_WGSL, wgpu::TextureViewDimension::D2)?;
+    let texels = f32::max(panorama.width() as f32 / 4.0, panorama.height() as f32 / 2.0);
+    let pass = Pass {
+        side: FACE_SIDE,
+        count: PLACES,
+        // Pixels of the panorama from one place to the next.
+        lod: (texels / (FACE_SIDE * PLACES) as f32).log2().max(0.0),
+        unused: 0,
+    };
+    work.run(
+        &resample,
+        pass,
+        &panorama.create_view(&Default::default()),
+        &level_view(&source, 0),
+        &[],
+    )?;
+    let halve = Step::new(gpu, "halve cube", HALVE_WGSL, wgpu::TextureViewDimension::D2Array)?;
+    for level in 1..SOURCE_LEVELS {
+        let pass = Pass {
+            side: side_of(level),
+            ..pass
+        };
+        work.run(
+            &halve,
+            pass,
+            &level_view(&source, level - 1),
+            &level_view(&source, level),
+            &[],
+        )?;
+    }
+    work.encoder
+        .copy_texture_to_texture(source.as_image_copy(), made.as_image_copy(), made.size());
+    let gather = Step::new(gpu, "prefilter", GATHER_WGSL, wgpu::TextureViewDimension::Cube)?;
+    for level in 1..LEVELS {
+        let roughness = level as f32 / (LEVELS - 1) as f32;
+        let lobe = lobe(roughness * roughness, DIRECTIONS[level as usize]);
+        let pass = Pass {
+            side: side_of(level),
+            count: lobe.len() as u32,
+            ..pass
+        };
+        work.run(&gather, pass, &cube_view(&source), &level_view(&made, level), &lobe)?;
+    }
+    gpu.queue().submit([work.encoder.finish()]);
+    gpu.wait()?;
+    Ok(made)
+}
+
+/// Directions of light around +Z as GGX of this width mirrors them to one who looks along it, in Hammersley's order, with
+/// the level of the source whose texels are as large as the part of the sphere that a direction stands for, and one more:
+/// such parts then overlap (Křivánek and Colbert 2008).
+fn lobe(alpha: f32, count: u32) -> Vec<Vec4> {
+    let texel_sr = 4.0 * PI / (6 * FACE_SIDE * FACE_SIDE) as f32;
+    let direction = |at: u32| {
+        let along = (at as f32 + 0.5) / count as f32;
+        let around = 2.0 * PI * at.reverse_bits() as f32 / 2f32.powi(32);
+        let squared = alpha * alpha;
+        // Walter et al. 2007, Microfacet Models for Refraction, equation 35.
+        let cos_half = ((1.0 - along) / (1.0 + (squared - 1.0) * along)).sqrt();
+        let sin_half = (1.0 - cos_half * cos_half).max(0.0).sqrt();
+        let half = vec3(sin_half * around.cos(), sin_half * around.sin(), cos_half);
+        let to: Vec3 = 2.0 * cos_half * half - Vec3::Z;
+        let spread = cos_half * cos_half * (squared - 1.0) + 1.0;
+        // D / 4, as n·h and v·h are the same here.
+        let pdf = squared / (4.0 * PI * spread * spread);
+        let lod = 0.5 * (1.0 / (count as f32 * pdf * texel_sr)).log2() + 1.0;
+        to.extend(lod.clamp(0.0, (SOURCE_LEVELS - 1) as f32))
+    };
+    (0..count).map(direction).filter(|to| to.z > 0.0).collect()
+}
+
+const RESAMPLE_WGSL: &str = include_str!("../../../../shaders/view/panorama_to_cube.wgsl");
+const HALVE_WGSL: &str = include_str!("../../../../shaders/view/halve_cube.wgsl");
+const GATHER_WGSL: &str = include_str!("../../../../shaders/view/prefilter.wgsl");
+
+/// What makes one level of a cube map.
+struct Step {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty,
+        count: None,
+    }
+}
+
+fn buffer(binding: u32, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    entry(binding, ty)
+}
+
+impl Step {
+    fn new(gpu: &Gpu, label: &str, wgsl: &str, source: wgpu::TextureViewDimension) -> Result<Step, ViewError> {
+        let read = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: source,
+            multisampled: false,
+        };
+        let write = wgpu::BindingType::StorageTexture {
+            access: wgpu::StorageTextureAccess::WriteOnly,
+            format: wgpu::TextureFormat::Rgba16Float,
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+        };
+        let entries = [
+            buffer(0, wgpu::BufferBindingType::Uniform),
+            entry(1, read),
+            entry(2, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)),
+            entry(3, write),
+            buffer(4, wgpu::BufferBindingType::Storage { read_only: true }),
+        ];
+        let text = format!("{wgsl}\n{CUBE_WGSL}\n{PANORAMA_WGSL}");
+        let step = gpu.guarded(label, |device| {
+            let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &entries,
+            });
+            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(text.into()),
+            });
+            let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(label),
+                bind_group_layouts: &[Some(&layout)],
+                immediate_size: 0,
+            });
+            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(label),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some("main"),
+                compilation_options: Default::default(),
+                cache: None,
+            });
+            Step { pipeline, layout }
+        })?;
+        Ok(step)
+    }
+}
+
+/// Passes on their way to the device.
+struct Work<'g> {
+    gpu: &'g Gpu,
+    encoder: wgpu::CommandEncoder,
+    sampler: wgpu::Sampler,
+}
+
+impl<'g> Work<'g> {
+    fn new(gpu: &'g Gpu) -> Work<'g> {
+        let sampler = gpu.device().create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("environment"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        Work {
+            gpu,
+            encoder: gpu.device().create_command_encoder(&Default::default()),
+            sampler,
+        }
+    }
+
+    fn buffer(&self, bytes: &[u8], usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, ViewError> {
+        let buffer = self.gpu.guarded("an environment", |device| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("environment"),
+                size: bytes.len() as u64,
+                usage: usage | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        })?;
+        self.gpu.queue().write_buffer(&buffer, 0, bytes);
+        Ok(buffer)
+    }
+
+    /// Has a step write `to`, of which `pass` tells the size.
+    fn run(
+        &mut self,
+        step: &Step,
+        pass: Pass,
+        read: &wgpu::TextureView,
+        to: &wgpu::TextureView,
+        lobe: &[Vec4],
+    ) -> Result<(), ViewError> {
+        // A binding is never empty.
+        let lobe = if lobe.is_empty() { &[Vec4::ZERO] } else { lobe };
+        let uniform = self.buffer(bytemuck::bytes_of(&pass), wgpu::BufferUsages::UNIFORM)?;
+        let flat: Vec<f32> = lobe.iter().flat_map(Vec4::to_array).collect();
+        let lobe = self.buffer(bytemuck::cast_slice(&flat), wgpu::BufferUsages::STORAGE)?;
+        let resources = [
+            uniform.as_entire_binding(),
+            wgpu::BindingResource::TextureView(read),
+            wgpu::BindingResource::Sampler(&self.sampler),
+            wgpu::BindingResource::TextureView(to),
+            lobe.as_entire_binding(),
+        ];
+        let entries: Vec<_> = (0..)
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        let group = self.gpu.guarded("an environment", |device| {
+            device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("environment"),
+                layout: &step.layout,
+                entries: &entries,
+            })
+        })?;
+        let mut work = self.encoder.begin_compute_pass(&Default::default());
+        work.set_pipeline(&step.pipeline);
+        work.set_bind_group(0, &group, &[]);
+        let groups = pass.side.div_ceil(8);
+        work.dispatch_workgroups(groups, groups, 6);
+        Ok(())
+    }
+}

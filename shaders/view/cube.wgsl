@@ -1,0 +1,31 @@
+// Faces of a cube map, as Vulkan, Direct3D and Metal number and turn them.
+
+const PI: f32 = 3.14159265359;
+
+/// One pass over all faces of a level.
+struct Pass {
+    /// Texels along a side of what is written.
+    side: u32,
+    /// What the pass makes of it: places along a texel's side, or directions.
+    count: u32,
+    /// Level of the source to read.
+    lod: f32,
+}
+
+/// The direction, not of unit length, at a place of a face, -1 to 1 from the left and from the top.
+fn cube_direction(face: u32, at: vec2f) -> vec3f {
+    switch face {
+        case 0u: { return vec3f(1.0, -at.y, -at.x); }
+        case 1u: { return vec3f(-1.0, -at.y, at.x); }
+        case 2u: { return vec3f(at.x, 1.0, at.y); }
+        case 3u: { return vec3f(at.x, -1.0, -at.y); }
+        case 4u: { return vec3f(at.x, -at.y, 1.0); }
+        default: { return vec3f(-at.x, -at.y, -1.0); }
+    }
+}
+
+/// What a texel is told of a sum of light and of the weights it came with; the store of more than a half float holds would
+/// be infinite.
+fn mean_light(sum: vec4f) -> vec4f {
+    return vec4f(min(sum.rgb / sum.a, vec3f(65504.0)), 1.0);
+}
