@@ -7,6 +7,7 @@ mod cells;
 mod colors;
 mod curves;
 mod denoise;
+mod environment;
 mod filters;
 mod heat;
 mod held;

@@ -24,7 +24,7 @@ impl Environment {
     pub fn new(gpu: &Gpu, panorama: &Panorama) -> Result<Environment, ViewError> {
         let levels = backdrop::levels(panorama);
         let backdrop = backdrop::upload(gpu, &levels)?;
-        let specular = prefilter::prefilter(gpu, &backdrop)?;
+        let specular = prefilter::prefilter(gpu, &backdrop, prefilter::face_side(panorama))?;
         Ok(Environment {
             specular,
             backdrop,
@@ -35,7 +35,7 @@ impl Environment {
     /// As [`Environment::new`], with the part that takes long as [`Environment::prefiltered_bytes`] gave it for the same
     /// panorama.
     pub fn from_prefiltered(gpu: &Gpu, panorama: &Panorama, prefiltered: &[u8]) -> Result<Environment, ViewError> {
-        let specular = cube_bytes::upload(gpu, prefiltered)?;
+        let specular = cube_bytes::upload(gpu, prefilter::face_side(panorama), prefiltered)?;
         let levels = backdrop::levels(panorama);
         Ok(Environment {
             specular,

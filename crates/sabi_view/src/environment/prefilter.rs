@@ -6,17 +6,14 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4, vec3};
 use sabi_gpu::Gpu;
 
+use super::panorama::Panorama;
 use crate::error::ViewError;
 
-/// Texels along a side of a face at roughness 0.
-pub(super) const FACE_SIDE: u32 = 256;
 /// Levels of roughness: level `i` has perceptual roughness `i / (LEVELS - 1)`, the square root of the width of GGX.
-pub(super) const LEVELS: u32 = 7;
-/// Levels of what is filtered, down to a texel a face.
-const SOURCE_LEVELS: u32 = FACE_SIDE.ilog2() + 1;
+pub(super) const LEVELS: u32 = 6;
 /// Directions of light for each level but the first, which is a plain picture. What is rougher has wider lobes and fewer
 /// texels.
-const DIRECTIONS: [u32; LEVELS as usize] = [0, 64, 128, 256, 256, 512, 512];
+const DIRECTIONS: [u32; LEVELS as usize] = [0, 128, 512, 1024, 2048, 4096];
 /// Places along a side of a texel at which the panorama is read.
 const PLACES: u32 = 4;
 
@@ -33,19 +30,20 @@ struct Pass {
     unused: u32,
 }
 
-/// Texels along a side of a face at a level.
-pub(super) fn side_of(level: u32) -> u32 {
-    FACE_SIDE >> level
+/// Texels along a side of a face at roughness 0, as many as show what is in the panorama; it halves from level to level.
+pub(super) fn face_side(panorama: &Panorama) -> u32 {
+    // A face is a quarter of the way around.
+    if panorama.width() > 512 { 256 } else { 128 }
 }
 
 /// A cube map of half floats with these levels, whose content is undefined.
-pub(super) fn cube(gpu: &Gpu, label: &str, levels: u32) -> Result<wgpu::Texture, ViewError> {
+pub(super) fn cube(gpu: &Gpu, label: &str, side: u32, levels: u32) -> Result<wgpu::Texture, ViewError> {
     let cube = gpu.guarded("an environment", |device| {
         device.create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d {
-                width: FACE_SIDE,
-                height: FACE_SIDE,
+                width: side,
+                height: side,
                 depth_or_array_layers: 6,
             },
             mip_level_count: levels,
@@ -70,10 +68,10 @@ pub(super) fn cube_view(cube: &wgpu::Texture) -> wgpu::TextureView {
     })
 }
 
-/// The faces of one level, to be read or written texel by texel.
-fn level_view(cube: &wgpu::Texture, level: u32) -> wgpu::TextureView {
+/// One level of a cube map, as faces to be written or by direction to be read.
+fn level_view(cube: &wgpu::Texture, level: u32, dimension: wgpu::TextureViewDimension) -> wgpu::TextureView {
     cube.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        dimension: Some(dimension),
         base_mip_level: level,
         mip_level_count: Some(1),
         ..Default::default()
@@ -81,69 +79,59 @@ fn level_view(cube: &wgpu::Texture, level: u32) -> wgpu::TextureView {
 }
 
 /// The prefiltered cube map of a panorama on the device.
-pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture) -> Result<wgpu::Texture, ViewError> {
-    let source = cube(gpu, "environment", SOURCE_LEVELS)?;
-    let made = cube(gpu, "prefiltered environment", LEVELS)?;
+pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Result<wgpu::Texture, ViewError> {
+    use wgpu::TextureViewDimension::{Cube, D2, D2Array};
+    let source = cube(gpu, "environment", side, side.ilog2() + 1)?;
+    let made = cube(gpu, "prefiltered environment", side, LEVELS)?;
     let mut work = Work::new(gpu);
-    let resample = Step::new(gpu, "panorama to cube", RESAMPLE_WGSL, wgpu::TextureViewDimension::D2)?;
-    let texels = f32::max(panorama.width() as f32 / 4.0, panorama.height() as f32 / 2.0);
+    let resample = Step::new(gpu, "panorama to cube", RESAMPLE_WGSL, D2)?;
+    let pixels = f32::max(panorama.width() as f32 / 4.0, panorama.height() as f32 / 2.0);
     let pass = Pass {
-        side: FACE_SIDE,
+        side,
         count: PLACES,
         // Pixels of the panorama from one place to the next.
-        lod: (texels / (FACE_SIDE * PLACES) as f32).log2().max(0.0),
+        lod: (pixels / (side * PLACES) as f32).log2().max(0.0),
         unused: 0,
     };
-    work.run(
-        &resample,
-        pass,
-        &panorama.create_view(&Default::default()),
-        &level_view(&source, 0),
-        &[],
-    )?;
-    let halve = Step::new(gpu, "halve cube", HALVE_WGSL, wgpu::TextureViewDimension::D2Array)?;
-    for level in 1..SOURCE_LEVELS {
-        let pass = Pass {
-            side: side_of(level),
-            ..pass
-        };
-        work.run(
-            &halve,
-            pass,
-            &level_view(&source, level - 1),
-            &level_view(&source, level),
-            &[],
-        )?;
+    let picture = panorama.create_view(&Default::default());
+    work.run(&resample, pass, &picture, &level_view(&source, 0, D2Array), &[])?;
+    let halve = Step::new(gpu, "halve cube", HALVE_WGSL, Cube)?;
+    for level in 1..source.mip_level_count() {
+        let (side, lod) = (side >> level, 0.0);
+        let (finer, to) = (
+            level_view(&source, level - 1, Cube),
+            level_view(&source, level, D2Array),
+        );
+        work.run(&halve, Pass { side, lod, ..pass }, &finer, &to, &[])?;
     }
     work.encoder
         .copy_texture_to_texture(source.as_image_copy(), made.as_image_copy(), made.size());
-    let gather = Step::new(gpu, "prefilter", GATHER_WGSL, wgpu::TextureViewDimension::Cube)?;
+    let gather = Step::new(gpu, "prefilter", GATHER_WGSL, Cube)?;
     for level in 1..LEVELS {
         let roughness = level as f32 / (LEVELS - 1) as f32;
-        let lobe = lobe(roughness * roughness, DIRECTIONS[level as usize]);
-        let pass = Pass {
-            side: side_of(level),
-            count: lobe.len() as u32,
-            ..pass
-        };
-        work.run(&gather, pass, &cube_view(&source), &level_view(&made, level), &lobe)?;
+        let lobe = lobe(roughness * roughness, DIRECTIONS[level as usize], side);
+        let (side, count) = (side >> level, lobe.len() as u32);
+        let to = level_view(&made, level, D2Array);
+        work.run(&gather, Pass { side, count, ..pass }, &cube_view(&source), &to, &lobe)?;
     }
     gpu.queue().submit([work.encoder.finish()]);
     gpu.wait()?;
     Ok(made)
 }
 
-/// Directions of light around +Z as GGX of this width mirrors them to one who looks along it, in Hammersley's order, with
-/// the level of the source whose texels are as large as the part of the sphere that a direction stands for, and one more:
-/// such parts then overlap (Křivánek and Colbert 2008).
-fn lobe(alpha: f32, count: u32) -> Vec<Vec4> {
-    let texel_sr = 4.0 * PI / (6 * FACE_SIDE * FACE_SIDE) as f32;
+/// Directions of light around +Z as GGX of this width mirrors them to one who looks along it, with the level of the source
+/// whose texels are as large as the part of the sphere that a direction stands for, and one more: such parts then overlap
+/// (Křivánek and Colbert 2008). They wind in a spiral by the golden angle, which leaves no gaps and shows no rows.
+/// `source_side` is that of a face of the source.
+fn lobe(alpha: f32, count: u32, source_side: u32) -> Vec<Vec4> {
+    let texel_sr = 4.0 * PI / (6 * source_side * source_side) as f32;
+    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
     let direction = |at: u32| {
-        let along = (at as f32 + 0.5) / count as f32;
-        let around = 2.0 * PI * at.reverse_bits() as f32 / 2f32.powi(32);
+        let share = (at as f32 + 0.5) / count as f32;
+        let around = (golden * f64::from(at) % std::f64::consts::TAU) as f32;
         let squared = alpha * alpha;
         // Walter et al. 2007, Microfacet Models for Refraction, equation 35.
-        let cos_half = ((1.0 - along) / (1.0 + (squared - 1.0) * along)).sqrt();
+        let cos_half = ((1.0 - share) / (1.0 + (squared - 1.0) * share)).sqrt();
         let sin_half = (1.0 - cos_half * cos_half).max(0.0).sqrt();
         let half = vec3(sin_half * around.cos(), sin_half * around.sin(), cos_half);
         let to: Vec3 = 2.0 * cos_half * half - Vec3::Z;
@@ -151,7 +139,7 @@ fn lobe(alpha: f32, count: u32) -> Vec<Vec4> {
         // D / 4, as n·h and v·h are the same here.
         let pdf = squared / (4.0 * PI * spread * spread);
         let lod = 0.5 * (1.0 / (count as f32 * pdf * texel_sr)).log2() + 1.0;
-        to.extend(lod.clamp(0.0, (SOURCE_LEVELS - 1) as f32))
+        to.extend(lod.clamp(0.0, source_side.ilog2() as f32))
     };
     (0..count).map(direction).filter(|to| to.z > 0.0).collect()
 }
