@@ -8,6 +8,8 @@ mod dfg;
 mod environment;
 mod error;
 mod pick;
+mod placement;
 
 pub use environment::{Environment, Panorama};
 pub use error::ViewError;
+pub use placement::Placement;
