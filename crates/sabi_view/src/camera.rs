@@ -1,1 +1,299 @@
 //! Where the eye is: orbit, pan, zoom and focus.
+//!
+//! Three spaces: *view* space is where the model stands (+Y up, centered, largest side 1), *eye* space is the camera's own
+//! (+X right, +Y up, looking along −Z), *clip* space is wgpu's. Depth is reversed: what is nearest has depth 1, what is
+//! farthest 0, which spends the precision of a 32-bit depth buffer evenly; compare with `Greater` and clear to 0.
+
+mod projection;
+mod viewpoint;
+
+#[cfg(test)]
+mod tests;
+
+use glam::{DMat3, DVec3, Vec2, Vec3};
+
+pub use projection::Ray;
+pub use viewpoint::{Viewpoint, ViewpointError};
+
+/// Nearer than this nothing is told apart in single precision, and farther the model is a dot.
+const DISTANCES: [f32; 2] = [1e-3, 100.0];
+/// How far from the middle one can look: farther out there is nothing.
+const FARTHEST_TARGET: f32 = 10.0;
+/// Narrower is a telescope, wider is no picture.
+const FOV_Y_DEGREES: [f32; 2] = [1.0, 120.0];
+/// Share of the picture that a framed model fills at most.
+const FILLED: f64 = 0.9;
+/// A drag over the height of the viewport orbits by half a turn.
+const ORBIT_DEGREES: f32 = 180.0;
+
+/// How depth becomes smaller.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lens {
+    /// What is farther is smaller.
+    #[default]
+    Perspective,
+    /// Nothing gets smaller: everything is as large as the perspective shows it at the target.
+    Orthographic,
+}
+
+/// An eye that looks at a target and never rolls.
+///
+/// Any numbers may stand in its fields: whatever is computed first holds them within limits, so that no finite or
+/// non-finite input makes a matrix or a ray that is no number. Lengths are view units. A `pointer` is a place in the
+/// viewport, 0 to 1 from its upper left corner; an `aspect` is the viewport's width for one height, see [`aspect_of`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// What it looks at and turns around.
+    pub target: Vec3,
+    /// Which side it sees: at 0 that of +Z, the front as glTF has it (it looks along −Z); at 90 that of +X.
+    pub yaw_degrees: f32,
+    /// How far it stands above the target: 90 looks straight down, −90 straight up; no farther, so that it never tips over.
+    pub pitch_degrees: f32,
+    /// From the eye to the target.
+    pub distance: f32,
+    /// How much it sees from the lower to the upper edge; with an orthographic lens, at the target.
+    pub fov_y_degrees: f32,
+    /// Perspective or orthographic; switching keeps the size at the target.
+    pub lens: Lens,
+}
+
+impl Default for Camera {
+    /// From the front, at a distance from which any model is seen whole in a square.
+    fn default() -> Self {
+        Camera {
+            target: Vec3::ZERO,
+            yaw_degrees: 0.0,
+            pitch_degrees: 0.0,
+            distance: 3.5,
+            fov_y_degrees: 30.0,
+            lens: Lens::Perspective,
+        }
+    }
+}
+
+impl Camera {
+    /// Looks at a box from a viewpoint, framed.
+    pub fn seen_from(viewpoint: Viewpoint, [low, high]: [Vec3; 2], aspect: f32) -> Camera {
+        let mut camera = Camera {
+            yaw_degrees: viewpoint.yaw_degrees,
+            pitch_degrees: viewpoint.pitch_degrees,
+            ..Camera::default()
+        };
+        camera.frame_box(low, high, aspect);
+        camera.distance *= viewpoint.distance;
+        camera.sound()
+    }
+
+    /// Orbits by a drag: dragging right turns the near side to the right, dragging down shows more from above.
+    pub fn orbit(&mut self, drag_px: Vec2, viewport_px: Vec2) {
+        let degrees = drag_px / viewport_px.y * ORBIT_DEGREES;
+        if degrees.is_finite() {
+            self.turn(-degrees.x);
+            self.pitch_degrees += degrees.y;
+            *self = self.sound();
+        }
+    }
+
+    /// Turns around the vertical axis through the target; positive shows what was on the right.
+    pub fn turn(&mut self, yaw_degrees: f32) {
+        if yaw_degrees.is_finite() {
+            // Each is within half a turn first: a large one would swallow a small one.
+            self.yaw_degrees = wrapped(self.yaw_degrees) + wrapped(yaw_degrees);
+        }
+        *self = self.sound();
+    }
+
+    /// Moves sideways by a drag, so that the point of the target's plane that was under the pointer stays there.
+    pub fn pan(&mut self, drag_px: Vec2, viewport_px: Vec2) {
+        self.pan_holding(self.target, drag_px, viewport_px);
+    }
+
+    /// Moves sideways by a drag, so that a point, as one picked under the pointer, stays there.
+    pub fn pan_holding(&mut self, point: Vec3, drag_px: Vec2, viewport_px: Vec2) {
+        *self = self.sound();
+        let depth = (point - self.eye()).dot(self.forward());
+        let height = match self.lens {
+            Lens::Perspective if depth > 0.0 => self.height_at_target() * depth / self.distance,
+            _ => self.height_at_target(),
+        };
+        let drag = drag_px / viewport_px.y * height;
+        let target = self.target - self.right() * drag.x + self.up() * drag.y;
+        if target.is_finite() {
+            self.target = target;
+            *self = self.sound();
+        }
+    }
+
+    /// Comes nearer to the target: by a factor of 2 it looks twice as large.
+    pub fn zoom(&mut self, factor: f32) {
+        self.zoom_toward(self.target, factor);
+    }
+
+    /// Comes nearer to the point of the target's plane that is under the pointer, which stays there.
+    pub fn zoom_at(&mut self, pointer: Vec2, aspect: f32, factor: f32) {
+        let sound = self.sound();
+        let at = sound.offset_at_target(pointer, aspect);
+        self.zoom_toward(sound.target + sound.right() * at.x + sound.up() * at.y, factor);
+    }
+
+    /// Comes nearer to a point, as one picked under the pointer, which stays where it is in the picture.
+    pub fn zoom_toward(&mut self, point: Vec3, factor: f32) {
+        *self = self.sound();
+        if !(factor.is_finite() && factor > 0.0 && point.is_finite()) {
+            return;
+        }
+        let distance = (self.distance / factor).clamp(DISTANCES[0], DISTANCES[1]);
+        let target = point + (self.target - point) * (distance / self.distance);
+        if target.is_finite() {
+            self.target = target;
+            self.distance = distance;
+            *self = self.sound();
+        }
+    }
+
+    /// Looks at a point from the same distance: from where it stood, or with a `normal` straight at the surface there.
+    pub fn focus(&mut self, point: Vec3, normal: Option<Vec3>) {
+        if point.is_finite() {
+            self.target = point;
+        }
+        if let Some(toward) = normal.and_then(Vec3::try_normalize) {
+            self.pitch_degrees = toward.y.clamp(-1.0, 1.0).asin().to_degrees();
+            // Of a floor or a ceiling every side is the front: the yaw stays.
+            if toward.x.hypot(toward.z) > 1e-4 {
+                self.yaw_degrees = toward.x.atan2(toward.z).to_degrees();
+            }
+        }
+        *self = self.sound();
+    }
+
+    /// Looks at the middle of a box from where it looked, at the distance from which all of the box is in the picture with a
+    /// margin around it. A box without extent keeps the distance.
+    pub fn frame_box(&mut self, low: Vec3, high: Vec3, aspect: f32) {
+        *self = self.sound();
+        let (low, high) = (low.as_dvec3(), high.as_dvec3());
+        if !(low.is_finite() && high.is_finite()) {
+            return;
+        }
+        let half = (high - low) * 0.5;
+        let eye_from_view = self.axes().transpose();
+        let tangent = self.half_tangent() * FILLED;
+        let distance = (0..8).fold(0.0, |distance: f64, corner| {
+            let sign = |bit: u32| if corner & bit == 0 { -1.0 } else { 1.0 };
+            let at = eye_from_view * (half * DVec3::new(sign(1), sign(2), sign(4)));
+            let nearer = match self.lens {
+                Lens::Perspective => at.z,
+                Lens::Orthographic => 0.0,
+            };
+            let reach = at.y.abs().max(at.x.abs() / f64::from(sound_aspect(aspect)));
+            distance.max(nearer + reach / tangent)
+        });
+        self.target = ((low + high) * 0.5).as_vec3();
+        if distance > 0.0 {
+            self.distance = distance as f32;
+        }
+        *self = self.sound();
+    }
+
+    /// Where the eye is, view space.
+    pub fn eye(&self) -> Vec3 {
+        self.eye_f64().as_vec3()
+    }
+
+    /// The way it looks, unit length, view space.
+    pub fn forward(&self) -> Vec3 {
+        -self.axes().z_axis.as_vec3()
+    }
+
+    /// What is to the right in the picture, unit length, view space.
+    pub fn right(&self) -> Vec3 {
+        self.axes().x_axis.as_vec3()
+    }
+
+    /// What is up in the picture, unit length, view space.
+    pub fn up(&self) -> Vec3 {
+        self.axes().y_axis.as_vec3()
+    }
+
+    /// View units from the lower to the upper edge of the picture at the target.
+    pub fn height_at_target(&self) -> f32 {
+        let sound = self.sound();
+        (2.0 * f64::from(sound.distance) * sound.half_tangent()) as f32
+    }
+
+    /// The camera with every number within its limits.
+    fn sound(&self) -> Camera {
+        let at = self.target.to_array();
+        Camera {
+            target: at.map(|at| held(at, [-FARTHEST_TARGET, FARTHEST_TARGET], 0.0)).into(),
+            yaw_degrees: wrapped(self.yaw_degrees),
+            pitch_degrees: held(self.pitch_degrees, [-90.0, 90.0], 0.0),
+            distance: held(self.distance, DISTANCES, Camera::default().distance),
+            fov_y_degrees: held(self.fov_y_degrees, FOV_Y_DEGREES, Camera::default().fov_y_degrees),
+            lens: self.lens,
+        }
+    }
+
+    /// Right, up and backward in view space. Made from the angles, so that looking straight down is no special case.
+    fn axes(&self) -> DMat3 {
+        let sound = self.sound();
+        let (sin_yaw, cos_yaw) = f64::from(sound.yaw_degrees).to_radians().sin_cos();
+        let (sin_pitch, cos_pitch) = f64::from(sound.pitch_degrees).to_radians().sin_cos();
+        DMat3::from_cols(
+            DVec3::new(cos_yaw, 0.0, -sin_yaw),
+            DVec3::new(-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch),
+            DVec3::new(sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch),
+        )
+    }
+
+    fn eye_f64(&self) -> DVec3 {
+        let sound = self.sound();
+        sound.target.as_dvec3() + sound.axes().z_axis * f64::from(sound.distance)
+    }
+
+    fn half_tangent(&self) -> f64 {
+        (f64::from(self.sound().fov_y_degrees) * 0.5).to_radians().tan()
+    }
+
+    /// Where the pointer is on the plane through the target, view units to the right and up from it.
+    fn offset_at_target(&self, pointer: Vec2, aspect: f32) -> Vec2 {
+        let pointer = pointer.to_array().map(|at| held(at, [-100.0, 100.0], 0.5) - 0.5);
+        Vec2::new(pointer[0] * sound_aspect(aspect), -pointer[1]) * self.height_at_target()
+    }
+}
+
+/// Width of a viewport for one height; 1 for one without area.
+pub fn aspect_of(viewport_px: Vec2) -> f32 {
+    sound_aspect(viewport_px.x / viewport_px.y)
+}
+
+fn sound_aspect(aspect: f32) -> f32 {
+    if aspect.is_finite() && aspect > 0.0 {
+        aspect.clamp(1e-2, 1e2)
+    } else {
+        1.0
+    }
+}
+
+/// Within limits, and something else where it is no number.
+fn held(value: f32, [low, high]: [f32; 2], otherwise: f32) -> f32 {
+    if value.is_nan() {
+        otherwise
+    } else {
+        value.clamp(low, high)
+    }
+}
+
+/// The same direction from −180 up to 180 degrees.
+fn wrapped(degrees: f32) -> f32 {
+    if !degrees.is_finite() {
+        return 0.0;
+    }
+    let turned = degrees % 360.0;
+    if turned >= 180.0 {
+        turned - 360.0
+    } else if turned < -180.0 {
+        turned + 360.0
+    } else {
+        turned
+    }
+}

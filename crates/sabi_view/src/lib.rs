@@ -11,5 +11,6 @@ mod pick;
 mod placement;
 
 pub use environment::{Environment, Panorama};
+pub use camera::{Camera, Lens, Ray, Viewpoint, ViewpointError, aspect_of};
 pub use error::ViewError;
 pub use placement::Placement;

@@ -1,0 +1,104 @@
+//! From view space to the picture, and from the picture back along rays.
+
+use glam::{Mat4, Vec2, Vec3};
+
+use super::{Camera, Lens, sound_aspect};
+
+/// Half the diagonal of the model's box is at most 0.87; what is beyond is for relief that stands out of it.
+const SCENE_RADIUS: f64 = 2.0;
+
+/// A half-line in view space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it begins, view units.
+    pub origin: Vec3,
+    /// Where it goes, unit length.
+    pub direction: Vec3,
+}
+
+impl Camera {
+    /// Turns view space into the camera's own: +X right, +Y up, looking along −Z.
+    pub fn eye_from_view(&self) -> Mat4 {
+        let turned = self.axes().transpose();
+        let moved = turned * -self.eye_f64();
+        let mut matrix = Mat4::from_mat3(turned.as_mat3());
+        matrix.w_axis = moved.as_vec3().extend(1.0);
+        matrix
+    }
+
+    /// Projects eye space, reversed: depth is 1 at the near plane and 0 at the far one. The planes lie right before and
+    /// behind everything; inside of the model the near one lies at a thousandth of the way to the target.
+    pub fn clip_from_eye(&self, aspect: f32) -> Mat4 {
+        let sound = self.sound();
+        let aspect = sound_aspect(aspect);
+        let [near, far] = sound.depths();
+        let half = sound.height_at_target() * 0.5;
+        let columns = match sound.lens {
+            Lens::Perspective => {
+                let focal = sound.distance / half;
+                let (scale, offset) = (near / (far - near), far * (near / (far - near)));
+                [
+                    [focal / aspect, 0.0, 0.0, 0.0],
+                    [0.0, focal, 0.0, 0.0],
+                    [0.0, 0.0, scale, -1.0],
+                    [0.0, 0.0, offset, 0.0],
+                ]
+            }
+            Lens::Orthographic => {
+                let depth = (far - near).recip();
+                [
+                    [(half * aspect).recip(), 0.0, 0.0, 0.0],
+                    [0.0, half.recip(), 0.0, 0.0],
+                    [0.0, 0.0, depth, 0.0],
+                    [0.0, 0.0, far * depth, 1.0],
+                ]
+            }
+        };
+        Mat4::from_cols_array_2d(&columns)
+    }
+
+    /// Projects view space: [`Camera::clip_from_eye`] after [`Camera::eye_from_view`].
+    pub fn clip_from_view(&self, aspect: f32) -> Mat4 {
+        self.clip_from_eye(aspect) * self.eye_from_view()
+    }
+
+    /// What is seen under the pointer lies on this ray. Through an orthographic lens it begins before everything, since such
+    /// a lens shows what is behind the eye, too.
+    pub fn ray(&self, pointer: Vec2, aspect: f32) -> Ray {
+        let sound = self.sound();
+        let at = sound.offset_at_target(pointer, aspect);
+        let beside = sound.right() * at.x + sound.up() * at.y;
+        match sound.lens {
+            Lens::Perspective => Ray {
+                origin: sound.eye(),
+                direction: (sound.forward() * sound.distance + beside).normalize(),
+            },
+            Lens::Orthographic => Ray {
+                origin: sound.eye() + beside + sound.forward() * sound.depths()[0],
+                direction: sound.forward(),
+            },
+        }
+    }
+
+    /// Where a point of view space is in the viewport, 0 to 1 from the upper left corner and beyond; none when it is behind
+    /// the eye.
+    pub fn project(&self, point: Vec3, aspect: f32) -> Option<Vec2> {
+        let clip = self.clip_from_view(aspect) * point.extend(1.0);
+        let pointer = Vec2::new(clip.x, -clip.y) / clip.w * 0.5 + 0.5;
+        (clip.w > 0.0 && pointer.is_finite()).then_some(pointer)
+    }
+
+    /// How far before the eye the near and the far plane are; through an orthographic lens they may be behind it.
+    fn depths(&self) -> [f32; 2] {
+        let middle = self.eye_f64().dot(self.axes().z_axis);
+        let [near, far] = [middle - SCENE_RADIUS, middle + SCENE_RADIUS];
+        let depths = match self.lens {
+            Lens::Perspective => {
+                let near = near.max(f64::from(self.sound().distance).min(1.0) * 1e-3);
+                [near, far.max(near * 2.0)]
+            }
+            Lens::Orthographic => [near, far],
+        };
+        depths.map(|depth| depth as f32)
+    }
+}
