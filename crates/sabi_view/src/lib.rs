@@ -13,4 +13,5 @@ mod placement;
 pub use environment::{Environment, Panorama};
 pub use camera::{Camera, Lens, Ray, Viewpoint, ViewpointError, aspect_of};
 pub use error::ViewError;
+pub use pick::{Picked, pick};
 pub use placement::Placement;
