@@ -38,8 +38,8 @@ const MAY_NAME: [(&str, &[&str], &[&str]); 11] = [
     ("xtask", &[], &[]),
 ];
 
-/// What else a crate may name although another owns it: xtask is no part of the program and writes pictures of its own; the
-/// viewport draws with the device that the kernels run on.
+/// What else a crate may name although another owns it: xtask writes pictures of its own, and the viewport draws with the
+/// device that kernels run on.
 const ALSO: [(&str, &str); 2] = [("xtask", "png"), ("sabi_view", "wgpu")];
 
 /// Outside crates with one owner. Anything else is free to use. egui and what belongs to it have none yet.
@@ -163,12 +163,8 @@ fn crate_folders() -> Vec<String> {
 fn dependencies_of(manifest: &toml::Table) -> BTreeSet<String> {
     let mut tables = vec![manifest];
     let targets = manifest.get("target").and_then(toml::Value::as_table);
-    tables.extend(
-        targets
-            .into_iter()
-            .flat_map(|targets| targets.values())
-            .filter_map(toml::Value::as_table),
-    );
+    let targets = targets.into_iter().flat_map(|targets| targets.values());
+    tables.extend(targets.filter_map(toml::Value::as_table));
     let mut names = BTreeSet::new();
     for table in tables {
         for kind in ["dependencies", "build-dependencies"] {

@@ -3,6 +3,7 @@
 mod bake;
 mod inspect;
 mod preview;
+mod render;
 mod workpiece;
 
 use clap::{Args, Parser, Subcommand};
@@ -10,7 +11,8 @@ use clap::{Args, Parser, Subcommand};
 pub(crate) use bake::BakeArguments;
 pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
 pub(crate) use preview::PreviewArguments;
-pub(crate) use workpiece::{ModelArguments, WorkpieceArguments};
+pub(crate) use render::RenderArguments;
+pub(crate) use workpiece::{MapArguments, ModelArguments, WorkpieceArguments};
 
 /// Procedural, aging materials on real models: bakes a node graph into the maps of a PBR texture set.
 #[derive(Debug, Parser)]
@@ -23,6 +25,7 @@ Examples:
   sabi bake graph.sabi --mesh model.glb -o out
   sabi bake graph.sabi --mesh model.glb -o out --size 2048 --variant heavy --set amount=0.8
   sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
+  sabi render graph.sabi --mesh model.glb -o picture.png
   sabi check graphs/*.sabi
   sabi nodes noise/simplex
   sabi mesh model.glb
@@ -59,6 +62,8 @@ pub(crate) enum Command {
     Bake(BakeArguments),
     /// Write the result of any node, in texture space
     Preview(PreviewArguments),
+    /// Draw a lit picture of the model, or several from all around
+    Render(RenderArguments),
     /// Check graphs without a model
     Check(CheckArguments),
     /// List the kinds of nodes, or describe one

@@ -6,6 +6,7 @@ mod doctor;
 mod mesh;
 mod nodes;
 mod preview;
+mod render;
 
 use crate::arguments::Command;
 use crate::exit::{Exit, Failure};
@@ -16,6 +17,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure
     match command {
         Command::Bake(arguments) => bake::run(&arguments, terminal),
         Command::Preview(arguments) => preview::run(&arguments, terminal),
+        Command::Render(arguments) => render::run(&arguments, terminal),
         Command::Check(arguments) => check::run(&arguments, terminal),
         Command::Nodes(arguments) => nodes::run(&arguments, terminal),
         Command::Mesh(arguments) => mesh::run(arguments, terminal),

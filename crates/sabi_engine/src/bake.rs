@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use sabi_export::{BakeWriter, Committed, Padding, SetOptions, preset};
 use sabi_gpu::{Run, RunOptions};
-use sabi_graph::{Fit, FlatGraph, FlatNode};
+use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 use serde_json::{Map, Value as Json, json};
 
@@ -15,6 +15,7 @@ use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::folder::is_foreign_folder;
 use crate::kinds::Kinds;
+use crate::looks::models_own;
 use crate::maps::{MapWriter, SetWork, WrittenMaps};
 use crate::model_copy::{open_copy, write_copy};
 use crate::modelless::{refuse_faults, targets};
@@ -23,7 +24,7 @@ use crate::overlap::Sharing;
 use crate::report::{BakeReport, StageTime, StageTimes};
 use crate::seams::{ModelSeams, Seams};
 use crate::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
-use crate::source::{OUTPUT_MASK, SOURCE_MODEL, mask_name};
+use crate::source::{OUTPUT_MASK, mask_name};
 use crate::stages::Progress;
 use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
 
@@ -176,22 +177,6 @@ fn wanted(graph: &FlatGraph, outputs: &[usize], serving: &Serving) -> Vec<Target
     let is_served = |node: usize| serving.nodes.iter().any(|nodes| nodes.values().any(|of| *of == node));
     let is_used = |node: &usize| graph.nodes[*node].kind == OUTPUT_MASK || is_served(*node);
     targets(outputs.iter().copied().filter(is_used).chain(serving.model))
-}
-
-/// A node that shows the model's own looks. No node of a file can have its id.
-fn models_own(fit: Fit) -> FlatNode {
-    FlatNode {
-        id: "(model)".to_owned(),
-        kind: SOURCE_MODEL.to_owned(),
-        version: 1,
-        params: BTreeMap::new(),
-        inputs: BTreeMap::new(),
-        muted: false,
-        seeds: Vec::new(),
-        length_scale: 1.0,
-        fit,
-        file: None,
-    }
 }
 
 /// A report must not take the place of a picture, a group or a buffer.

@@ -67,6 +67,15 @@ impl From<sabi_gpu::GpuError> for EngineError {
     }
 }
 
+impl From<sabi_view::ViewError> for EngineError {
+    fn from(error: sabi_view::ViewError) -> Self {
+        match error {
+            sabi_view::ViewError::Gpu(error) => error.into(),
+            other => EngineError::new(ErrorKind::Usage, other),
+        }
+    }
+}
+
 impl From<sabi_export::ExportError> for EngineError {
     fn from(error: sabi_export::ExportError) -> Self {
         let kind = if error.is_cannot_write() {

@@ -14,6 +14,7 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
 use crate::error::EngineError;
+use crate::looks::slot_of;
 use crate::mixing::Mixing;
 use crate::prepare::{Overlap, Prepared};
 use crate::seams::ModelSeams;
@@ -302,12 +303,6 @@ pub(crate) fn set_layout(prepared: &Prepared, key: SetKey) -> SetLayout {
         Overlap::Merge => SetLayout::merged(&prepared.atlas, key),
         Overlap::First | Overlap::Unwrap => SetLayout::new(&prepared.atlas, key),
     }
-}
-
-/// The slot of a plane of a result.
-fn slot_of(result: &PlannedResult, plane: Plane) -> Option<SlotRef> {
-    let at = result.stored.planes().iter().position(|stored| *stored == plane)?;
-    result.slots.get(at).copied()
 }
 
 /// Luminance of a linear color (Rec. 709), as `lib/core.wgsl` has it.

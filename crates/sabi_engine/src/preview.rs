@@ -3,25 +3,23 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{Channel, Padding, PaddingMap, SetLayout, Staging};
-use sabi_graph::{Body, Edit, FlatGraph, Node, NodeId, OutputRef, PortType, nearest};
+use sabi_export::{Channel, Padding, PaddingMap, SetLayout};
+use sabi_graph::PortType;
 use sabi_image::{PngData, PngOptions, encode_exr, encode_png, quantize_u8, srgb8_from_linear};
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
-use sabi_plan::{Mode, PlannedResult, Target};
+use sabi_plan::{Mode, PlannedResult};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
 use crate::maps::set_layout;
 use crate::modelless::refuse_faults;
+use crate::picture_file::write_pictures;
+use crate::seen_node::graph_and_target;
 use crate::sets::{texture_sets, which_is_shown};
-use crate::source::OUTPUT_MASK;
 use crate::stages::Progress;
 use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
-
-/// Id of the node that is wired to what has no result of its own; long enough to be nobody's.
-const PROBE: &str = "sabi_preview_probe_of_groups_and_reroutes";
 
 /// What to look at.
 pub struct PreviewRequest {
@@ -52,7 +50,7 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     };
     let open = OpenGraph::open(&request.graph)?;
     let kinds = Kinds::beside(Some(&request.graph));
-    let (graph, target) = graph_and_target(&open, &kinds, request)?;
+    let (graph, target) = graph_and_target(&open, &kinds, &request.workpiece, &request.node)?;
     let nothing = || {
         let why = format!(
             "node '{}' is muted and passes nothing on, so there is nothing to see; unmute it",
@@ -91,91 +89,9 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
         picture(&layout, result.stored.ty, &planes[0].1)
     }?;
     stop_if_canceled(progress)?;
-    write(request, &bytes, workpiece.read_files(&open))?;
+    let output = std::slice::from_ref(&request.output);
+    write_pictures(output, &[bytes], workpiece.read_files(&open))?;
     Ok(workpiece.warnings)
-}
-
-fn write(request: &PreviewRequest, bytes: &[u8], inputs: Vec<PathBuf>) -> Result<(), EngineError> {
-    let folder = request.output.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let mut staging = Staging::create(folder.unwrap_or(std::path::Path::new(".")))?;
-    staging.protect(inputs);
-    let name = request.output.file_name().unwrap_or_default().to_string_lossy();
-    staging.stage(&name, bytes)?;
-    staging.commit()?;
-    Ok(())
-}
-
-/// The flat graph, and what of it is to be seen.
-///
-/// Group instances and reroutes are gone from a flat graph: a probe is wired to them, and what it reads is shown.
-fn graph_and_target(
-    open: &OpenGraph,
-    kinds: &Kinds,
-    request: &PreviewRequest,
-) -> Result<(FlatGraph, Target), EngineError> {
-    let graph = Workpiece::flat_graph(open, kinds, &request.workpiece)?;
-    let plain = target(&graph, &request.node);
-    let Ok(wire) = request.node.parse::<OutputRef>() else {
-        return plain.map(|target| (graph, target));
-    };
-    if plain.is_ok() || open.document.graph.node(wire.node.as_str()).is_none() {
-        return plain.map(|target| (graph, target));
-    }
-    let mut probed = open.clone();
-    let mut probe = Node::new(OUTPUT_MASK);
-    probe.inputs.insert("source".to_owned(), wire);
-    let id: NodeId = PROBE
-        .parse()
-        .map_err(|_| EngineError::new(ErrorKind::BadInput, "the probe has no name"))?;
-    let add = Edit::AddNode {
-        body: Body::Main,
-        id,
-        node: probe,
-    };
-    let refused = |why: String| EngineError::new(ErrorKind::Usage, open.said(why));
-    probed.document.apply(add).map_err(|error| refused(error.to_string()))?;
-    let graph = Workpiece::flat_graph(&probed, kinds, &request.workpiece)?;
-    let seen = graph
-        .find(PROBE)
-        .and_then(|probe| graph.nodes[probe].inputs.get("source").cloned());
-    let nothing = || {
-        refused(format!(
-            "nothing is connected behind '{}', so there is nothing to see",
-            request.node
-        ))
-    };
-    let from = seen.ok_or_else(nothing)?;
-    Ok((
-        graph,
-        Target {
-            node: from.node,
-            port: from.port,
-        },
-    ))
-}
-
-/// The target that `id` or `id.port` names.
-fn target(graph: &FlatGraph, text: &str) -> Result<Target, EngineError> {
-    if let Some(node) = graph.find(text) {
-        return Ok(Target { node, port: None });
-    }
-    if let Some((id, port)) = text.rsplit_once('.')
-        && let Some(node) = graph.find(id)
-    {
-        return Ok(Target {
-            node,
-            port: Some(port.to_owned()),
-        });
-    }
-    let ids = || graph.nodes.iter().map(|node| node.id.as_str());
-    let advice = match nearest(text, ids()) {
-        Some(near) => format!("did you mean '{near}'?"),
-        None => format!("there are: {}", ids().collect::<Vec<_>>().join(", ")),
-    };
-    Err(EngineError::new(
-        ErrorKind::Usage,
-        format!("the graph has no node '{text}'; {advice}"),
-    ))
 }
 
 /// Planes to show, one a slot: name in an EXR, values a texel. A material shows its base color, and in an EXR all of it.

@@ -9,7 +9,7 @@ use sabi_surface::model::{Model, ModelMaterial};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
-use crate::outputs::{idle, masks, materials, quoted, served};
+use crate::outputs::{idle, masks, materials, outputs, quoted, served};
 
 /// One texture set.
 #[derive(Clone, Debug, PartialEq)]
@@ -188,6 +188,19 @@ pub(crate) fn serve(
         model: own,
         warnings,
     })
+}
+
+/// Which node each material of a model is shown by: the output that serves it, or else a node of the model's own looks,
+/// which the graph does not have yet and is at its end. And outputs that serve nothing, in sentences.
+pub(crate) fn shown_by(graph: &FlatGraph, model: &Model, atlas: &Atlas) -> (BTreeMap<u32, usize>, Vec<String>) {
+    let outputs = outputs(graph);
+    let stems = set_names(model);
+    let used = used_materials(atlas);
+    let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
+    let by_material = served(graph, &outputs, &names);
+    let shown = used.iter().zip(by_material);
+    let shown = shown.map(|(&material, output)| (material, output.unwrap_or(graph.nodes.len())));
+    (shown.collect(), idle(graph, &outputs, &names))
 }
 
 #[cfg(test)]

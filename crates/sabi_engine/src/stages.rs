@@ -11,6 +11,8 @@ pub enum Stage {
     Run,
     /// Encoding and writing the maps.
     Encode,
+    /// Drawing pictures.
+    Draw,
 }
 
 impl Stage {
@@ -21,6 +23,7 @@ impl Stage {
             Stage::Atlas => "Linking the atlas",
             Stage::Run => "Evaluating",
             Stage::Encode => "Writing maps",
+            Stage::Draw => "Drawing",
         }
     }
 }

@@ -79,7 +79,7 @@ pub struct Workpiece {
     kept_rays: KeptRays,
     seed: u32,
     surface_key: [u8; 32],
-    budget_bytes: u64,
+    pub(crate) budget_bytes: u64,
 }
 
 impl Workpiece {

@@ -22,9 +22,7 @@ struct Relief {
 }
 
 impl Gpu {
-    /// Tangent-space normals of a run's height and slope: unit vectors, Y up, in the model's MikkTSpace frame.
-    ///
-    /// Ghosts are filled too, in the frame of the chart they belong to.
+    /// Tangent-space normals of a run's height and slope, in memory; see [`Gpu::normal_texture`].
     pub fn normals(
         &self,
         surface: &GpuSurface,
@@ -33,6 +31,24 @@ impl Gpu {
         slope: Option<SlotRef>,
         options: &RunOptions<'_>,
     ) -> Result<PlaneData, GpuError> {
+        let normals = self.normal_texture(surface, run, height, slope, options)?;
+        let data = self.read_texture(&normals, surface.extent, Format::Rgba32Float)?;
+        run.pool.release(Format::Rgba32Float, normals);
+        run.report.pool = run.pool.report();
+        Ok(data)
+    }
+
+    /// Tangent-space normals of a run's height and slope: unit vectors, Y up, in the model's MikkTSpace frame.
+    ///
+    /// Ghosts are filled too, in the frame of the chart they belong to.
+    pub(crate) fn normal_texture(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        height: Option<SlotRef>,
+        slope: Option<SlotRef>,
+        options: &RunOptions<'_>,
+    ) -> Result<wgpu::Texture, GpuError> {
         let kernel = self.fixed_kernel(
             "normal",
             None,
@@ -68,9 +84,6 @@ impl Gpu {
             ],
         );
         Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
-        let data = self.read_texture(&normals, surface.extent, Format::Rgba32Float)?;
-        run.pool.release(Format::Rgba32Float, normals);
-        run.report.pool = run.pool.report();
-        Ok(data)
+        Ok(normals)
     }
 }

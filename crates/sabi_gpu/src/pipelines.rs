@@ -126,18 +126,24 @@ pub(crate) fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
 
 impl Pipelines {
     pub(crate) fn new(device: &wgpu::Device) -> Pipelines {
+        // The viewport follows relief over seams by the same tables.
+        let seen_too = |entry: wgpu::BindGroupLayoutEntry| wgpu::BindGroupLayoutEntry {
+            visibility: wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::FRAGMENT,
+            ..entry
+        };
+        let entries = [
+            uniform_entry(0),
+            read_entry(1),
+            owners_entry(2),
+            table_entry(3),
+            table_entry(4),
+            table_entry(5),
+            read_entry(6),
+            owners_entry(7),
+        ];
         let surface_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("surface"),
-            entries: &[
-                uniform_entry(0),
-                read_entry(1),
-                owners_entry(2),
-                table_entry(3),
-                table_entry(4),
-                table_entry(5),
-                read_entry(6),
-                owners_entry(7),
-            ],
+            entries: &entries.map(seen_too),
         });
         Pipelines {
             surface_layout,

@@ -89,10 +89,7 @@ fn mapped(answer: Result<Result<(), wgpu::BufferAsyncError>, RecvTimeoutError>) 
 impl Gpu {
     /// Reads a slot of a run.
     pub fn read(&self, surface: &GpuSurface, plan: &Plan, run: &Run, slot: SlotRef) -> Result<PlaneData, GpuError> {
-        let missing =
-            || GpuError::Source("a result was asked for that the plan did not keep; this is a mistake in Sabi".into());
-        let texture = run.textures.get(slot).and_then(Option::as_ref).ok_or_else(missing)?;
-        self.read_texture(texture, surface.extent, plan.slots[slot].format)
+        self.read_texture(&run.texture(slot)?, surface.extent, plan.slots[slot].format)
     }
 
     /// Has the first bytes of a buffer brought into another one, which can be mapped; nobody waits yet.
@@ -137,44 +134,59 @@ impl Gpu {
     pub(crate) fn read_texture(
         &self,
         texture: &wgpu::Texture,
-        [width, height, pages]: Extent,
+        [_, _, pages]: Extent,
         format: Format,
     ) -> Result<PlaneData, GpuError> {
-        let row = u64::from(width) * format.texel_bytes();
-        let padded = row.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
-        let buffer = self.readback_buffer(padded * u64::from(height))?;
-        let mut bytes = Vec::with_capacity((row * u64::from(height) * u64::from(pages)) as usize);
+        let mut bytes = Vec::new();
         for page in 0..pages {
-            let mut encoder = self
-                .device
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            let mut source = texture.as_image_copy();
-            source.origin.z = page;
-            encoder.copy_texture_to_buffer(
-                source,
-                wgpu::TexelCopyBufferInfo {
-                    buffer: &buffer,
-                    layout: wgpu::TexelCopyBufferLayout {
-                        offset: 0,
-                        bytes_per_row: Some(padded as u32),
-                        rows_per_image: Some(height),
-                    },
-                },
-                wgpu::Extent3d {
-                    width,
-                    height,
-                    depth_or_array_layers: 1,
-                },
-            );
-            let submitted = self.queue.submit([encoder.finish()]);
-            let mapping = mapping_of(submitted, &buffer, padded * u64::from(height));
-            self.finish_mapping(mapping, &buffer, |mapped| {
-                for line in mapped.chunks_exact(padded as usize) {
-                    bytes.extend_from_slice(&line[..row as usize]);
-                }
-            })?;
+            self.read_layer(texture, page, 0, &mut bytes)?;
         }
         Ok(PlaneData { format, bytes })
+    }
+
+    /// Appends one layer of one level of a texture of uncompressed pixels, row by row without padding.
+    pub fn read_layer(
+        &self,
+        texture: &wgpu::Texture,
+        layer: u32,
+        level: u32,
+        bytes: &mut Vec<u8>,
+    ) -> Result<(), GpuError> {
+        let texel_bytes = texture.format().block_copy_size(None).unwrap_or(4);
+        let (width, height) = (texture.width() >> level, texture.height() >> level);
+        let (width, height) = (width.max(1), height.max(1));
+        let row = u64::from(width * texel_bytes);
+        let padded = row.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
+        let buffer = self.readback_buffer(padded * u64::from(height))?;
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut source = texture.as_image_copy();
+        source.origin.z = layer;
+        source.mip_level = level;
+        encoder.copy_texture_to_buffer(
+            source,
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded as u32),
+                    rows_per_image: Some(height),
+                },
+            },
+            wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+        );
+        let submitted = self.queue.submit([encoder.finish()]);
+        let mapping = mapping_of(submitted, &buffer, padded * u64::from(height));
+        self.finish_mapping(mapping, &buffer, |mapped| {
+            for line in mapped.chunks_exact(padded as usize) {
+                bytes.extend_from_slice(&line[..row as usize]);
+            }
+        })
     }
 }
 

@@ -177,6 +177,16 @@ impl<'a> Slices<'a> {
 
 impl Gpu {
     /// A surface with some links as its ghosts, for kernels that run over links and not over tiles.
+    /// How a surface is bound in every kernel, for those that draw on it; see `shaders/lib/atlas.wgsl`.
+    pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.pipelines.surface_layout
+    }
+
+    /// A surface with all of its ghosts' links, bound that way.
+    pub fn surface_bindings(&self, surface: &GpuSurface) -> wgpu::BindGroup {
+        self.surface_group(surface, &surface.ghosts.all)
+    }
+
     pub(crate) fn surface_group(&self, surface: &GpuSurface, links: &Links) -> wgpu::BindGroup {
         let constants = self.uniform(&[0; size_of::<PassConstants>()]);
         self.surface_group_with(surface, links, &constants)

@@ -105,6 +105,8 @@ pub struct ModelMaterial {
     pub base_color_factor: [f32; 4],
     /// Whether alpha is to be ignored: glTF's alpha mode `OPAQUE`, under which pictures may have anything in it.
     pub ignores_alpha: bool,
+    /// Whether its back is seen, too; glTF says so of each of its materials.
+    pub is_double_sided: bool,
     /// Metallic factor.
     pub metallic_factor: f32,
     /// Roughness factor.
@@ -134,6 +136,7 @@ impl Default for ModelMaterial {
             file_index: None,
             base_color_factor: [1.0; 4],
             ignores_alpha: false,
+            is_double_sided: true,
             metallic_factor: 1.0,
             roughness_factor: 1.0,
             emission_factor: [0.0; 3],

@@ -100,7 +100,6 @@ fn table() -> &'static [[f32; 2]] {
 }
 
 /// Scale and bias of F0 by the cosine of the view, along x, and perceptual roughness, along y.
-#[allow(dead_code, reason = "the renderer, which reads it, comes next")]
 pub(crate) fn dfg_texture(gpu: &Gpu) -> Result<wgpu::Texture, ViewError> {
     let size = wgpu::Extent3d {
         width: SIDE,

@@ -58,7 +58,6 @@ impl Environment {
 }
 
 /// What is bound by those that draw.
-#[allow(dead_code, reason = "the renderer, which reads it, comes next")]
 impl Environment {
     /// Light by direction as surfaces mirror it, by level: at perceptual roughness `r` it is `r * (levels - 1)`.
     pub(crate) fn specular(&self) -> wgpu::TextureView {

@@ -24,4 +24,14 @@ pub enum ViewError {
     /// What was kept of an environment is not what this program keeps.
     #[error("the prefiltered environment is damaged ({0}); make it anew from its picture")]
     Prefiltered(String),
+    /// A picture without pixels, or with too many.
+    #[error("a picture of {width} × {height} pixels cannot be drawn; each side has 1 to {longest} pixels")]
+    Size {
+        /// Asked for.
+        width: u32,
+        /// Asked for.
+        height: u32,
+        /// The most that the adapter allows.
+        longest: u32,
+    },
 }

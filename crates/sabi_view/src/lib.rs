@@ -5,13 +5,29 @@
 
 mod camera;
 mod dfg;
+mod edges;
 mod environment;
 mod error;
+mod frame;
+mod model;
 mod pick;
+mod pipelines;
 mod placement;
+mod renderer;
+mod scene;
+mod shadows;
+mod target;
+mod upload;
 
-pub use environment::{Environment, Panorama};
 pub use camera::{Camera, Lens, Ray, Viewpoint, ViewpointError, aspect_of};
+pub use environment::{Environment, Panorama};
 pub use error::ViewError;
+pub use model::ViewModel;
 pub use pick::{Picked, pick};
 pub use placement::Placement;
+pub use renderer::Renderer;
+pub use scene::{
+    Background, Light, LightPlace, Lines, MOST_LIGHTS, MaterialLook, Mode, NodeLook, NodeType, Scene, Shot,
+    ViewTransform,
+};
+pub use target::{LONGEST_SIDE, Pixels, Target};

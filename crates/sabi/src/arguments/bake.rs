@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use sabi_engine::Seams;
 
-use super::WorkpieceArguments;
+use super::{MapArguments, WorkpieceArguments};
 
 /// What `bake` takes.
 #[derive(Debug, Args)]
@@ -25,6 +25,8 @@ nothing is ever deleted."
 pub(crate) struct BakeArguments {
     #[command(flatten)]
     pub(crate) workpiece: WorkpieceArguments,
+    #[command(flatten)]
+    pub(crate) maps: MapArguments,
     /// Folder for the maps; it is made if need be
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
@@ -64,7 +66,7 @@ impl BakeArguments {
             Some(Padding::Infinite) => None,
             Some(Padding::Texels(texels)) => Some(texels),
             // As coarser levels of a map shrink it, the same part of the map stays covered.
-            None => Some((self.workpiece.model.size / 128).max(2)),
+            None => Some((self.maps.size / 128).max(2)),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::ModelArguments;
+use super::{MapArguments, ModelArguments};
 
 /// What `check` takes.
 #[derive(Debug, Args)]
@@ -62,6 +62,8 @@ pub(crate) struct MeshArguments {
     pub(crate) mesh: PathBuf,
     #[command(flatten)]
     pub(crate) model: ModelArguments,
+    #[command(flatten)]
+    pub(crate) maps: MapArguments,
     /// Print as JSON
     #[arg(long)]
     pub(crate) json: bool,

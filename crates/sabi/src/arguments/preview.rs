@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::WorkpieceArguments;
+use super::{MapArguments, WorkpieceArguments};
 
 /// What `preview` takes.
 #[derive(Debug, Args)]
@@ -19,6 +19,8 @@ Examples:
 pub(crate) struct PreviewArguments {
     #[command(flatten)]
     pub(crate) workpiece: WorkpieceArguments,
+    #[command(flatten)]
+    pub(crate) maps: MapArguments,
     /// Node to show, and which of its outputs
     #[arg(long, value_name = "ID[.PORT]")]
     pub(crate) node: String,

@@ -11,13 +11,18 @@ use sabi_engine::{
 
 use crate::exit::{Exit, Failure};
 
-/// How a model is taken.
+/// How large maps are.
 #[derive(Debug, Args)]
-pub(crate) struct ModelArguments {
+pub(crate) struct MapArguments {
     /// Texels along a side of the maps, 16 to 8192
     #[arg(long, value_name = "N", default_value_t = 1024,
           value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub(crate) size: u32,
+}
+
+/// How a model is taken.
+#[derive(Debug, Args)]
+pub(crate) struct ModelArguments {
     /// Axis of the file that points up
     #[arg(long, value_enum, default_value_t = Axis::Y, help_heading = "Model")]
     pub(crate) up: Axis,
@@ -36,8 +41,8 @@ pub(crate) struct ModelArguments {
 }
 
 impl ModelArguments {
-    /// The same for the engine.
-    pub(crate) fn options(&self, path: PathBuf) -> ModelOptions {
+    /// The same for the engine, with maps of so many texels along a side.
+    pub(crate) fn options(&self, path: PathBuf, size: u32) -> ModelOptions {
         ModelOptions {
             uv: self.uv,
             up: match self.up {
@@ -52,7 +57,7 @@ impl ModelArguments {
                 Sharing::Unwrap => Overlap::Unwrap,
             },
             cache_dir: if self.no_cache { None } else { default_cache_dir() },
-            ..ModelOptions::new(&path, self.size)
+            ..ModelOptions::new(&path, size)
         }
     }
 }
@@ -96,11 +101,11 @@ pub(crate) struct WorkpieceArguments {
 }
 
 impl WorkpieceArguments {
-    /// The same for the engine.
-    pub(crate) fn options(&self) -> Result<WorkpieceOptions, Failure> {
+    /// The same for the engine, with maps of so many texels along a side.
+    pub(crate) fn options(&self, size: u32) -> Result<WorkpieceOptions, Failure> {
         let set: Result<_, String> = self.set.iter().map(|text| read_setting(text)).collect();
         Ok(WorkpieceOptions {
-            model: self.model.options(self.mesh.clone()),
+            model: self.model.options(self.mesh.clone(), size),
             overrides: Overrides {
                 variant: self.variant.clone(),
                 set: set.map_err(|why| Failure::new(Exit::Usage, format!("--set: {why}")))?,

@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
 fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
     Ok(BakeRequest {
         graph: arguments.workpiece.graph.clone(),
-        workpiece: arguments.workpiece.options()?,
+        workpiece: arguments.workpiece.options(arguments.maps.size)?,
         output: arguments.output.clone(),
         presets: arguments.preset.clone(),
         material: arguments.workpiece.material.clone(),
@@ -68,7 +68,7 @@ fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, t
         count = format!("{count} and {copy}");
     }
     let number = |key: &str| json[key].as_u64().unwrap_or(0);
-    let size = arguments.workpiece.model.size;
+    let size = arguments.maps.size;
     terminal.note(format_args!(
         "Baked {} on {} at {size} × {size}: {count} in {}, in {:.2} s",
         arguments.workpiece.graph.display(),

@@ -9,7 +9,7 @@ use crate::progress::Bars;
 use crate::terminal::{Terminal, plain};
 
 pub(crate) fn run(arguments: MeshArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let options = arguments.model.options(arguments.mesh);
+    let options = arguments.model.options(arguments.mesh, arguments.maps.size);
     let bars = Bars::new(terminal);
     let prepared = Prepared::open(&options, &bars)?;
     drop(bars);

@@ -37,6 +37,7 @@ fn factors_are_read_and_emission_includes_its_strength() {
         file_index: Some(0),
         base_color_factor: [0.1, 0.2, 0.3, 0.4],
         ignores_alpha: true,
+        is_double_sided: false,
         metallic_factor: 0.5,
         roughness_factor: 0.6,
         emission_factor: [4.0, 2.0, 0.0],

@@ -121,6 +121,7 @@ impl Pictures<'_> {
             file_index: Some(index),
             base_color_factor,
             ignores_alpha: matches!(material.alpha_mode, Checked::Valid(json::material::AlphaMode::Opaque)),
+            is_double_sided: material.double_sided,
             metallic_factor,
             roughness_factor,
             emission_factor,

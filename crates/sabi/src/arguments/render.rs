@@ -1,0 +1,204 @@
+//! `sabi render`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use sabi_engine::view::{Background, Light, LightPlace, Lines, ViewTransform, Viewpoint};
+
+use super::WorkpieceArguments;
+
+/// What `render` takes.
+#[derive(Debug, Args)]
+#[command(
+    allow_negative_numbers = true,
+    before_help = "\
+Examples:
+  sabi render graph.sabi --mesh model.glb -o picture.png
+  sabi render graph.sabi --mesh model.glb -o picture.png --size 1920x1080 --environment low_sun --rotate 90
+  sabi render graph.sabi --mesh model.glb -o edges.png --view node:edges --camera 60,15
+  sabi render graph.sabi --mesh model.glb -o turn.png --turntable 48 --transparent"
+)]
+pub(crate) struct RenderArguments {
+    #[command(flatten)]
+    pub(crate) workpiece: WorkpieceArguments,
+    /// Picture to write, a .png; frames of a turntable are numbered after it
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Size of the picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = picture_size, help_heading = "Picture")]
+    pub(crate) size: [u32; 2],
+    /// Texels along a side of the maps, 16 to 8192
+    #[arg(long, value_name = "N", default_value_t = 1024,
+          value_parser = clap::value_parser!(u32).range(16..=8192), help_heading = "Picture")]
+    pub(crate) texels: u32,
+    /// Light from all around: studio, overcast, low_sun, or an .hdr or .exr file
+    #[arg(long, value_name = "NAME|FILE", default_value = "studio", help_heading = "Light")]
+    pub(crate) environment: String,
+    /// Turn the environment, degrees
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
+    pub(crate) rotate: f32,
+    /// A far light besides it: where it stands in degrees, and how strong; up to four
+    #[arg(long, value_name = "YAW,PITCH[,STRENGTH]", value_parser = light, help_heading = "Light")]
+    pub(crate) light: Vec<Light>,
+    /// Stops by which all light is made stronger
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
+    pub(crate) exposure: f32,
+    /// From light to what a display shows
+    #[arg(long, value_enum, default_value_t = Transform::Agx, help_heading = "Light")]
+    pub(crate) transform: Transform,
+    /// Where the eye is: front, three-quarter, left, right, back, top, bottom, or degrees and a multiple of the distance
+    #[arg(
+        long,
+        value_name = "NAME|YAW,PITCH[,DISTANCE]",
+        default_value = "three-quarter",
+        help_heading = "Picture"
+    )]
+    pub(crate) camera: Viewpoint,
+    /// Draw without perspective
+    #[arg(long, help_heading = "Picture")]
+    pub(crate) orthographic: bool,
+    /// What is shown: material, a channel such as roughness, checker, density, facing, clay, or a node's result
+    #[arg(
+        long,
+        value_name = "VIEW|node:ID[.PORT]",
+        default_value = "material",
+        help_heading = "Picture"
+    )]
+    pub(crate) view: String,
+    /// Follow heights, so that they hide one another and throw shadows
+    #[arg(long, help_heading = "Picture")]
+    pub(crate) relief: bool,
+    /// Lines over the model; may be repeated
+    #[arg(long, value_enum, help_heading = "Picture")]
+    pub(crate) lines: Vec<LinesOver>,
+    /// What is behind the model
+    #[arg(long, value_enum, default_value_t = Behind::Blurred, help_heading = "Picture")]
+    pub(crate) background: Behind,
+    /// Leave the background clear
+    #[arg(long, help_heading = "Picture")]
+    pub(crate) transparent: bool,
+    /// Samples a pixel: more make edges cleaner
+    #[arg(long, value_name = "N", default_value_t = 16,
+          value_parser = clap::value_parser!(u32).range(1..=4096), help_heading = "Picture")]
+    pub(crate) samples: u32,
+    /// Write so many frames from all around
+    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(1..=9999), help_heading = "Picture")]
+    pub(crate) turntable: Option<u32>,
+}
+
+impl RenderArguments {
+    /// What is behind the model, for the engine.
+    pub(crate) fn background(&self) -> Background {
+        match self.background {
+            _ if self.transparent => Background::Clear,
+            Behind::Environment => Background::Environment,
+            Behind::Blurred => Background::Blurred,
+            // A neutral gray.
+            Behind::Plain => Background::Plain([0.05; 3]),
+        }
+    }
+}
+
+/// From light to what a display shows.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Transform {
+    Agx,
+    Aces,
+    Standard,
+}
+
+impl From<Transform> for ViewTransform {
+    fn from(transform: Transform) -> ViewTransform {
+        match transform {
+            Transform::Agx => ViewTransform::AgX,
+            Transform::Aces => ViewTransform::Aces,
+            Transform::Standard => ViewTransform::Standard,
+        }
+    }
+}
+
+/// What is behind the model.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Behind {
+    Environment,
+    Blurred,
+    Plain,
+}
+
+/// Lines over the model.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum LinesOver {
+    Wires,
+    Seams,
+}
+
+impl From<LinesOver> for Lines {
+    fn from(lines: LinesOver) -> Lines {
+        match lines {
+            LinesOver::Wires => Lines::Wires,
+            LinesOver::Seams => Lines::Seams,
+        }
+    }
+}
+
+fn picture_size(text: &str) -> Result<[u32; 2], String> {
+    let sides: Option<Vec<u32>> = text.split('x').map(|side| side.parse().ok()).collect();
+    match sides.as_deref() {
+        Some(&[width, height]) if (1..=8192).contains(&width) && (1..=8192).contains(&height) => Ok([width, height]),
+        _ => Err("it takes two sides of 1 to 8192 pixels, as in 1280x720".to_owned()),
+    }
+}
+
+fn finite(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err("it takes a number".to_owned()),
+    }
+}
+
+fn light(text: &str) -> Result<Light, String> {
+    let numbers: Result<Vec<f32>, String> = text.split(',').map(finite).collect();
+    let numbers = numbers.unwrap_or_default();
+    let (yaw, pitch, strength) = match numbers[..] {
+        [yaw, pitch] => (yaw, pitch, 2.0),
+        [yaw, pitch, strength] if strength >= 0.0 => (yaw, pitch, strength),
+        _ => return Err("it takes two angles in degrees and a strength from 0, as in 40,30,2.5".to_owned()),
+    };
+    let ([sin_yaw, cos_yaw], [sin_pitch, cos_pitch]) = (sin_cos(yaw), sin_cos(pitch));
+    Ok(Light {
+        place: LightPlace::Far([sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch]),
+        color: [strength; 3],
+        has_shadow: true,
+    })
+}
+
+fn sin_cos(degrees: f32) -> [f32; 2] {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    [sin, cos]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_has_two_sides() {
+        assert_eq!(picture_size("640x480"), Ok([640, 480]));
+        for wrong in ["640", "640x", "0x480", "640x480x3", "9000x10", "-1x5", "axb"] {
+            assert!(picture_size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_light_stands_where_its_angles_say() {
+        let place = |text: &str| match light(text).unwrap().place {
+            LightPlace::Far(towards) | LightPlace::Near(towards) => towards.map(|part| (part * 1e4).round() / 1e4),
+        };
+        assert_eq!(place("0,0"), [0.0, 0.0, 1.0]);
+        assert_eq!(place("90,0"), [1.0, 0.0, 0.0]);
+        assert_eq!(place("12,90,3"), [0.0, 1.0, 0.0]);
+        for wrong in ["", "1", "1,2,-3", "1,2,3,4", "a,b", "nan,0"] {
+            assert!(light(wrong).is_err(), "{wrong}");
+        }
+    }
+}

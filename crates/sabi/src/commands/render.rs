@@ -1,0 +1,47 @@
+//! `sabi render`: a lit picture of the model.
+
+use sabi_engine::{RenderRequest, render};
+
+use crate::arguments::RenderArguments;
+use crate::exit::{Exit, Failure};
+use crate::progress::Bars;
+use crate::terminal::Terminal;
+
+pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    if arguments.light.len() > 4 {
+        let why = format!(
+            "--light stands {} times; a scene has four lights",
+            arguments.light.len()
+        );
+        return Err(Failure::new(Exit::Usage, why));
+    }
+    let request = RenderRequest {
+        graph: arguments.workpiece.graph.clone(),
+        workpiece: arguments.workpiece.options(arguments.texels)?,
+        output: arguments.output.clone(),
+        size: arguments.size,
+        environment: arguments.environment.clone(),
+        rotate: arguments.rotate,
+        camera: arguments.camera,
+        is_orthographic: arguments.orthographic,
+        view: arguments.view.clone(),
+        background: arguments.background(),
+        transform: arguments.transform.into(),
+        exposure: arguments.exposure,
+        lights: arguments.light.clone(),
+        lines: arguments.lines.iter().map(|lines| (*lines).into()).collect(),
+        has_relief: arguments.relief,
+        samples: arguments.samples,
+        turntable: arguments.turntable,
+    };
+    let bars = Bars::new(terminal);
+    let rendered = render(&request, &bars)?;
+    drop(bars);
+    for warning in &rendered.warnings {
+        terminal.warning(warning);
+    }
+    for file in &rendered.files {
+        terminal.data(&format!("{}\n", file.display()))?;
+    }
+    Ok(Exit::Done)
+}

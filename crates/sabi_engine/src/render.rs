@@ -1,0 +1,231 @@
+//! A lit picture of a model with what a graph makes of it, or several from all around.
+
+use std::path::PathBuf;
+
+use glam::UVec2;
+use sabi_image::{PngData, PngOptions, encode_png};
+use sabi_view::{
+    Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
+    ViewModel, ViewTransform, Viewpoint, aspect_of,
+};
+
+use crate::document::OpenGraph;
+use crate::environment::{LoadedEnvironment, load_environment};
+use crate::error::{EngineError, ErrorKind};
+use crate::kinds::Kinds;
+use crate::looks::{Shown, show};
+use crate::modelless::{refuse_faults, targets};
+use crate::picture_file::write_pictures;
+use crate::seen_node::graph_and_target;
+use crate::stages::{Progress, Stage};
+use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
+
+/// Most frames of a turntable.
+const MOST_FRAMES: u32 = 9999;
+
+/// What to draw.
+pub struct RenderRequest {
+    /// The graph file.
+    pub graph: PathBuf,
+    /// Model, overrides, fit, adapter.
+    pub workpiece: WorkpieceOptions,
+    /// `.png`; of a turntable, what its frames are named after.
+    pub output: PathBuf,
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// A built-in environment's name, or a file.
+    pub environment: String,
+    /// How far the environment is turned about +Y, degrees.
+    pub rotate: f32,
+    /// Where the eye is.
+    pub camera: Viewpoint,
+    /// Whether lines of sight are parallel.
+    pub is_orthographic: bool,
+    /// What is shown: a view's name, or `node:ID`.
+    pub view: String,
+    /// What is behind the model.
+    pub background: Background,
+    /// From light to what a display shows.
+    pub transform: ViewTransform,
+    /// Stops by which all light is made stronger.
+    pub exposure: f32,
+    /// Lights besides the environment.
+    pub lights: Vec<Light>,
+    /// Lines over the model.
+    pub lines: Vec<Lines>,
+    /// Whether heights are followed, so that they hide one another and throw shadows.
+    pub has_relief: bool,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// So many frames from all around instead of one.
+    pub turntable: Option<u32>,
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rendered {
+    /// The pictures.
+    pub files: Vec<PathBuf>,
+    /// What the artist should know.
+    pub warnings: Vec<String>,
+}
+
+/// Draws; nothing is replaced before every picture is complete.
+pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Rendered, EngineError> {
+    let files = file_names(request)?;
+    let (mode, node) = view_of(&request.view)?;
+    let open = OpenGraph::open(&request.graph)?;
+    let kinds = Kinds::beside(Some(&request.graph));
+    let (graph, seen) = match node {
+        Some(node) => {
+            let (graph, target) = graph_and_target(&open, &kinds, &request.workpiece, node)?;
+            (graph, Some(target))
+        }
+        None => (Workpiece::flat_graph(&open, &kinds, &request.workpiece)?, None),
+    };
+    let faulty = match &seen {
+        Some(target) => vec![target.clone()],
+        None => targets(crate::outputs::outputs(&graph).into_iter()),
+    };
+    refuse_faults(&open, &graph, &kinds, &faulty)?;
+    let environment = load_environment(&request.environment)?;
+    let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
+    workpiece.warn(environment.warnings.iter().cloned());
+    let shown = show(&mut workpiece, seen.as_ref(), progress)?;
+    let mode = if shown.is_lit { mode } else { Mode::Node };
+    let pictures = draw(request, &workpiece, &environment, &shown, mode, progress)?;
+    stop_if_canceled(progress)?;
+    let mut inputs = workpiece.read_files(&open);
+    inputs.extend(environment.file.clone());
+    write_pictures(&files, &pictures, inputs)?;
+    Ok(Rendered {
+        files,
+        warnings: workpiece.warnings,
+    })
+}
+
+/// The files to be written: one, or one for each frame.
+fn file_names(request: &RenderRequest) -> Result<Vec<PathBuf>, EngineError> {
+    let refused = |why: String| EngineError::new(ErrorKind::Usage, why);
+    let output = &request.output;
+    if output.extension().and_then(|ending| ending.to_str()) != Some("png") {
+        return Err(refused(format!("{}: a picture is a .png", output.display())));
+    }
+    let Some(frames) = request.turntable else {
+        return Ok(vec![output.clone()]);
+    };
+    if !(1..=MOST_FRAMES).contains(&frames) {
+        return Err(refused(format!(
+            "--turntable takes 1 to {MOST_FRAMES} frames, not {frames}"
+        )));
+    }
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    let frame = |number: u32| output.with_file_name(format!("{stem}_{number:04}.png"));
+    Ok((0..frames).map(frame).collect())
+}
+
+/// What a view's name says: how the model is shown, and the node that is looked at.
+fn view_of(view: &str) -> Result<(Mode, Option<&str>), EngineError> {
+    if let Some(node) = view.strip_prefix("node:") {
+        return Ok((Mode::Material, Some(node)));
+    }
+    let mode = view.parse().map_err(|why| EngineError::new(ErrorKind::Usage, why))?;
+    Ok((mode, None))
+}
+
+fn draw(
+    request: &RenderRequest,
+    workpiece: &Workpiece,
+    environment: &LoadedEnvironment,
+    shown: &Shown,
+    mode: Mode,
+    progress: &dyn Progress,
+) -> Result<Vec<Vec<u8>>, EngineError> {
+    let gpu = &workpiece.gpu;
+    let prepared = &workpiece.prepared;
+    let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
+    let model = ViewModel::new(
+        gpu,
+        &prepared.model,
+        &prepared.atlas,
+        &workpiece.surface,
+        model_from_working,
+    )?;
+    let environment = environment.on(gpu, request.workpiece.model.cache_dir.as_deref())?;
+    let scene = Scene {
+        model: &model,
+        looks: &shown.looks,
+        look_of_material: &shown.look_of_material,
+        environment: &environment,
+        lights: &request.lights,
+    };
+    let renderer = Renderer::new(gpu)?;
+    let mut canvas = Canvas::new(gpu, request.size)?;
+    let frames = request.turntable.unwrap_or(1);
+    let mut pictures = Vec::new();
+    for frame in 0..frames {
+        stop_if_canceled(progress)?;
+        let mut camera = camera_of(request, workpiece);
+        camera.turn(360.0 * frame as f32 / frames as f32);
+        let shot = Shot {
+            environment_turn_degrees: request.rotate,
+            exposure_stops: request.exposure,
+            transform: request.transform,
+            background: request.background,
+            mode,
+            has_relief: request.has_relief,
+            height_range: shown.height_range,
+            lines: request.lines.clone(),
+            samples: request.samples,
+            ..Shot::new(camera)
+        };
+        renderer.draw(gpu, &mut canvas, &scene, &shot)?;
+        let is_clear = request.background == Background::Clear;
+        pictures.push(encode(&canvas.read(gpu)?, is_clear)?);
+        progress.advance(Stage::Draw, frame as usize + 1, frames as usize);
+    }
+    Ok(pictures)
+}
+
+fn camera_of(request: &RenderRequest, workpiece: &Workpiece) -> Camera {
+    let mesh = &workpiece.prepared.model.mesh;
+    let bounds = Placement::of(mesh).box_in_view(mesh);
+    let aspect = aspect_of(UVec2::from(request.size).as_vec2());
+    let mut camera = Camera::seen_from(request.camera, bounds, aspect);
+    if request.is_orthographic {
+        camera.lens = Lens::Orthographic;
+    }
+    camera
+}
+
+/// A PNG of a picture, with alpha where it is asked for.
+fn encode(picture: &Pixels, with_alpha: bool) -> Result<Vec<u8>, EngineError> {
+    let [width, height] = picture.size;
+    let options = PngOptions {
+        channels: if with_alpha { 4 } else { 3 },
+        bits: 8,
+        srgb_chunk: true,
+    };
+    let rgb: Vec<u8>;
+    let codes = if with_alpha {
+        &picture.rgba
+    } else {
+        let (pixels, _) = picture.rgba.as_chunks::<4>();
+        rgb = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+        &rgb
+    };
+    encode_png(width, height, PngData::U8(codes), options)
+        .map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_view_is_a_mode_or_a_node() {
+        assert_eq!(view_of("roughness").unwrap(), (Mode::Roughness, None));
+        assert_eq!(view_of("node:rust.mask").unwrap(), (Mode::Material, Some("rust.mask")));
+        assert!(view_of("rust").is_err());
+    }
+}

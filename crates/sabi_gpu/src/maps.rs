@@ -1,0 +1,74 @@
+//! What a result looks like, still on the device, for those that draw it.
+
+use sabi_plan::SlotRef;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::run::{Run, RunOptions};
+use crate::surface::GpuSurface;
+
+/// Where a run has the planes of a material.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MaterialSlots {
+    /// Linear base color and alpha.
+    pub color: Option<SlotRef>,
+    /// Roughness, metallic, occlusion.
+    pub surface: Option<SlotRef>,
+    /// Height, working units.
+    pub height: Option<SlotRef>,
+    /// Slope of the model's own normal map.
+    pub slope: Option<SlotRef>,
+    /// Linear emission.
+    pub emission: Option<SlotRef>,
+}
+
+/// The maps of a material on the linked atlas, as arrays of pages; none where a channel is what it is without being set.
+#[derive(Clone, Debug, Default)]
+pub struct DeviceMaps {
+    /// Linear base color and alpha.
+    pub color: Option<wgpu::Texture>,
+    /// Roughness, metallic, occlusion.
+    pub surface: Option<wgpu::Texture>,
+    /// Linear emission.
+    pub emission: Option<wgpu::Texture>,
+    /// Height, working units.
+    pub height: Option<wgpu::Texture>,
+    /// Tangent-space normal, Y up, in the model's MikkTSpace frame: what the exported map is made of.
+    pub normal: Option<wgpu::Texture>,
+}
+
+impl Gpu {
+    /// The maps of a material that a run has made. They stay what they are when the run is dropped.
+    pub fn device_maps(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        slots: MaterialSlots,
+        options: &RunOptions<'_>,
+    ) -> Result<DeviceMaps, GpuError> {
+        let MaterialSlots { height, slope, .. } = slots;
+        let is_flat = height.is_none() && slope.is_none();
+        let normal = match is_flat {
+            true => None,
+            false => Some(self.normal_texture(surface, run, height, slope, options)?),
+        };
+        let of = |slot: Option<SlotRef>| slot.map(|slot| run.texture(slot)).transpose();
+        Ok(DeviceMaps {
+            color: of(slots.color)?,
+            surface: of(slots.surface)?,
+            emission: of(slots.emission)?,
+            height: of(height)?,
+            normal,
+        })
+    }
+}
+
+impl Run {
+    /// The texture of a result that the plan kept, as an array of pages.
+    pub fn texture(&self, slot: SlotRef) -> Result<wgpu::Texture, GpuError> {
+        let found = self.textures.get(slot).and_then(Option::as_ref);
+        let missing =
+            || GpuError::Source("a result was asked for that the plan did not keep; this is a mistake in Sabi".into());
+        found.cloned().ok_or_else(missing)
+    }
+}

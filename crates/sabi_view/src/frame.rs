@@ -1,0 +1,152 @@
+//! The numbers that every shader of a picture knows; see `frame.wgsl`.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec3};
+
+use crate::camera::Lens;
+use crate::scene::{Background, Light, LightPlace, MOST_LIGHTS, Scene, Shot};
+use crate::shadows::{LAYERS, layers_of, shadow_matrices};
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct LightRow {
+    place: [f32; 4],
+    color: [f32; 4],
+}
+
+/// As `Frame` in `frame.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Frame {
+    clip_from_view: [[f32; 4]; 4],
+    view_from_clip: [[f32; 4]; 4],
+    eye: [f32; 4],
+    irradiance: [[f32; 4]; 9],
+    lights: [LightRow; MOST_LIGHTS],
+    shadow_from_view: [[[f32; 4]; 4]; LAYERS],
+    environment: [f32; 4],
+    backdrop: [f32; 4],
+    light_count: u32,
+    mode: u32,
+    sample: u32,
+    pixel: f32,
+    texels_of_uv: f32,
+    even_density: f32,
+    heights: [f32; 2],
+    view_from_working: f32,
+    pad: [f32; 3],
+}
+
+/// Level of the reflections that a blurred background is read at, as a share of all.
+const BLUR: f32 = 0.42;
+
+impl Frame {
+    /// The numbers of one sample of a picture.
+    pub(crate) fn new(scene: &Scene<'_>, shot: &Shot, [width, height]: [u32; 2], sample: u32) -> Frame {
+        let aspect = width as f32 / height as f32;
+        let [jitter_x, jitter_y] = jitter(sample, shot.samples);
+        let shift = Vec3::new(2.0 * jitter_x / width as f32, 2.0 * jitter_y / height as f32, 0.0);
+        let clip_from_view = Mat4::from_translation(shift) * shot.camera.clip_from_view(aspect);
+        let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
+        let mut rows = [LightRow::zeroed(); MOST_LIGHTS];
+        let mut first_layer = 0;
+        for (row, light) in rows.iter_mut().zip(lights) {
+            *row = light_row(light, first_layer);
+            first_layer += layers_of(light);
+        }
+        let mut shadow_from_view = [Mat4::IDENTITY.to_cols_array_2d(); LAYERS];
+        for (slot, matrix) in shadow_from_view.iter_mut().zip(shadow_matrices(lights)) {
+            *slot = matrix.to_cols_array_2d();
+        }
+        let (sin, cos) = shot.environment_turn_degrees.to_radians().sin_cos();
+        let last_level = scene.environment.specular_levels().saturating_sub(1) as f32;
+        let level = match shot.background {
+            Background::Blurred => BLUR * last_level,
+            Background::Environment | Background::Plain(_) | Background::Clear => -1.0,
+        };
+        Frame {
+            clip_from_view: clip_from_view.to_cols_array_2d(),
+            view_from_clip: clip_from_view.inverse().to_cols_array_2d(),
+            eye: eye_row(shot),
+            irradiance: scene.environment.irradiance(),
+            lights: rows,
+            shadow_from_view,
+            environment: [cos, sin, shot.environment_strength, last_level],
+            backdrop: [0.0, 0.0, 0.0, level],
+            light_count: lights.len() as u32,
+            mode: shot.mode.number(),
+            sample,
+            pixel: 1.0 / height as f32,
+            texels_of_uv: scene.model.texels_of_uv,
+            even_density: scene.model.even_density,
+            heights: shot.height_range,
+            view_from_working: scene.model.view_from_working,
+            pad: [0.0; 3],
+        }
+    }
+}
+
+fn eye_row(shot: &Shot) -> [f32; 4] {
+    match shot.camera.lens {
+        Lens::Perspective { .. } => shot.camera.eye().extend(1.0),
+        Lens::Orthographic => (-shot.camera.forward()).extend(0.0),
+    }
+    .to_array()
+}
+
+fn light_row(light: &Light, first_layer: usize) -> LightRow {
+    let [r, g, b] = light.color;
+    let place = match light.place {
+        LightPlace::Far(towards) => Vec3::from(towards).normalize_or(Vec3::Y).extend(0.0),
+        LightPlace::Near(place) => Vec3::from(place).extend(1.0),
+    };
+    LightRow {
+        place: place.to_array(),
+        color: [r, g, b, if light.has_shadow { first_layer as f32 } else { -1.0 }],
+    }
+}
+
+/// How far from a pixel's middle a sample is taken, pixels: Halton's points, spread as a tent of two pixels' width.
+fn jitter(sample: u32, samples: u32) -> [f32; 2] {
+    if samples <= 1 {
+        return [0.0; 2];
+    }
+    [halton(sample + 1, 2), halton(sample + 1, 3)].map(tent)
+}
+
+/// Spreads even numbers of 0..1 over −1..1, densest at 0.
+fn tent(even: f32) -> f32 {
+    if even < 0.5 {
+        (2.0 * even).sqrt() - 1.0
+    } else {
+        1.0 - (2.0 - 2.0 * even).sqrt()
+    }
+}
+
+fn halton(mut index: u32, base: u32) -> f32 {
+    let (mut share, mut sum) = (1.0, 0.0);
+    while index > 0 {
+        share /= base as f32;
+        sum += share * (index % base) as f32;
+        index /= base;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_lie_around_the_middle_of_their_pixel() {
+        assert_eq!(jitter(0, 1), [0.0; 2]);
+        for samples in [16_u32, 64] {
+            let all: Vec<[f32; 2]> = (0..samples).map(|sample| jitter(sample, samples)).collect();
+            for axis in 0..2 {
+                let mean = all.iter().map(|place| place[axis]).sum::<f32>() / samples as f32;
+                assert!(mean.abs() < 0.1, "{samples} samples, axis {axis}: {mean}");
+                assert!(all.iter().all(|place| place[axis].abs() <= 1.0));
+            }
+        }
+    }
+}

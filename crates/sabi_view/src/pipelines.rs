@@ -1,0 +1,259 @@
+//! The pipelines that draw a picture, and what they bind.
+
+mod layouts;
+mod recipe;
+
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+use sabi_gpu::{Gpu, GpuError};
+
+use crate::edges::Line;
+use crate::model::Corner;
+use crate::shadows::SHADOW;
+use crate::target::{LIGHT, SEEN, SHOWN, SUM};
+pub(crate) use layouts::Layouts;
+use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, pipeline, rows_of, text_of};
+
+/// A pipeline by what it does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Draws {
+    /// Which place of the model each pixel sees.
+    Raster {
+        is_double_sided: bool,
+        ground: Ground,
+    },
+    /// Light, for each pixel that sees the model.
+    Paint(Paint),
+    /// What is behind the model.
+    Background,
+    Lines,
+    /// The model as a light sees it.
+    Shadow,
+    /// Adds a sample to the sum of those before.
+    Gather,
+    /// Adds the last sample and encodes the mean.
+    Encode,
+}
+
+/// What a raster has to look at to know what a pixel sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Ground {
+    /// Only triangles.
+    Plain,
+    /// Where they are clear.
+    Veiled,
+    /// The heights on them, too.
+    Relief,
+}
+
+/// How the model is painted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Paint {
+    Lit,
+    /// Lit, with shadows of the heights.
+    LitRelief,
+    /// Something else than the lit material.
+    Shown,
+}
+
+/// All pipelines of a renderer, each made when it is first used.
+pub(crate) struct Pipelines {
+    pub(crate) layouts: Layouts,
+    /// What is bound of a surface.
+    surface: wgpu::BindGroupLayout,
+    made: Mutex<BTreeMap<Draws, wgpu::RenderPipeline>>,
+}
+
+impl Pipelines {
+    /// No pipeline yet, but all layouts.
+    pub(crate) fn new(gpu: &Gpu) -> Result<Pipelines, GpuError> {
+        Ok(Pipelines {
+            layouts: gpu.guarded("the viewport's layouts", Layouts::new)?,
+            surface: gpu.surface_layout().clone(),
+            made: Mutex::default(),
+        })
+    }
+
+    /// The pipeline that draws something.
+    pub(crate) fn get(&self, gpu: &Gpu, draws: Draws) -> Result<wgpu::RenderPipeline, GpuError> {
+        if let Ok(made) = self.made.lock()
+            && let Some(known) = made.get(&draws)
+        {
+            return Ok(known.clone());
+        }
+        let made = gpu.guarded("the viewport's pipelines", |device| self.make(device, draws))?;
+        if let Ok(mut known) = self.made.lock() {
+            known.insert(draws, made.clone());
+        }
+        Ok(made)
+    }
+
+    fn make(&self, device: &wgpu::Device, draws: Draws) -> wgpu::RenderPipeline {
+        match draws {
+            Draws::Raster {
+                is_double_sided,
+                ground,
+            } => self.raster(device, is_double_sided, ground),
+            Draws::Paint(paint) => self.paint(device, paint),
+            Draws::Background => self.background(device),
+            Draws::Lines => self.lines(device),
+            Draws::Shadow => self.shadow(device),
+            Draws::Gather => self.display(device, "gather", SUM),
+            Draws::Encode => self.display(device, "encode", SHOWN),
+        }
+    }
+
+    fn raster(&self, device: &wgpu::Device, is_double_sided: bool, ground: Ground) -> wgpu::RenderPipeline {
+        let parts = ["raster", "sight", "relief", "modes", "maps", "frame", "atlas"];
+        let Layouts {
+            frame,
+            material,
+            charts,
+            ..
+        } = &self.layouts;
+        let groups = [frame, material, charts, &self.surface];
+        let (entry, groups) = match ground {
+            Ground::Plain => ("lay", &groups[..3]),
+            Ground::Veiled => ("lay_veiled", &groups[..3]),
+            Ground::Relief => ("lay_relief", &groups[..]),
+        };
+        pipeline(
+            device,
+            &Recipe {
+                label: "raster",
+                text: &text_of(&parts),
+                entries: ("place_corner", Some(entry)),
+                groups,
+                corners: &[rows_of::<Corner>(&CORNER, wgpu::VertexStepMode::Vertex)],
+                targets: &[SEEN; 2],
+                cull: (!is_double_sided).then_some(wgpu::Face::Back),
+                depth: Some(depth(
+                    wgpu::CompareFunction::Greater,
+                    wgpu::CompareFunction::Always,
+                    true,
+                )),
+            },
+        )
+    }
+
+    fn paint(&self, device: &wgpu::Device, paint: Paint) -> wgpu::RenderPipeline {
+        let parts = [
+            "seen",
+            "lighting",
+            "shadow",
+            "relief",
+            "brdf",
+            "irradiance",
+            "show",
+            "modes",
+            "maps",
+            "frame",
+            "atlas",
+        ];
+        let Layouts {
+            frame, material, seen, ..
+        } = &self.layouts;
+        let groups = [frame, material, seen, &self.surface];
+        let entry = match paint {
+            Paint::Lit => "paint",
+            Paint::LitRelief => "paint_relief",
+            Paint::Shown => "paint_shown",
+        };
+        pipeline(
+            device,
+            &Recipe {
+                label: "paint",
+                text: &text_of(&parts),
+                entries: ("cover", Some(entry)),
+                groups: &groups,
+                corners: &[],
+                targets: &[LIGHT],
+                cull: None,
+                depth: Some(depth(
+                    wgpu::CompareFunction::Always,
+                    wgpu::CompareFunction::Equal,
+                    false,
+                )),
+            },
+        )
+    }
+
+    fn background(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+        pipeline(
+            device,
+            &Recipe {
+                label: "background",
+                text: &text_of(&["background", "panorama", "frame"]),
+                entries: ("cover", Some("paint")),
+                groups: &[&self.layouts.frame, &self.layouts.panorama],
+                corners: &[],
+                targets: &[LIGHT],
+                cull: None,
+                depth: Some(depth(
+                    wgpu::CompareFunction::Always,
+                    wgpu::CompareFunction::Equal,
+                    false,
+                )),
+            },
+        )
+    }
+
+    fn lines(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+        pipeline(
+            device,
+            &Recipe {
+                label: "lines",
+                text: &text_of(&["lines", "frame"]),
+                entries: ("place_end", Some("paint")),
+                groups: &[&self.layouts.frame, &self.layouts.numbers],
+                corners: &[rows_of::<Line>(&ENDS, wgpu::VertexStepMode::Instance)],
+                targets: &[LIGHT],
+                cull: None,
+                depth: Some(depth(
+                    wgpu::CompareFunction::GreaterEqual,
+                    wgpu::CompareFunction::Always,
+                    false,
+                )),
+            },
+        )
+    }
+
+    fn shadow(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+        pipeline(
+            device,
+            &Recipe {
+                label: "shadow",
+                text: &text_of(&["cast_shadow"]),
+                entries: ("place_corner", None),
+                groups: &[&self.layouts.numbers],
+                corners: &[rows_of::<Corner>(&PLACE_ONLY, wgpu::VertexStepMode::Vertex)],
+                targets: &[],
+                cull: None,
+                depth: Some(wgpu::DepthStencilState {
+                    format: SHADOW,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::Less),
+                    stencil: wgpu::StencilState::default(),
+                    bias: wgpu::DepthBiasState::default(),
+                }),
+            },
+        )
+    }
+
+    fn display(&self, device: &wgpu::Device, paint: &str, target: wgpu::TextureFormat) -> wgpu::RenderPipeline {
+        pipeline(
+            device,
+            &Recipe {
+                label: "display",
+                text: &text_of(&["display"]),
+                entries: ("cover", Some(paint)),
+                groups: &[&self.layouts.display],
+                corners: &[],
+                targets: &[target],
+                cull: None,
+                depth: None,
+            },
+        )
+    }
+}

@@ -1,0 +1,98 @@
+//! How what is bound is laid out.
+
+/// Layouts of what is bound.
+pub(crate) struct Layouts {
+    /// What all shaders of a picture know.
+    pub(crate) frame: wgpu::BindGroupLayout,
+    /// A material's maps.
+    pub(crate) material: wgpu::BindGroupLayout,
+    /// Where charts lie.
+    pub(crate) charts: wgpu::BindGroupLayout,
+    /// The same, and what the raster says of each pixel.
+    pub(crate) seen: wgpu::BindGroupLayout,
+    /// The environment as a picture.
+    pub(crate) panorama: wgpu::BindGroupLayout,
+    /// Numbers alone.
+    pub(crate) numbers: wgpu::BindGroupLayout,
+    /// A picture on its way to a display.
+    pub(crate) display: wgpu::BindGroupLayout,
+}
+
+fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty,
+        count: None,
+    }
+}
+
+fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    entry(
+        binding,
+        wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+    )
+}
+
+fn sampled(
+    binding: u32,
+    sample_type: wgpu::TextureSampleType,
+    view_dimension: wgpu::TextureViewDimension,
+) -> wgpu::BindGroupLayoutEntry {
+    entry(
+        binding,
+        wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension,
+            multisampled: false,
+        },
+    )
+}
+
+const SMOOTH: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: true };
+const EXACT: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
+
+impl Layouts {
+    pub(crate) fn new(device: &wgpu::Device) -> Layouts {
+        use wgpu::TextureViewDimension::{Cube, D2, D2Array};
+        let layout = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries,
+            })
+        };
+        let sampler = |binding, kind| entry(binding, wgpu::BindingType::Sampler(kind));
+        let depth = |binding, dimension| sampled(binding, wgpu::TextureSampleType::Depth, dimension);
+        let map = |binding| sampled(binding, EXACT, D2Array);
+        Layouts {
+            frame: layout(
+                "picture",
+                &[
+                    uniform(0),
+                    sampler(1, wgpu::SamplerBindingType::Filtering),
+                    sampled(2, SMOOTH, Cube),
+                    sampled(3, SMOOTH, D2),
+                    depth(4, D2Array),
+                    sampler(5, wgpu::SamplerBindingType::Comparison),
+                ],
+            ),
+            material: layout("material", &[uniform(0), map(1), map(2), map(3), map(4), map(5)]),
+            charts: layout("charts", &[sampled(0, EXACT, D2)]),
+            seen: layout(
+                "what is seen",
+                &[
+                    sampled(0, EXACT, D2),
+                    sampled(1, wgpu::TextureSampleType::Uint, D2Array),
+                    depth(2, D2),
+                ],
+            ),
+            panorama: layout("panorama", &[sampled(0, SMOOTH, D2)]),
+            numbers: layout("numbers", &[uniform(0)]),
+            display: layout("display", &[uniform(0), sampled(1, EXACT, D2), sampled(2, EXACT, D2)]),
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! What the pipelines are made of: texts, corners, depth.
+
+use crate::target::DEPTH;
+
+/// The files of `shaders/view/` that draw.
+const SHADERS: [(&str, &str); 18] = [
+    ("background", include_str!("../../../../shaders/view/background.wgsl")),
+    ("brdf", include_str!("../../../../shaders/view/brdf.wgsl")),
+    ("cast_shadow", include_str!("../../../../shaders/view/cast_shadow.wgsl")),
+    ("display", include_str!("../../../../shaders/view/display.wgsl")),
+    ("frame", include_str!("../../../../shaders/view/frame.wgsl")),
+    ("irradiance", include_str!("../../../../shaders/view/irradiance.wgsl")),
+    ("lighting", include_str!("../../../../shaders/view/lighting.wgsl")),
+    ("lines", include_str!("../../../../shaders/view/lines.wgsl")),
+    ("maps", include_str!("../../../../shaders/view/maps.wgsl")),
+    ("modes", include_str!("../../../../shaders/view/modes.wgsl")),
+    ("panorama", include_str!("../../../../shaders/view/panorama.wgsl")),
+    ("raster", include_str!("../../../../shaders/view/raster.wgsl")),
+    ("relief", include_str!("../../../../shaders/view/relief.wgsl")),
+    ("seen", include_str!("../../../../shaders/view/seen.wgsl")),
+    ("shadow", include_str!("../../../../shaders/view/shadow.wgsl")),
+    ("show", include_str!("../../../../shaders/view/show.wgsl")),
+    ("sight", include_str!("../../../../shaders/view/sight.wgsl")),
+    // The surface as kernels know it, at the last place for what is bound.
+    ("atlas", include_str!("../../../../shaders/lib/atlas.wgsl")),
+];
+
+/// Several files as one.
+pub(super) fn text_of(names: &[&str]) -> String {
+    let text = |name: &&str| {
+        let found = SHADERS.iter().find(|(known, _)| known == name);
+        let text = found.map_or("", |(_, text)| text);
+        if *name == "atlas" {
+            return text.replace("@group(0)", "@group(3)");
+        }
+        text.to_owned()
+    };
+    names.iter().map(text).collect::<Vec<_>>().join("\n")
+}
+
+/// What differs between the pipelines.
+pub(super) struct Recipe<'r> {
+    pub(super) label: &'r str,
+    pub(super) text: &'r str,
+    /// Entry points: of corners, and of pixels where any are written.
+    pub(super) entries: (&'r str, Option<&'r str>),
+    pub(super) groups: &'r [&'r wgpu::BindGroupLayout],
+    pub(super) corners: &'r [wgpu::VertexBufferLayout<'r>],
+    pub(super) targets: &'r [wgpu::TextureFormat],
+    pub(super) cull: Option<wgpu::Face>,
+    pub(super) depth: Option<wgpu::DepthStencilState>,
+}
+
+pub(super) fn depth(
+    compare: wgpu::CompareFunction,
+    stencil: wgpu::CompareFunction,
+    is_written: bool,
+) -> wgpu::DepthStencilState {
+    let face = wgpu::StencilFaceState {
+        compare: stencil,
+        pass_op: match is_written {
+            true => wgpu::StencilOperation::Replace,
+            false => wgpu::StencilOperation::Keep,
+        },
+        ..wgpu::StencilFaceState::IGNORE
+    };
+    wgpu::DepthStencilState {
+        format: DEPTH,
+        depth_write_enabled: Some(is_written),
+        depth_compare: Some(compare),
+        stencil: wgpu::StencilState {
+            front: face,
+            back: face,
+            read_mask: 0xff,
+            write_mask: if is_written { 0xff } else { 0 },
+        },
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+pub(super) fn pipeline(device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(recipe.label),
+        source: wgpu::ShaderSource::Wgsl(recipe.text.into()),
+    });
+    let groups: Vec<Option<&wgpu::BindGroupLayout>> = recipe.groups.iter().copied().map(Some).collect();
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(recipe.label),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    });
+    let target = |format: &wgpu::TextureFormat| Some(wgpu::ColorTargetState::from(*format));
+    let targets: Vec<_> = recipe.targets.iter().map(target).collect();
+    let (place, paint) = recipe.entries;
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(recipe.label),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some(place),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: recipe.corners,
+        },
+        primitive: wgpu::PrimitiveState {
+            cull_mode: recipe.cull,
+            ..Default::default()
+        },
+        depth_stencil: recipe.depth.clone(),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: paint.map(|paint| wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(paint),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+pub(super) const CORNER: [wgpu::VertexAttribute; 5] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2, 4 => Uint32];
+pub(super) const PLACE_ONLY: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
+pub(super) const ENDS: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
+
+pub(super) fn rows_of<T>(
+    attributes: &[wgpu::VertexAttribute],
+    step_mode: wgpu::VertexStepMode,
+) -> wgpu::VertexBufferLayout<'_> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<T>() as u64,
+        step_mode,
+        attributes,
+    }
+}

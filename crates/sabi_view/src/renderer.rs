@@ -1,0 +1,187 @@
+//! Draws scenes.
+
+mod bound;
+mod passes;
+
+use bytemuck::{Pod, Zeroable};
+use passes::{color_attachment, draw_light, draw_raster};
+use sabi_gpu::Gpu;
+
+use crate::dfg::dfg_texture;
+use crate::error::ViewError;
+use crate::frame::Frame;
+use crate::pipelines::{Draws, Layouts, Pipelines};
+use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
+use crate::target::{SUM, Target};
+use crate::upload::{buffer_of, texture};
+
+/// Draws scenes on one device.
+pub struct Renderer {
+    pipelines: Pipelines,
+    smooth: wgpu::Sampler,
+    compare: wgpu::Sampler,
+    directional_albedo: wgpu::TextureView,
+    /// Stands where there is no map.
+    no_map: wgpu::TextureView,
+    /// Stands where there are no earlier samples.
+    no_sum: wgpu::TextureView,
+}
+
+/// As `Display` in `display.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Display {
+    backdrop: [f32; 4],
+    exposure: f32,
+    transform: u32,
+    samples: f32,
+    pad: f32,
+}
+
+impl Renderer {
+    /// A renderer; its pipelines are made when they are first used.
+    pub fn new(gpu: &Gpu) -> Result<Renderer, ViewError> {
+        let device = gpu.device();
+        let smooth = device.create_sampler(&wgpu::SamplerDescriptor {
+            address_mode_u: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        let compare = device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(wgpu::CompareFunction::LessEqual),
+            ..Default::default()
+        });
+        let one = |format| texture(gpu, "nothing", [1, 1], format);
+        let no_map = one(SUM)?.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        let table = dfg_texture(gpu)?;
+        Ok(Renderer {
+            pipelines: Pipelines::new(gpu)?,
+            smooth,
+            compare,
+            directional_albedo: table.create_view(&wgpu::TextureViewDescriptor::default()),
+            no_map,
+            no_sum: one(SUM)?.create_view(&wgpu::TextureViewDescriptor::default()),
+        })
+    }
+
+    /// Draws a scene as a shot shows it.
+    pub fn draw(&self, gpu: &Gpu, target: &mut Target, scene: &Scene<'_>, shot: &Shot) -> Result<(), ViewError> {
+        let shadows = self.cast_shadows(gpu, scene)?;
+        let bound = self.bound(gpu, target, scene, shot)?;
+        let samples = shot.samples.max(1);
+        for sample in 0..samples {
+            let frame = self.frame_group(gpu, &shadows, scene, &Frame::new(scene, shot, target.size, sample))?;
+            let mut encoder = gpu
+                .device()
+                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            draw_raster(&mut encoder, target, scene, &frame, &bound);
+            draw_light(&mut encoder, target, scene, &frame, &bound);
+            self.show(gpu, &mut encoder, target, shot, [sample, samples])?;
+            gpu.queue().submit([encoder.finish()]);
+            if sample % 4 == 3 {
+                // Not more in the queue than a driver is glad to take.
+                gpu.wait()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn bind<'r>(
+        &self,
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        resources: impl IntoIterator<Item = wgpu::BindingResource<'r>>,
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = resources
+            .into_iter()
+            .zip(0..)
+            .map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
+    }
+
+    fn numbers(&self, gpu: &Gpu, numbers: &impl Pod) -> Result<wgpu::Buffer, ViewError> {
+        let bytes = bytemuck::bytes_of(numbers);
+        Ok(buffer_of(
+            gpu,
+            "the numbers of a picture",
+            wgpu::BufferUsages::UNIFORM,
+            bytes,
+        )?)
+    }
+
+    fn layouts(&self) -> &Layouts {
+        &self.pipelines.layouts
+    }
+
+    /// Adds a sample, and after the last one shows the mean of all.
+    fn show(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &mut Target,
+        shot: &Shot,
+        [sample, samples]: [u32; 2],
+    ) -> Result<(), ViewError> {
+        let numbers = self.numbers(gpu, &display(shot, sample + 1))?;
+        let sums = if samples > 1 { Some(target.sums(gpu)?) } else { None };
+        let is_last = sample + 1 == samples;
+        let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
+        let earlier = sums
+            .as_ref()
+            .filter(|_| sample > 0)
+            .map_or(&self.no_sum, |sums| &sums[before]);
+        let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
+        let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
+        let (draws, goal) = match &sums {
+            Some(sums) if !is_last => (Draws::Gather, &sums[now]),
+            _ => (Draws::Encode, &shown),
+        };
+        let view = wgpu::BindingResource::TextureView;
+        let resources = [numbers.as_entire_binding(), view(&light), view(earlier)];
+        let group = self.bind(gpu, &self.layouts().display, resources);
+        let pipeline = self.pipelines.get(gpu, draws)?;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("display"),
+            color_attachments: &[Some(color_attachment(goal))],
+            ..Default::default()
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+        Ok(())
+    }
+}
+
+fn display(shot: &Shot, samples: u32) -> Display {
+    let is_lit = shot.mode == Mode::Material;
+    let backdrop = match shot.background {
+        Background::Plain([r, g, b]) => [r, g, b, 1.0],
+        Background::Clear => [0.0; 4],
+        // Channels are looked at before an even gray.
+        Background::Environment | Background::Blurred => [0.05, 0.05, 0.05, 1.0],
+    };
+    Display {
+        backdrop,
+        exposure: shot.exposure_stops.exp2(),
+        transform: match shot.transform {
+            _ if !is_lit => 3,
+            ViewTransform::Standard => 0,
+            ViewTransform::AgX => 1,
+            ViewTransform::Aces => 2,
+        },
+        samples: samples as f32,
+        pad: 0.0,
+    }
+}

@@ -1,0 +1,201 @@
+//! What is bound to draw a scene.
+
+use bytemuck::{Pod, Zeroable};
+use sabi_gpu::{DeviceMaps, Gpu};
+
+use super::Renderer;
+use crate::error::ViewError;
+use crate::frame::Frame;
+use crate::pipelines::{Draws, Ground, Paint};
+use crate::scene::{Background, Lines, MaterialLook, Mode, NodeType, Scene, Shot};
+use crate::shadows::ShadowMaps;
+use crate::target::Target;
+
+/// As `Material` in `maps.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Material {
+    color: [f32; 4],
+    surface: [f32; 4],
+    maps: u32,
+    shown_type: u32,
+    pad: [u32; 2],
+}
+
+/// As `LineStyle` in `lines.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct LineStyle {
+    color: [f32; 4],
+    size: [f32; 2],
+    nearer: f32,
+    pad: f32,
+}
+
+/// Triangles of one material, ready to be drawn.
+pub(super) struct Drawn {
+    pub(super) pipeline: wgpu::RenderPipeline,
+    pub(super) indices: std::ops::Range<u32>,
+    /// Which of the looks they have.
+    pub(super) look: usize,
+}
+
+/// What is bound for all samples of a picture.
+pub(super) struct Bound {
+    pub(super) looks: Vec<wgpu::BindGroup>,
+    pub(super) drawn: Vec<Drawn>,
+    pub(super) charts: wgpu::BindGroup,
+    pub(super) seen: wgpu::BindGroup,
+    pub(super) panorama: wgpu::BindGroup,
+    pub(super) paint: wgpu::RenderPipeline,
+    pub(super) background: Option<wgpu::RenderPipeline>,
+    pub(super) lines: Vec<(Lines, wgpu::BindGroup, wgpu::RenderPipeline)>,
+}
+
+/// Looks that a picture tells apart: a stencil has eight bits, and 0 is none.
+const MOST_LOOKS: usize = 255;
+
+impl Renderer {
+    pub(super) fn frame_group(
+        &self,
+        gpu: &Gpu,
+        shadows: &ShadowMaps,
+        scene: &Scene<'_>,
+        frame: &Frame,
+    ) -> Result<wgpu::BindGroup, ViewError> {
+        let numbers = self.numbers(gpu, frame)?;
+        let reflections = scene.environment.specular();
+        let view = wgpu::BindingResource::TextureView;
+        let resources = [
+            numbers.as_entire_binding(),
+            wgpu::BindingResource::Sampler(&self.smooth),
+            view(&reflections),
+            view(&self.directional_albedo),
+            view(&shadows.view),
+            wgpu::BindingResource::Sampler(&self.compare),
+        ];
+        Ok(self.bind(gpu, &self.layouts().frame, resources))
+    }
+
+    pub(super) fn bound(&self, gpu: &Gpu, target: &Target, scene: &Scene<'_>, shot: &Shot) -> Result<Bound, ViewError> {
+        let looks = &scene.looks[..scene.looks.len().min(MOST_LOOKS)];
+        let view = wgpu::BindingResource::TextureView;
+        let places = target.seen.create_view(&wgpu::TextureViewDescriptor::default());
+        let depth = target.depth.create_view(&wgpu::TextureViewDescriptor {
+            aspect: wgpu::TextureAspect::DepthOnly,
+            ..Default::default()
+        });
+        let panorama = scene.environment.backdrop();
+        let charts = view(&scene.model.charts);
+        let is_lit = shot.mode == Mode::Material;
+        let has_background = is_lit && matches!(shot.background, Background::Environment | Background::Blurred);
+        let background = has_background
+            .then(|| self.pipelines.get(gpu, Draws::Background))
+            .transpose()?;
+        let paint = match shot.has_relief {
+            _ if !is_lit => Paint::Shown,
+            true => Paint::LitRelief,
+            false => Paint::Lit,
+        };
+        let lines = |lines: &Lines| -> Result<_, ViewError> {
+            let numbers = self.numbers(gpu, &line_style(*lines, shot, target.size))?;
+            let group = self.bind(gpu, &self.layouts().numbers, [numbers.as_entire_binding()]);
+            Ok((*lines, group, self.pipelines.get(gpu, Draws::Lines)?))
+        };
+        Ok(Bound {
+            looks: looks
+                .iter()
+                .map(|look| self.look_group(gpu, look, shot.mode))
+                .collect::<Result<_, _>>()?,
+            drawn: self.drawn(gpu, scene, shot)?,
+            charts: self.bind(gpu, &self.layouts().charts, [charts.clone()]),
+            seen: self.bind(gpu, &self.layouts().seen, [charts, view(&places), view(&depth)]),
+            panorama: self.bind(gpu, &self.layouts().panorama, [view(&panorama)]),
+            paint: self.pipelines.get(gpu, Draws::Paint(paint))?,
+            background,
+            lines: shot.lines.iter().map(lines).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// What of the model is drawn, and how.
+    fn drawn(&self, gpu: &Gpu, scene: &Scene<'_>, shot: &Shot) -> Result<Vec<Drawn>, ViewError> {
+        let mut drawn = Vec::new();
+        for part in &scene.model.parts {
+            let look = scene.look_of_material.get(part.material as usize);
+            let Some((index, look)) = look.and_then(|&index| Some((index, scene.looks.get(index)?))) else {
+                continue;
+            };
+            let draws = Draws::Raster {
+                is_double_sided: part.is_double_sided,
+                ground: match look.is_opaque {
+                    _ if shot.has_relief && look.maps.height.is_some() => Ground::Relief,
+                    true => Ground::Plain,
+                    false => Ground::Veiled,
+                },
+            };
+            drawn.push(Drawn {
+                pipeline: self.pipelines.get(gpu, draws)?,
+                indices: part.indices.clone(),
+                look: index.min(MOST_LOOKS - 1),
+            });
+        }
+        Ok(drawn)
+    }
+
+    fn look_group(&self, gpu: &Gpu, look: &MaterialLook, mode: Mode) -> Result<wgpu::BindGroup, ViewError> {
+        let DeviceMaps {
+            color,
+            surface,
+            emission,
+            height,
+            normal,
+        } = &look.maps;
+        // A node's own result takes the place of the colors.
+        let node = look.node.as_ref().filter(|_| mode == Mode::Node);
+        let first = node.map(|node| &node.texture).or(color.as_ref());
+        let [surface, emission, normal, height] = [surface, emission, normal, height].map(Option::as_ref);
+        let maps = [first, surface, emission, normal, height];
+        let has = maps.iter().zip(0..).filter(|(map, _)| map.is_some());
+        let [roughness, metallic, occlusion] = look.surface;
+        let numbers = Material {
+            color: look.color,
+            surface: [roughness, metallic, occlusion, 0.0],
+            maps: has.map(|(_, bit)| 1 << bit).sum(),
+            shown_type: match node.map(|node| node.holds) {
+                None | Some(NodeType::Mask) => 0,
+                Some(NodeType::Color) => 1,
+                Some(NodeType::Vector) => 2,
+            },
+            pad: [0; 2],
+        };
+        let numbers = self.numbers(gpu, &numbers)?;
+        let views = maps.map(|map| match map {
+            Some(map) => map.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            }),
+            None => self.no_map.clone(),
+        });
+        let resources = views.iter().map(wgpu::BindingResource::TextureView);
+        let resources = std::iter::once(numbers.as_entire_binding()).chain(resources);
+        Ok(self.bind(gpu, &self.layouts().material, resources))
+    }
+}
+
+fn line_style(lines: Lines, shot: &Shot, [width, height]: [u32; 2]) -> LineStyle {
+    let exposure = if shot.mode == Mode::Material {
+        shot.exposure_stops.exp2()
+    } else {
+        1.0
+    };
+    let ([r, g, b], line_width) = match lines {
+        Lines::Wires => ([0.02, 0.02, 0.025], 1.0),
+        Lines::Seams => ([1.0, 0.35, 0.05], 2.5),
+    };
+    LineStyle {
+        color: [r / exposure, g / exposure, b / exposure, line_width],
+        size: [width as f32, height as f32],
+        nearer: 1e-3,
+        pad: 0.0,
+    }
+}

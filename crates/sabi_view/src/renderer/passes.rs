@@ -1,0 +1,147 @@
+//! The passes that a picture is made of.
+
+use sabi_gpu::Gpu;
+
+use super::Renderer;
+use super::bound::Bound;
+use crate::error::ViewError;
+use crate::pipelines::Draws;
+use crate::scene::{Lines, MOST_LIGHTS, Scene};
+use crate::shadows::{ShadowMaps, layers_of, shadow_matrices};
+use crate::target::Target;
+
+impl Renderer {
+    /// The model as each light sees it.
+    pub(super) fn cast_shadows(&self, gpu: &Gpu, scene: &Scene<'_>) -> Result<ShadowMaps, ViewError> {
+        let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
+        let maps = ShadowMaps::new(gpu, lights.iter().map(layers_of).sum())?;
+        let pipeline = self.pipelines.get(gpu, Draws::Shadow)?;
+        let mut encoder = gpu
+            .device()
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        for (layer, matrix) in shadow_matrices(lights).iter().enumerate() {
+            let numbers = self.numbers(gpu, &matrix.to_cols_array_2d())?;
+            let group = self.bind(gpu, &self.layouts().numbers, [numbers.as_entire_binding()]);
+            let view = maps.layer(layer);
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("shadow"),
+                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                    view: &view,
+                    depth_ops: Some(cleared(1.0)),
+                    stencil_ops: None,
+                }),
+                ..Default::default()
+            });
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.set_vertex_buffer(0, scene.model.corners.slice(..));
+            pass.set_index_buffer(scene.model.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..scene.model.index_count, 0, 0..1);
+        }
+        gpu.queue().submit([encoder.finish()]);
+        Ok(maps)
+    }
+}
+
+/// Which place of the model each pixel sees, and by its stencil which look.
+pub(super) fn draw_raster(
+    encoder: &mut wgpu::CommandEncoder,
+    target: &Target,
+    scene: &Scene<'_>,
+    frame: &wgpu::BindGroup,
+    bound: &Bound,
+) {
+    let layer = |layer| {
+        target.seen.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        })
+    };
+    let (places, frames) = (layer(0), layer(1));
+    let depth = target.depth.create_view(&wgpu::TextureViewDescriptor::default());
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("raster"),
+        color_attachments: &[Some(color_attachment(&places)), Some(color_attachment(&frames))],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &depth,
+            // Depth is reversed: 0 is farthest.
+            depth_ops: Some(cleared(0.0)),
+            stencil_ops: Some(cleared(0)),
+        }),
+        ..Default::default()
+    });
+    pass.set_bind_group(0, frame, &[]);
+    pass.set_bind_group(2, &bound.charts, &[]);
+    pass.set_bind_group(3, &scene.model.surface, &[]);
+    pass.set_vertex_buffer(0, scene.model.corners.slice(..));
+    pass.set_index_buffer(scene.model.indices.slice(..), wgpu::IndexFormat::Uint32);
+    for drawn in &bound.drawn {
+        pass.set_pipeline(&drawn.pipeline);
+        pass.set_bind_group(1, &bound.looks[drawn.look], &[]);
+        pass.set_stencil_reference(drawn.look as u32 + 1);
+        pass.draw_indexed(drawn.indices.clone(), 0, 0..1);
+    }
+}
+
+/// One sample's light.
+pub(super) fn draw_light(
+    encoder: &mut wgpu::CommandEncoder,
+    target: &Target,
+    scene: &Scene<'_>,
+    frame: &wgpu::BindGroup,
+    bound: &Bound,
+) {
+    let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
+    let depth = target.depth.create_view(&wgpu::TextureViewDescriptor::default());
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("light"),
+        color_attachments: &[Some(color_attachment(&light))],
+        // Only read: shaders read it, too.
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &depth,
+            depth_ops: None,
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    });
+    pass.set_bind_group(0, frame, &[]);
+    pass.set_bind_group(2, &bound.seen, &[]);
+    pass.set_bind_group(3, &scene.model.surface, &[]);
+    pass.set_pipeline(&bound.paint);
+    for (index, look) in bound.looks.iter().enumerate() {
+        pass.set_stencil_reference(index as u32 + 1);
+        pass.set_bind_group(1, look, &[]);
+        pass.draw(0..3, 0..1);
+    }
+    if let Some(background) = &bound.background {
+        pass.set_pipeline(background);
+        pass.set_stencil_reference(0);
+        pass.set_bind_group(1, &bound.panorama, &[]);
+        pass.draw(0..3, 0..1);
+    }
+    for (lines, style, pipeline) in &bound.lines {
+        let (ends, count) = &scene.model.edges[usize::from(*lines == Lines::Seams)];
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(1, style, &[]);
+        pass.set_vertex_buffer(0, ends.slice(..));
+        pass.draw(0..6, 0..*count);
+    }
+}
+
+pub(super) fn color_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassColorAttachment<'_> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: cleared(wgpu::Color::TRANSPARENT),
+    }
+}
+
+fn cleared<V>(value: V) -> wgpu::Operations<V> {
+    wgpu::Operations {
+        load: wgpu::LoadOp::Clear(value),
+        store: wgpu::StoreOp::Store,
+    }
+}

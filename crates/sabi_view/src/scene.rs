@@ -1,0 +1,271 @@
+//! What is shown, and how: plain values that a caller fills in.
+
+use std::str::FromStr;
+
+use sabi_gpu::DeviceMaps;
+
+use crate::camera::Camera;
+use crate::environment::Environment;
+use crate::model::ViewModel;
+
+/// Most lights of a scene.
+pub const MOST_LIGHTS: usize = 4;
+
+/// A model with its materials in the light.
+pub struct Scene<'a> {
+    /// The model.
+    pub model: &'a ViewModel,
+    /// What its materials look like; at most 255 are told apart.
+    pub looks: &'a [MaterialLook],
+    /// For each material of the model which of the looks it has; triangles of others are not drawn.
+    pub look_of_material: &'a [usize],
+    /// Light from all around.
+    pub environment: &'a Environment,
+    /// Lights besides it, at most [`MOST_LIGHTS`]; more are left out.
+    pub lights: &'a [Light],
+}
+
+/// What a material looks like.
+#[derive(Clone, Debug)]
+pub struct MaterialLook {
+    /// Its maps.
+    pub maps: DeviceMaps,
+    /// Linear base color and alpha where no map says it.
+    pub color: [f32; 4],
+    /// Roughness, metallic and occlusion where no map says it.
+    pub surface: [f32; 3],
+    /// Whether alpha is 1 everywhere, so that nothing behind it is ever seen.
+    pub is_opaque: bool,
+    /// A node's own result, for [`Mode::Node`].
+    pub node: Option<NodeLook>,
+}
+
+/// A node's own result on the linked atlas.
+#[derive(Clone, Debug)]
+pub struct NodeLook {
+    /// Its texture, an array of pages.
+    pub texture: wgpu::Texture,
+    /// What it holds.
+    pub holds: NodeType,
+}
+
+/// What a node's own result holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NodeType {
+    /// One number, shown as gray.
+    Mask,
+    /// A linear color.
+    Color,
+    /// A vector, −1..1 shown as 0..1.
+    Vector,
+}
+
+/// A light besides the environment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Where it is.
+    pub place: LightPlace,
+    /// Linear color. Of a far light, the irradiance on a surface that faces it; of a near one, that at a distance of 1.
+    pub color: [f32; 3],
+    /// Whether the model throws a shadow in it.
+    pub has_shadow: bool,
+}
+
+/// Where a light is, view space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightPlace {
+    /// Far away, in this direction.
+    Far([f32; 3]),
+    /// Here.
+    Near([f32; 3]),
+}
+
+/// How a scene is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shot {
+    /// The eye.
+    pub camera: Camera,
+    /// How far the environment is turned about +Y, degrees.
+    pub environment_turn_degrees: f32,
+    /// The environment's light is multiplied by it.
+    pub environment_strength: f32,
+    /// Stops by which all light is made stronger.
+    pub exposure_stops: f32,
+    /// From light to what a display shows.
+    pub transform: ViewTransform,
+    /// What is behind the model.
+    pub background: Background,
+    /// What is shown of the model.
+    pub mode: Mode,
+    /// Whether heights are followed, so that they hide one another and throw shadows: dear on software drivers.
+    pub has_relief: bool,
+    /// The lowest and the highest height there is, working units.
+    pub height_range: [f32; 2],
+    /// Lines over the model.
+    pub lines: Vec<Lines>,
+    /// Pictures from slightly different places within each pixel, whose mean is shown: 1 is quick, 16 has clean edges.
+    pub samples: u32,
+}
+
+impl Shot {
+    /// The lit material, as it is first seen.
+    pub fn new(camera: Camera) -> Shot {
+        Shot {
+            camera,
+            environment_turn_degrees: 0.0,
+            environment_strength: 1.0,
+            exposure_stops: 0.0,
+            transform: ViewTransform::AgX,
+            background: Background::Blurred,
+            mode: Mode::Material,
+            has_relief: false,
+            height_range: [0.0, 0.0],
+            lines: Vec::new(),
+            samples: 1,
+        }
+    }
+}
+
+/// From light to what a display shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ViewTransform {
+    /// Nothing but the sRGB curve: what is brighter than white is cut off.
+    Standard,
+    /// AgX: bright colors fade to white as on film.
+    #[default]
+    AgX,
+    /// The ACES reference rendering for sRGB displays.
+    Aces,
+}
+
+/// What is behind the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// The environment, sharp.
+    Environment,
+    /// The environment, out of focus.
+    Blurred,
+    /// One color, linear and display-referred.
+    Plain([f32; 3]),
+    /// Nothing: the picture is clear there.
+    Clear,
+}
+
+/// What is shown of the model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// The lit material.
+    #[default]
+    Material,
+    /// A channel, as it is exported.
+    BaseColor,
+    /// Opacity.
+    Opacity,
+    /// Roughness.
+    Roughness,
+    /// Metallic.
+    Metallic,
+    /// Occlusion, 1 open.
+    Occlusion,
+    /// Height between two bounds.
+    Height,
+    /// Tangent-space normal.
+    Normal,
+    /// Emission.
+    Emission,
+    /// A node's own result.
+    Node,
+    /// Squares along the texture coordinates.
+    Checker,
+    /// How dense texels lie, against the middle of all.
+    Density,
+    /// Front faces blue, back faces red.
+    Facing,
+    /// Plain clay that shows shape alone.
+    Clay,
+    /// How far relief moves what is seen, texels along u and v: for tests.
+    Shift,
+}
+
+/// Names of modes, with their numbers in `modes.wgsl`.
+const MODES: [(&str, Mode, u32); 15] = [
+    ("material", Mode::Material, 0),
+    ("base_color", Mode::BaseColor, 1),
+    ("opacity", Mode::Opacity, 2),
+    ("roughness", Mode::Roughness, 3),
+    ("metallic", Mode::Metallic, 4),
+    ("occlusion", Mode::Occlusion, 5),
+    ("height", Mode::Height, 6),
+    ("normal", Mode::Normal, 7),
+    ("emission", Mode::Emission, 8),
+    ("node", Mode::Node, 9),
+    ("checker", Mode::Checker, 10),
+    ("density", Mode::Density, 11),
+    ("facing", Mode::Facing, 12),
+    ("clay", Mode::Clay, 13),
+    ("shift", Mode::Shift, 14),
+];
+
+impl Mode {
+    /// All modes that need nothing but a model with its maps, by name.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        MODES
+            .iter()
+            .filter(|(_, mode, _)| mode.is_asked_for())
+            .map(|(name, ..)| *name)
+    }
+
+    /// Whether its name alone is enough.
+    fn is_asked_for(self) -> bool {
+        !matches!(self, Mode::Node | Mode::Shift)
+    }
+
+    /// Its number in `modes.wgsl`.
+    pub(crate) fn number(self) -> u32 {
+        MODES
+            .iter()
+            .find(|(_, mode, _)| *mode == self)
+            .map_or(0, |(.., number)| *number)
+    }
+}
+
+impl FromStr for Mode {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Mode, String> {
+        let named = MODES
+            .iter()
+            .find(|(name, mode, _)| *name == text && mode.is_asked_for());
+        named.map(|(_, mode, _)| *mode).ok_or_else(|| {
+            let names: Vec<&str> = Mode::names().collect();
+            format!("there is no view '{text}'; there are {}, and node:ID", names.join(", "))
+        })
+    }
+}
+
+/// Lines over the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lines {
+    /// The edges of all triangles.
+    Wires,
+    /// Where charts end.
+    Seams,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mode_is_found_by_its_name_and_a_wrong_name_lists_them() {
+        assert_eq!("base_color".parse(), Ok(Mode::BaseColor));
+        assert_eq!(
+            "color".parse::<Mode>(),
+            Err(
+                "there is no view 'color'; there are material, base_color, opacity, roughness, metallic, occlusion, \
+                 height, normal, emission, checker, density, facing, clay, and node:ID"
+                    .to_owned()
+            )
+        );
+    }
+}

@@ -1,0 +1,151 @@
+//! What each light sees of the model: the matrices and the depths.
+
+use glam::camera::rh::proj::directx::{orthographic, perspective};
+use glam::camera::rh::view::look_to_mat4;
+use glam::{Mat4, Vec3};
+use sabi_gpu::Gpu;
+
+use crate::error::ViewError;
+use crate::scene::{Light, LightPlace, MOST_LIGHTS};
+
+/// Layers of all shadows together: six for a near light, which has a cube around it.
+pub(crate) const LAYERS: usize = 6 * MOST_LIGHTS;
+/// Depth as a light sees it.
+pub(crate) const SHADOW: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Depths along a side of a layer.
+const SIDE: u32 = 2048;
+/// How far the model reaches from the middle of view space: half the diagonal of a unit cube, and a little.
+const RADIUS: f32 = 0.9;
+/// The nearest that a near light sees.
+const NEAREST: f32 = 0.02;
+
+/// Layers that a light's shadow takes.
+pub(crate) fn layers_of(light: &Light) -> usize {
+    match light {
+        Light { has_shadow: false, .. } => 0,
+        Light {
+            place: LightPlace::Far(_),
+            ..
+        } => 1,
+        Light {
+            place: LightPlace::Near(_),
+            ..
+        } => 6,
+    }
+}
+
+/// What brings view space onto the layers of the lights' shadows, layer by layer.
+pub(crate) fn shadow_matrices(lights: &[Light]) -> Vec<Mat4> {
+    let with_shadow = lights.iter().filter(|light| light.has_shadow);
+    with_shadow
+        .flat_map(|light| match light.place {
+            LightPlace::Far(towards) => vec![far_matrix(Vec3::from(towards).normalize_or(Vec3::Y))],
+            LightPlace::Near(place) => near_matrices(Vec3::from(place)),
+        })
+        .collect()
+}
+
+fn far_matrix(towards: Vec3) -> Mat4 {
+    let up = if towards.y.abs() > 0.99 { Vec3::Z } else { Vec3::Y };
+    let light_from_view = look_to_mat4(towards * 2.0 * RADIUS, -towards, up);
+    orthographic(-RADIUS, RADIUS, -RADIUS, RADIUS, RADIUS, 3.0 * RADIUS) * light_from_view
+}
+
+/// The faces of a cube around a light, in the order of `layer_of` in `shadow.wgsl`.
+fn near_matrices(place: Vec3) -> Vec<Mat4> {
+    let farthest = place.length() + RADIUS + NEAREST;
+    let clip = perspective(std::f32::consts::FRAC_PI_2, 1.0, NEAREST, farthest);
+    let faces = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];
+    let face = |towards: Vec3| {
+        let up = if towards.y.abs() > 0.5 { Vec3::Z } else { Vec3::Y };
+        clip * look_to_mat4(place, towards, up)
+    };
+    faces.into_iter().map(face).collect()
+}
+
+/// Depths of all layers, and those they were drawn for.
+pub(crate) struct ShadowMaps {
+    texture: wgpu::Texture,
+    /// All layers, for shaders.
+    pub(crate) view: wgpu::TextureView,
+}
+
+impl ShadowMaps {
+    /// Room for so many layers; at least one, which nobody reads.
+    pub(crate) fn new(gpu: &Gpu, layers: usize) -> Result<ShadowMaps, ViewError> {
+        let side = if layers == 0 { 1 } else { SIDE };
+        let texture = gpu.guarded("the shadows", |device| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("shadows"),
+                size: wgpu::Extent3d {
+                    width: side,
+                    height: side,
+                    depth_or_array_layers: layers.max(1) as u32,
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: SHADOW,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
+                view_formats: &[],
+            })
+        })?;
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        Ok(ShadowMaps { texture, view })
+    }
+
+    /// One layer, to draw into.
+    pub(crate) fn layer(&self, layer: usize) -> wgpu::TextureView {
+        self.texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer as u32,
+            array_layer_count: Some(1),
+            ..Default::default()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn light(place: LightPlace) -> Light {
+        Light {
+            place,
+            color: [1.0; 3],
+            has_shadow: true,
+        }
+    }
+
+    #[test]
+    fn a_far_light_sees_all_of_the_model() {
+        for towards in [[0.0, 1.0, 0.0], [0.3, 0.5, -0.7], [-1.0, 0.0, 0.0]] {
+            let matrix = shadow_matrices(&[light(LightPlace::Far(towards))])[0];
+            for corner in 0..8 {
+                let side = |bit: u32| if corner >> bit & 1 == 1 { 0.5 } else { -0.5 };
+                let seen = matrix.project_point3(Vec3::new(side(0), side(1), side(2)));
+                assert!(
+                    seen.x.abs() <= 1.0 && seen.y.abs() <= 1.0 && (0.0..=1.0).contains(&seen.z),
+                    "{seen}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn each_place_is_on_the_face_that_looks_at_it() {
+        let place = Vec3::new(0.2, 0.4, 0.1);
+        let faces = shadow_matrices(&[light(LightPlace::Near(place.to_array()))]);
+        let towards = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];
+        for (face, towards) in faces.iter().zip(towards) {
+            let seen = face.project_point3(place + towards * 0.5);
+            assert!(
+                seen.x.abs() < 1e-5 && seen.y.abs() < 1e-5 && (0.0..1.0).contains(&seen.z),
+                "{seen}"
+            );
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What a picture is drawn into.
+
+use sabi_gpu::Gpu;
+
+use crate::error::ViewError;
+
+/// Light of one sample: linear, with what is covered as alpha.
+pub(crate) const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Depth, reversed, and the number of a pixel's look, from 1.
+pub(crate) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
+/// What a pixel sees, in two layers; see `raster.wgsl`.
+pub(crate) const SEEN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+/// Sum of samples.
+pub(crate) const SUM: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+/// What is shown: codes of sRGB, with an alpha that nothing is multiplied by.
+pub(crate) const SHOWN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// The longest side of a picture, pixels.
+pub const LONGEST_SIDE: u32 = 8192;
+
+/// A picture on the device, and what it takes to draw it.
+pub struct Target {
+    /// Width and height, pixels.
+    pub(crate) size: [u32; 2],
+    pub(crate) light: wgpu::Texture,
+    pub(crate) seen: wgpu::Texture,
+    pub(crate) depth: wgpu::Texture,
+    /// Taking turns; none until a picture has several samples.
+    pub(crate) sums: Option<[wgpu::TextureView; 2]>,
+    pub(crate) shown: wgpu::Texture,
+}
+
+/// A finished picture in memory.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pixels {
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Codes of sRGB and alpha, which they are not multiplied by; row by row from the top.
+    pub rgba: Vec<u8>,
+}
+
+impl Target {
+    /// Room for a picture of so many pixels.
+    pub fn new(gpu: &Gpu, size: [u32; 2]) -> Result<Target, ViewError> {
+        let [width, height] = size;
+        let longest = LONGEST_SIDE.min(gpu.device().limits().max_texture_dimension_2d);
+        if width == 0 || height == 0 || width > longest || height > longest {
+            return Err(ViewError::Size { width, height, longest });
+        }
+        let attachment = |what, format| attachment(gpu, what, [width, height, 1], format);
+        Ok(Target {
+            size,
+            light: attachment("the light of a picture", LIGHT)?,
+            seen: self::attachment(gpu, "what a picture sees", [width, height, 2], SEEN)?,
+            depth: attachment("the depth of a picture", DEPTH)?,
+            sums: None,
+            shown: attachment("a picture", SHOWN)?,
+        })
+    }
+
+    /// Width and height, pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The picture as a texture: codes of sRGB in a plain format, straight alpha.
+    pub fn texture(&self) -> &wgpu::Texture {
+        &self.shown
+    }
+
+    /// Brings the picture into memory.
+    pub fn read(&self, gpu: &Gpu) -> Result<Pixels, ViewError> {
+        let mut rgba = Vec::new();
+        gpu.read_layer(&self.shown, 0, 0, &mut rgba)?;
+        Ok(Pixels { size: self.size, rgba })
+    }
+
+    /// Brings the light of the last sample into memory: linear, scene-referred RGB and cover, row by row from the top.
+    pub fn read_light(&self, gpu: &Gpu) -> Result<Vec<[f32; 4]>, ViewError> {
+        let mut bytes = Vec::new();
+        gpu.read_layer(&self.light, 0, 0, &mut bytes)?;
+        let pixel = |pixel: &[u8; 8]| {
+            let half = |at: usize| half::f16::from_le_bytes([pixel[at], pixel[at + 1]]).to_f32();
+            [half(0), half(2), half(4), half(6)]
+        };
+        let (pixels, _) = bytes.as_chunks::<8>();
+        Ok(pixels.iter().map(pixel).collect())
+    }
+
+    /// Room for sums of samples, taking turns.
+    pub(crate) fn sums(&mut self, gpu: &Gpu) -> Result<[wgpu::TextureView; 2], ViewError> {
+        if let Some(sums) = &self.sums {
+            return Ok(sums.clone());
+        }
+        let sum = || -> Result<wgpu::TextureView, ViewError> {
+            let [width, height] = self.size;
+            let made = attachment(gpu, "the samples of a picture", [width, height, 1], SUM)?;
+            Ok(made.create_view(&wgpu::TextureViewDescriptor::default()))
+        };
+        let sums = [sum()?, sum()?];
+        self.sums = Some(sums.clone());
+        Ok(sums)
+    }
+}
+
+fn attachment(
+    gpu: &Gpu,
+    what: &'static str,
+    [width, height, layers]: [u32; 3],
+    format: wgpu::TextureFormat,
+) -> Result<wgpu::Texture, ViewError> {
+    let made = gpu.guarded(what, |device| {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(what),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: layers,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        })
+    })?;
+    Ok(made)
+}

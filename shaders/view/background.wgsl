@@ -1,0 +1,25 @@
+// What is behind the model.
+
+@group(1) @binding(0) var panorama: texture_2d<f32>;
+
+struct Behind {
+    @builtin(position) clip: vec4f,
+    @location(0) at: vec2f,
+}
+
+@vertex
+fn cover(@builtin(vertex_index) index: u32) -> Behind {
+    let at = vec2f(f32((index << 1u) & 2u), f32(index & 2u)) * 2.0 - 1.0;
+    return Behind(vec4f(at, 0.0, 1.0), at);
+}
+
+@fragment
+fn paint(behind: Behind) -> @location(0) vec4f {
+    let near = frame.view_from_clip * vec4f(behind.at, 1.0, 1.0);
+    let towards = in_environment(ray_through(near.xyz / near.w));
+    var light = textureSampleLevel(reflections, smooth_sampler, towards, frame.backdrop.w).xyz;
+    if frame.backdrop.w < 0.0 {
+        light = textureSampleLevel(panorama, smooth_sampler, panorama_place(towards), 0.0).xyz;
+    }
+    return vec4f(min(light * frame.environment.z, vec3f(65504.0)), 1.0);
+}

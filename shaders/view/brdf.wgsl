@@ -1,0 +1,57 @@
+// How a surface scatters light: a GGX lobe with height-correlated Smith shadowing over a Lambertian base, with the light that
+// bounces between facets kept (Fdez-Agüera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting";
+// for single lights the scale of Turquin 2019, "Practical multiple scattering compensation for microfacet models").
+
+struct Substance {
+    // Reflectance at normal incidence, and the Lambertian base's; linear.
+    specular: vec3f,
+    diffuse: vec3f,
+    // Perceptual: its square is the width of the lobe.
+    roughness: f32,
+}
+
+fn substance_of(base_color: vec3f, metallic: f32, roughness: f32) -> Substance {
+    // 0.04: a refractive index of 1.5, as glTF has it.
+    let dielectric = 1.0 - metallic;
+    return Substance(mix(vec3f(0.04), base_color, metallic), base_color * dielectric, roughness);
+}
+
+// The lobe's share of a white surrounding: the part that grows with the reflectance, and the part that does not.
+fn albedo_of_lobe(to_eye: f32, roughness: f32) -> vec2f {
+    return textureSampleLevel(directional_albedo, smooth_sampler, vec2f(to_eye, roughness), 0.0).xy;
+}
+
+// What a surrounding gives: weights of its reflection and of its irradiance over π.
+struct Surrounded {
+    reflected: vec3f,
+    scattered: vec3f,
+}
+
+fn surrounded(made: Substance, lobe: vec2f) -> Surrounded {
+    let once = made.specular * lobe.x + lobe.y;
+    let missing = 1.0 - (lobe.x + lobe.y);
+    // The mean of Schlick's curve over the hemisphere.
+    let mean = made.specular + (1.0 - made.specular) / 21.0;
+    let again = once * mean / (1.0 - missing * mean) * missing;
+    return Surrounded(once, again + made.diffuse * (1.0 - once - again));
+}
+
+// Radiance that leaves towards the eye for a light of unit irradiance from one direction, the cosine not yet in it.
+fn scattered(made: Substance, lobe: vec2f, normal: vec3f, to_eye: vec3f, to_light: vec3f) -> vec3f {
+    let half_way = normalize(to_eye + to_light);
+    let eye = max(dot(normal, to_eye), 1e-4);
+    let light = max(dot(normal, to_light), 1e-4);
+    let middle = clamp(dot(normal, half_way), 0.0, 1.0);
+    // A point of light on a mirror is seen by no pixel: as wide as a lamp of a few degrees.
+    let width = max(made.roughness * made.roughness, 0.002);
+    let square = width * width;
+    let denominator = (middle * middle * (square - 1.0) + 1.0);
+    let facets = square / (PI * denominator * denominator);
+    let masked = light * sqrt(eye * eye * (1.0 - square) + square) + eye * sqrt(light * light * (1.0 - square) + square);
+    let grazing = pow(1.0 - clamp(dot(to_light, half_way), 0.0, 1.0), 5.0);
+    let fresnel = made.specular + (1.0 - made.specular) * grazing;
+    let whole = max(lobe.x + lobe.y, 1e-3);
+    let kept = 1.0 + made.specular * (1.0 / whole - 1.0);
+    let let_through = 1.0 - (made.specular * lobe.x + lobe.y) * kept;
+    return facets * 0.5 / masked * fresnel * kept + made.diffuse * max(let_through, vec3f(0.0)) / PI;
+}

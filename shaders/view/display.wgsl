@@ -1,0 +1,99 @@
+// From light to a picture: exposure, view transform, samples brought together, sRGB.
+
+struct Display {
+    // Display-referred linear color behind what covers nothing; w 0 leaves it clear.
+    backdrop: vec4f,
+    // Light is multiplied by it first.
+    exposure: f32,
+    // 0 none but sRGB's curve, 1 AgX, 2 ACES; 3 for pictures that are encoded already.
+    transform: u32,
+    // Samples that are in the sum, this one included.
+    samples: f32,
+    pad: f32,
+}
+
+@group(0) @binding(0) var<uniform> display: Display;
+@group(0) @binding(1) var light: texture_2d<f32>;
+// The sum of the samples before this one, display-referred and linear, alpha premultiplied.
+@group(0) @binding(2) var earlier: texture_2d<f32>;
+
+@vertex
+fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(vec2f(f32((index << 1u) & 2u), f32(index & 2u)) * 2.0 - 1.0, 0.0, 1.0);
+}
+
+// AgX by T. Sobotka: light is brought into a wider gamut, its logarithm runs through a curve, and comes back less saturated.
+// Matrices and the curve's polynomial: B. Wrensch 2023, "Minimal AgX implementation", and the Rec. 2020 matrices of Blender 4's
+// configuration.
+fn agx(color: vec3f) -> vec3f {
+    let wide_from_rec709 = mat3x3f(0.6274, 0.0691, 0.0164, 0.3293, 0.9195, 0.0880, 0.0433, 0.0113, 0.8956);
+    let rec709_from_wide = mat3x3f(1.6605, -0.1246, -0.0182, -0.5876, 1.1329, -0.1006, -0.0728, -0.0083, 1.1187);
+    let inset = mat3x3f(
+        0.856627153315983, 0.137318972929847, 0.11189821299995,
+        0.0951212405381588, 0.761241990602591, 0.0767994186031903,
+        0.0482516061458583, 0.101439036467562, 0.811302368396859,
+    );
+    let outset = mat3x3f(
+        1.1271005818144368, -0.1413297634984383, -0.14132976349843826,
+        -0.11060664309660323, 1.157823702216272, -0.11060664309660294,
+        -0.016493938717834573, -0.016493938717834257, 1.2519364065950405,
+    );
+    // Stops below and above middle gray that the curve spans, as exponents of two.
+    let lowest = -12.47393;
+    let highest = 4.026069;
+    let inside = inset * (wide_from_rec709 * color);
+    let stops = clamp(log2(max(inside, vec3f(1e-10))), vec3f(lowest), vec3f(highest));
+    let x = (stops - lowest) / (highest - lowest);
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    let curve = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
+    let out = outset * curve;
+    return clamp(rec709_from_wide * pow(max(out, vec3f(0.0)), vec3f(2.2)), vec3f(0.0), vec3f(1.0));
+}
+
+// The fit of the ACES reference rendering and sRGB output transforms by S. Hill 2017 (BakingLab).
+fn aces(color: vec3f) -> vec3f {
+    let into = mat3x3f(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
+    let out_of = mat3x3f(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602);
+    let v = into * color;
+    let curve = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+    return clamp(out_of * curve, vec3f(0.0), vec3f(1.0));
+}
+
+fn linear_of(code: vec3f) -> vec3f {
+    return select(pow((code + 0.055) / 1.055, vec3f(2.4)), code / 12.92, code <= vec3f(0.04045));
+}
+
+fn code_of(linear: vec3f) -> vec3f {
+    let c = clamp(linear, vec3f(0.0), vec3f(1.0));
+    return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, 12.92 * c, c <= vec3f(0.0031308));
+}
+
+// This sample, display-referred and linear, over what is behind it.
+fn shown_at(pixel: vec2i) -> vec4f {
+    let seen = textureLoad(light, pixel, 0);
+    var color = seen.xyz;
+    switch display.transform {
+        case 0u: { color = clamp(color * display.exposure, vec3f(0.0), vec3f(1.0)); }
+        case 1u: { color = agx(color * display.exposure); }
+        case 2u: { color = aces(color * display.exposure); }
+        default: { color = linear_of(clamp(color, vec3f(0.0), vec3f(1.0))); }
+    }
+    let behind = vec4f(display.backdrop.xyz, 1.0) * display.backdrop.w;
+    return vec4f(color, 1.0) * seen.w + behind * (1.0 - seen.w);
+}
+
+@fragment
+fn gather(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    return textureLoad(earlier, vec2i(at.xy), 0) + shown_at(vec2i(at.xy));
+}
+
+@fragment
+fn encode(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    var sum = shown_at(vec2i(at.xy));
+    if display.samples > 1.0 {
+        sum += textureLoad(earlier, vec2i(at.xy), 0);
+    }
+    let alpha = sum.w / display.samples;
+    return vec4f(code_of(sum.xyz / max(sum.w, 1e-6)), alpha);
+}

@@ -1,0 +1,63 @@
+// What every shader of a picture knows: the camera, the light, and how the picture is shown.
+//
+// Places and directions are in view space: the model's box is centered and its largest side is 1; +Y is up.
+
+struct Light {
+    // Where it is, w 1; or for one that is far away the direction towards it, w 0.
+    place: vec4f,
+    // Radiance times solid angle of one that is far away, intensity of one that is near; linear RGB. w is the first layer of
+    // its shadow, −1 where it throws none.
+    color: vec4f,
+}
+
+struct Frame {
+    clip_from_view: mat4x4f,
+    view_from_clip: mat4x4f,
+    // Where the camera is; for parallel rays, w 0, the direction towards it.
+    eye: vec4f,
+    // Irradiance over π of the environment in its own frame: what 1, x, y, z, xy, yz, zx, 3y² − 1 and x² − z² of a normal are
+    // multiplied by.
+    irradiance: array<vec4f, 9>,
+    lights: array<Light, 4>,
+    shadow_from_view: array<mat4x4f, 24>,
+    // Cosine and sine of the environment's turn about +Y, its strength, and the last level of its reflections.
+    environment: vec4f,
+    // Display-referred color behind the model, and how it is shown: 0 that color, 1 the environment, 2 blurred.
+    backdrop: vec4f,
+    light_count: u32,
+    // What is shown, see `modes.wgsl`.
+    mode: u32,
+    // Number of the picture's sample, and a pixel's share of the picture's height.
+    sample: u32,
+    pixel: f32,
+    // Texels for one unit of UV, and the texels along a unit of view space that count as even.
+    texels_of_uv: f32,
+    even_density: f32,
+    // The lowest and the highest height, working units.
+    heights: vec2f,
+    // View units in a working unit.
+    view_from_working: f32,
+    pad_0: f32,
+    pad_1: f32,
+    pad_2: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(1) var smooth_sampler: sampler;
+@group(0) @binding(2) var reflections: texture_cube<f32>;
+@group(0) @binding(3) var directional_albedo: texture_2d<f32>;
+@group(0) @binding(4) var shadows: texture_depth_2d_array;
+@group(0) @binding(5) var shadow_sampler: sampler_comparison;
+
+const PI: f32 = 3.14159265358979;
+
+// A direction in the frame of the environment's picture.
+fn in_environment(direction: vec3f) -> vec3f {
+    let turn = frame.environment.xy;
+    return vec3f(turn.x * direction.x - turn.y * direction.z, direction.y, turn.y * direction.x + turn.x * direction.z);
+}
+
+// Where the camera's ray through a point of view space goes, away from the camera.
+fn ray_through(place: vec3f) -> vec3f {
+    return normalize(select(-frame.eye.xyz, place - frame.eye.xyz, frame.eye.w > 0.5));
+}

@@ -1,0 +1,50 @@
+// The light that a place sends to the eye.
+
+// How much of a reflection reaches a place that is open to so much of its surrounding (Lagarde and de Rousiers 2014, "Moving
+// Frostbite to physically based rendering").
+fn reflected_share(to_eye: f32, open: f32, roughness: f32) -> f32 {
+    return clamp(pow(to_eye + open, exp2(-16.0 * roughness - 1.0)) - 1.0 + open, 0.0, 1.0);
+}
+
+fn from_environment(spot: Spot, made: Substance, lobe: vec2f, to_eye: vec3f, cosine: f32) -> vec3f {
+    let both = surrounded(made, lobe);
+    let towards = reflect(-to_eye, spot.normal);
+    let level = made.roughness * frame.environment.w;
+    let reflected = textureSampleLevel(reflections, smooth_sampler, in_environment(towards), level).xyz;
+    // A bent normal may send reflections through the surface.
+    let above = clamp(1.0 + dot(towards, spot.smooth_normal), 0.0, 1.0);
+    let share = reflected_share(cosine, spot.occlusion, made.roughness) * above * above;
+    let irradiance = irradiance_at(frame.irradiance, in_environment(spot.normal));
+    let light = both.reflected * reflected * share + both.scattered * irradiance * spot.occlusion;
+    return light * frame.environment.z;
+}
+
+fn from_lights(spot: Spot, pixel: Pixel, made: Substance, lobe: vec2f, to_eye: vec3f, has_relief: bool) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var index = 0u; index < frame.light_count; index++) {
+        let light = frame.lights[index];
+        let away = light.place.xyz - pixel.position * light.place.w;
+        let to_light = unit_or(away, vec3f(0.0, 1.0, 0.0));
+        let falloff = select(1.0, 1.0 / max(dot(away, away), 1e-4), light.place.w > 0.5);
+        let cosine = dot(spot.normal, to_light);
+        // A light behind the surface itself does not shine through bumps.
+        let is_above = cosine > 0.0 && dot(spot.smooth_normal, to_light) > -0.1;
+        if is_above {
+            var reaches = unshadowed(light, pixel.position, spot.smooth_normal, to_light);
+            if has_relief && reaches > 0.0 {
+                reaches *= through_relief(pixel.place, spot.smooth_normal, to_light);
+            }
+            sum += scattered(made, lobe, spot.normal, to_eye, to_light) * light.color.xyz * (cosine * falloff * reaches);
+        }
+    }
+    return sum;
+}
+
+fn lit(spot: Spot, pixel: Pixel, has_relief: bool) -> vec3f {
+    let to_eye = -ray_through(pixel.position);
+    let cosine = clamp(dot(spot.normal, to_eye), 1e-3, 1.0);
+    let made = substance_of(max(spot.base_color, vec3f(0.0)), spot.metallic, spot.roughness);
+    let lobe = albedo_of_lobe(cosine, made.roughness);
+    return from_environment(spot, made, lobe, to_eye, cosine)
+        + from_lights(spot, pixel, made, lobe, to_eye, has_relief) + spot.emission;
+}

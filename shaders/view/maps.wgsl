@@ -1,0 +1,54 @@
+// The maps of a material on the linked atlas. Ghosts hold what lies over a seam, so a place between four texels is read alike
+// on both sides of it.
+
+struct Material {
+    // What channels are where nothing sets them: base color and alpha; roughness, metallic, occlusion.
+    color: vec4f,
+    surface: vec4f,
+    // Which maps there are: 1 color, 2 surface, 4 emission, 8 normal, 16 height; and of what type a node's own result is, see `show.wgsl`.
+    maps: u32,
+    shown_type: u32,
+    pad_0: u32,
+    pad_1: u32,
+}
+
+@group(1) @binding(0) var<uniform> material: Material;
+// Where a node's own result is shown, it is in the place of the colors.
+@group(1) @binding(1) var colors: texture_2d_array<f32>;
+@group(1) @binding(2) var surfaces: texture_2d_array<f32>;
+@group(1) @binding(3) var emissions: texture_2d_array<f32>;
+@group(1) @binding(4) var normals: texture_2d_array<f32>;
+@group(1) @binding(5) var heights: texture_2d_array<f32>;
+// For each chart: what texel coordinates on its page are more than UVs times `texels_of_uv`, and the page.
+@group(2) @binding(0) var charts: texture_2d<f32>;
+
+// A place on a page.
+struct Place {
+    texel: vec2f,
+    page: i32,
+}
+
+fn chart_row(chart: u32) -> vec4f {
+    return textureLoad(charts, vec2u(chart & 1023u, chart >> 10u), 0);
+}
+
+// Between the four texels around a place, by texel loads rather than a sampler: samplers of some adapters know only 256 steps
+// between two texels, and the export reads none.
+fn value_at(map: texture_2d_array<f32>, place: Place) -> vec4f {
+    let at = place.texel - 0.5;
+    let corner = floor(at);
+    let weight = at - corner;
+    let first = vec2i(corner);
+    let a = textureLoad(map, first, place.page, 0);
+    let b = textureLoad(map, first + vec2i(1, 0), place.page, 0);
+    let c = textureLoad(map, first + vec2i(0, 1), place.page, 0);
+    let d = textureLoad(map, first + vec2i(1, 1), place.page, 0);
+    // Around one of them, so that a constant stays what it is.
+    let top = (b - a) * weight.x;
+    let bottom = (c - a) + (d - c) * weight.x;
+    return a + top + (bottom - top) * weight.y;
+}
+
+fn has_map(bit: u32) -> bool {
+    return (material.maps & bit) != 0u;
+}

@@ -1,0 +1,17 @@
+// Numbers of what is shown; 0 is the lit material.
+
+const BASE_COLOR: u32 = 1u;
+const OPACITY: u32 = 2u;
+const ROUGHNESS: u32 = 3u;
+const METALLIC: u32 = 4u;
+const OCCLUSION: u32 = 5u;
+const HEIGHT: u32 = 6u;
+const NORMAL: u32 = 7u;
+const EMISSION: u32 = 8u;
+const NODE: u32 = 9u;
+const CHECKER: u32 = 10u;
+const DENSITY: u32 = 11u;
+const FACING: u32 = 12u;
+const CLAY: u32 = 13u;
+// How far relief moves what is seen, texels; for tests.
+const SHIFT: u32 = 14u;

@@ -1,0 +1,99 @@
+// The model onto the picture: for each pixel, which place of which chart is seen, and the frame it has there. Light follows in
+// a pass of its own, once for each pixel, however small the triangles are.
+
+struct Corner {
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    // w is the sign of the bitangent.
+    @location(2) tangent: vec4f,
+    // Texel coordinates on the chart's page.
+    @location(3) texel: vec2f,
+    @location(4) chart: u32,
+}
+
+struct Seen {
+    @builtin(position) clip: vec4f,
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec3f,
+    @location(3) texel: vec2f,
+    // Twice the chart's number, and 1 more where the bitangent's sign is negative.
+    @location(4) @interpolate(flat) chart: u32,
+}
+
+@vertex
+fn place_corner(corner: Corner) -> Seen {
+    let clip = frame.clip_from_view * vec4f(corner.position, 1.0);
+    let chart = 2u * corner.chart + select(0u, 1u, corner.tangent.w < 0.0);
+    return Seen(clip, corner.position, corner.normal, corner.tangent.xyz, corner.texel, chart);
+}
+
+// As `seen.wgsl` reads it.
+struct Laid {
+    @location(0) place: vec4u,
+    @location(1) frame: vec4u,
+}
+
+fn laid(seen: Seen, place: vec2f, chart: u32, normal: vec3f, tangent: vec3f, is_front: bool) -> Laid {
+    let code = 2u * chart + select(0u, 1u, is_front);
+    var packed = packed_vector(tangent);
+    if frame.mode == DENSITY {
+        packed = vec2u(bitcast<u32>(density(seen.texel, seen.position)), 0u);
+    }
+    if frame.mode == SHIFT {
+        packed = bitcast<vec2u>(place - seen.texel);
+    }
+    return Laid(vec4u(bitcast<vec2u>(place), code, packed.x), vec4u(bitcast<vec3u>(normal), packed.y));
+}
+
+// Three numbers of −1..1 in 21 bits each.
+fn packed_vector(v: vec3f) -> vec2u {
+    let steps = vec3u(round(clamp(v * 0.5 + 0.5, vec3f(0.0), vec3f(1.0)) * 2097151.0));
+    return vec2u(steps.x | (steps.y << 21u), (steps.y >> 11u) | (steps.z << 10u));
+}
+
+// Texels along a unit of view space.
+fn density(texel: vec2f, position: vec3f) -> f32 {
+    let texels = abs(determinant(mat2x2f(dpdx(texel), dpdy(texel))));
+    let area = length(cross(dpdx(position), dpdy(position)));
+    return sqrt(texels / max(area, 1e-20));
+}
+
+// A share of 0..1 for a pixel, another one in each sample: veils are as dense as they should be in the mean.
+fn veil(pixel: vec2f) -> f32 {
+    // Interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of Duty").
+    let moved = pixel + 5.588238 * f32(frame.sample);
+    return fract(52.9829189 * fract(dot(moved, vec2f(0.06711056, 0.00583715))));
+}
+
+fn page_of(chart: u32) -> i32 {
+    return i32(chart_row(chart >> 1u).z);
+}
+
+fn is_clear(place: Place, pixel: vec2f) -> bool {
+    let alpha = select(material.color.w, value_at(colors, place).w, has_map(1u));
+    return alpha < 1.0 && alpha <= veil(pixel) && (frame.mode == 0u || frame.mode == CLAY);
+}
+
+@fragment
+fn lay(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
+    return laid(seen, seen.texel, seen.chart, seen.normal, seen.tangent, is_front);
+}
+
+@fragment
+fn lay_veiled(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
+    if is_clear(Place(seen.texel, page_of(seen.chart)), seen.clip.xy) {
+        discard;
+    }
+    return laid(seen, seen.texel, seen.chart, seen.normal, seen.tangent, is_front);
+}
+
+@fragment
+fn lay_relief(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
+    let hit = met(seen, Place(seen.texel, page_of(seen.chart)), ray_through(seen.position));
+    if is_clear(Place(hit.texel, hit.page), seen.clip.xy) {
+        discard;
+    }
+    let basis = basis_there(hit, Basis(seen.normal, seen.tangent, seen.chart));
+    return laid(seen, hit.texel, basis.chart, basis.normal, basis.tangent, is_front);
+}

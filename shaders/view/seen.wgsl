@@ -1,0 +1,114 @@
+// What the model's raster says of a pixel, and what the surface is made of there.
+
+@group(2) @binding(1) var seen_places: texture_2d_array<u32>;
+@group(2) @binding(2) var depths: texture_depth_2d;
+
+// A pixel's place of the surface.
+struct Pixel {
+    // View space.
+    position: vec3f,
+    place: Place,
+    chart: u32,
+    is_front: bool,
+    // Not of unit length: interpolated.
+    normal: vec3f,
+    tangent: vec3f,
+    bitangent: vec3f,
+    // What took the tangent's place in some modes.
+    extra: vec2f,
+}
+
+fn pixel_at(at: vec2f) -> Pixel {
+    let texel = vec2i(at);
+    let first = textureLoad(seen_places, texel, 0, 0);
+    let second = textureLoad(seen_places, texel, 1, 0);
+    let depth = textureLoad(depths, texel, 0);
+    let size = vec2f(textureDimensions(depths));
+    let clip = vec2f(2.0, -2.0) * (at / size) + vec2f(-1.0, 1.0);
+    let view = frame.view_from_clip * vec4f(clip, depth, 1.0);
+    let chart = first.z >> 2u;
+    let normal = bitcast<vec3f>(second.xyz);
+    let tangent = unpacked_vector(vec2u(first.w, second.w));
+    let sign = select(1.0, -1.0, (first.z & 2u) != 0u);
+    return Pixel(
+        view.xyz / view.w,
+        Place(bitcast<vec2f>(first.xy), i32(chart_row(chart).z)),
+        chart,
+        (first.z & 1u) != 0u,
+        normal,
+        tangent,
+        cross(normal, tangent) * sign,
+        bitcast<vec2f>(vec2u(first.w, second.w)),
+    );
+}
+
+fn unpacked_vector(packed: vec2u) -> vec3f {
+    let steps = vec3u(packed.x & 0x1fffffu, (packed.x >> 21u) | ((packed.y & 0x3ffu) << 11u), packed.y >> 10u);
+    return vec3f(steps & vec3u(0x1fffffu)) / 2097151.0 * 2.0 - 1.0;
+}
+
+// What a place of the surface is made of and how it lies.
+struct Spot {
+    base_color: vec3f,
+    alpha: f32,
+    roughness: f32,
+    metallic: f32,
+    occlusion: f32,
+    emission: vec3f,
+    // As the normal map has it.
+    tangent_normal: vec3f,
+    // Unit vectors that face the eye: with the normal map, and without.
+    normal: vec3f,
+    smooth_normal: vec3f,
+}
+
+fn spot_of(pixel: Pixel) -> Spot {
+    let color = select(material.color, value_at(colors, pixel.place), has_map(1u));
+    let surface = select(material.surface, value_at(surfaces, pixel.place), has_map(2u));
+    let emission = select(vec3f(0.0), value_at(emissions, pixel.place).xyz, has_map(4u));
+    let mapped = select(vec3f(0.0, 0.0, 1.0), value_at(normals, pixel.place).xyz, has_map(8u));
+    // Decoded as MikkTSpace has it: with the interpolated frame, not made orthonormal.
+    let bent = pixel.tangent * mapped.x + pixel.bitangent * mapped.y + pixel.normal * mapped.z;
+    let towards = select(-1.0, 1.0, pixel.is_front);
+    let smooth_normal = unit_or(pixel.normal, vec3f(0.0, 1.0, 0.0));
+    return Spot(
+        color.xyz,
+        color.w,
+        clamp(surface.x, 0.0, 1.0),
+        clamp(surface.y, 0.0, 1.0),
+        clamp(surface.z, 0.0, 1.0),
+        max(emission, vec3f(0.0)),
+        mapped,
+        unit_or(bent, smooth_normal) * towards,
+        smooth_normal * towards,
+    );
+}
+
+@vertex
+fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(vec2f(f32((index << 1u) & 2u), f32(index & 2u)) * 2.0 - 1.0, 0.0, 1.0);
+}
+
+fn painted(at: vec2f, has_relief: bool) -> vec4f {
+    let pixel = pixel_at(at);
+    let spot = spot_of(pixel);
+    return vec4f(min(lit(spot, pixel, has_relief), vec3f(65504.0)), 1.0);
+}
+
+@fragment
+fn paint(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    return painted(at.xy, false);
+}
+
+// With shadows of the heights.
+@fragment
+fn paint_relief(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    return painted(at.xy, true);
+}
+
+// Something else than the lit material.
+@fragment
+fn paint_shown(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let pixel = pixel_at(at.xy);
+    return vec4f(shown_color(pixel, spot_of(pixel)), 1.0);
+}

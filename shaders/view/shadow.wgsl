@@ -1,0 +1,31 @@
+// Shadows of lights: the model's depth as each light sees it.
+
+// The layer of a light's shadow in which a direction away from it lies: one for far lights, a face of a cube for near ones.
+fn layer_of(light: Light, away: vec3f) -> i32 {
+    let size = abs(away);
+    var face = select(4, 5, away.z < 0.0);
+    face = select(face, select(2, 3, away.y < 0.0), size.y >= size.z);
+    face = select(face, select(0, 1, away.x < 0.0), size.x >= size.y && size.x >= size.z);
+    return i32(light.color.w) + select(0, face, light.place.w > 0.5);
+}
+
+// Share of a light that reaches a place: four comparisons, each between four depths.
+fn unshadowed(light: Light, position: vec3f, normal: vec3f, to_light: vec3f) -> f32 {
+    if light.color.w < 0.0 {
+        return 1.0;
+    }
+    // Off the surface, the more the flatter the light falls: a depth covers a whole texel.
+    let slant = 1.0 - clamp(dot(normal, to_light), 0.0, 1.0);
+    let from_surface = position + normal * (0.002 + 0.006 * slant);
+    let layer = layer_of(light, from_surface - light.place.xyz);
+    let clip = frame.shadow_from_view[layer] * vec4f(from_surface, 1.0);
+    let place = clip.xyz / max(clip.w, 1e-6);
+    let uv = vec2f(0.5 + 0.5 * place.x, 0.5 - 0.5 * place.y);
+    let texel = 1.0 / f32(textureDimensions(shadows).x);
+    var sum = 0.0;
+    for (var tap = 0; tap < 4; tap++) {
+        let step = vec2f(f32(tap & 1) - 0.5, f32(tap >> 1u) - 0.5) * 1.5 * texel;
+        sum += textureSampleCompareLevel(shadows, shadow_sampler, uv + step, layer, place.z);
+    }
+    return sum * 0.25;
+}
