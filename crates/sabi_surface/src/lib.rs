@@ -3,6 +3,7 @@
 pub mod atlas;
 pub mod bvh;
 pub mod disk;
+pub mod displace;
 pub mod load;
 pub mod model;
 pub mod pieces;

@@ -1,0 +1,200 @@
+//! A finer copy of a mesh whose vertices stand where a height field lifts them: real relief, with an outline of its own.
+//!
+//! An edge is halved as long as it is longer than a length, and a triangle is cut along whatever of its edges were. Whether an
+//! edge is halved and where its middle lies depends on its two ends alone, so both neighbors cut it alike and no T-junction
+//! arises; nothing has to be stitched, and long thin triangles are cut along their length only. The price is that lengths
+//! come in powers of two.
+//!
+//! Watertight by bits: what stands at one place, whatever triangles, charts and parts it belongs to, moves by the mean of
+//! the heights that the charts give there, along the mean of the shading normals (as Castaño does on the GPU).
+
+mod lift;
+mod plane;
+mod split;
+
+#[cfg(test)]
+mod tests;
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use crate::atlas::Atlas;
+use crate::model::Mesh;
+use lift::lift;
+pub use plane::HeightPlane;
+use split::{Split, count};
+
+/// How fine a displaced copy is to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplaceOptions {
+    /// Edges are halved until none is longer, model units; 0 for as fine as the budget allows. [`texel_length`] tells from
+    /// where on finer ones show no more.
+    pub edge_length: f32,
+    /// Triangles at most; a mesh that has more keeps those that it has.
+    pub triangle_budget: usize,
+}
+
+impl Default for DisplaceOptions {
+    fn default() -> Self {
+        DisplaceOptions {
+            edge_length: 0.0,
+            triangle_budget: 2_000_000,
+        }
+    }
+}
+
+/// A finer, displaced copy of a mesh. Vertices of different triangles of the mesh are never shared.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Displaced {
+    /// Where the vertices stand, model units.
+    pub positions: Vec<[f32; 3]>,
+    /// Shading normals of the mesh, for each vertex. As tangents they are those of the undisplaced surface, which a normal
+    /// map is meant in, and interpolated without being made unit length, as they are over the triangle that was cut.
+    pub normals: Vec<[f32; 3]>,
+    /// Tangents of the mesh, for each vertex.
+    pub tangents: Vec<[f32; 4]>,
+    /// Texture coordinates of the mesh, for each vertex.
+    pub uvs: Vec<[f32; 2]>,
+    /// Places on the page of the chart, texels, for each vertex.
+    pub texels: Vec<[f32; 2]>,
+    /// Corners as vertex numbers, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// The triangle of the mesh that each was cut from, rising: it tells chart, material and part.
+    pub triangle_from: Vec<u32>,
+    /// The length above which edges were halved, model units; infinite when none were.
+    pub edge_length: f32,
+    /// Why it is coarser than asked for, as a sentence.
+    pub note: Option<String>,
+}
+
+/// Cuts a mesh finer and displaces it. `height` gives the height at a place of a chart in texels, model units along the
+/// normal, none where the chart knows none; what is not finite counts as 0. See [`HeightPlane::at`]. Surfaces that lie on one
+/// another and face opposite ways share no direction and stay where they are.
+pub fn displaced(
+    mesh: &Mesh,
+    atlas: &Atlas,
+    options: &DisplaceOptions,
+    height: impl Fn(u32, [f32; 2]) -> Option<f32> + Sync,
+) -> Displaced {
+    let budget = options.triangle_budget as u64;
+    let (edge_length, note) = fitting_length(mesh, options.edge_length, budget);
+    let splits: Vec<Split> = (0..mesh.triangles.len())
+        .into_par_iter()
+        .map(|triangle| Split::new(mesh, atlas, triangle, edge_length))
+        .collect();
+    let mut whole = joined(&splits);
+    whole.edge_length = edge_length;
+    whole.note = note;
+    let chart_of = |triangle: usize| atlas.triangle_chart.get(triangle).copied().unwrap_or(0);
+    whole.positions = lift(&splits, &whole.positions, chart_of, height);
+    whole
+}
+
+/// Model units of a texel's side, the mean over the surface; 0 where there is no surface or no map of it.
+pub fn texel_length(mesh: &Mesh, atlas: &Atlas) -> f32 {
+    let area_texels = |[a, b, c]: &[[f32; 2]; 3]| {
+        let side = |to: &[f32; 2]| [0, 1].map(|axis| f64::from(to[axis]) - f64::from(a[axis]));
+        let (u, v) = (side(b), side(c));
+        (u[0] * v[1] - u[1] * v[0]).abs() * 0.5
+    };
+    let texels: f64 = atlas.triangle_texels.iter().map(area_texels).sum();
+    let length = (area(mesh) / texels).sqrt() as f32;
+    if length.is_finite() { length } else { 0.0 }
+}
+
+/// The parts one after the other, not yet displaced.
+fn joined(splits: &[Split]) -> Displaced {
+    let mut whole = Displaced::default();
+    let vertices = splits.iter().map(|split| split.vertices.len()).sum();
+    let triangles = splits.iter().map(|split| split.triangles.len()).sum();
+    whole.positions.reserve(vertices);
+    whole.normals.reserve(vertices);
+    whole.tangents.reserve(vertices);
+    whole.uvs.reserve(vertices);
+    whole.texels.reserve(vertices);
+    whole.triangles.reserve(triangles);
+    whole.triangle_from.reserve(triangles);
+    for (number, split) in splits.iter().enumerate() {
+        let first = whole.positions.len() as u32;
+        for vertex in &split.vertices {
+            whole.positions.push(vertex.position);
+            whole.normals.push(vertex.normal);
+            whole.tangents.push(vertex.tangent);
+            whole.uvs.push(vertex.uv);
+            whole.texels.push(vertex.texel);
+        }
+        let triangles = split.triangles.iter();
+        whole
+            .triangles
+            .extend(triangles.map(|corners| corners.map(|corner| first + corner)));
+        whole.triangle_from.resize(whole.triangles.len(), number as u32);
+    }
+    whole
+}
+
+/// The smallest length above which edges can be halved within a budget of triangles, none below the one asked for; and a
+/// sentence when it is larger.
+fn fitting_length(mesh: &Mesh, asked: f32, budget: u64) -> (f32, Option<String>) {
+    let triangles = mesh.triangles.len() as u64;
+    let is_asked = asked.is_finite() && asked > 0.0;
+    if triangles > budget {
+        let note = format!(
+            "the displaced model keeps the {triangles} triangles that it has: its budget of {budget} leaves none to follow \
+             the heights with"
+        );
+        return (f32::INFINITY, Some(note));
+    }
+    let finest = finest_length(mesh);
+    let mut length = if is_asked { asked.max(finest) } else { finest };
+    if fits(mesh, length, budget) {
+        return (length, None);
+    }
+    // No triangle whose sides are no longer covers more than an equilateral one.
+    let needed = (area(mesh) * 4.0 / (3f64.sqrt() * budget as f64)).sqrt() as f32;
+    length = length.max(needed);
+    while !fits(mesh, length, budget) {
+        length *= 2f32.powf(0.25);
+    }
+    let note = is_asked.then(|| {
+        format!(
+            "the displaced model is coarser than asked for: its edges are up to {length} units long and not {asked}, since \
+             shorter ones would take more than {budget} triangles"
+        )
+    });
+    (length, note)
+}
+
+/// Shorter edges would be a few steps of their own coordinates long, and halving them would lead nowhere.
+fn finest_length(mesh: &Mesh) -> f32 {
+    let corners = mesh.triangles.iter().flatten();
+    let reach = corners
+        .flat_map(|&vertex| mesh.positions[vertex as usize])
+        .filter(|value| value.is_finite())
+        .fold(0.0, |reach: f32, value| reach.max(value.abs()));
+    (reach / 1024.0 / 1024.0).max(f32::MIN_POSITIVE)
+}
+
+/// Whether halving what is longer makes no more triangles than the budget.
+fn fits(mesh: &Mesh, length: f32, budget: u64) -> bool {
+    // Triangles that are left over once the sum is too large are not counted.
+    let sum = AtomicU64::new(0);
+    mesh.triangles.par_iter().for_each(|triangle| {
+        let before = sum.load(Ordering::Relaxed);
+        if before <= budget {
+            let corners = triangle.map(|vertex| mesh.positions[vertex as usize]);
+            sum.fetch_add(count(corners, length, budget - before), Ordering::Relaxed);
+        }
+    });
+    sum.into_inner() <= budget
+}
+
+/// Area of the surface, square model units.
+fn area(mesh: &Mesh) -> f64 {
+    let areas = mesh.triangles.iter().map(|triangle| {
+        let [a, b, c] = triangle.map(|vertex| Vec3::from(mesh.positions[vertex as usize]).as_dvec3());
+        DVec3::cross(b - a, c - a).length() * 0.5
+    });
+    areas.filter(|area| area.is_finite()).sum()
+}
