@@ -18,6 +18,7 @@ mod scene;
 mod shadows;
 mod target;
 mod upload;
+pub mod relief;
 
 pub use camera::{Camera, Lens, Ray, Viewpoint, ViewpointError, aspect_of};
 pub use environment::{Environment, Panorama};
