@@ -7,7 +7,7 @@ use sabi_surface::disk::{self, Kind};
 /// The number in the magic rises whenever rays start or are followed differently: keys name nodes, kernels and adapters, not
 /// what the program does between them. Results take four bytes a texel and more.
 const KIND: Kind = Kind {
-    magic: b"sabi rays 1\n",
+    magic: b"sabi rays 2\n",
     prefix: "rays",
     limit_bytes: 2 << 30,
 };

@@ -167,7 +167,8 @@ impl Bvh {
         if self.triangles.is_empty() || !origin.is_finite() || max.is_nan() || max <= 0.0 {
             return None;
         }
-        Some(Ray::new(origin, direction, 0.0, max * self.scale))
+        // Adding 0 makes -0 to 0: obvhs takes -0 for a negative number in one place and not in another, and misses everything.
+        Some(Ray::new(origin, direction + Vec3A::ZERO, 0.0, max * self.scale))
     }
 }
 

@@ -13,12 +13,12 @@ mod model;
 mod pick;
 mod pipelines;
 mod placement;
+pub mod relief;
 mod renderer;
 mod scene;
 mod shadows;
 mod target;
 mod upload;
-pub mod relief;
 
 pub use camera::{Camera, Lens, Ray, Viewpoint, ViewpointError, aspect_of};
 pub use environment::{Environment, Panorama};

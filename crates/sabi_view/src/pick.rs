@@ -55,9 +55,11 @@ pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placeme
     // Begun near the model, since from far away single precision counts in large steps.
     let skipped = (-origin.dot(direction) - MODEL_RADIUS).max(0.0);
     let begin = (origin + direction * skipped) / placement.scale + DVec3::from(placement.center);
-    // + 0 turns −0 into 0: the hierarchy misses everything along a direction of which a component is −0.
-    let way = direction.as_vec3() + Vec3::ZERO;
-    let hit = bvh.closest(begin.as_vec3().to_array(), way.to_array(), f32::INFINITY)?;
+    let hit = bvh.closest(
+        begin.as_vec3().to_array(),
+        direction.as_vec3().to_array(),
+        f32::INFINITY,
+    )?;
     let corners = corners(mesh, hit.triangle)?;
     let [a, b, c] = corners.map(|corner| (corner - DVec3::from(placement.center)) * placement.scale);
     // The ray was rounded to the model's units on the way; where it meets the triangle is computed anew.

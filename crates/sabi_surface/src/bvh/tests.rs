@@ -109,6 +109,23 @@ fn what_is_as_near_as_a_few_millionths_of_the_models_size_is_met() {
 }
 
 #[test]
+fn the_sign_of_a_zero_does_not_turn_a_ray() {
+    let mesh = Mesh {
+        positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 2.0, 0.0]],
+        triangles: vec![[0, 1, 2]],
+        ..Mesh::default()
+    };
+    let bvh = Bvh::build(&mesh);
+    for [x, y] in [[0.0, 0.0], [-0.0, 0.0], [0.0, -0.0], [-0.0, -0.0]] {
+        for (height, z) in [(1.0, -1.0), (-1.0, 1.0)] {
+            let hit = bvh.closest([0.0, 0.0, height], [x, y, z], 4.0);
+            assert_eq!(hit.map(|hit| hit.triangle), Some(0), "{x} {y} {z}");
+            assert!(bvh.any([0.0, 0.0, height], [x, y, z], 4.0), "{x} {y} {z}");
+        }
+    }
+}
+
+#[test]
 fn building_twice_gives_the_same_hierarchy() {
     let mesh = soup(5, 1.0);
     assert_eq!(Bvh::build(&mesh).tree(), Bvh::build(&mesh).tree());
