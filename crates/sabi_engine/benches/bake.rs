@@ -286,11 +286,12 @@ fn main() {
     let named: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with('-')).collect();
     let is_wanted = |name: &str| named.is_empty() || named.iter().any(|wanted| wanted == name);
     println!("| what | measured | aim |\n|---|---|---|");
-    let parts: [(&str, &dyn Fn()); 9] = [
+    let parts: [(&str, &dyn Fn()); 10] = [
         ("run", &|| bench_run(folder.path(), &model)),
         ("noises", &|| bench_noises(folder.path(), &model)),
         ("rays", &|| surface::bench_rays(folder.path(), &model)),
         ("filters", &|| surface::bench_filters(folder.path(), &model)),
+        ("ghosts", &|| surface::bench_ghosts(folder.path(), &model)),
         ("atlas", &|| bench_atlas(folder.path(), &model)),
         ("demo", &|| bench_demo(folder.path())),
         ("planning", &|| bench_planning(folder.path())),

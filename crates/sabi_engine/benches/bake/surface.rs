@@ -1,6 +1,8 @@
 //! Rays and filters on the surface, at 1024², on the 30 000-triangle model.
 
-use std::path::Path;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
@@ -99,8 +101,8 @@ pub(crate) fn bench_rays(folder: &Path, model: &Path) {
 }
 
 /// The share of a filter's time in which ghosts are filled, the best of three runs. Both are waited for, so that they do not
-/// overlap.
-fn ghost_share(model: &Path, nodes: &str) -> f64 {
+/// overlap. A row of it, with how many texels there are of either.
+fn ghost_row(what: &str, model: &Path, nodes: &str) {
     let text = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
     let open = OpenGraph {
         path: "bench.sabi".into(),
@@ -133,16 +135,58 @@ fn ghost_share(model: &Path, nodes: &str) -> f64 {
         let all: Duration = report.steps.iter().filter(of_filter).map(|step| step.run).sum();
         report.ghosts.as_secs_f64() / all.as_secs_f64()
     };
-    (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
+    let share = (0..3).map(|_| once()).fold(f64::INFINITY, f64::min);
+    let atlas = &workpiece.prepared.atlas;
+    let texels: u64 = atlas.charts.iter().map(|chart| u64::from(chart.texels)).sum();
+    let what = format!("{what}, {} beside {texels} texels", atlas.ghosts.len());
+    row(&what, 100.0 * share, "%", "≤ 8 %");
+}
+
+/// A cube whose sides are charts of 297 texels an edge, which is half of the sheet: few ghosts beside what is owned.
+fn cube(folder: &Path) -> PathBuf {
+    const SIDES: [[usize; 4]; 6] = [
+        [1, 3, 4, 2],
+        [5, 6, 8, 7],
+        [1, 2, 6, 5],
+        [3, 7, 8, 4],
+        [1, 5, 7, 3],
+        [2, 4, 8, 6],
+    ];
+    let mut text = String::new();
+    for corner in 0..8 {
+        let _ = writeln!(text, "v {} {} {}", corner & 1, corner >> 1 & 1, corner >> 2);
+    }
+    for (side, corners) in SIDES.iter().enumerate() {
+        let [left, low] = [side % 3, side / 3].map(|step| 0.02 + 0.33 * step as f64);
+        let [right, high] = [left, low].map(|at| at + 0.29);
+        let _ = writeln!(
+            text,
+            "vt {left} {low}\nvt {right} {low}\nvt {right} {high}\nvt {left} {high}"
+        );
+        let [a, b, c, d] = *corners;
+        let first = 4 * side + 1;
+        let [second, third, fourth] = [first + 1, first + 2, first + 3];
+        let _ = writeln!(text, "f {a}/{first} {b}/{second} {c}/{third} {d}/{fourth}");
+    }
+    let path = folder.join("cube.obj");
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn on_noise(kind: &str, params: &str) -> String {
+    format!(
+        r#""noise": {{ "kind": "noise/simplex", "params": {{ "size": 0.05 }} }},
+        "filter": {{ "kind": "filter/{kind}", "inputs": {{ "source": "noise" }}, "params": {{ {params} }} }}"#
+    )
+}
+
+pub(crate) fn bench_ghosts(folder: &Path, model: &Path) {
+    let nodes = on_noise("smooth", r#""steps": 64"#);
+    ghost_row("share of ghosts in a pass over nine neighbors", model, &nodes);
+    ghost_row("the same on a cube of six charts", &cube(folder), &nodes);
 }
 
 pub(crate) fn bench_filters(folder: &Path, model: &Path) {
-    let on_noise = |kind: &str, params: &str| {
-        format!(
-            r#""noise": {{ "kind": "noise/simplex", "params": {{ "size": 0.05 }} }},
-            "filter": {{ "kind": "filter/{kind}", "inputs": {{ "source": "noise" }}, "params": {{ {params} }} }}"#
-        )
-    };
     let taken = |kind: &str, params: &str| node_seconds(folder, model, "filter", &on_noise(kind, params));
     let blur = taken("blur", r#""radius": 0.05"#);
     row("filter/blur at 1024², radius 0.05", blur, "s", "≤ 0.25 s");
@@ -153,8 +197,6 @@ pub(crate) fn bench_filters(folder: &Path, model: &Path) {
     let pass = (steps(64) - steps(1)) / 63.0;
     row("a pass over nine neighbors, ghosts filled", 1000.0 * pass, "ms", "");
     row("the same, passes a second", 1.0 / pass, "", "");
-    let share = ghost_share(model, &on_noise("smooth", r#""steps": 64"#));
-    row("share of its ghosts", 100.0 * share, "%", "≤ 8 %");
     for (kind, params) in [
         ("distance", r#""width": 0.05"#),
         ("grow", r#""radius": 0.01"#),
