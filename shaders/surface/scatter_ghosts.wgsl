@@ -8,8 +8,8 @@ struct Scatter {
 }
 
 @group(1) @binding(0) var<uniform> scatter: Scatter;
-@group(1) @binding(1) var<storage, read> values: array<vec4f>;
-@group(1) @binding(2) var field: texture_storage_2d_array<FORMAT, write>;
+@group(1) @binding(1) var field: texture_storage_2d_array<FORMAT, write>;
+@group(1) @binding(2) var<storage, read> values: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {

@@ -1,8 +1,9 @@
 //! Texels that hold what other texels hold: ghosts over seams, and those without a counterpart on another level.
 
+mod kernels;
 mod rows;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
@@ -10,11 +11,11 @@ use sabi_surface::atlas::{Atlas, Orphan};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::pipelines::{FixedKernel, read_entry, storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::pool::array_view;
 use crate::surface::GpuSurface;
 use crate::uploads::{storage_buffer, table_texture};
-use rows::{LinkRow, fill_rows, orphan_rows};
+use kernels::Part;
+use rows::{LinkRow, coupled_slots, fill_rows, orphan_rows};
 
 /// Links a workgroup.
 const GROUP: u32 = 64;
@@ -30,6 +31,8 @@ pub(crate) enum LinkRound {
     Owned,
     /// Ghosts, too, that an earlier round has filled.
     WithGhosts,
+    /// The same once more, right after a round of that.
+    Settled,
     /// As before, along cubics instead of straight lines: where a slope is taken over a seam, straight lines would flatten
     /// crests there.
     Cubic,
@@ -42,7 +45,7 @@ pub(crate) enum LinkRound {
 const ALL_ROUNDS: [LinkRound; 6] = [
     LinkRound::Owned,
     LinkRound::WithGhosts,
-    LinkRound::WithGhosts,
+    LinkRound::Settled,
     LinkRound::Cubic,
     LinkRound::Cubic,
     LinkRound::Cubic,
@@ -73,14 +76,23 @@ impl GhostLinks {
             .iter()
             .map(|ghost| LinkRow::of_ghost(atlas, ghost))
             .collect();
-        let (plain, coupled): (Vec<_>, Vec<_>) = rows
+        let filled: Vec<[[u32; 4]; 2]> = rows.iter().map(|row| fill_rows(atlas, row)).collect();
+        let is_plain = |rows: &[[u32; 4]; 2]| rows[1][1] == 0xf;
+        let plain: Vec<[u32; 4]> = filled
             .iter()
-            .map(|row| fill_rows(atlas, row))
-            .partition(|[_, known]| known[1] == 0xf);
-        let plain: Vec<[u32; 4]> = plain.into_iter().map(|[row, _]| row).collect();
+            .filter(|rows| is_plain(rows))
+            .map(|rows| rows[0])
+            .collect();
+        let mut next = 0..;
+        let slots: Vec<Option<u32>> = filled
+            .iter()
+            .map(|rows| if is_plain(rows) { None } else { next.next() })
+            .collect();
+        let of_coupled = |rows: &[[u32; 4]; 2]| [rows[0], rows[1], coupled_slots(atlas, rows, &slots)];
+        let coupled: Vec<[[u32; 4]; 3]> = filled.iter().filter(|rows| !is_plain(rows)).map(of_coupled).collect();
         Ok(GhostLinks {
             plain: Links::upload(gpu, &plain, 1)?,
-            coupled: Links::upload(gpu, &coupled, 2)?,
+            coupled: Links::upload(gpu, &coupled, 3)?,
             all: Links::upload(gpu, &rows, 4)?,
         })
     }
@@ -148,17 +160,13 @@ impl Gpu {
         let cubic = rounds.iter().position(|round| *round == LinkRound::Cubic);
         let (straight, cubic) = rounds.split_at(cubic.unwrap_or(rounds.len()));
         let parts = [(plain, &[LinkRound::Plain][..]), (coupled, straight), (all, cubic)];
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for (links, rounds) in parts {
-            if links.count > 0 && !rounds.is_empty() {
+        self.in_one_pass(|pass| {
+            for (links, rounds) in parts {
                 let group = links.surface.get_or_init(|| self.surface_group(surface, links));
-                self.encode_links(&mut encoder, links, group, texture, rounds)?;
+                self.encode_links(pass, links, group, texture, rounds)?;
             }
-        }
-        self.queue.submit([encoder.finish()]);
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Refreshes the linked texels of one texture; `surface_group` binds the surface with the links as its ghosts.
@@ -169,83 +177,51 @@ impl Gpu {
         texture: (&wgpu::Texture, Format),
         rounds: &[LinkRound],
     ) -> Result<(), GpuError> {
-        if links.count == 0 {
-            return Ok(());
-        }
+        self.in_one_pass(|pass| self.encode_links(pass, links, surface_group, texture, rounds))
+    }
+
+    /// Submits what is encoded: one pass, since each costs software drivers something.
+    fn in_one_pass(
+        &self,
+        encode: impl FnOnce(&mut wgpu::ComputePass<'_>) -> Result<(), GpuError>,
+    ) -> Result<(), GpuError> {
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.encode_links(&mut encoder, links, surface_group, texture, rounds)?;
+        encode(&mut encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default()))?;
         self.queue.submit([encoder.finish()]);
         Ok(())
     }
 
     fn encode_links(
         &self,
-        encoder: &mut wgpu::CommandEncoder,
+        pass: &mut wgpu::ComputePass<'_>,
         links: &Links,
         surface_group: &wgpu::BindGroup,
         (texture, format): (&wgpu::Texture, Format),
         rounds: &[LinkRound],
     ) -> Result<(), GpuError> {
-        // All rounds of all fields take turns with it: what one submission gathers, the same one writes.
-        let values = &links.values;
+        if links.count == 0 || rounds.is_empty() {
+            return Ok(());
+        }
         let view = array_view(texture);
         let groups = links.count.div_ceil(GROUP);
+        pass.set_bind_group(0, surface_group, &[]);
         for round in rounds {
-            let with_ghosts = usize::from(*round == LinkRound::WithGhosts);
-            let constants = links.constants[with_ghosts].as_entire_binding();
-            let view = wgpu::BindingResource::TextureView(&view);
-            let [gather, scatter] = self.link_kernels(*round, format)?;
-            let steps = [
-                (gather, [constants.clone(), view.clone(), values.as_entire_binding()]),
-                (scatter, [constants, values.as_entire_binding(), view]),
-            ];
-            for (kernel, resources) in steps {
-                let group = self.bind(&kernel.layout, resources);
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            let with_ghosts = usize::from(matches!(round, LinkRound::WithGhosts | LinkRound::Settled));
+            for part in Part::of(*round, format) {
+                let kernel = self.link_kernel(*round, *part, format)?;
+                let constants = links.constants[with_ghosts].as_entire_binding();
+                let view = wgpu::BindingResource::TextureView(&view);
+                // All rounds of all fields take turns with the values: what one submission gathers, the same one writes.
+                let values = (*part != Part::InPlace).then(|| links.values.as_entire_binding());
+                let group = self.bind(&kernel.layout, [constants, view].into_iter().chain(values));
                 pass.set_pipeline(&kernel.pipeline);
-                pass.set_bind_group(0, surface_group, &[]);
                 pass.set_bind_group(1, &group, &[]);
                 pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);
             }
         }
         Ok(())
-    }
-
-    /// The kernels of a round: one that computes ghosts, and one that writes them to textures of a format.
-    fn link_kernels(&self, round: LinkRound, format: Format) -> Result<[Arc<FixedKernel>; 2], GpuError> {
-        let (name, gather) = match round {
-            LinkRound::Plain => (
-                "gather plain",
-                include_str!("../../../shaders/surface/gather_plain.wgsl"),
-            ),
-            LinkRound::Owned | LinkRound::WithGhosts => (
-                "gather coupled",
-                include_str!("../../../shaders/surface/gather_coupled.wgsl"),
-            ),
-            LinkRound::Cubic => (
-                "refine ghosts",
-                include_str!("../../../shaders/surface/refine_ghosts.wgsl"),
-            ),
-        };
-        let gather_entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
-        let (scatter_name, scatter) = match round {
-            LinkRound::Plain | LinkRound::Owned | LinkRound::WithGhosts => (
-                "scatter filled",
-                include_str!("../../../shaders/surface/scatter_filled.wgsl"),
-            ),
-            LinkRound::Cubic => (
-                "scatter ghosts",
-                include_str!("../../../shaders/surface/scatter_ghosts.wgsl"),
-            ),
-        };
-        let scatter = scatter.replace("FORMAT", format.wgsl());
-        let scatter_entries = [uniform_entry(0), read_entry(1), storage_entry(2, format)];
-        Ok([
-            self.fixed_kernel(name, None, gather, &gather_entries)?,
-            self.fixed_kernel(scatter_name, Some(format), &scatter, &scatter_entries)?,
-        ])
     }
 
     /// A small buffer of constants.

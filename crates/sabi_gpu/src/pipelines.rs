@@ -97,7 +97,19 @@ fn sampled_entry(
 
 /// A texture that is written.
 pub(crate) fn storage_entry(binding: u32, format: Format) -> wgpu::BindGroupLayoutEntry {
-    let access = wgpu::StorageTextureAccess::WriteOnly;
+    storage_texture_entry(binding, format, wgpu::StorageTextureAccess::WriteOnly)
+}
+
+/// A texture that is read and written, of a format with which every adapter allows that.
+pub(crate) fn update_entry(binding: u32, format: Format) -> wgpu::BindGroupLayoutEntry {
+    storage_texture_entry(binding, format, wgpu::StorageTextureAccess::ReadWrite)
+}
+
+fn storage_texture_entry(
+    binding: u32,
+    format: Format,
+    access: wgpu::StorageTextureAccess,
+) -> wgpu::BindGroupLayoutEntry {
     let view_dimension = wgpu::TextureViewDimension::D2Array;
     entry(
         binding,

@@ -3,6 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use sabi_surface::atlas::{Atlas, Ghost, Orphan, Owner};
 
+/// `EMPTY` in `shaders/lib/atlas.wgsl`.
+const NO_SLOT: u32 = u32::MAX;
+
 /// Four rows, as `ghost_link` and `ghost_read` in `shaders/lib/atlas.wgsl` read them.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -40,7 +43,7 @@ impl LinkRow {
     }
 }
 
-/// A step of at most two texels each way, as `gather_coupled.wgsl` reads it.
+/// A step of at most two texels each way, as `fill_coupled.wgsl` reads it.
 fn packed_step([x, y]: [i32; 2]) -> u32 {
     (x + 2) as u32 | ((y + 2) as u32) << 3
 }
@@ -60,7 +63,7 @@ fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
     packed_step(nearest.unwrap_or([0, 0]))
 }
 
-/// How a ghost is filled, as `fill_link` in `shaders/lib/atlas.wgsl` and `gather_coupled.wgsl` read it: the lowest of the
+/// How a ghost is filled, as `fill_link` in `shaders/lib/atlas.wgsl` and `fill_coupled.wgsl` read it: the lowest of the
 /// four texels around its point, how far it lies from that in 65536ths, itself, and both pages; then bits of those of the
 /// four that are there, of those that are owned, and the step to the owned texel that it takes its value from without them.
 pub(super) fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
@@ -95,4 +98,19 @@ pub(super) fn orphan_rows(orphan: &Orphan) -> [[u32; 4]; 2] {
         [packed(orphan.from), 0, packed(orphan.texel), pages],
         [1, 1, packed_step([0, 0]), 0],
     ]
+}
+
+/// Which of the four texels around a ghost's point are coupled ghosts themselves, by their places among those: the third
+/// row of a coupled ghost, as `access_settle.wgsl` reads it.
+pub(super) fn coupled_slots(
+    atlas: &Atlas,
+    [[corner, _, _, pages], _]: &[[u32; 4]; 2],
+    slots: &[Option<u32>],
+) -> [u32; 4] {
+    [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| {
+        match atlas.owner((corner & 0xffff) + x, (corner >> 16) + y, pages & 0xffff) {
+            Owner::Ghost(ghost) => slots[ghost as usize].unwrap_or(NO_SLOT),
+            Owner::Triangle(_) | Owner::Empty => NO_SLOT,
+        }
+    })
 }

@@ -1,37 +1,31 @@
 // Computes what coupled ghost texels hold: not all of the four texels around their point over the seam are owned. A table
-// says in two rows what is there. Orphans, which take the value of one owned texel, are read alike.
-
-struct Gather {
-    ghost_count: u32,
-    // 0: only owned texels count, 1: ghosts too
-    with_ghosts: u32,
-    row_length: u32,
-    rows: u32,
-}
-
-@group(1) @binding(0) var<uniform> gather: Gather;
-@group(1) @binding(1) var field: texture_2d_array<f32>;
-@group(1) @binding(2) var<storage, read_write> values: array<vec4f>;
+// says in its first two rows what is there. Orphans, which take the value of one owned texel, are read alike. Where texels are read
+// and what becomes of the value is said beside it, in `access_*.wgsl`.
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
-    let index = (group.y * gather.row_length + group.x) * 64u + local;
-    if index >= gather.ghost_count {
+    let index = (group.y * fill.row_length + group.x) * 64u + local;
+    if index >= fill.ghost_count {
         return;
     }
-    let link = fill_link(index * gather.rows);
-    let known = textureLoad(ghosts, table_texel(index * gather.rows + 1u), 0);
+    let link = fill_link(index * fill.rows);
+    let known = textureLoad(ghosts, table_texel(index * fill.rows + 1u), 0);
     let step = vec2i(vec2u(known.z & 7u, known.z >> 3u)) - 2;
-    let anchor = textureLoad(field, link.texel + step, link.own_page, 0);
-    let a = textureLoad(field, link.corner, link.page, 0);
-    let b = textureLoad(field, link.corner + vec2i(1, 0), link.page, 0);
-    let c = textureLoad(field, link.corner + vec2i(0, 1), link.page, 0);
-    let d = textureLoad(field, link.corner + vec2i(1, 1), link.page, 0);
+    let own = link.texel + step;
+    let anchor = field_at(own, link.own_page);
     let along = vec4f(1.0 - link.weight.x, link.weight.x, 1.0 - link.weight.x, link.weight.x);
     let down = vec4f(1.0 - link.weight.yy, link.weight.yy);
     // Bits of the four: owned or ghosts, and owned.
-    let counted = select(known.y, known.x, gather.with_ghosts != 0u);
+    let counted = select(known.y, known.x, fill.with_ghosts != 0u);
     let is_counted = (vec4u(counted) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
+    // What does not count may be written meanwhile: what is owned is read in its place.
+    let corner = link.corner;
+    let pages = select(vec4i(link.own_page), vec4i(link.page), is_counted);
+    let slots = slots_of(index);
+    let a = tap_at(select(own, corner, is_counted.x), pages.x, slots.x);
+    let b = tap_at(select(own, corner + vec2i(1, 0), is_counted.y), pages.y, slots.y);
+    let c = tap_at(select(own, corner + vec2i(0, 1), is_counted.z), pages.z, slots.z);
+    let d = tap_at(select(own, corner + vec2i(1, 1), is_counted.w), pages.w, slots.w);
     let shares = select(vec4f(0.0), along.xyzw * down.xyzw, is_counted);
     let largest = max(max(shares.x, shares.y), max(shares.z, shares.w));
     var nearest = d;
@@ -49,8 +43,8 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     // the own chart's last texel the ghost is where a straight line says. Two ghosts that lie on one another, where both
     // charts end a texel before the seam, would else hand what they do not know to and fro.
     let away = 1.0 - total;
-    if gather.with_ghosts == 0u && away > 0.0 {
+    if fill.with_ghosts == 0u && away > 0.0 {
         filled += (anchor - filled) * (away / (away + max(length(vec2f(step)), 1.0)));
     }
-    values[index] = filled;
+    keep(index, link, filled);
 }

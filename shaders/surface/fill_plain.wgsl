@@ -1,0 +1,19 @@
+// Computes what plain ghost texels hold, those whose point over the seam lies between four owned texels; a table says all
+// of it in one row. Where texels are read and what becomes of the value is said beside it, in `access_*.wgsl`.
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
+    let index = (group.y * fill.row_length + group.x) * 64u + local;
+    if index >= fill.ghost_count {
+        return;
+    }
+    let link = fill_link(index * fill.rows);
+    let a = field_at(link.corner, link.page);
+    let b = field_at(link.corner + vec2i(1, 0), link.page);
+    let c = field_at(link.corner + vec2i(0, 1), link.page);
+    let d = field_at(link.corner + vec2i(1, 1), link.page);
+    // Around one of them, so that a constant stays what it is, bit by bit.
+    let top = (b - a) * link.weight.x;
+    let bottom = (c - a) + (d - c) * link.weight.x;
+    keep(index, link, a + top + (bottom - top) * link.weight.y);
+}
