@@ -1,4 +1,4 @@
-//! The project's own models, written as GLB: the same bytes on every run.
+//! The project's own models, written as GLB, and environments: the same bytes on every run.
 
 mod ball;
 mod bar;
@@ -8,6 +8,7 @@ mod chain;
 mod chair;
 mod column;
 mod crate_box;
+mod environments;
 mod figure;
 mod fixings;
 pub(crate) mod glb;
@@ -53,7 +54,7 @@ pub(crate) fn model(name: &str) -> Option<Model> {
     MAKERS.iter().find(|(own, _)| *own == name).map(|(_, make)| make())
 }
 
-/// Writes all models into the project, or with `--million` the large one to where it is wanted.
+/// Writes all models and environments into the project, or with `--million` the large one to where it is wanted.
 pub(crate) fn run(place: &Place, arguments: &[String]) -> Result<(), Stop> {
     match arguments {
         [] => {
@@ -61,7 +62,8 @@ pub(crate) fn run(place: &Place, arguments: &[String]) -> Result<(), Stop> {
             MAKERS.iter().try_for_each(|(_, make)| {
                 let model = make();
                 write(&model, &folder.join(format!("{}.glb", model.name)))
-            })
+            })?;
+            environments::write_all(place)
         }
         [flag] if flag == "--million" => write(&figure::million(), &place.target.join("meshes/figure-million.glb")),
         [flag, file] if flag == "--million" => write(&figure::million(), Path::new(file)),
