@@ -69,9 +69,11 @@ impl From<sabi_gpu::GpuError> for EngineError {
 
 impl From<sabi_view::ViewError> for EngineError {
     fn from(error: sabi_view::ViewError) -> Self {
+        use sabi_view::ViewError;
         match error {
-            sabi_view::ViewError::Gpu(error) => error.into(),
-            other => EngineError::new(ErrorKind::Usage, other),
+            ViewError::Gpu(error) => error.into(),
+            size @ ViewError::Size { .. } => EngineError::new(ErrorKind::Usage, size),
+            error => EngineError::new(ErrorKind::BadInput, error),
         }
     }
 }

@@ -42,6 +42,7 @@ pub use cache_dir::default_cache_dir;
 pub use check::{CheckReport, check};
 pub use describe::{describe_mesh, describe_nodes, diagnose};
 pub use document::OpenGraph;
+pub use environment::{built_in_environments, load_environment, read_panorama};
 pub use error::{EngineError, ErrorKind};
 pub use kinds::Kinds;
 pub use looks::{Shown, show};

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use glam::UVec2;
 use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_view::{
-    Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
-    ViewModel, ViewTransform, Viewpoint, aspect_of,
+    Background, Camera, Environment, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot,
+    Target as Canvas, ViewModel, ViewTransform, Viewpoint, aspect_of,
 };
 
 use crate::document::OpenGraph;
-use crate::environment::{LoadedEnvironment, load_environment};
+use crate::environment::{environment_of, read_panorama};
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
 use crate::looks::{Shown, show};
@@ -88,15 +88,18 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
         None => targets(crate::outputs::outputs(&graph).into_iter()),
     };
     refuse_faults(&open, &graph, &kinds, &faulty)?;
-    let environment = load_environment(&request.environment)?;
+    let (panorama, remarks) = read_panorama(&request.environment)?;
     let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
-    workpiece.warn(environment.warnings.iter().cloned());
+    workpiece.warn(remarks);
+    let cache_dir = request.workpiece.model.cache_dir.as_deref();
+    let (environment, remark) = environment_of(&workpiece.gpu, &panorama, cache_dir)?;
+    workpiece.warn(remark);
     let shown = show(&mut workpiece, seen.as_ref(), progress)?;
     let mode = if shown.is_lit { mode } else { Mode::Node };
     let pictures = draw(request, &workpiece, &environment, &shown, mode, progress)?;
     stop_if_canceled(progress)?;
     let mut inputs = workpiece.read_files(&open);
-    inputs.extend(environment.file.clone());
+    inputs.push(PathBuf::from(&request.environment));
     write_pictures(&files, &pictures, inputs)?;
     Ok(Rendered {
         files,
@@ -136,7 +139,7 @@ fn view_of(view: &str) -> Result<(Mode, Option<&str>), EngineError> {
 fn draw(
     request: &RenderRequest,
     workpiece: &Workpiece,
-    environment: &LoadedEnvironment,
+    environment: &Environment,
     shown: &Shown,
     mode: Mode,
     progress: &dyn Progress,
@@ -151,12 +154,11 @@ fn draw(
         &workpiece.surface,
         model_from_working,
     )?;
-    let environment = environment.on(gpu, request.workpiece.model.cache_dir.as_deref())?;
     let scene = Scene {
         model: &model,
         looks: &shown.looks,
         look_of_material: &shown.look_of_material,
-        environment: &environment,
+        environment,
         lights: &request.lights,
     };
     let renderer = Renderer::new(gpu)?;
