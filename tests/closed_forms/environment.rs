@@ -9,11 +9,13 @@ use sabi_view::{Environment, Panorama};
 
 /// A prefiltered cube map in memory.
 struct Cube {
-    levels: Vec<Vec<Vec3>>,
+    /// Texels along a side of a face of the first level.
+    side: usize,
+    levels: [Vec<Vec3>; LEVELS],
 }
 
-/// As the levels of an environment have them.
-const SIDES: [usize; 6] = [128, 64, 32, 16, 8, 4];
+/// As an environment has.
+const LEVELS: usize = 6;
 
 impl Cube {
     fn of(panorama: &Panorama) -> Cube {
@@ -28,14 +30,16 @@ impl Cube {
             assert_eq!(a, 1.0);
             vec3(r, g, b)
         };
-        let levels = SIDES.map(|side| (0..6 * side * side).map(|_| texel()).collect());
+        let side: usize = if panorama.width() > 512 { 256 } else { 128 };
+        let count = |level: usize| 6 * (side >> level).pow(2);
+        let levels = std::array::from_fn(|level| (0..count(level)).map(|_| texel()).collect());
         assert!(values.next().is_none());
-        Cube { levels: levels.into() }
+        Cube { side, levels }
     }
 
     /// Texels of a level with their directions.
     fn texels(&self, level: usize) -> impl Iterator<Item = (Vec3, Vec3)> {
-        let side = SIDES[level];
+        let side = self.side >> level;
         self.levels[level].iter().enumerate().map(move |(at, color)| {
             let place = vec2((at % side) as f32 + 0.5, (at / side % side) as f32 + 0.5) / side as f32 * 2.0 - 1.0;
             (of_face(at / (side * side), place.x, place.y).normalize(), *color)
@@ -76,7 +80,7 @@ fn panorama([width, height]: [u32; 2], color: impl Fn(Vec3) -> Vec3) -> Panorama
 fn even_light_is_mirrored_evenly_by_every_roughness() {
     for size in [[1, 1], [64, 32], [5, 9]] {
         let cube = Cube::of(&panorama(size, |_| vec3(1.0, 0.25, 60_000.0)));
-        for level in 0..SIDES.len() {
+        for level in 0..LEVELS {
             for (to, color) in cube.texels(level) {
                 let error = color / vec3(1.0, 0.25, 60_000.0) - 1.0;
                 // Half floats may be cut and not rounded, and are so twice.
@@ -88,11 +92,13 @@ fn even_light_is_mirrored_evenly_by_every_roughness() {
 
 #[test]
 fn a_direction_finds_in_the_cube_map_what_the_panorama_has_there() {
-    let cube = Cube::of(&panorama([512, 256], |to| 0.5 + 0.5 * to));
-    for level in 0..2 {
-        for (to, color) in cube.texels(level) {
-            let error = (color - (0.5 + 0.5 * to)).abs().max_element();
-            assert!(error < 0.02, "level {level}: {color} at {to}");
+    for size in [[256, 128], [1024, 512]] {
+        let cube = Cube::of(&panorama(size, |to| 0.5 + 0.5 * to));
+        for level in 0..2 {
+            for (to, color) in cube.texels(level) {
+                let error = (color - (0.5 + 0.5 * to)).abs().max_element();
+                assert!(error < 0.02, "level {level}: {color} at {to}");
+            }
         }
     }
 }
@@ -124,7 +130,7 @@ fn a_sun_of_one_pixel_is_a_smooth_lobe_of_the_right_light() {
         let step = PI / height as f32;
         let share = ((row as f32 * step).cos() - ((row + 1) as f32 * step).cos()) / (2.0 * width as f32);
         let mean = f64::from(60_000.0 * share);
-        for level in 1..SIDES.len() {
+        for level in 1..LEVELS {
             let roughness = level as f64 / 5.0;
             let peak = lobe(roughness.powi(2), 1.0) * mean;
             let mut worst = 0.0f64;
@@ -153,7 +159,7 @@ fn a_strong_sun_leaves_no_speckles() {
     let cube = Cube::of(&panorama([512, 256], |to| {
         Vec3::splat(if to.dot(sun) > 0.999_97 { 65_504.0 } else { 0.0 })
     }));
-    for level in 2..SIDES.len() {
+    for level in 2..LEVELS {
         let mut texels: Vec<(f32, f32)> = cube.texels(level).map(|(to, color)| (to.dot(sun), color.x)).collect();
         texels.sort_by(|one, other| other.0.total_cmp(&one.0));
         let peak = texels[0].1;

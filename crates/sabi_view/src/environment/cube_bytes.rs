@@ -1,6 +1,7 @@
 //! A prefiltered cube map as bytes and back.
 
 use std::sync::mpsc::channel;
+use std::time::Duration;
 
 use half::f16;
 use sabi_gpu::{Gpu, GpuError};
@@ -8,6 +9,9 @@ use sabi_gpu::{Gpu, GpuError};
 use super::backdrop::PIXEL_BYTES;
 use super::prefilter::{LEVELS, cube};
 use crate::error::ViewError;
+
+/// The device is done by then, and only its answer is on its way: what takes longer never comes.
+const ANSWER_LIMIT: Duration = Duration::from_secs(30);
 
 /// Bytes of the six faces of a level with this side.
 fn level_bytes(side: u32) -> usize {
@@ -98,7 +102,8 @@ fn read_level(gpu: &Gpu, cube: &wgpu::Texture, level: u32, bytes: &mut Vec<u8>) 
     buffer.map_async(wgpu::MapMode::Read, .., move |mapped| drop(sender.send(mapped)));
     gpu.wait()?;
     let failed = |why: &str| GpuError::Driver(format!("an environment cannot be read back: {why}"));
-    match answer.try_recv() {
+    // Where several threads wait for one device, another one of them may be about to pass on the answer.
+    match answer.recv_timeout(ANSWER_LIMIT) {
         Ok(Ok(())) => {}
         Ok(Err(error)) => return Err(failed(&error.to_string()).into()),
         Err(_) => return Err(failed("no answer came").into()),

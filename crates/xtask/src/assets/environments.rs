@@ -18,8 +18,8 @@ use glam::{DVec3, dvec3};
 
 use crate::place::{Place, Stop};
 
-pub(crate) const WIDTH: usize = 512;
-pub(crate) const HEIGHT: usize = 256;
+const WIDTH: usize = 512;
+const HEIGHT: usize = 256;
 /// Places along a pixel's side that it is the mean of.
 const PLACES: usize = 3;
 
