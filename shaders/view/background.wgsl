@@ -1,6 +1,8 @@
 // What is behind the model.
 
 @group(1) @binding(0) var panorama: texture_2d<f32>;
+// Goes around the seam of the panorama.
+@group(1) @binding(1) var round_sampler: sampler;
 
 struct Behind {
     @builtin(position) clip: vec4f,
@@ -19,7 +21,7 @@ fn paint(behind: Behind) -> @location(0) vec4f {
     let towards = in_environment(ray_through(near.xyz / near.w));
     var light = textureSampleLevel(reflections, smooth_sampler, towards, frame.backdrop.w).xyz;
     if frame.backdrop.w < 0.0 {
-        light = textureSampleLevel(panorama, smooth_sampler, panorama_place(towards), 0.0).xyz;
+        light = textureSampleLevel(panorama, round_sampler, panorama_place(towards), 0.0).xyz;
     }
     return vec4f(min(light * frame.environment.z, vec3f(65504.0)), 1.0);
 }

@@ -15,3 +15,4 @@ const FACING: u32 = 12u;
 const CLAY: u32 = 13u;
 // How far relief moves what is seen, texels; for tests.
 const SHIFT: u32 = 14u;
+const MODEL_NORMAL: u32 = 15u;

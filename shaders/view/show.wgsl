@@ -46,6 +46,7 @@ fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
             return vec3f((height - frame.heights.x) / max(frame.heights.y - frame.heights.x, 1e-12));
         }
         case NORMAL: { return spot.tangent_normal * 0.5 + 0.5; }
+        case MODEL_NORMAL: { return spot.normal * 0.5 + 0.5; }
         case EMISSION: { return encoded(spot.emission); }
         case NODE: {
             let value = value_at(colors, pixel.place);

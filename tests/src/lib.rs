@@ -5,6 +5,7 @@ mod device;
 mod meshes;
 mod node_files;
 mod on_mesh;
+mod pictured;
 mod places;
 mod seams;
 pub mod shapes;
@@ -16,6 +17,7 @@ pub use device::device;
 pub use meshes::{MadeMesh, MadeTexture, MeshFile, Quad};
 pub use node_files::NodeFolder;
 pub use on_mesh::{Asked, Evaluated, OnMesh, flat_graph};
+pub use pictured::{Pictured, even_light};
 pub use places::OnPage;
 pub use seams::Seam;
 

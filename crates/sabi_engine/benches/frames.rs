@@ -12,8 +12,8 @@ use sabi_engine::view::{
     Target, ViewModel, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Silent, Workpiece,
-    WorkpieceOptions, show,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Shown, Silent,
+    Workpiece, WorkpieceOptions, show,
 };
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -56,110 +56,102 @@ fn sky() -> Panorama {
     Panorama::new(128, 64, &pixels).unwrap().0
 }
 
-fn main() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let mut workpiece = workpiece(&root);
-    let shown = show(&mut workpiece, None, &Silent).unwrap();
-    let gpu = &workpiece.gpu;
+/// What is drawn, with what it takes to draw it.
+struct Stage {
+    workpiece: Workpiece,
+    shown: Shown,
+    model: ViewModel,
+    environment: Environment,
+    renderer: Renderer,
+}
+
+/// Does something and says how long it took.
+fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
     let started = Instant::now();
-    let model = {
+    let done = work();
+    println!("| {what} | {:.1} ms | |", started.elapsed().as_secs_f64() * 1000.0);
+    done
+}
+
+impl Stage {
+    fn new() -> Stage {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let mut workpiece = workpiece(&root);
+        let shown = show(&mut workpiece, None, &Silent).unwrap();
+        let gpu = &workpiece.gpu;
+        let name = &gpu.summary().name;
+        println!("{name}\n\n| what | measured | aim on a software driver |\n|---|---|---|");
         let prepared = &workpiece.prepared;
         let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
-        ViewModel::new(
-            gpu,
-            &prepared.model,
-            &prepared.atlas,
-            &workpiece.surface,
-            model_from_working,
-        )
-        .unwrap()
-    };
-    let on_device = started.elapsed().as_secs_f64() * 1000.0;
-    let started = Instant::now();
-    let environment = Environment::new(gpu, &sky()).unwrap();
-    let light = started.elapsed().as_secs_f64() * 1000.0;
-    let started = Instant::now();
-    let renderer = Renderer::new(gpu).unwrap();
-    let ready = started.elapsed().as_secs_f64() * 1000.0;
-    let mesh = &workpiece.prepared.model.mesh;
-    let bounds = Placement::of(mesh).box_in_view(mesh);
-    println!(
-        "{}\n\n| what | measured | aim on a software driver |\n|---|---|---|",
-        gpu.summary().name
-    );
-    println!("| model onto the device | {on_device:.1} ms | |");
-    println!("| environment | {light:.1} ms | |");
-    println!("| pipelines | {ready:.1} ms | |");
+        let new_model = || {
+            ViewModel::new(
+                gpu,
+                &prepared.model,
+                &prepared.atlas,
+                &workpiece.surface,
+                model_from_working,
+            )
+        };
+        let model = timed("model onto the device", new_model).unwrap();
+        let environment = timed("environment", || Environment::new(gpu, &sky())).unwrap();
+        let renderer = Renderer::new(gpu).unwrap();
+        Stage {
+            shown,
+            model,
+            environment,
+            renderer,
+            workpiece,
+        }
+    }
+
+    /// Milliseconds of a frame as `change` wants it.
+    fn frame(&self, size: [u32; 2], lights: &[Light], change: impl FnOnce(&mut Shot)) -> f64 {
+        let gpu = &self.workpiece.gpu;
+        let scene = Scene {
+            model: &self.model,
+            looks: &self.shown.looks,
+            look_of_material: &self.shown.look_of_material,
+            environment: &self.environment,
+            lights,
+        };
+        let mesh = &self.workpiece.prepared.model.mesh;
+        let bounds = Placement::of(mesh).box_in_view(mesh);
+        let aspect = size[0] as f32 / size[1] as f32;
+        let mut shot = Shot::new(Camera::seen_from(Viewpoint::FRONT, bounds, aspect));
+        shot.height_range = self.shown.height_range;
+        change(&mut shot);
+        let mut target = Target::new(gpu, size).unwrap();
+        let frame = |_| {
+            let started = Instant::now();
+            self.renderer.draw(gpu, &mut target, &scene, &shot).unwrap();
+            gpu.wait().unwrap();
+            started.elapsed().as_secs_f64() * 1000.0
+        };
+        // The first ones make pipelines.
+        median((0..FRAMES + 2).map(frame).skip(2).collect())
+    }
+}
+
+fn main() {
+    let stage = Stage::new();
+    let half = SIZE.map(|side| side / 2);
     let lamp = Light {
         place: LightPlace::Far([0.5, 0.7, 0.5]),
         color: [2.0; 3],
         has_shadow: true,
     };
-    let half = SIZE.map(|side| side / 2);
-    let cases: [(&str, [u32; 2], Mode, &[Light], Background, &[Lines], &str); 7] = [
-        ("still", SIZE, Mode::Material, &[], Background::Blurred, &[], "≤ 120 ms"),
-        (
-            "while moving, half the size",
-            half,
-            Mode::Material,
-            &[],
-            Background::Blurred,
-            &[],
-            "≤ 60 ms",
-        ),
-        (
-            "sharp environment behind",
-            SIZE,
-            Mode::Material,
-            &[],
-            Background::Environment,
-            &[],
-            "",
-        ),
-        ("nothing behind", SIZE, Mode::Material, &[], Background::Clear, &[], ""),
-        (
-            "with a light and its shadow",
-            SIZE,
-            Mode::Material,
-            &[lamp],
-            Background::Blurred,
-            &[],
-            "",
-        ),
-        (
-            "wires",
-            SIZE,
-            Mode::Material,
-            &[],
-            Background::Blurred,
-            &[Lines::Wires],
-            "",
-        ),
-        ("base color", SIZE, Mode::BaseColor, &[], Background::Blurred, &[], ""),
-    ];
-    for (what, size, mode, lights, background, lines, aim) in cases {
-        let scene = Scene {
-            model: &model,
-            looks: &shown.looks,
-            look_of_material: &shown.look_of_material,
-            environment: &environment,
-            lights,
-        };
-        let aspect = size[0] as f32 / size[1] as f32;
-        let shot = Shot {
-            mode,
-            background,
-            lines: lines.to_vec(),
-            ..Shot::new(Camera::seen_from(Viewpoint::FRONT, bounds, aspect))
-        };
-        let mut target = Target::new(gpu, size).unwrap();
-        let frame = |_| {
-            let started = Instant::now();
-            renderer.draw(gpu, &mut target, &scene, &shot).unwrap();
-            gpu.wait().unwrap();
-            started.elapsed().as_secs_f64() * 1000.0
-        };
-        let times: Vec<f64> = (0..FRAMES + 2).map(frame).skip(2).collect();
-        println!("| {what} | {:.1} ms | {aim} |", median(times));
-    }
+    let row = |what: &str, ms: f64, aim: &str| println!("| {what} | {ms:.1} ms | {aim} |");
+    row("still", stage.frame(SIZE, &[], |_| {}), "≤ 120 ms");
+    row("while moving, half the size", stage.frame(half, &[], |_| {}), "≤ 60 ms");
+    let sharp = |shot: &mut Shot| shot.background = Background::Environment;
+    row("sharp environment behind", stage.frame(SIZE, &[], sharp), "");
+    let clear = |shot: &mut Shot| shot.background = Background::Clear;
+    row("nothing behind", stage.frame(SIZE, &[], clear), "");
+    row("with a light and its shadow", stage.frame(SIZE, &[lamp], |_| {}), "");
+    let relief = |shot: &mut Shot| shot.has_relief = true;
+    row("relief", stage.frame(SIZE, &[], relief), "");
+    let wires = |shot: &mut Shot| shot.lines = vec![Lines::Wires];
+    row("wires", stage.frame(SIZE, &[], wires), "");
+    let color = |shot: &mut Shot| shot.mode = Mode::BaseColor;
+    row("base color", stage.frame(SIZE, &[], color), "");
 }

@@ -69,7 +69,7 @@ pub fn show(workpiece: &mut Workpiece, seen: Option<&Target>, progress: &dyn Pro
         workpiece.graph.nodes.push(models_own(workpiece.fit));
     }
     let nodes: BTreeSet<usize> = serving.values().copied().collect();
-    let plan = workpiece.plan(&targets(nodes.into_iter()), mode, limits)?;
+    let plan = workpiece.plan(&targets(nodes), mode, limits)?;
     let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
     looks(workpiece, &plan, &mut run, &serving, &options)
 }

@@ -15,6 +15,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
 use crate::looks::{Shown, show};
 use crate::modelless::{refuse_faults, targets};
+use crate::outputs::outputs;
 use crate::picture_file::write_pictures;
 use crate::seen_node::graph_and_target;
 use crate::stages::{Progress, Stage};
@@ -85,7 +86,7 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     };
     let faulty = match &seen {
         Some(target) => vec![target.clone()],
-        None => targets(crate::outputs::outputs(&graph).into_iter()),
+        None => targets(outputs(&graph)),
     };
     refuse_faults(&open, &graph, &kinds, &faulty)?;
     let (panorama, remarks) = read_panorama(&request.environment)?;

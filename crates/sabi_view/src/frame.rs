@@ -88,7 +88,7 @@ impl Frame {
 
 fn eye_row(shot: &Shot) -> [f32; 4] {
     match shot.camera.lens {
-        Lens::Perspective { .. } => shot.camera.eye().extend(1.0),
+        Lens::Perspective => shot.camera.eye().extend(1.0),
         Lens::Orthographic => (-shot.camera.forward()).extend(0.0),
     }
     .to_array()

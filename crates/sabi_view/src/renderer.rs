@@ -19,6 +19,8 @@ use crate::upload::{buffer_of, texture};
 pub struct Renderer {
     pipelines: Pipelines,
     smooth: wgpu::Sampler,
+    /// The same, around the seam of a panorama.
+    round: wgpu::Sampler,
     compare: wgpu::Sampler,
     directional_albedo: wgpu::TextureView,
     /// Stands where there is no map.
@@ -42,13 +44,13 @@ impl Renderer {
     /// A renderer; its pipelines are made when they are first used.
     pub fn new(gpu: &Gpu) -> Result<Renderer, ViewError> {
         let device = gpu.device();
-        let smooth = device.create_sampler(&wgpu::SamplerDescriptor {
-            address_mode_u: wgpu::AddressMode::Repeat,
+        let smooth = |address_mode_u| wgpu::SamplerDescriptor {
+            address_mode_u,
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
-        });
+        };
         let compare = device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
@@ -63,7 +65,8 @@ impl Renderer {
         let table = dfg_texture(gpu)?;
         Ok(Renderer {
             pipelines: Pipelines::new(gpu)?,
-            smooth,
+            smooth: device.create_sampler(&smooth(wgpu::AddressMode::ClampToEdge)),
+            round: device.create_sampler(&smooth(wgpu::AddressMode::Repeat)),
             compare,
             directional_albedo: table.create_view(&wgpu::TextureViewDescriptor::default()),
             no_map,

@@ -71,6 +71,21 @@ pub struct Light {
     pub has_shadow: bool,
 }
 
+impl Light {
+    /// The light turned about +Y, as one that orbits the model or keeps its place beside a camera that does.
+    pub fn turned(self, degrees: f32) -> Light {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let turned = |[x, y, z]: [f32; 3]| [cos * x + sin * z, y, cos * z - sin * x];
+        Light {
+            place: match self.place {
+                LightPlace::Far(towards) => LightPlace::Far(turned(towards)),
+                LightPlace::Near(place) => LightPlace::Near(turned(place)),
+            },
+            ..self
+        }
+    }
+}
+
 /// Where a light is, view space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightPlace {
@@ -171,6 +186,8 @@ pub enum Mode {
     Height,
     /// Tangent-space normal.
     Normal,
+    /// The normal that is lit, in the model's space.
+    ModelNormal,
     /// Emission.
     Emission,
     /// A node's own result.
@@ -188,7 +205,7 @@ pub enum Mode {
 }
 
 /// Names of modes, with their numbers in `modes.wgsl`.
-const MODES: [(&str, Mode, u32); 15] = [
+const MODES: [(&str, Mode, u32); 16] = [
     ("material", Mode::Material, 0),
     ("base_color", Mode::BaseColor, 1),
     ("opacity", Mode::Opacity, 2),
@@ -197,6 +214,7 @@ const MODES: [(&str, Mode, u32); 15] = [
     ("occlusion", Mode::Occlusion, 5),
     ("height", Mode::Height, 6),
     ("normal", Mode::Normal, 7),
+    ("model_normal", Mode::ModelNormal, 15),
     ("emission", Mode::Emission, 8),
     ("node", Mode::Node, 9),
     ("checker", Mode::Checker, 10),
@@ -263,7 +281,7 @@ mod tests {
             "color".parse::<Mode>(),
             Err(
                 "there is no view 'color'; there are material, base_color, opacity, roughness, metallic, occlusion, \
-                 height, normal, emission, checker, density, facing, clay, and node:ID"
+                 height, normal, model_normal, emission, checker, density, facing, clay, and node:ID"
                     .to_owned()
             )
         );

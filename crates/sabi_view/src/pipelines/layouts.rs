@@ -90,7 +90,10 @@ impl Layouts {
                     depth(2, D2),
                 ],
             ),
-            panorama: layout("panorama", &[sampled(0, SMOOTH, D2)]),
+            panorama: layout(
+                "panorama",
+                &[sampled(0, SMOOTH, D2), sampler(1, wgpu::SamplerBindingType::Filtering)],
+            ),
             numbers: layout("numbers", &[uniform(0)]),
             display: layout("display", &[uniform(0), sampled(1, EXACT, D2), sampled(2, EXACT, D2)]),
         }

@@ -110,7 +110,11 @@ impl Renderer {
             drawn: self.drawn(gpu, scene, shot)?,
             charts: self.bind(gpu, &self.layouts().charts, [charts.clone()]),
             seen: self.bind(gpu, &self.layouts().seen, [charts, view(&places), view(&depth)]),
-            panorama: self.bind(gpu, &self.layouts().panorama, [view(&panorama)]),
+            panorama: self.bind(
+                gpu,
+                &self.layouts().panorama,
+                [view(&panorama), wgpu::BindingResource::Sampler(&self.round)],
+            ),
             paint: self.pipelines.get(gpu, Draws::Paint(paint))?,
             background,
             lines: shot.lines.iter().map(lines).collect::<Result<_, _>>()?,

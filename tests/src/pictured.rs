@@ -1,0 +1,113 @@
+//! A graph on a model, looked at.
+
+use std::path::Path;
+
+use sabi_engine::{Shown, Silent, show};
+use sabi_view::{
+    Camera, Environment, Light, MaterialLook, Panorama, Pixels, Placement, Renderer, Scene, Shot, Target, ViewModel,
+    Viewpoint,
+};
+
+use crate::OnMesh;
+
+/// A graph on a model with all that it takes to draw it.
+pub struct Pictured {
+    /// The graph on the model.
+    pub on_mesh: OnMesh,
+    /// What the outputs look like.
+    pub shown: Shown,
+    /// The model.
+    pub model: ViewModel,
+    /// Light from all around.
+    pub environment: Environment,
+    /// Lights besides it.
+    pub lights: Vec<Light>,
+    renderer: Renderer,
+}
+
+/// The same light from everywhere.
+pub fn even_light(radiance: f32) -> Panorama {
+    Panorama::new(2, 1, &[[radiance, radiance, radiance, 1.0]; 2])
+        .expect("a panorama")
+        .0
+}
+
+impl Pictured {
+    /// A graph on a model with `size` texels for one unit of UV, in the light of a panorama.
+    pub fn new(graph: &str, mesh: &Path, size: u32, light: &Panorama) -> Pictured {
+        let mut on_mesh = OnMesh::new(graph, mesh, size);
+        let shown = show(&mut on_mesh.workpiece, None, &Silent).unwrap_or_else(|error| panic!("{error}"));
+        let workpiece = &on_mesh.workpiece;
+        let prepared = &workpiece.prepared;
+        let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
+        let gpu = &workpiece.gpu;
+        let model = ViewModel::new(
+            gpu,
+            &prepared.model,
+            &prepared.atlas,
+            &workpiece.surface,
+            model_from_working,
+        );
+        Pictured {
+            model: model.expect("a model"),
+            environment: Environment::new(gpu, light).expect("an environment"),
+            renderer: Renderer::new(gpu).expect("a renderer"),
+            lights: Vec::new(),
+            shown,
+            on_mesh,
+        }
+    }
+
+    /// A model whose materials all look alike.
+    pub fn looking(mesh: &Path, look: &MaterialLook, light: &Panorama) -> Pictured {
+        let mut pictured = Pictured::new(BARE, mesh, 32, light);
+        pictured.set_look(look);
+        pictured
+    }
+
+    /// Gives all materials one look.
+    pub fn set_look(&mut self, look: &MaterialLook) {
+        self.shown.looks = vec![look.clone()];
+        self.shown.look_of_material.fill(0);
+    }
+
+    /// A camera at a viewpoint that sees all of the model.
+    pub fn camera(&self, viewpoint: Viewpoint, [width, height]: [u32; 2]) -> Camera {
+        let mesh = &self.on_mesh.workpiece.prepared.model.mesh;
+        let bounds = Placement::of(mesh).box_in_view(mesh);
+        Camera::seen_from(viewpoint, bounds, width as f32 / height as f32)
+    }
+
+    /// Draws, and hands over what it was drawn into.
+    pub fn draw(&self, shot: &Shot, size: [u32; 2]) -> Target {
+        let gpu = &self.on_mesh.workpiece.gpu;
+        let scene = Scene {
+            model: &self.model,
+            looks: &self.shown.looks,
+            look_of_material: &self.shown.look_of_material,
+            environment: &self.environment,
+            lights: &self.lights,
+        };
+        let mut target = Target::new(gpu, size).unwrap_or_else(|error| panic!("{error}"));
+        let drawn = self.renderer.draw(gpu, &mut target, &scene, shot);
+        drawn.unwrap_or_else(|error| panic!("{error}"));
+        target
+    }
+
+    /// The light of a picture: linear RGB and cover.
+    pub fn light(&self, shot: &Shot, size: [u32; 2]) -> Vec<[f32; 4]> {
+        self.draw(shot, size)
+            .read_light(&self.on_mesh.workpiece.gpu)
+            .expect("light")
+    }
+
+    /// The picture.
+    pub fn pixels(&self, shot: &Shot, size: [u32; 2]) -> Pixels {
+        self.draw(shot, size).read(&self.on_mesh.workpiece.gpu).expect("pixels")
+    }
+}
+
+/// A graph that shows a plain material.
+const BARE: &str = r#"{ "format": "sabi", "version": 1, "name": "bare", "nodes": {
+    "plain": { "kind": "source/material" },
+    "out": { "kind": "output/material", "inputs": { "material": "plain" } } } }"#;

@@ -1,0 +1,63 @@
+//! The white furnace: in even light a body that takes nothing away cannot be seen.
+
+use sabi_gpu::DeviceMaps;
+use sabi_tests::{Pictured, even_light, project};
+use sabi_view::{MaterialLook, Shot, Viewpoint};
+
+/// A plain material.
+pub(crate) fn look(color: f32, roughness: f32, metallic: f32) -> MaterialLook {
+    MaterialLook {
+        maps: DeviceMaps::default(),
+        color: [color, color, color, 1.0],
+        surface: [roughness, metallic, 1.0],
+        is_opaque: true,
+        node: None,
+    }
+}
+
+const SIZE: [u32; 2] = [96, 96];
+
+#[test]
+fn white_bodies_of_any_roughness_vanish_in_even_light() {
+    let mesh = project("assets/meshes/sphere.glb");
+    let mut pictured = Pictured::looking(&mesh, &look(1.0, 0.0, 0.0), &even_light(1.0));
+    let shot = Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE));
+    for metallic in [0.0, 1.0] {
+        for step in 0..=10 {
+            let roughness = step as f32 / 10.0;
+            pictured.set_look(&look(1.0, roughness, metallic));
+            let light = pictured.light(&shot, SIZE);
+            for (pixel, [r, g, b, cover]) in light.iter().enumerate() {
+                assert_eq!(*cover, 1.0, "the background is lit, too");
+                for channel in [r, g, b] {
+                    assert!(
+                        (channel - 1.0).abs() < 0.01,
+                        "roughness {roughness}, metallic {metallic}, pixel {pixel}: {channel}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_gray_body_never_sends_out_more_than_falls_on_it() {
+    let mesh = project("assets/meshes/sphere.glb");
+    let mut pictured = Pictured::looking(&mesh, &look(0.5, 0.0, 0.0), &even_light(2.0));
+    let shot = Shot::new(pictured.camera(Viewpoint::FRONT, SIZE));
+    for (roughness, metallic) in [(0.0, 0.0), (0.3, 1.0), (0.7, 0.5), (1.0, 0.0), (1.0, 1.0)] {
+        pictured.set_look(&look(0.5, roughness, metallic));
+        let light = pictured.light(&shot, SIZE);
+        let brightest = light.iter().map(|pixel| pixel[0]).fold(0.0, f32::max);
+        let middle = light[(SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2) as usize][0];
+        assert!(
+            brightest <= 2.02,
+            "roughness {roughness}, metallic {metallic}: {brightest}"
+        );
+        // Light that bounces between the facets of rough metal loses half of itself each time.
+        assert!(
+            (0.4..1.2).contains(&middle),
+            "roughness {roughness}, metallic {metallic}: {middle}"
+        );
+    }
+}

@@ -1,0 +1,35 @@
+//! What is seen of a model: light, maps, relief and shadows, pixel by pixel.
+
+mod agreement;
+mod furnace;
+mod relief;
+mod sizes;
+mod sun;
+
+use glam::{UVec2, Vec2};
+use sabi_tests::Pictured;
+use sabi_view::{Camera, Picked, aspect_of, pick};
+
+/// Each pixel of a picture with what its middle sees of the model.
+fn seen<'p>(
+    pictured: &'p Pictured,
+    camera: &'p Camera,
+    [width, height]: [u32; 2],
+) -> impl Iterator<Item = (usize, Picked)> + 'p {
+    let size = UVec2::new(width, height).as_vec2();
+    let prepared = &pictured.on_mesh.workpiece.prepared;
+    let mesh = &prepared.model.mesh;
+    let bvh = prepared.bvh.get_or_init(|| sabi_surface::bvh::Bvh::build(mesh));
+    (0..(width * height) as usize).filter_map(move |pixel| {
+        let at = Vec2::new((pixel as u32 % width) as f32 + 0.5, (pixel as u32 / width) as f32 + 0.5);
+        let ray = camera.ray(at / size, aspect_of(size));
+        let picked = pick(bvh, mesh, &prepared.atlas, ray, &pictured.model.placement)?;
+        Some((pixel, picked))
+    })
+}
+
+/// Whether all four texels around a place are on the chart itself, and the place well inside its triangle: what lies beside a
+/// seam is read from ghosts, whose values are compared elsewhere.
+fn is_inside(picked: &Picked) -> bool {
+    picked.barycentric.iter().all(|share| *share > 0.05)
+}
