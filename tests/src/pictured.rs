@@ -78,16 +78,21 @@ impl Pictured {
         Camera::seen_from(viewpoint, bounds, width as f32 / height as f32)
     }
 
-    /// Draws, and hands over what it was drawn into.
-    pub fn draw(&self, shot: &Shot, size: [u32; 2]) -> Target {
-        let gpu = &self.on_mesh.workpiece.gpu;
-        let scene = Scene {
+    /// What is drawn.
+    pub fn scene(&self) -> Scene<'_> {
+        Scene {
             model: &self.model,
             looks: &self.shown.looks,
             look_of_material: &self.shown.look_of_material,
             environment: &self.environment,
             lights: &self.lights,
-        };
+        }
+    }
+
+    /// Draws, and hands over what it was drawn into.
+    pub fn draw(&self, shot: &Shot, size: [u32; 2]) -> Target {
+        let gpu = &self.on_mesh.workpiece.gpu;
+        let scene = self.scene();
         let mut target = Target::new(gpu, size).unwrap_or_else(|error| panic!("{error}"));
         let drawn = self.renderer.draw(gpu, &mut target, &scene, shot);
         drawn.unwrap_or_else(|error| panic!("{error}"));

@@ -5,6 +5,7 @@ mod furnace;
 mod relief;
 mod sizes;
 mod sun;
+mod viewport;
 
 use glam::{UVec2, Vec2};
 use sabi_tests::Pictured;

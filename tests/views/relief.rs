@@ -1,6 +1,6 @@
 //! Relief against a march on the processor through the same heights.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use sabi_tests::{MeshFile, Pictured, Quad, even_light};
 use sabi_view::relief::{ReliefFrame, march};
 use sabi_view::{Mode, Shot, Viewpoint};
@@ -53,7 +53,7 @@ fn lines_of_sight_meet_the_heights_that_a_march_meets() {
             mode: Mode::Shift,
             has_relief: true,
             height_range: pictured.shown.height_range,
-            ..Shot::new(camera.clone())
+            ..Shot::new(camera)
         };
         let shifts = pictured.light(&shot, SIZE);
         let height = |place: [f64; 2]| between(&heights, width, place);
@@ -80,7 +80,7 @@ fn lines_of_sight_meet_the_heights_that_a_march_meets() {
             let sight = (picked.position_view - camera.eye()).normalize();
             let direction = frame.relief_from_model(sight.as_dvec3().to_array()).expect("a frame");
             let hit = march(height, place, direction, range).expect("a hit");
-            let shift = DVec3::from(Vec3::from_slice(&shifts[pixel]).as_dvec3());
+            let shift = Vec3::from_slice(&shifts[pixel]).as_dvec3();
             let apart = (shift.x - (hit.texel[0] - place[0])).hypot(shift.y - (hit.texel[1] - place[1]));
             assert!(apart < 1.0, "{viewpoint:?}, pixel {pixel}: {apart} texels from {hit:?}");
             compared += 1;

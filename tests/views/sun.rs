@@ -33,7 +33,7 @@ fn floor_light(lights: Vec<Light>) -> [f32; 2] {
     let camera = pictured.camera(Viewpoint::at(20.0, 30.0), SIZE);
     let shot = Shot {
         background: Background::Clear,
-        ..Shot::new(camera.clone())
+        ..Shot::new(camera)
     };
     let light = pictured.light(&shot, SIZE);
     let mut sums = [[0.0, 0.0]; 2];

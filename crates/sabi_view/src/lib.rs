@@ -19,6 +19,7 @@ mod scene;
 mod shadows;
 mod target;
 mod upload;
+mod viewport;
 
 pub use camera::{Camera, Lens, Ray, Viewpoint, ViewpointError, aspect_of};
 pub use environment::{Environment, Panorama};
@@ -32,3 +33,4 @@ pub use scene::{
     ViewTransform,
 };
 pub use target::{LONGEST_SIDE, Pixels, Target};
+pub use viewport::{Quality, Viewport};

@@ -1,4 +1,4 @@
-//! `cargo xtask demo`: from a fresh clone to a baked texture set, with a summary of what came out.
+//! `cargo xtask demo`: from a fresh clone to a baked texture set and a picture, with a summary of what came out.
 
 use std::fs;
 use std::path::Path;
@@ -13,8 +13,9 @@ const GRAPH: &str = "graphs/weathered-bench.sabi";
 const MODEL: &str = "assets/meshes/bench.glb";
 const FOLDER: &str = "out/weathered-bench";
 const REPORT: &str = "out/weathered-bench/report.json";
+const PICTURE: &str = "out/weathered-bench.png";
 
-/// Sets up, builds, bakes and sums up.
+/// Sets up, builds, bakes, draws and sums up.
 pub(crate) fn run(place: &Place) -> Result<(), Stop> {
     vulkan::ensure(place, Driver::Any)?;
     eprintln!("Building sabi in release; the first time takes some minutes.");
@@ -39,6 +40,28 @@ pub(crate) fn run(place: &Place) -> Result<(), Stop> {
     let report: Value = serde_json::from_str(&text)
         .map_err(|error| Stop::new(1, format!("The bake's report {REPORT} is not JSON: {error}.")))?;
     eprint!("\n{}", summary(&report, |path| size_of(&place.root, path)));
+    let arguments = [
+        "render",
+        GRAPH,
+        "--mesh",
+        MODEL,
+        "--texels",
+        "2048",
+        "--size",
+        "1920x1080",
+        "--environment",
+        "low_sun",
+        "--camera",
+        "-35,18,0.75",
+        "-o",
+        PICTURE,
+        "--quiet",
+    ];
+    eprintln!("$ sabi {}", arguments.join(" "));
+    let mut render = place.command(&sabi)?;
+    render.args(arguments).stdout(Stdio::null());
+    finish(render, "The picture")?;
+    eprintln!("\nThe bench in the evening sun: {PICTURE}");
     Ok(())
 }
 

@@ -1,12 +1,14 @@
 //! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
-//! `cargo xtask bless`, `cargo xtask reference`.
+//! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`.
 
 mod assets;
 mod bless;
 mod checks;
 mod demo;
+mod pictures;
 mod place;
 mod reference;
+mod small_png;
 mod vulkan;
 
 use std::process::ExitCode;
@@ -14,12 +16,13 @@ use std::process::ExitCode;
 use place::{Place, Stop};
 
 const HELP: &str = "\
-cargo xtask demo      set up, build in release and bake the example bench into out/weathered-bench
+cargo xtask demo      set up, build in release, bake the example bench into out/weathered-bench and draw it
 cargo xtask test      set up, then format check, clippy, tests, doc tests and documentation
 cargo xtask assets    write the project's own models into assets/meshes again; with --million [FILE],
                       write only the figure in a million triangles, into target/meshes or FILE
 cargo xtask bless K   write the goldens of node kind K again, or of all
 cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
+cargo xtask pictures  draw the example graphs on three models each into docs/pictures; with names only theirs
 ";
 
 fn main() -> ExitCode {
@@ -31,6 +34,7 @@ fn main() -> ExitCode {
         Some("assets") => Place::find().and_then(|place| assets::run(&place, &rest)),
         Some("bless") => Place::find().and_then(|place| bless::run(&place, rest.first().map(String::as_str))),
         Some("reference") => Place::find().and_then(|place| reference::run(&place, &rest)),
+        Some("pictures") => Place::find().and_then(|place| pictures::run(&place, &rest)),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");
             Ok(())

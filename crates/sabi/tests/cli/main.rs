@@ -18,5 +18,6 @@ mod outputs;
 mod place;
 mod rays;
 mod reference;
+mod rendering;
 mod settings;
 mod unwrapping;

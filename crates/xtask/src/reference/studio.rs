@@ -8,13 +8,16 @@ use std::process::Stdio;
 use serde_json::Value;
 
 use super::pages::pictures_of;
-use super::picture::{Texture, encode};
+use super::picture::Texture;
 use super::scene::{Look, SIDE, render};
 use super::specimen::{Specimen, specimen};
 use crate::assets::glb::Model;
 use crate::assets::model;
 use crate::place::{Place, Stop};
+use crate::small_png::encode;
 
+/// No picture of the reference takes more.
+pub(crate) const MOST_BYTES: usize = 24 * 1024;
 /// Texels along a side of the textures: about two for each sample of the picture.
 const TEXELS: &str = "1024";
 /// The maps that a material is shown with, as the presets call them.
@@ -90,7 +93,7 @@ impl Studio<'_> {
                 }
             })
             .collect();
-        encode(&render(model, &looks?), SIDE)
+        encode(&render(model, &looks?), [SIDE; 2], MOST_BYTES)
     }
 
     /// Runs Sabi on a specimen; its own words come back when it fails.

@@ -3,9 +3,10 @@
 use serde_json::{Value, json};
 
 use super::pages::{pages, pictures_of};
-use super::picture::{MOST_BYTES, encode};
 use super::scene::SIDE;
 use super::specimen::specimen;
+use super::studio::MOST_BYTES;
+use crate::small_png::encode;
 
 fn node() -> Value {
     json!({
@@ -96,8 +97,8 @@ fn a_picture_is_small_whatever_it_shows_and_exact_when_it_is_plain() {
         .collect();
     let even: Vec<[u8; 3]> = (0..SIDE * SIDE).map(|at| [(at % 40) as u8 * 6, 100, 30]).collect();
     // Pure noise of eight colors takes three bits a pixel, more than any picture may: that is told, not written.
-    assert!(encode(&noise, SIDE).is_err());
-    let bytes = encode(&even, SIDE).unwrap();
+    assert!(encode(&noise, [SIDE; 2], MOST_BYTES).is_err());
+    let bytes = encode(&even, [SIDE; 2], MOST_BYTES).unwrap();
     assert!(bytes.len() <= MOST_BYTES);
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();
     let palette = reader.info().palette.clone().unwrap().into_owned();

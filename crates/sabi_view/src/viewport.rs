@@ -1,0 +1,136 @@
+//! A picture that is kept as long as nothing changes.
+
+use sabi_gpu::{AdapterKind, Gpu};
+
+use crate::error::ViewError;
+use crate::renderer::Renderer;
+use crate::scene::{Scene, Shot};
+use crate::target::Target;
+
+/// How much work a picture may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quality {
+    /// Whether heights are followed when a shot asks for it.
+    pub follows_relief: bool,
+    /// While something moves, each side has so many times fewer pixels.
+    pub moving_divisor: u32,
+}
+
+impl Quality {
+    /// What an adapter does quickly enough.
+    pub fn of(kind: AdapterKind) -> Quality {
+        match kind {
+            AdapterKind::Discrete | AdapterKind::Integrated => Quality {
+                follows_relief: true,
+                moving_divisor: 1,
+            },
+            AdapterKind::Cpu => Quality {
+                follows_relief: false,
+                moving_divisor: 2,
+            },
+        }
+    }
+
+    /// What is left out, for the artist; nothing where all is done.
+    pub fn remark(self) -> Option<&'static str> {
+        (!self.follows_relief || self.moving_divisor > 1).then_some(
+            "The viewport runs without a graphics card: relief is shown by the normal map alone, and the picture is coarser \
+             while something moves.",
+        )
+    }
+}
+
+/// What the last picture was drawn from.
+#[derive(Clone, Debug, PartialEq)]
+struct Drawn {
+    shot: Shot,
+    size: [u32; 2],
+    revision: u64,
+}
+
+/// A picture on the device that is drawn again only when something changed.
+pub struct Viewport {
+    renderer: Renderer,
+    /// How much work a picture may be.
+    pub quality: Quality,
+    target: Option<Target>,
+    drawn: Option<Drawn>,
+}
+
+impl Viewport {
+    /// A viewport without a picture, as good as the adapter allows.
+    pub fn new(gpu: &Gpu) -> Result<Viewport, ViewError> {
+        Ok(Viewport {
+            renderer: Renderer::new(gpu)?,
+            quality: Quality::of(gpu.summary().kind),
+            target: None,
+            drawn: None,
+        })
+    }
+
+    /// The picture; none before the first one.
+    pub fn picture(&self) -> Option<&Target> {
+        self.target.as_ref()
+    }
+
+    /// Draws where the last picture is not the same one: `revision` is another number whenever the scene is another one.
+    /// Says whether it drew; a window without area needs no picture.
+    pub fn show(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene<'_>,
+        revision: u64,
+        shot: &Shot,
+        size: [u32; 2],
+        is_moving: bool,
+    ) -> Result<bool, ViewError> {
+        if size.contains(&0) {
+            return Ok(false);
+        }
+        let divisor = if is_moving {
+            self.quality.moving_divisor.max(1)
+        } else {
+            1
+        };
+        let wanted = Drawn {
+            shot: Shot {
+                has_relief: shot.has_relief && self.quality.follows_relief,
+                samples: if is_moving { 1 } else { shot.samples },
+                ..shot.clone()
+            },
+            size: size.map(|side| side.div_ceil(divisor)),
+            revision,
+        };
+        if self.drawn.as_ref() == Some(&wanted) {
+            return Ok(false);
+        }
+        // What fails half-way shows nothing old as if it were new.
+        self.drawn = None;
+        let mut target = match self.target.take().filter(|target| target.size() == wanted.size) {
+            Some(target) => target,
+            None => Target::new(gpu, wanted.size)?,
+        };
+        self.renderer.draw(gpu, &mut target, scene, &wanted.shot)?;
+        self.target = Some(target);
+        self.drawn = Some(wanted);
+        Ok(true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_software_driver_gets_less_and_says_so() {
+        for kind in [AdapterKind::Discrete, AdapterKind::Integrated] {
+            assert_eq!(Quality::of(kind).remark(), None);
+        }
+        let less = Quality::of(AdapterKind::Cpu);
+        assert!(!less.follows_relief && less.moving_divisor == 2);
+        assert!(
+            less.remark()
+                .is_some_and(|words| words.contains("without a graphics card"))
+        );
+    }
+}

@@ -1,0 +1,45 @@
+//! The viewport draws when it has to, and not otherwise.
+
+use sabi_tests::{Pictured, device, even_light, project};
+use sabi_view::{Shot, Viewpoint, Viewport};
+
+use crate::furnace::look;
+
+const SIZE: [u32; 2] = [61, 40];
+
+#[test]
+fn a_picture_is_drawn_again_only_when_something_changed() {
+    let mesh = project("assets/meshes/cube.glb");
+    let pictured = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
+    let gpu = device();
+    let mut viewport = Viewport::new(&gpu).expect("a viewport");
+    let mut shot = Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE));
+    let mut draws = |revision: u64, shot: &Shot, size: [u32; 2], is_moving: bool| {
+        let drew = viewport.show(&gpu, &pictured.scene(), revision, shot, size, is_moving);
+        let size = viewport.picture().map(|picture| picture.size());
+        (drew.expect("a picture"), size)
+    };
+    assert_eq!(draws(0, &shot, [0, 40], false), (false, None), "a window without area");
+    assert_eq!(draws(0, &shot, SIZE, false), (true, Some(SIZE)));
+    assert_eq!(draws(0, &shot, SIZE, false), (false, Some(SIZE)));
+    assert_eq!(draws(1, &shot, SIZE, false), (true, Some(SIZE)), "another scene");
+    shot.camera.turn(10.0);
+    assert_eq!(
+        draws(1, &shot, SIZE, true),
+        (true, Some([31, 20])),
+        "half the size while moving"
+    );
+    shot.camera.turn(10.0);
+    assert_eq!(draws(1, &shot, SIZE, true), (true, Some([31, 20])));
+    assert_eq!(
+        draws(1, &shot, SIZE, false),
+        (true, Some(SIZE)),
+        "the rest is drawn in full"
+    );
+    assert_eq!(
+        draws(1, &shot, [0, 0], false),
+        (false, Some(SIZE)),
+        "the last picture stays"
+    );
+    assert_eq!(draws(1, &shot, SIZE, false), (false, Some(SIZE)));
+}
