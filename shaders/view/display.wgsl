@@ -9,7 +9,8 @@ struct Display {
     transform: u32,
     // Samples that are in the sum, this one included.
     samples: f32,
-    pad: f32,
+    // Whether the sum holds this sample, too.
+    is_summed: f32,
 }
 
 @group(0) @binding(0) var<uniform> display: Display;
@@ -90,9 +91,9 @@ fn gather(@builtin(position) at: vec4f) -> @location(0) vec4f {
 
 @fragment
 fn encode(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    var sum = shown_at(vec2i(at.xy));
-    if display.samples > 1.0 {
-        sum += textureLoad(earlier, vec2i(at.xy), 0);
+    var sum = textureLoad(earlier, vec2i(at.xy), 0);
+    if display.is_summed < 0.5 {
+        sum = shown_at(vec2i(at.xy));
     }
     let alpha = sum.w / display.samples;
     return vec4f(code_of(sum.xyz / max(sum.w, 1e-6)), alpha);

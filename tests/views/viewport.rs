@@ -43,3 +43,29 @@ fn a_picture_is_drawn_again_only_when_something_changed() {
     );
     assert_eq!(draws(1, &shot, SIZE, false), (false, Some(SIZE)));
 }
+
+#[test]
+fn a_picture_at_rest_is_refined_to_the_one_that_is_drawn_at_once() {
+    let mesh = project("assets/meshes/cube.glb");
+    let pictured = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
+    let gpu = device();
+    let mut viewport = Viewport::new(&gpu).expect("a viewport");
+    let shot = Shot {
+        samples: 5,
+        ..Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE))
+    };
+    let mut pictures = Vec::new();
+    while viewport
+        .show(&gpu, &pictured.scene(), 0, &shot, SIZE, false)
+        .expect("a sample")
+    {
+        let picture = viewport.picture().expect("a picture");
+        pictures.push(picture.read(&gpu).expect("pixels"));
+    }
+    assert_eq!(pictures.len(), 5);
+    assert!(
+        pictures.windows(2).all(|pair| pair[0] != pair[1]),
+        "every sample adds something"
+    );
+    assert_eq!(pictures.last(), Some(&pictured.pixels(&shot, SIZE)));
+}

@@ -32,7 +32,7 @@ pub(crate) enum Draws {
     Shadow,
     /// Adds a sample to the sum of those before.
     Gather,
-    /// Adds the last sample and encodes the mean.
+    /// Encodes the mean of the samples.
     Encode,
 }
 

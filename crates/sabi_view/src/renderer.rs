@@ -3,6 +3,7 @@
 mod bound;
 mod passes;
 
+use bound::Bound;
 use bytemuck::{Pod, Zeroable};
 use passes::{color_attachment, draw_light, draw_raster};
 use sabi_gpu::Gpu;
@@ -12,6 +13,7 @@ use crate::error::ViewError;
 use crate::frame::Frame;
 use crate::pipelines::{Draws, Layouts, Pipelines};
 use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
+use crate::shadows::ShadowMaps;
 use crate::target::{SUM, Target};
 use crate::upload::{buffer_of, texture};
 
@@ -37,7 +39,13 @@ struct Display {
     exposure: f32,
     transform: u32,
     samples: f32,
-    pad: f32,
+    is_summed: f32,
+}
+
+/// What all samples of a picture share.
+pub(crate) struct Prepared {
+    shadows: ShadowMaps,
+    bound: Bound,
 }
 
 impl Renderer {
@@ -74,25 +82,73 @@ impl Renderer {
         })
     }
 
-    /// Draws a scene as a shot shows it.
+    /// Draws a scene as a shot shows it, with all of its samples.
     pub fn draw(&self, gpu: &Gpu, target: &mut Target, scene: &Scene<'_>, shot: &Shot) -> Result<(), ViewError> {
-        let shadows = self.cast_shadows(gpu, scene)?;
-        let bound = self.bound(gpu, target, scene, shot)?;
+        let prepared = self.prepare(gpu, target, scene, shot)?;
         let samples = shot.samples.max(1);
         for sample in 0..samples {
-            let frame = self.frame_group(gpu, &shadows, scene, &Frame::new(scene, shot, target.size, sample))?;
-            let mut encoder = gpu
-                .device()
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            draw_raster(&mut encoder, target, scene, &frame, &bound);
-            draw_light(&mut encoder, target, scene, &frame, &bound);
-            self.show(gpu, &mut encoder, target, shot, [sample, samples])?;
-            gpu.queue().submit([encoder.finish()]);
+            let is_shown = sample + 1 == samples;
+            self.add_sample(gpu, target, scene, shot, &prepared, [sample, u32::from(is_shown)])?;
             if sample % 4 == 3 {
                 // Not more in the queue than a driver is glad to take.
                 gpu.wait()?;
             }
         }
+        Ok(())
+    }
+
+    /// Makes ready what all samples of a picture share.
+    pub(crate) fn prepare(
+        &self,
+        gpu: &Gpu,
+        target: &Target,
+        scene: &Scene<'_>,
+        shot: &Shot,
+    ) -> Result<Prepared, ViewError> {
+        Ok(Prepared {
+            shadows: self.cast_shadows(gpu, scene)?,
+            bound: self.bound(gpu, target, scene, shot)?,
+        })
+    }
+
+    /// Draws one sample, by its number, and with a 1 after it shows the mean of all so far.
+    pub(crate) fn add_sample(
+        &self,
+        gpu: &Gpu,
+        target: &mut Target,
+        scene: &Scene<'_>,
+        shot: &Shot,
+        prepared: &Prepared,
+        [sample, is_shown]: [u32; 2],
+    ) -> Result<(), ViewError> {
+        let Prepared { shadows, bound } = prepared;
+        let frame = self.frame_group(gpu, shadows, scene, &Frame::new(scene, shot, target.size, sample))?;
+        let mut encoder = gpu
+            .device()
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        draw_raster(&mut encoder, target, scene, &frame, bound);
+        draw_light(&mut encoder, target, scene, &frame, bound);
+        let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
+        let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
+        if shot.samples <= 1 {
+            self.display(
+                gpu,
+                &mut encoder,
+                [&light, &self.no_sum, &shown],
+                display(shot, 1, false),
+            )?;
+        } else {
+            let sums = target.sums(gpu)?;
+            let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
+            let earlier = if sample == 0 { &self.no_sum } else { &sums[before] };
+            let numbers = display(shot, sample + 1, false);
+            self.display_with(gpu, &mut encoder, Draws::Gather, [&light, earlier, &sums[now]], numbers)?;
+            if is_shown != 0 {
+                let numbers = display(shot, sample + 1, true);
+                self.display(gpu, &mut encoder, [&light, &sums[now], &shown], numbers)?;
+            }
+        }
+        gpu.queue().submit([encoder.finish()]);
         Ok(())
     }
 
@@ -128,31 +184,29 @@ impl Renderer {
         &self.pipelines.layouts
     }
 
-    /// Adds a sample, and after the last one shows the mean of all.
-    fn show(
+    /// Encodes what is to be shown: light, or else a sum of samples.
+    fn display(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        target: &mut Target,
-        shot: &Shot,
-        [sample, samples]: [u32; 2],
+        views: [&wgpu::TextureView; 3],
+        numbers: Display,
     ) -> Result<(), ViewError> {
-        let numbers = self.numbers(gpu, &display(shot, sample + 1))?;
-        let sums = if samples > 1 { Some(target.sums(gpu)?) } else { None };
-        let is_last = sample + 1 == samples;
-        let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
-        let earlier = sums
-            .as_ref()
-            .filter(|_| sample > 0)
-            .map_or(&self.no_sum, |sums| &sums[before]);
-        let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
-        let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
-        let (draws, goal) = match &sums {
-            Some(sums) if !is_last => (Draws::Gather, &sums[now]),
-            _ => (Draws::Encode, &shown),
-        };
+        self.display_with(gpu, encoder, Draws::Encode, views, numbers)
+    }
+
+    /// Light and a sum of earlier samples become something that is written.
+    fn display_with(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        draws: Draws,
+        [light, earlier, goal]: [&wgpu::TextureView; 3],
+        numbers: Display,
+    ) -> Result<(), ViewError> {
+        let numbers = self.numbers(gpu, &numbers)?;
         let view = wgpu::BindingResource::TextureView;
-        let resources = [numbers.as_entire_binding(), view(&light), view(earlier)];
+        let resources = [numbers.as_entire_binding(), view(light), view(earlier)];
         let group = self.bind(gpu, &self.layouts().display, resources);
         let pipeline = self.pipelines.get(gpu, draws)?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -167,7 +221,7 @@ impl Renderer {
     }
 }
 
-fn display(shot: &Shot, samples: u32) -> Display {
+fn display(shot: &Shot, samples: u32, is_summed: bool) -> Display {
     let is_lit = shot.mode == Mode::Material;
     let backdrop = match shot.background {
         Background::Plain([r, g, b]) => [r, g, b, 1.0],
@@ -185,6 +239,6 @@ fn display(shot: &Shot, samples: u32) -> Display {
             ViewTransform::Aces => 2,
         },
         samples: samples as f32,
-        pad: 0.0,
+        is_summed: f32::from(u8::from(is_summed)),
     }
 }

@@ -3,7 +3,7 @@
 use sabi_gpu::{AdapterKind, Gpu};
 
 use crate::error::ViewError;
-use crate::renderer::Renderer;
+use crate::renderer::{Prepared, Renderer};
 use crate::scene::{Scene, Shot};
 use crate::target::Target;
 
@@ -40,15 +40,23 @@ impl Quality {
     }
 }
 
-/// What the last picture was drawn from.
+/// What a picture is drawn from.
 #[derive(Clone, Debug, PartialEq)]
-struct Drawn {
+struct Wanted {
     shot: Shot,
     size: [u32; 2],
     revision: u64,
 }
 
-/// A picture on the device that is drawn again only when something changed.
+/// The last picture, as far as it is drawn.
+struct Drawn {
+    wanted: Wanted,
+    prepared: Prepared,
+    /// Samples that are in it.
+    samples: u32,
+}
+
+/// A picture on the device that is drawn again only when something changed, and refined sample by sample while nothing does.
 pub struct Viewport {
     renderer: Renderer,
     /// How much work a picture may be.
@@ -73,8 +81,9 @@ impl Viewport {
         self.target.as_ref()
     }
 
-    /// Draws where the last picture is not the same one: `revision` is another number whenever the scene is another one.
-    /// Says whether it drew; a window without area needs no picture.
+    /// Draws a first sample where the last picture is not the same one, else one more where some are left: `revision` is
+    /// another number whenever the scene is another one. Says whether it drew, and so whether to come again; a window without
+    /// area needs no picture.
     pub fn show(
         &mut self,
         gpu: &Gpu,
@@ -92,28 +101,39 @@ impl Viewport {
         } else {
             1
         };
-        let wanted = Drawn {
+        let wanted = Wanted {
             shot: Shot {
                 has_relief: shot.has_relief && self.quality.follows_relief,
-                samples: if is_moving { 1 } else { shot.samples },
+                samples: if is_moving { 1 } else { shot.samples.max(1) },
                 ..shot.clone()
             },
             size: size.map(|side| side.div_ceil(divisor)),
             revision,
         };
-        if self.drawn.as_ref() == Some(&wanted) {
-            return Ok(false);
-        }
-        // What fails half-way shows nothing old as if it were new.
-        self.drawn = None;
         let mut target = match self.target.take().filter(|target| target.size() == wanted.size) {
             Some(target) => target,
             None => Target::new(gpu, wanted.size)?,
         };
-        self.renderer.draw(gpu, &mut target, scene, &wanted.shot)?;
+        // What fails half-way shows nothing old as if it were new.
+        let mut drawn = match self.drawn.take().filter(|drawn| drawn.wanted == wanted) {
+            Some(drawn) => drawn,
+            None => Drawn {
+                prepared: self.renderer.prepare(gpu, &target, scene, &wanted.shot)?,
+                samples: 0,
+                wanted,
+            },
+        };
+        let shot = &drawn.wanted.shot;
+        let is_left = drawn.samples < shot.samples;
+        if is_left {
+            let sample = [drawn.samples, 1];
+            self.renderer
+                .add_sample(gpu, &mut target, scene, shot, &drawn.prepared, sample)?;
+            drawn.samples += 1;
+        }
         self.target = Some(target);
-        self.drawn = Some(wanted);
-        Ok(true)
+        self.drawn = Some(drawn);
+        Ok(is_left)
     }
 }
 
