@@ -2,6 +2,10 @@
 
 use crate::{Document, Edit, EditError};
 
+/// Steps that can be undone at least; beyond, the oldest are forgotten, so that a long day's work takes no more memory than a
+/// short one.
+pub const UNDO_STEPS: usize = 2000;
+
 /// What was done and can be undone, and what was undone and can be done again. Undo is a stack of inverse edits.
 #[derive(Clone, Debug, Default)]
 pub struct History {
@@ -32,13 +36,24 @@ impl History {
         let inverse = document.apply(edit)?;
         self.redo.clear();
         match &mut self.open {
+            // A drag sets the same knob again and again: the first inverse leads back past all of them.
+            Some(step) if step.edits.last().is_some_and(|last| sets_the_same(last, &inverse)) => {}
             Some(step) => step.edits.push(inverse),
-            None => self.undo.push(Step {
+            None => self.remember(Step {
                 name: name.to_owned(),
                 edits: vec![inverse],
             }),
         }
         Ok(())
+    }
+
+    /// Puts a step on top of those that can be undone.
+    fn remember(&mut self, step: Step) {
+        self.undo.push(step);
+        // Now and then many at once, since those that stay move up.
+        if self.undo.len() >= UNDO_STEPS + UNDO_STEPS / 4 {
+            self.undo.drain(..UNDO_STEPS / 4);
+        }
     }
 
     /// Opens a group: all edits until [`History::end`] are one step of that name. A group that is open is ended.
@@ -57,7 +72,7 @@ impl History {
         {
             // They were made in this order, so they are taken back in the other.
             step.edits.reverse();
-            self.undo.push(step);
+            self.remember(step);
         }
     }
 
@@ -87,6 +102,33 @@ impl History {
     /// Names of the steps that can be done again, the next one last.
     pub fn redo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
         self.redo.iter().map(|step| step.name.as_str())
+    }
+}
+
+/// Whether two edits give new values to the very same places of nodes.
+fn sets_the_same(one: &Edit, other: &Edit) -> bool {
+    match (one, other) {
+        (
+            Edit::SetParam { body, node, param, .. },
+            Edit::SetParam {
+                body: other_body,
+                node: other_node,
+                param: other_param,
+                ..
+            },
+        ) => (body, node, param) == (other_body, other_node, other_param),
+        (
+            Edit::Move { body, node, .. },
+            Edit::Move {
+                body: other_body,
+                node: other_node,
+                ..
+            },
+        ) => (body, node) == (other_body, other_node),
+        (Edit::Batch(edits), Edit::Batch(others)) => {
+            edits.len() == others.len() && edits.iter().zip(others).all(|(edit, other)| sets_the_same(edit, other))
+        }
+        _ => false,
     }
 }
 

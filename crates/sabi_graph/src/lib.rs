@@ -42,7 +42,7 @@ pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
 pub use flatten::{FlatGraph, FlatNode, FlatRef, FlattenError, Overrides, flatten};
 pub use graph::{Graph, Node};
-pub use history::History;
+pub use history::{History, UNDO_STEPS};
 pub use id::{NodeId, OutputRef, SlotRef};
 pub use locate::locate;
 pub use nearest::nearest;

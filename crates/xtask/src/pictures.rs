@@ -177,7 +177,25 @@ pub(crate) fn run(place: &Place, names: &[String]) -> Result<(), Stop> {
     if is_asked(HEAD) {
         draw(place, &desk, &HEAD_SCENE, "head.png", HEAD_SIZE, HEAD_BYTES)?;
     }
-    Ok(())
+    let path = place.root.join(FOLDER).join("README.md");
+    fs::write(&path, page()).map_err(|error| Stop::new(1, format!("{} cannot be written: {error}.", path.display())))
+}
+
+/// All pictures on a page, a row for each graph.
+fn page() -> String {
+    let row = |example: &Example| {
+        let graph = example.graph;
+        let pictures = example.models.map(|(model, _)| {
+            let file = file_name(graph, model);
+            format!(" ![{graph} on a {model}]({file}) |")
+        });
+        format!("| [{graph}](../../graphs/{graph}.sabi) |{}\n", pictures.concat())
+    };
+    let rows: String = EXAMPLES.iter().map(row).collect();
+    format!(
+        "# The example graphs on three models each\n\nWritten by `cargo xtask pictures`; the same parameters on every model.\n\n\
+         | graph | | | |\n|---|---|---|---|\n{rows}"
+    )
 }
 
 /// What a picture is called.

@@ -38,7 +38,8 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
     pub(crate) rotate: f32,
     /// A far light besides it: where it stands in degrees, and how strong; up to four
-    #[arg(long, value_name = "YAW,PITCH[,STRENGTH]", value_parser = light, help_heading = "Light")]
+    #[arg(long, value_name = "YAW,PITCH[,STRENGTH]", value_parser = light, allow_hyphen_values = true,
+          help_heading = "Light")]
     pub(crate) light: Vec<Light>,
     /// Stops by which all light is made stronger
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
@@ -49,6 +50,7 @@ pub(crate) struct RenderArguments {
     /// Where the eye is: front, three-quarter, left, right, back, top, bottom, or degrees and a multiple of the distance
     #[arg(
         long,
+        allow_hyphen_values = true,
         value_name = "NAME|YAW,PITCH[,DISTANCE]",
         default_value = "three-quarter",
         help_heading = "Picture"

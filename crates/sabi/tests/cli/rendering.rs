@@ -41,6 +41,8 @@ fn a_lit_picture_is_written_and_comes_out_the_same_again() {
     for more in [
         &["--environment", "low_sun"][..],
         &["--camera", "back"],
+        &["--camera", "-40,-10"],
+        &["--light", "-40,30,2"],
         &["--view", "roughness"],
         &["--view", "node:clouds"],
         &["--transform", "standard"],

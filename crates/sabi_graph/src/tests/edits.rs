@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::random::{a_document, an_edit};
 use super::{config, document};
-use crate::{Body, Document, Edit, EditError, Exposed, Fit, GroupDef, History, Node, NodeId};
+use crate::{Body, Document, Edit, EditError, Exposed, Fit, GroupDef, History, Node, NodeId, UNDO_STEPS};
 
 fn id(text: &str) -> NodeId {
     text.parse().unwrap()
@@ -249,6 +249,40 @@ fn a_drag_of_many_edits_is_one_step_of_undo() {
     history.undo(&mut document).unwrap();
     history.apply(&mut document, "Seed", Edit::SetSeed { seed: 5 }).unwrap();
     assert_eq!(history.redo_names().count(), 0);
+}
+
+#[test]
+fn a_drag_remembers_where_it_began_and_not_where_it_went() {
+    let (mut document, mut history) = (chain(), History::new());
+    let before = document.to_json();
+    history.begin("Drag");
+    for step in 0..1000u16 {
+        let to = |node: &str| Edit::Move {
+            body: MAIN,
+            node: id(node),
+            pos: [f32::from(step), 1.0],
+        };
+        let both = Edit::Batch(vec![to("a"), to("b")]);
+        history.apply(&mut document, "ignored", both).unwrap();
+    }
+    history.end();
+    assert!(format!("{history:?}").len() < 2000, "a step of a thousand edits");
+    history.undo(&mut document).unwrap();
+    assert_eq!(document.to_json(), before);
+}
+
+#[test]
+fn the_oldest_steps_make_room_for_new_ones() {
+    let (mut document, mut history) = (chain(), History::new());
+    for seed in 0..3 * UNDO_STEPS as u32 {
+        history
+            .apply(&mut document, "Seed", Edit::SetSeed { seed: seed + 1 })
+            .unwrap();
+    }
+    let kept = history.undo_names().count();
+    assert!((UNDO_STEPS..2 * UNDO_STEPS).contains(&kept), "{kept}");
+    while history.undo(&mut document).unwrap().is_some() {}
+    assert_eq!(document.seed as usize, 3 * UNDO_STEPS - kept);
 }
 
 proptest! {
