@@ -1,0 +1,244 @@
+//! A graph that is being worked on: its edits and how they are taken back, its file, and what is kept of it in case the
+//! program ends before it is saved.
+
+mod recovery;
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sabi_export::Staging;
+use sabi_graph::{Document, Edit, EditError, History};
+
+pub use recovery::{Recovery, recoveries};
+
+use crate::document::OpenGraph;
+use crate::error::{EngineError, ErrorKind};
+
+/// What a graph is called before it has a file.
+const UNTITLED: &str = "untitled.sabi";
+/// What the file that a save replaces is called, after its own name.
+const BACKUP: &str = ".bak";
+
+/// A graph that is being worked on.
+#[derive(Debug)]
+pub struct Session {
+    open: OpenGraph,
+    history: History,
+    /// Where it is saved; none before the first time.
+    file: Option<PathBuf>,
+    /// The text in its file, or of the empty graph that it began as.
+    saved: String,
+    /// The text at hand, by the revision that it is of.
+    text: (u64, String),
+    /// Rises with everything that changes the document.
+    revision: u64,
+    recovery: Option<Recovery>,
+}
+
+impl Session {
+    /// An empty graph without a file. What is not saved is kept in `recovery_folder`, if there is one.
+    pub fn new(recovery_folder: Option<&Path>) -> Session {
+        let document = Document::new("");
+        Session::of(
+            OpenGraph {
+                path: PathBuf::from(UNTITLED),
+                text: document.to_json().into(),
+                pictures: crate::Pictures::default(),
+                document,
+            },
+            None,
+            recovery_folder,
+        )
+    }
+
+    /// A graph out of its file.
+    pub fn open(path: &Path, recovery_folder: Option<&Path>) -> Result<Session, EngineError> {
+        let open = OpenGraph::open(path)?;
+        Ok(Session::of(open, Some(path.to_owned()), recovery_folder))
+    }
+
+    /// What was kept of a graph when the program ended before it was saved: nothing of it is saved yet.
+    pub fn recover(recovery: Recovery) -> Result<Session, EngineError> {
+        let (text, file) = recovery.read()?;
+        let name = file.clone().unwrap_or_else(|| PathBuf::from(UNTITLED));
+        let document = Document::from_json(&text)
+            .map_err(|error| EngineError::new(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
+        let saved = match &file {
+            Some(file) => fs::read_to_string(file).unwrap_or_default(),
+            None => Document::new("").to_json(),
+        };
+        let text = document.to_json();
+        Ok(Session {
+            open: OpenGraph {
+                path: name,
+                text: text.clone().into(),
+                pictures: crate::Pictures::default(),
+                document,
+            },
+            history: History::new(),
+            file,
+            saved,
+            text: (0, text),
+            revision: 0,
+            recovery: Some(recovery),
+        })
+    }
+
+    fn of(open: OpenGraph, file: Option<PathBuf>, recovery_folder: Option<&Path>) -> Session {
+        let text = open.document.to_json();
+        Session {
+            history: History::new(),
+            recovery: recovery_folder.map(|folder| Recovery::new(folder, file.as_deref())),
+            saved: match &file {
+                // A file that is not canonical is not made dirty by opening it.
+                Some(_) => text.clone(),
+                None => Document::new("").to_json(),
+            },
+            text: (0, text),
+            revision: 0,
+            file,
+            open,
+        }
+    }
+
+    /// The graph with the files that it stands among, as it is now.
+    pub fn graph(&self) -> &OpenGraph {
+        &self.open
+    }
+
+    /// The document, as it is now.
+    pub fn document(&self) -> &Document {
+        &self.open.document
+    }
+
+    /// Its file; none before it is saved for the first time.
+    pub fn file(&self) -> Option<&Path> {
+        self.file.as_deref()
+    }
+
+    /// Rises with everything that changes the document.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Names of the steps that can be undone, the next one last.
+    pub fn undo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
+        self.history.undo_names()
+    }
+
+    /// Names of the steps that can be done again, the next one last.
+    pub fn redo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
+        self.history.redo_names()
+    }
+
+    /// Makes an edit, as a step of that name or a part of the one that was begun.
+    pub fn edit(&mut self, name: &str, edit: Edit) -> Result<(), EditError> {
+        self.history.apply(&mut self.open.document, name, edit)?;
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// Begins a step of several edits, such as a drag.
+    pub fn begin(&mut self, name: &str) {
+        self.history.begin(name);
+    }
+
+    /// Ends the step that was begun.
+    pub fn end(&mut self) {
+        self.history.end();
+    }
+
+    /// Takes the last step back and names it; none where there is nothing to undo.
+    pub fn undo(&mut self) -> Result<Option<String>, EditError> {
+        let undone = self.history.undo(&mut self.open.document)?;
+        self.revision += u64::from(undone.is_some());
+        Ok(undone)
+    }
+
+    /// Does the last step again that was undone and names it; none where there is none.
+    pub fn redo(&mut self) -> Result<Option<String>, EditError> {
+        let redone = self.history.redo(&mut self.open.document)?;
+        self.revision += u64::from(redone.is_some());
+        Ok(redone)
+    }
+
+    /// The canonical text of the document.
+    pub fn text(&mut self) -> &str {
+        if self.text.0 != self.revision {
+            self.text = (self.revision, self.open.document.to_json());
+        }
+        &self.text.1
+    }
+
+    /// Whether there is something that its file does not hold.
+    pub fn is_dirty(&mut self) -> bool {
+        self.text();
+        self.text.1 != self.saved
+    }
+
+    /// Saves to its own file.
+    pub fn save(&mut self) -> Result<(), EngineError> {
+        let Some(file) = self.file.clone() else {
+            let why = "this graph has no file yet; choose one with Save as";
+            return Err(EngineError::new(ErrorKind::Usage, why));
+        };
+        self.save_as(&file)
+    }
+
+    /// Saves to a file, which is the session's from then on. The file that was there stays beside it under a name that ends
+    /// in `.bak`; at every moment either the old text or the new one is there, whole.
+    pub fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
+        let text = self.text().to_owned();
+        write_with_backup(path, &text)?;
+        if let Some(recovery) = &mut self.recovery {
+            recovery.forget();
+            recovery.name(Some(path));
+        }
+        self.open.path = path.to_owned();
+        self.open.text = text.as_str().into();
+        self.file = Some(path.to_owned());
+        self.saved = text;
+        Ok(())
+    }
+
+    /// Keeps what is not saved, if it changed since the last time; to be called every few seconds. Says whether it wrote.
+    pub fn keep(&mut self) -> Result<bool, EngineError> {
+        let is_dirty = self.is_dirty();
+        let Some(recovery) = &mut self.recovery else {
+            return Ok(false);
+        };
+        if !is_dirty {
+            recovery.forget();
+            return Ok(false);
+        }
+        recovery.keep(&self.text.1)
+    }
+
+    /// Ends the work in order: nothing of it needs to be recovered.
+    pub fn close(mut self) {
+        if let Some(recovery) = &mut self.recovery {
+            recovery.forget();
+        }
+    }
+}
+
+/// Writes a file whole, and keeps the one that it replaces.
+fn write_with_backup(path: &Path, text: &str) -> Result<(), EngineError> {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+    let Some(name) = name.filter(|name| !name.is_empty()) else {
+        let why = format!("{} names no file; add a name that ends in .sabi", path.display());
+        return Err(EngineError::new(ErrorKind::CannotWrite, why));
+    };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut staging = Staging::create(folder.unwrap_or(Path::new(".")))?;
+    if let Ok(before) = fs::read(path)
+        && before != text.as_bytes()
+    {
+        staging.stage(&format!("{name}{BACKUP}"), &before)?;
+    }
+    staging.stage(&name, text.as_bytes())?;
+    staging.commit()?;
+    Ok(())
+}

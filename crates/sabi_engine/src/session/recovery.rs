@@ -1,0 +1,135 @@
+//! What is kept of a graph between saves, for the case that the program ends without asking.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use sabi_export::Staging;
+use serde_json::{Value as Json, json};
+
+use crate::error::{EngineError, ErrorKind};
+
+/// Tells two sessions of one process apart.
+static SESSIONS: AtomicU64 = AtomicU64::new(0);
+
+/// How names of kept files end.
+const ENDING: &str = "recovery";
+
+/// The file in which a session keeps what is not saved.
+#[derive(Debug)]
+pub struct Recovery {
+    path: PathBuf,
+    /// The graph's own file.
+    file: Option<PathBuf>,
+    /// What was kept last.
+    kept: Option<String>,
+}
+
+/// What is left in a folder of sessions that did not end in order, those of programs that still run left out; the newest
+/// first.
+pub fn recoveries(folder: &Path) -> Vec<Recovery> {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return Vec::new();
+    };
+    let mut found: Vec<(SystemTime, PathBuf)> = entries
+        .filter_map(|entry| {
+            let path = entry.ok()?.path();
+            let is_kept = path.extension().is_some_and(|ending| ending == ENDING);
+            let when = fs::metadata(&path).and_then(|metadata| metadata.modified()).ok()?;
+            (is_kept && !is_in_use(&path)).then_some((when, path))
+        })
+        .collect();
+    found.sort();
+    let left = found.into_iter().rev().map(|(_, path)| Recovery {
+        path,
+        file: None,
+        kept: None,
+    });
+    left.filter_map(|mut recovery| {
+        let (text, file) = recovery.read().ok()?;
+        recovery.file = file;
+        recovery.kept = Some(text);
+        Some(recovery)
+    })
+    .collect()
+}
+
+/// Whether the program that keeps a file still runs; where nobody can tell, it does not.
+fn is_in_use(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let Some(process) = name.split('-').next().and_then(|number| number.parse::<u32>().ok()) else {
+        return false;
+    };
+    process == std::process::id() || Path::new("/proc").join(process.to_string()).exists()
+}
+
+impl Recovery {
+    /// A file of its own for a session in a folder, which is made when there is something to keep.
+    pub(super) fn new(folder: &Path, file: Option<&Path>) -> Recovery {
+        let number = SESSIONS.fetch_add(1, Ordering::Relaxed);
+        // Process numbers come again; times do not.
+        let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        let name = format!("{}-{}-{number}.{ENDING}", std::process::id(), now.as_millis());
+        Recovery {
+            path: folder.join(name),
+            file: file.map(Path::to_owned),
+            kept: None,
+        }
+    }
+
+    /// The graph's own file; none where it was never saved.
+    pub fn file(&self) -> Option<&Path> {
+        self.file.as_deref()
+    }
+
+    /// When it was kept.
+    pub fn when(&self) -> Option<SystemTime> {
+        fs::metadata(&self.path).and_then(|metadata| metadata.modified()).ok()
+    }
+
+    /// Says where the graph is saved from now on.
+    pub(super) fn name(&mut self, file: Option<&Path>) {
+        self.file = file.map(Path::to_owned);
+    }
+
+    /// The graph's text, and its file.
+    pub(super) fn read(&self) -> Result<(String, Option<PathBuf>), EngineError> {
+        let damaged = |why: String| {
+            let shown = self.path.display();
+            EngineError::new(
+                ErrorKind::BadInput,
+                format!("{shown}: what was kept cannot be read: {why}"),
+            )
+        };
+        let text = fs::read_to_string(&self.path).map_err(|error| damaged(error.to_string()))?;
+        let kept: Json = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
+        let graph = kept["graph"]
+            .as_str()
+            .ok_or_else(|| damaged("it holds no graph".to_owned()))?;
+        Ok((graph.to_owned(), kept["file"].as_str().map(PathBuf::from)))
+    }
+
+    /// Keeps a text, unless it is the one that was kept last.
+    pub(super) fn keep(&mut self, text: &str) -> Result<bool, EngineError> {
+        if self.kept.as_deref() == Some(text) {
+            return Ok(false);
+        }
+        let file = self.file.as_ref().map(|file| file.to_string_lossy());
+        let bytes = json!({ "file": file, "graph": text }).to_string();
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let mut staging = Staging::create(self.path.parent().unwrap_or(Path::new(".")))?;
+        staging.stage(&name, bytes.as_bytes())?;
+        staging.commit()?;
+        self.kept = Some(text.to_owned());
+        Ok(true)
+    }
+
+    /// Lets go of what was kept.
+    pub fn forget(&mut self) {
+        if self.kept.take().is_some() {
+            // One that is gone already is what is wanted.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! Sessions on files, and what is left of them.
+
+use sabi_graph::{Body, Node, Value};
+use tempfile::TempDir;
+
+use super::*;
+
+fn add(id: &str) -> Edit {
+    Edit::AddNode {
+        body: Body::Main,
+        id: id.parse().unwrap(),
+        node: Node::new("noise/simplex"),
+    }
+}
+
+fn set_gain(value: f32) -> Edit {
+    Edit::SetParam {
+        body: Body::Main,
+        node: "a".parse().unwrap(),
+        param: "gain".to_owned(),
+        value: Some(Value::Number(f64::from(value))),
+    }
+}
+
+fn desk() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+#[test]
+fn a_session_is_dirty_exactly_while_its_file_holds_something_else() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let mut session = Session::new(None);
+    assert!(!session.is_dirty());
+    assert!(session.save().is_err(), "it has no file yet");
+    session.edit("Add", add("a")).unwrap();
+    assert!(session.is_dirty());
+    session.save_as(&file).unwrap();
+    assert!(!session.is_dirty());
+    assert_eq!(fs::read_to_string(&file).unwrap(), session.text());
+    session.undo().unwrap();
+    assert!(session.is_dirty());
+    session.redo().unwrap();
+    assert!(!session.is_dirty(), "undo goes on past a save");
+    let mut again = Session::open(&file, None).unwrap();
+    assert!(!again.is_dirty());
+    assert_eq!(again.text(), session.text());
+}
+
+#[test]
+fn saving_keeps_the_file_before() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let mut session = Session::new(None);
+    session.edit("Add", add("a")).unwrap();
+    session.save_as(&file).unwrap();
+    let first = fs::read_to_string(&file).unwrap();
+    session.save().unwrap();
+    assert!(!desk.path().join("a.sabi.bak").exists(), "nothing changed");
+    session.edit("Add", add("b")).unwrap();
+    session.save().unwrap();
+    assert_eq!(fs::read_to_string(desk.path().join("a.sabi.bak")).unwrap(), first);
+    let names = fs::read_dir(desk.path()).unwrap().count();
+    assert_eq!(names, 2, "no temporary file is left");
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_told_and_nothing_is_lost() {
+    let desk = desk();
+    let mut session = Session::new(None);
+    session.edit("Add", add("a")).unwrap();
+    fs::create_dir(desk.path().join("folder.sabi")).unwrap();
+    for path in [desk.path().join("folder.sabi"), PathBuf::from("/")] {
+        let error = session.save_as(&path).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::CannotWrite, "{error}");
+    }
+    assert!(session.is_dirty() && session.file().is_none());
+}
+
+#[test]
+fn what_was_not_saved_comes_back_after_the_program_ended() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let kept = desk.path().join("kept");
+    let mut session = Session::new(Some(&kept));
+    session.edit("Add", add("a")).unwrap();
+    session.save_as(&file).unwrap();
+    assert!(!session.keep().unwrap(), "all is saved");
+    session.edit("Gain", set_gain(0.25)).unwrap();
+    assert!(session.keep().unwrap());
+    assert!(!session.keep().unwrap(), "nothing changed since");
+    let text = session.text().to_owned();
+    assert!(recoveries(&kept).is_empty(), "its program still runs");
+    // As another program finds it when this one was killed.
+    drop(session);
+    let left = fs::read_dir(&kept).unwrap().next().unwrap().unwrap().path();
+    fs::rename(&left, kept.join("4000000000-1-0.recovery")).unwrap();
+    let mut found = recoveries(&kept);
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].file(), Some(file.as_path()));
+    let mut session = Session::recover(found.remove(0)).unwrap();
+    assert!(session.is_dirty());
+    assert_eq!(session.text(), text);
+    session.save().unwrap();
+    assert_eq!(fs::read_to_string(&file).unwrap(), text);
+    assert!(recoveries(&kept).is_empty(), "once saved there is nothing to recover");
+}
+
+#[test]
+fn a_session_that_ends_in_order_leaves_nothing() {
+    let desk = desk();
+    let mut session = Session::new(Some(desk.path()));
+    session.edit("Add", add("a")).unwrap();
+    assert!(session.keep().unwrap());
+    session.close();
+    assert_eq!(fs::read_dir(desk.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn damaged_leftovers_are_passed_over() {
+    let desk = desk();
+    fs::write(desk.path().join("1-1-1.recovery"), "half of").unwrap();
+    fs::write(desk.path().join("4000000000-1-1.recovery"), "{}").unwrap();
+    fs::write(desk.path().join("other.txt"), "{}").unwrap();
+    assert!(recoveries(desk.path()).is_empty());
+    assert!(recoveries(&desk.path().join("none")).is_empty());
+}
+
+#[test]
+fn a_drag_is_one_step() {
+    let mut session = Session::new(None);
+    session.edit("Add", add("a")).unwrap();
+    let before = session.text().to_owned();
+    session.begin("Gain");
+    for step in 0..100u8 {
+        session.edit("ignored", set_gain(f32::from(step) / 100.0)).unwrap();
+    }
+    session.end();
+    assert_eq!(session.undo_names().collect::<Vec<_>>(), ["Add", "Gain"]);
+    assert_eq!(session.undo().unwrap().as_deref(), Some("Gain"));
+    assert_eq!(session.text(), before);
+}
