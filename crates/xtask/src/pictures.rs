@@ -26,43 +26,31 @@ const EXAMPLES: [Example; 9] = [
         graph: "weathered-bench",
         models: [
             ("bench", "-35,18,0.8"),
-            ("chair", "-30,15,0.85"),
-            ("table", "30,18,0.85"),
+            ("chair", "-30,15,0.95"),
+            ("table", "30,18,0.95"),
         ],
         environment: "overcast",
     },
     Example {
         graph: "mossy-figure",
-        models: [
-            ("figure", "-25,10,0.85"),
-            ("column", "-25,8,0.85"),
-            ("wall", "30,12,0.9"),
-        ],
+        models: [("figure", "-25,10,0.85"), ("column", "-25,8,1"), ("wall", "30,12,0.9")],
         environment: "overcast",
     },
     Example {
         graph: "rusty-metal",
-        models: [
-            ("barrel", "25,20,0.85"),
-            ("chain", "30,20,0.85"),
-            ("figure", "25,10,0.85"),
-        ],
+        models: [("barrel", "25,20,0.85"), ("chain", "30,20,1"), ("figure", "25,10,0.85")],
         environment: "studio",
     },
     Example {
         graph: "old-stone",
-        models: [
-            ("column", "-25,8,0.85"),
-            ("wall", "30,12,0.9"),
-            ("figure", "25,10,0.85"),
-        ],
+        models: [("column", "-25,8,1"), ("wall", "30,12,0.9"), ("figure", "25,10,0.85")],
         environment: "low_sun",
     },
     Example {
         graph: "varnished-wood",
         models: [
-            ("chair", "-30,15,0.85"),
-            ("table", "30,18,0.85"),
+            ("chair", "-30,15,0.95"),
+            ("table", "30,18,0.95"),
             ("barrel", "25,20,0.85"),
         ],
         environment: "studio",
@@ -81,17 +69,13 @@ const EXAMPLES: [Example; 9] = [
         models: [
             ("figure", "25,10,0.85"),
             ("crate", "-35,22,0.85"),
-            ("chair", "-30,15,0.85"),
+            ("chair", "-30,15,0.95"),
         ],
         environment: "overcast",
     },
     Example {
         graph: "thesis/stone-bench",
-        models: [
-            ("bench", "-35,18,0.8"),
-            ("column", "-25,8,0.85"),
-            ("figure", "25,10,0.85"),
-        ],
+        models: [("bench", "-35,18,0.8"), ("column", "-25,8,1"), ("figure", "25,10,0.85")],
         environment: "low_sun",
     },
     Example {
