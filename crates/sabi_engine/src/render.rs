@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use glam::UVec2;
-use sabi_image::{PngData, PngOptions, encode_png};
+use sabi_image::{ImageError, PngData, PngOptions, encode_exr, encode_png};
 use sabi_view::{
-    Background, Camera, Environment, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot,
-    Target as Canvas, ViewModel, ViewTransform, Viewpoint, aspect_of,
+    Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
+    ViewModel, ViewTransform, Viewpoint, aspect_of,
 };
 
+use crate::displace::{Triangles, displaced_model};
 use crate::document::OpenGraph;
 use crate::environment::{environment_of, read_panorama};
 use crate::error::{EngineError, ErrorKind};
@@ -21,6 +22,8 @@ use crate::seen_node::graph_and_target;
 use crate::stages::{Progress, Stage};
 use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
 
+/// The view in which there is light.
+const LIT: &str = "material";
 /// Most frames of a turntable.
 const MOST_FRAMES: u32 = 9999;
 
@@ -30,7 +33,7 @@ pub struct RenderRequest {
     pub graph: PathBuf,
     /// Model, overrides, fit, adapter.
     pub workpiece: WorkpieceOptions,
-    /// `.png`; of a turntable, what its frames are named after.
+    /// `.png` for what a display shows, `.exr` for the light itself; of a turntable, what its frames are named after.
     pub output: PathBuf,
     /// Width and height, pixels.
     pub size: [u32; 2],
@@ -56,6 +59,8 @@ pub struct RenderRequest {
     pub lines: Vec<Lines>,
     /// Whether heights are followed, so that they hide one another and throw shadows.
     pub has_relief: bool,
+    /// Whether a finer copy is drawn that heights displace, of so many triangles; heights are not followed on it.
+    pub displace: Option<Triangles>,
     /// Samples a pixel.
     pub samples: u32,
     /// So many frames from all around instead of one.
@@ -96,8 +101,16 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     let (environment, remark) = environment_of(&workpiece.gpu, &panorama, cache_dir)?;
     workpiece.warn(remark);
     let shown = show(&mut workpiece, seen.as_ref(), progress)?;
+    let model = view_model(request, &mut workpiece, &shown)?;
+    let scene = Scene {
+        model: &model,
+        looks: &shown.looks,
+        look_of_material: &shown.look_of_material,
+        environment: &environment,
+        lights: &request.lights,
+    };
     let mode = if shown.is_lit { mode } else { Mode::Node };
-    let pictures = draw(request, &workpiece, &environment, &shown, mode, progress)?;
+    let pictures = draw(request, &workpiece, &scene, (mode, shown.height_range), progress)?;
     stop_if_canceled(progress)?;
     let mut inputs = workpiece.read_files(&open);
     inputs.push(PathBuf::from(&request.environment));
@@ -112,8 +125,18 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
 fn file_names(request: &RenderRequest) -> Result<Vec<PathBuf>, EngineError> {
     let refused = |why: String| EngineError::new(ErrorKind::Usage, why);
     let output = &request.output;
-    if output.extension().and_then(|ending| ending.to_str()) != Some("png") {
-        return Err(refused(format!("{}: a picture is a .png", output.display())));
+    let Some(ending @ ("png" | "exr")) = output.extension().and_then(|ending| ending.to_str()) else {
+        return Err(refused(format!(
+            "{}: a picture is a .png, or an .exr of its light",
+            output.display()
+        )));
+    };
+    if ending == "exr" && request.view != LIT {
+        return Err(refused(format!(
+            "{}: an .exr holds light, and the view '{}' shows none; write a .png, or show the material",
+            output.display(),
+            request.view
+        )));
     }
     let Some(frames) = request.turntable else {
         return Ok(vec![output.clone()]);
@@ -124,7 +147,7 @@ fn file_names(request: &RenderRequest) -> Result<Vec<PathBuf>, EngineError> {
         )));
     }
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
-    let frame = |number: u32| output.with_file_name(format!("{stem}_{number:04}.png"));
+    let frame = |number: u32| output.with_file_name(format!("{stem}_{number:04}.{ending}"));
     Ok((0..frames).map(frame).collect())
 }
 
@@ -137,34 +160,35 @@ fn view_of(view: &str) -> Result<(Mode, Option<&str>), EngineError> {
     Ok((mode, None))
 }
 
+/// The model as it is drawn: as it is, or a displaced copy.
+fn view_model(request: &RenderRequest, workpiece: &mut Workpiece, shown: &Shown) -> Result<ViewModel, EngineError> {
+    if let Some(triangles) = request.displace {
+        return displaced_model(workpiece, shown, triangles);
+    }
+    let (gpu, prepared) = (&workpiece.gpu, &workpiece.prepared);
+    let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
+    let (model, atlas) = (&prepared.model, &prepared.atlas);
+    Ok(ViewModel::new(
+        gpu,
+        model,
+        atlas,
+        &workpiece.surface,
+        model_from_working,
+    )?)
+}
+
 fn draw(
     request: &RenderRequest,
     workpiece: &Workpiece,
-    environment: &Environment,
-    shown: &Shown,
-    mode: Mode,
+    scene: &Scene<'_>,
+    (mode, height_range): (Mode, [f32; 2]),
     progress: &dyn Progress,
 ) -> Result<Vec<Vec<u8>>, EngineError> {
     let gpu = &workpiece.gpu;
-    let prepared = &workpiece.prepared;
-    let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
-    let model = ViewModel::new(
-        gpu,
-        &prepared.model,
-        &prepared.atlas,
-        &workpiece.surface,
-        model_from_working,
-    )?;
-    let scene = Scene {
-        model: &model,
-        looks: &shown.looks,
-        look_of_material: &shown.look_of_material,
-        environment,
-        lights: &request.lights,
-    };
     let renderer = Renderer::new(gpu)?;
     let mut canvas = Canvas::new(gpu, request.size)?;
     let frames = request.turntable.unwrap_or(1);
+    let has_light = request.output.extension().is_some_and(|ending| ending == "exr");
     let mut pictures = Vec::new();
     for frame in 0..frames {
         stop_if_canceled(progress)?;
@@ -176,15 +200,18 @@ fn draw(
             transform: request.transform,
             background: request.background,
             mode,
-            has_relief: request.has_relief,
-            height_range: shown.height_range,
+            has_relief: request.has_relief && request.displace.is_none(),
+            height_range,
             lines: request.lines.clone(),
             samples: request.samples,
             ..Shot::new(camera)
         };
-        renderer.draw(gpu, &mut canvas, &scene, &shot)?;
-        let is_clear = request.background == Background::Clear;
-        pictures.push(encode(&canvas.read(gpu)?, is_clear)?);
+        pictures.push(if has_light {
+            encode_light(request.size, &renderer.light(gpu, &mut canvas, scene, &shot)?)?
+        } else {
+            renderer.draw(gpu, &mut canvas, scene, &shot)?;
+            encode(&canvas.read(gpu)?, request.background == Background::Clear)?
+        });
         progress.advance(Stage::Draw, frame as usize + 1, frames as usize);
     }
     Ok(pictures)
@@ -217,8 +244,18 @@ fn encode(picture: &Pixels, with_alpha: bool) -> Result<Vec<u8>, EngineError> {
         rgb = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
         &rgb
     };
-    encode_png(width, height, PngData::U8(codes), options)
-        .map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
+    encode_png(width, height, PngData::U8(codes), options).map_err(cannot_write)
+}
+
+/// An OpenEXR file of light, alpha premultiplied.
+fn encode_light([width, height]: [u32; 2], light: &[[f32; 4]]) -> Result<Vec<u8>, EngineError> {
+    let channel = |at: usize| -> Vec<f32> { light.iter().map(|pixel| pixel[at]).collect() };
+    let [r, g, b, a] = [0, 1, 2, 3].map(channel);
+    encode_exr(width, height, &[("R", &r), ("G", &g), ("B", &b), ("A", &a)]).map_err(cannot_write)
+}
+
+fn cannot_write(error: ImageError) -> EngineError {
+    EngineError::new(ErrorKind::CannotWrite, error)
 }
 
 #[cfg(test)]

@@ -144,6 +144,18 @@ impl Gpu {
         Ok(PlaneData { format, bytes })
     }
 
+    /// The texels of a texture that holds one 32-bit float each, page by page and row by row.
+    pub fn read_numbers(&self, texture: &wgpu::Texture) -> Result<Vec<f32>, GpuError> {
+        if texture.format() != wgpu::TextureFormat::R32Float {
+            let why = "numbers were to be read from a texture of another format; this is a mistake in Sabi";
+            return Err(GpuError::Source(why.into()));
+        }
+        let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
+        let plane = self.read_texture(texture, extent, Format::R32Float)?;
+        let (numbers, _) = plane.bytes.as_chunks::<4>();
+        Ok(numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
+    }
+
     /// Appends one layer of one level of a texture of uncompressed pixels, row by row without padding.
     pub fn read_layer(
         &self,

@@ -1,9 +1,9 @@
 //! Lines over the model: its wires and the seams of its maps.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use bytemuck::{Pod, Zeroable};
+use rayon::prelude::*;
 use sabi_surface::atlas::Atlas;
+use sabi_surface::displace::Displaced;
 use sabi_surface::model::Mesh;
 
 use crate::placement::Placement;
@@ -15,49 +15,86 @@ pub(crate) struct Line {
     pub(crate) ends: [[f32; 3]; 2],
 }
 
-/// Names an edge by where it lies: both triangles beside it say the same.
-type EdgeKey = [[u32; 3]; 2];
-
-fn key(mesh: &Mesh, [from, to]: [u32; 2]) -> EdgeKey {
-    // Zero has two signs.
-    let place = |vertex: u32| mesh.positions[vertex as usize].map(|at| (at + 0.0).to_bits());
-    let (a, b) = (place(from), place(to));
-    if a <= b { [a, b] } else { [b, a] }
+/// An edge as a triangle beside it has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Side {
+    /// Bits of the places of its ends, model units, the smaller ones first: both triangles beside it say the same.
+    ends: [[u32; 3]; 2],
+    chart: u32,
+    /// Bits of the texel coordinates of its ends.
+    texels: [[u32; 2]; 2],
 }
 
-fn line(placement: &Placement, ends: EdgeKey) -> Line {
-    Line {
-        ends: ends.map(|end| placement.view_from_model(end.map(f32::from_bits)).to_array()),
+impl Side {
+    fn new(ends: [[f32; 3]; 2], chart: u32, texels: [[f32; 2]; 2]) -> Side {
+        // Zero has two signs.
+        let [a, b] = ends.map(|end| end.map(|at| (at + 0.0).to_bits()));
+        let [of_a, of_b] = texels.map(|texel| texel.map(f32::to_bits));
+        let (ends, texels) = if a <= b {
+            ([a, b], [of_a, of_b])
+        } else {
+            ([b, a], [of_b, of_a])
+        };
+        Side { ends, chart, texels }
     }
-}
 
-fn edges_of_triangle([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
-    [[a, b], [b, c], [c, a]]
-}
-
-/// Every edge of a mesh once.
-pub(crate) fn edges_of(mesh: &Mesh, placement: &Placement) -> Vec<Line> {
-    let all = mesh.triangles.iter().flat_map(|triangle| edges_of_triangle(*triangle));
-    let keys: BTreeSet<EdgeKey> = all.map(|edge| key(mesh, edge)).collect();
-    keys.into_iter().map(|ends| line(placement, ends)).collect()
-}
-
-/// The edges at which a chart ends: those beside which the charts differ, or the texture coordinates do.
-pub(crate) fn seams_of(mesh: &Mesh, atlas: &Atlas, placement: &Placement) -> Vec<Line> {
-    /// Which chart lies beside an edge, and where its ends are on it.
-    type Side = (u32, [[u32; 2]; 2]);
-    let mut beside: BTreeMap<EdgeKey, Vec<Side>> = BTreeMap::new();
-    for (at, triangle) in mesh.triangles.iter().enumerate() {
-        let texels = atlas.triangle_texels[at].map(|texel| texel.map(f32::to_bits));
-        for (corner, edge) in edges_of_triangle(*triangle).into_iter().enumerate() {
-            let key = key(mesh, edge);
-            let ends = [texels[corner], texels[(corner + 1) % 3]];
-            let is_turned = mesh.positions[edge[0] as usize].map(|at| (at + 0.0).to_bits()) != key[0];
-            let ends = if is_turned { [ends[1], ends[0]] } else { ends };
-            beside.entry(key).or_default().push((atlas.triangle_chart[at], ends));
+    fn line(&self, placement: &Placement) -> Line {
+        Line {
+            ends: self
+                .ends
+                .map(|end| placement.view_from_model(end.map(f32::from_bits)).to_array()),
         }
     }
-    let is_seam = |sides: &Vec<Side>| sides.len() != 2 || sides[0] != sides[1];
-    let seams = beside.into_iter().filter(|(_, sides)| is_seam(sides));
-    seams.map(|(ends, _)| line(placement, ends)).collect()
+}
+
+/// The three edges of each triangle of a mesh.
+pub(crate) fn sides_of(mesh: &Mesh, atlas: &Atlas) -> Vec<Side> {
+    let side = |triangle: usize, corner: usize| {
+        let corners = [corner, (corner + 1) % 3];
+        Side::new(
+            corners.map(|corner| mesh.positions[mesh.triangles[triangle][corner] as usize]),
+            atlas.triangle_chart[triangle],
+            corners.map(|corner| atlas.triangle_texels[triangle][corner]),
+        )
+    };
+    let triangles = 0..mesh.triangles.len();
+    triangles
+        .flat_map(|triangle| [0, 1, 2].map(|corner| side(triangle, corner)))
+        .collect()
+}
+
+/// The edges of the mesh that was displaced, in the pieces that they were cut into: those that a triangle of the mesh was cut
+/// along within have no place on it.
+pub(crate) fn sides_of_displaced(displaced: &Displaced, atlas: &Atlas) -> Vec<Side> {
+    let mut sides = Vec::new();
+    let mut edges: Vec<[u32; 2]> = Vec::new();
+    let mut first = 0;
+    for same in displaced.triangle_from.chunk_by(|a, b| a == b) {
+        let chart = atlas.triangle_chart[same[0] as usize];
+        edges.clear();
+        for [a, b, c] in &displaced.triangles[first..first + same.len()] {
+            edges.extend([[a, b], [b, c], [c, a]].map(|[from, to]| [*from.min(to), *from.max(to)]));
+        }
+        first += same.len();
+        edges.sort_unstable();
+        let outer = edges.chunk_by(|a, b| a == b).filter(|beside| beside.len() == 1);
+        sides.extend(outer.map(|beside| {
+            let ends = beside[0].map(|end| end as usize);
+            Side::new(
+                ends.map(|end| displaced.positions[end]),
+                chart,
+                ends.map(|end| displaced.texels[end]),
+            )
+        }));
+    }
+    sides
+}
+
+/// Every edge once; and those at which a chart ends: beside which the charts differ, or the texture coordinates do.
+pub(crate) fn lines_of(mut sides: Vec<Side>, placement: &Placement) -> [Vec<Line>; 2] {
+    sides.par_sort_unstable();
+    let edges = sides.chunk_by(|a, b| a.ends == b.ends);
+    let seams = edges.clone().filter(|sides| sides.len() != 2 || sides[0] != sides[1]);
+    let line = |sides: &[Side]| sides[0].line(placement);
+    [edges.map(line).collect(), seams.map(line).collect()]
 }

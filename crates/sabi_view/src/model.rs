@@ -1,14 +1,18 @@
 //! A model on the device, as it is drawn.
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::HashMap;
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 use sabi_gpu::{Gpu, GpuSurface};
 use sabi_surface::atlas::Atlas;
+use sabi_surface::displace::Displaced;
 use sabi_surface::model::{Mesh, Model};
 
-use crate::edges::{Line, edges_of, seams_of};
+use crate::edges::{Line, Side, lines_of, sides_of, sides_of_displaced};
 use crate::error::ViewError;
 use crate::placement::Placement;
 use crate::upload::{buffer_of, table_of};
@@ -71,11 +75,48 @@ impl Corners {
                 });
                 made.indices.push(index);
             }
-            if let Some(part) = made.parts.last_mut() {
-                part.indices.end = made.indices.len() as u32;
-            }
+            made.end_part();
         }
         made
+    }
+
+    /// The corners of a displaced copy of a model: as many as it has vertices, since each of those lies on one chart.
+    pub(crate) fn of_displaced(displaced: &Displaced, model: &Model, atlas: &Atlas, placement: &Placement) -> Corners {
+        let material = |triangle: usize| model.mesh.triangle_material[displaced.triangle_from[triangle] as usize];
+        let mut order: Vec<u32> = (0..displaced.triangles.len() as u32).collect();
+        order.sort_by_key(|&triangle| material(triangle as usize));
+        let mut charts = vec![0; displaced.positions.len()];
+        for (corners, &from) in displaced.triangles.iter().zip(&displaced.triangle_from) {
+            for &corner in corners {
+                charts[corner as usize] = atlas.triangle_chart[from as usize];
+            }
+        }
+        let corner = |(vertex, &chart): (usize, &u32)| Corner {
+            position: placement.view_from_model(displaced.positions[vertex]).to_array(),
+            normal: displaced.normals[vertex],
+            tangent: displaced.tangents[vertex],
+            texel: displaced.texels[vertex],
+            chart,
+        };
+        let mut made = Corners {
+            corners: charts.iter().enumerate().map(corner).collect(),
+            indices: Vec::with_capacity(3 * order.len()),
+            parts: Vec::new(),
+        };
+        for triangle in order {
+            let triangle = triangle as usize;
+            made.part_of(model, material(triangle));
+            made.indices.extend(displaced.triangles[triangle]);
+            made.end_part();
+        }
+        made
+    }
+
+    /// What there is so far is of the last material.
+    fn end_part(&mut self) {
+        if let Some(part) = self.parts.last_mut() {
+            part.indices.end = self.indices.len() as u32;
+        }
     }
 
     /// Begins the triangles of another material.
@@ -135,16 +176,41 @@ impl ViewModel {
         surface: &GpuSurface,
         model_from_working: f64,
     ) -> Result<ViewModel, ViewError> {
+        let made = Corners::of(model, atlas, &Placement::of(&model.mesh));
+        let sides = sides_of(&model.mesh, atlas);
+        ViewModel::upload(gpu, model, atlas, surface, model_from_working, (made, sides))
+    }
+
+    /// Uploads a displaced copy in place of the model that it was made from, which is what says where it is put. Lines over
+    /// it are the edges and seams of the model, lifted with the heights.
+    pub fn displaced(
+        gpu: &Gpu,
+        displaced: &Displaced,
+        model: &Model,
+        atlas: &Atlas,
+        surface: &GpuSurface,
+        model_from_working: f64,
+    ) -> Result<ViewModel, ViewError> {
+        let made = Corners::of_displaced(displaced, model, atlas, &Placement::of(&model.mesh));
+        let sides = sides_of_displaced(displaced, atlas);
+        ViewModel::upload(gpu, model, atlas, surface, model_from_working, (made, sides))
+    }
+
+    fn upload(
+        gpu: &Gpu,
+        model: &Model,
+        atlas: &Atlas,
+        surface: &GpuSurface,
+        model_from_working: f64,
+        (made, sides): (Corners, Vec<Side>),
+    ) -> Result<ViewModel, ViewError> {
         let placement = Placement::of(&model.mesh);
-        let made = Corners::of(model, atlas, &placement);
-        let lines = |lines: Vec<Line>| -> Result<(wgpu::Buffer, u32), ViewError> {
-            let count = lines.len() as u32;
+        let lines = |lines: &[Line]| -> Result<(wgpu::Buffer, u32), ViewError> {
             let usage = wgpu::BufferUsages::VERTEX;
-            Ok((
-                buffer_of(gpu, "the edges of the model", usage, bytemuck::cast_slice(&lines))?,
-                count,
-            ))
+            let buffer = buffer_of(gpu, "the edges of the model", usage, bytemuck::cast_slice(lines))?;
+            Ok((buffer, lines.len() as u32))
         };
+        let [edges, seams] = lines_of(sides, &placement);
         let rows: Vec<[f32; 4]> = atlas.charts.iter().map(chart_row).collect();
         Ok(ViewModel {
             corners: buffer_of(
@@ -164,10 +230,7 @@ impl ViewModel {
             surface: gpu.surface_bindings(surface),
             view_from_working: (model_from_working * placement.scale) as f32,
             charts: table_of(gpu, "the charts of the model", &rows)?,
-            edges: [
-                lines(edges_of(&model.mesh, &placement))?,
-                lines(seams_of(&model.mesh, atlas, &placement))?,
-            ],
+            edges: [lines(&edges)?, lines(&seams)?],
             texels_of_uv: atlas.size as f32,
             even_density: even_density(&model.mesh, atlas, &placement),
             placement,

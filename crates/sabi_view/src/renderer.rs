@@ -1,6 +1,7 @@
 //! Draws scenes.
 
 mod bound;
+mod light;
 mod passes;
 
 use bound::Bound;

@@ -15,13 +15,14 @@ use super::WorkpieceArguments;
 Examples:
   sabi render graph.sabi --mesh model.glb -o picture.png
   sabi render graph.sabi --mesh model.glb -o picture.png --size 1920x1080 --environment low_sun --rotate 90
+  sabi render graph.sabi --mesh model.glb -o close.png --displace --camera 40,20,0.4
   sabi render graph.sabi --mesh model.glb -o edges.png --view node:edges --camera 60,15
   sabi render graph.sabi --mesh model.glb -o turn.png --turntable 48 --transparent"
 )]
 pub(crate) struct RenderArguments {
     #[command(flatten)]
     pub(crate) workpiece: WorkpieceArguments,
-    /// Picture to write, a .png; frames of a turntable are numbered after it
+    /// Picture to write: a .png, or an .exr of the material's light, linear and exposed but not transformed; frames of a turntable are numbered after it
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Size of the picture, pixels
@@ -70,7 +71,12 @@ pub(crate) struct RenderArguments {
     /// Follow heights, so that they hide one another and throw shadows
     #[arg(long, help_heading = "Picture")]
     pub(crate) relief: bool,
-    /// Lines over the model; may be repeated
+    /// Draw a finer copy of the model that heights displace, outline and all; --relief then does nothing. So many triangles at
+    /// most: 2000000 if none are given, 500000 on a software adapter
+    #[arg(long, value_name = "TRIANGLES", num_args = 0..=1, require_equals = true,
+          value_parser = clap::value_parser!(u32).range(1..=20_000_000), help_heading = "Picture")]
+    pub(crate) displace: Option<Option<u32>>,
+    /// Lines over the model, lifted with it where it is displaced; may be repeated
     #[arg(long, value_enum, help_heading = "Picture")]
     pub(crate) lines: Vec<LinesOver>,
     /// What is behind the model

@@ -1,6 +1,6 @@
 //! `sabi render`: a lit picture of the model.
 
-use sabi_engine::{RenderRequest, render};
+use sabi_engine::{RenderRequest, Triangles, render};
 
 use crate::arguments::RenderArguments;
 use crate::exit::{Exit, Failure};
@@ -31,6 +31,10 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         lights: arguments.light.clone(),
         lines: arguments.lines.iter().map(|lines| (*lines).into()).collect(),
         has_relief: arguments.relief,
+        displace: arguments.displace.map(|triangles| match triangles {
+            Some(count) => Triangles::AtMost(count as usize),
+            None => Triangles::Fitting,
+        }),
         samples: arguments.samples,
         turntable: arguments.turntable,
     };

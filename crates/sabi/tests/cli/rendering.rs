@@ -1,6 +1,8 @@
 //! `sabi render`: pictures of the model.
 
-use crate::place::{Done, Place, software_adapter};
+use sabi_image::{Pixels, decode};
+
+use crate::place::{Done, Place, graph, software_adapter};
 
 const SMALL: [&str; 12] = [
     "--mesh",
@@ -77,12 +79,109 @@ fn a_turntable_is_numbered_frames_of_which_the_first_is_the_picture() {
     assert!(!place.path("turn.png").exists());
 }
 
+/// Bumps as high as a quarter of the model.
+const SWOLLEN: &str = r#"    "base": { "kind": "source/material" },
+    "clouds": { "kind": "noise/simplex", "params": { "size": 0.5, "octaves": 1 } },
+    "coat": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "clouds" }, "params": { "height": 0.25 } },
+    "out": { "kind": "output/material", "inputs": { "material": "coat" } }"#;
+
+#[test]
+fn a_displaced_model_has_another_outline_and_keeps_its_lines() {
+    let place = Place::new();
+    software_adapter();
+    place.write("swollen.sabi", graph(SWOLLEN));
+    let alphas = |name: &str, more: &[&str]| -> Vec<u8> {
+        let own = ["render", "swollen.sabi", "--mesh", "sphere.glb", "--adapter", "cpu"];
+        let sizes = [
+            "--texels",
+            "64",
+            "--size",
+            "96x96",
+            "--samples",
+            "1",
+            "--transparent",
+            "-o",
+            name,
+        ];
+        place.sabi(&[&own[..], &sizes, more].concat()).good();
+        let picture = decode(name, &place.read(name)).unwrap();
+        let Pixels::U8(codes) = &picture.pixels else {
+            panic!("{name} has 8 bits")
+        };
+        codes.chunks(picture.channels as usize).map(|pixel| pixel[3]).collect()
+    };
+    let flat = alphas("flat.png", &[]);
+    let relief = alphas("relief.png", &["--relief"]);
+    let displaced = alphas("displaced.png", &["--displace=50000"]);
+    let differing = |a: &[u8], b: &[u8]| a.iter().zip(b).filter(|(a, b)| a != b).count();
+    assert!(differing(&flat, &relief) < 30, "relief has the model's own outline");
+    assert!(differing(&flat, &displaced) > 300, "{}", differing(&flat, &displaced));
+    let both = alphas("both.png", &["--displace=50000", "--relief"]);
+    assert_eq!(differing(&both, &displaced), 0);
+    assert_eq!(
+        place.read("both.png"),
+        place.read("displaced.png"),
+        "displaced, heights are not followed too"
+    );
+    alphas("lines.png", &["--displace=50000", "--lines", "wires"]);
+    assert_ne!(place.read("lines.png"), place.read("displaced.png"));
+}
+
+#[test]
+fn a_model_that_nothing_raises_is_drawn_as_it_is_and_the_artist_told_why() {
+    let place = Place::new();
+    software_adapter();
+    let run = render(&place, &["-o", "mask.png", "--view", "node:clouds", "--displace"]).good();
+    assert_eq!(
+        run.stderr,
+        "warning: --displace changes nothing: what is shown has no height; the material view of a graph whose layers have one \
+         does\n"
+    );
+}
+
+#[test]
+fn the_light_of_a_picture_is_linear_and_twice_as_much_a_stop_brighter() {
+    let place = Place::new();
+    software_adapter();
+    let light = |name: &str, more: &[&str]| -> Vec<f32> {
+        render(&place, &[&["-o", name, "--background", "plain"], more].concat()).good();
+        let picture = decode(name, &place.read(name)).unwrap();
+        assert_eq!((picture.width, picture.height, picture.channels), (48, 32, 4));
+        let Pixels::F32(numbers) = picture.pixels else {
+            panic!("{name} holds floats")
+        };
+        numbers
+    };
+    let once = light("once.exr", &[]);
+    let twice = light("twice.exr", &["--exposure", "1", "--transform", "standard"]);
+    let corner: [f32; 4] = once[..4].try_into().unwrap();
+    assert_eq!(corner, [0.0; 4], "a plain background is no light");
+    assert!(once.chunks(4).any(|pixel| pixel[3] == 1.0));
+    for (a, b) in once.chunks(4).zip(twice.chunks(4)) {
+        assert_eq!([2.0 * a[0], 2.0 * a[1], 2.0 * a[2], a[3]], *b);
+    }
+}
+
 #[test]
 fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
     let place = Place::new();
     place.write("broken.hdr", b"#?RADIANCE\nnothing more");
     for (more, code, told) in [
-        (&["-o", "x.jpg"][..], 2, "error: x.jpg: a picture is a .png"),
+        (
+            &["-o", "x.jpg"][..],
+            2,
+            "error: x.jpg: a picture is a .png, or an .exr of its light",
+        ),
+        (
+            &["-o", "x.exr", "--view", "roughness"],
+            2,
+            "error: x.exr: an .exr holds light, and the view 'roughness' shows none; write a .png, or show the material",
+        ),
+        (
+            &["-o", "x.exr", "--view", "node:rust"],
+            2,
+            "error: x.exr: an .exr holds light, and the view 'node:rust' shows none; write a .png, or show the material",
+        ),
         (
             &["-o", "x.png", "--view", "rust"],
             2,
@@ -110,6 +209,12 @@ fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
         let run = render(&place, more).fails(code);
         assert!(run.stderr.starts_with(told), "{more:?}: {}", run.stderr);
     }
+    assert!(!place.path("x.png").exists() && !place.path("x.exr").exists());
+}
+
+#[test]
+fn an_option_that_makes_no_sense_is_named() {
+    let place = Place::new();
     for more in [
         &["--camera", "above"][..],
         &["--camera", "1,2,3,4"],
@@ -117,9 +222,11 @@ fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
         &["--turntable", "0"],
         &["--light", "40"],
         &["--exposure", "nan"],
+        &["--displace=0"],
     ] {
         let run = render(&place, &[more, &["-o", "x.png"]].concat()).fails(2);
-        assert!(run.stderr.contains(more[0]), "{more:?}: {}", run.stderr);
+        let option = more[0].split('=').next().unwrap();
+        assert!(run.stderr.contains(option), "{more:?}: {}", run.stderr);
     }
     let lights = ["--light", "1,2"].repeat(5);
     let run = render(&place, &[&lights[..], &["-o", "x.png"]].concat()).fails(2);

@@ -1,0 +1,109 @@
+//! A displaced copy is drawn as the model is: where it stands, on the same charts, in the same materials, with the same lines.
+
+use std::path::Path;
+
+use sabi_surface::atlas::AtlasOptions;
+use sabi_surface::displace::{DisplaceOptions, displaced};
+use sabi_surface::load::{LoadOptions, load};
+
+use super::*;
+
+fn asset(name: &str) -> (Model, Atlas) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../assets/meshes")
+        .join(name);
+    let model = load(&path, &LoadOptions::default()).unwrap();
+    let atlas = Atlas::build(&model.mesh, &AtlasOptions::new(128)).unwrap();
+    (model, atlas)
+}
+
+/// A copy cut into many triangles, raised by so many model units everywhere.
+fn raised(model: &Model, atlas: &Atlas, height: f32) -> Displaced {
+    let options = DisplaceOptions {
+        edge_length: 0.0,
+        triangle_budget: 40_000,
+    };
+    displaced(&model.mesh, atlas, &options, |_, _| Some(height))
+}
+
+/// Length of all lines together, view units.
+fn length(lines: &[Line]) -> f64 {
+    let each = lines.iter().map(|line| {
+        let [from, to] = line.ends.map(glam::Vec3::from);
+        f64::from(from.distance(to))
+    });
+    each.sum()
+}
+
+#[test]
+fn a_copy_that_nothing_raises_covers_each_material_as_the_model_does() {
+    let (model, atlas) = asset("bench.glb");
+    let placement = Placement::of(&model.mesh);
+    let area_of_parts = |made: &Corners| -> Vec<(u32, bool, f32)> {
+        let area = |part: &Part| {
+            let indices = &made.indices[part.indices.start as usize..part.indices.end as usize];
+            let areas = indices.chunks(3).map(|corners| {
+                let [a, b, c] = [0, 1, 2].map(|at| glam::Vec3::from(made.corners[corners[at] as usize].position));
+                (b - a).cross(c - a).length()
+            });
+            areas.sum()
+        };
+        let parts = made.parts.iter();
+        parts
+            .map(|part| (part.material, part.is_double_sided, area(part)))
+            .collect()
+    };
+    let copy = raised(&model, &atlas, 0.0);
+    assert!(copy.triangles.len() > 2 * model.mesh.triangles.len());
+    let whole = area_of_parts(&Corners::of(&model, &atlas, &placement));
+    let cut = area_of_parts(&Corners::of_displaced(&copy, &model, &atlas, &placement));
+    assert_eq!(whole.len(), cut.len());
+    for ((material, sides, area), (of_copy, sides_of_copy, area_of_copy)) in whole.into_iter().zip(cut) {
+        assert_eq!((material, sides), (of_copy, sides_of_copy));
+        assert!((area - area_of_copy).abs() <= 1e-3 * area, "{area} {area_of_copy}");
+    }
+}
+
+#[test]
+fn each_corner_of_a_copy_lies_on_the_chart_of_the_triangle_it_was_cut_from() {
+    let (model, atlas) = asset("cube.glb");
+    let copy = raised(&model, &atlas, 0.0);
+    let made = Corners::of_displaced(&copy, &model, &atlas, &Placement::of(&model.mesh));
+    assert_eq!(made.corners.len(), copy.positions.len());
+    for (corners, &from) in copy.triangles.iter().zip(&copy.triangle_from) {
+        for &corner in corners {
+            assert_eq!(made.corners[corner as usize].chart, atlas.triangle_chart[from as usize]);
+        }
+    }
+}
+
+#[test]
+fn a_raised_copy_stands_out_of_the_place_of_the_model() {
+    let (model, atlas) = asset("sphere.glb");
+    let placement = Placement::of(&model.mesh);
+    let height = (0.1 / placement.scale) as f32;
+    let made = Corners::of_displaced(&raised(&model, &atlas, height), &model, &atlas, &placement);
+    for corner in &made.corners {
+        let radius = glam::Vec3::from(corner.position).length();
+        assert!((0.59..0.61).contains(&radius), "{radius}");
+    }
+}
+
+#[test]
+fn the_lines_of_a_copy_are_those_of_the_model_and_rise_with_it() {
+    let (model, atlas) = asset("cube.glb");
+    let placement = Placement::of(&model.mesh);
+    let [edges, seams] = lines_of(sides_of(&model.mesh, &atlas), &placement);
+    let flat = raised(&model, &atlas, 0.0);
+    let [cut_edges, cut_seams] = lines_of(sides_of_displaced(&flat, &atlas), &placement);
+    assert!(cut_edges.len() > 4 * edges.len(), "in pieces, so that they bend");
+    assert!((length(&edges) - length(&cut_edges)).abs() < 1e-4 * length(&edges));
+    assert!((length(&seams) - length(&cut_seams)).abs() < 1e-4 * length(&seams));
+    let height = (0.25 / placement.scale) as f32;
+    let [risen, _] = lines_of(sides_of_displaced(&raised(&model, &atlas, height), &atlas), &placement);
+    let reach = |lines: &[Line]| {
+        let places = lines.iter().flat_map(|line| line.ends).flatten();
+        places.fold(0.0, |reach: f32, place| reach.max(place.abs()))
+    };
+    assert!(reach(&risen) > reach(&edges) + 0.1);
+}

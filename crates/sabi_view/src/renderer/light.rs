@@ -1,0 +1,39 @@
+//! The light of a picture itself, before anything is made of it for a display.
+
+use sabi_gpu::Gpu;
+
+use super::Renderer;
+use crate::error::ViewError;
+use crate::scene::{Scene, Shot};
+use crate::target::Target;
+
+impl Renderer {
+    /// The light of the lit material as a shot sees it, the mean of all samples: linear, scene-referred and exposed, through
+    /// no view transform. RGB is multiplied by how much of the pixel is covered, which stands fourth; a plain background
+    /// covers nothing. Row by row from the top.
+    pub fn light(
+        &self,
+        gpu: &Gpu,
+        target: &mut Target,
+        scene: &Scene<'_>,
+        shot: &Shot,
+    ) -> Result<Vec<[f32; 4]>, ViewError> {
+        let prepared = self.prepare(gpu, target, scene, shot)?;
+        let [width, height] = target.size.map(|side| side as usize);
+        let mut sums = vec![[0.0; 4]; width * height];
+        let samples = shot.samples.max(1);
+        for sample in 0..samples {
+            self.add_sample(gpu, target, scene, shot, &prepared, [sample, 0])?;
+            for (sum, light) in sums.iter_mut().zip(target.read_light(gpu)?) {
+                *sum = [0, 1, 2, 3].map(|at| sum[at] + f64::from(light[at]));
+            }
+        }
+        let share = f64::from(samples).recip();
+        let exposed = f64::from(shot.exposure_stops).exp2() * share;
+        let mean = |[r, g, b, cover]: [f64; 4]| [r * exposed, g * exposed, b * exposed, cover * share];
+        Ok(sums
+            .into_iter()
+            .map(|sum| mean(sum).map(|value| value as f32))
+            .collect())
+    }
+}
