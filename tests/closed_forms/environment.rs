@@ -131,7 +131,7 @@ fn a_sun_of_one_pixel_is_a_smooth_lobe_of_the_right_light() {
         let share = ((row as f32 * step).cos() - ((row + 1) as f32 * step).cos()) / (2.0 * width as f32);
         let mean = f64::from(60_000.0 * share);
         for level in 1..LEVELS {
-            let roughness = level as f64 / 5.0;
+            let roughness = 1.0 - (1.0 - level as f64 / 5.0).sqrt();
             let peak = lobe(roughness.powi(2), 1.0) * mean;
             let mut worst = 0.0f64;
             let (mut light, mut solid) = (0.0, 0.0);
@@ -144,8 +144,8 @@ fn a_sun_of_one_pixel_is_a_smooth_lobe_of_the_right_light() {
             }
             let light = light / solid / mean;
             println!("roughness {roughness}: off by {worst:.3} of the peak at most, light {light:.3}");
-            // A pixel of the sun is as large as a texel, and the narrowest lobe is a few of them wide.
-            let allowed = if level == 1 { 0.1 } else { 0.06 };
+            // A pixel of the sun is as large as a texel, and the narrowest lobe is hardly wider.
+            let allowed = if level == 1 { 0.2 } else { 0.06 };
             assert!(worst < allowed, "roughness {roughness}: off by {worst} of the peak");
             assert!((light - 1.0).abs() < 0.035, "roughness {roughness}: light {light}");
         }

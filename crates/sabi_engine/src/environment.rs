@@ -23,7 +23,7 @@ const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 
 /// The number in the magic rises whenever what is kept of the same panorama comes out differently. Each takes 1 or 4 MiB.
 const KIND: Kind = Kind {
-    magic: b"sabi light1\n",
+    magic: b"sabi light2\n",
     prefix: "light",
     limit_bytes: 64 << 20,
 };

@@ -9,7 +9,7 @@ use sabi_gpu::Gpu;
 use super::panorama::Panorama;
 use crate::error::ViewError;
 
-/// Levels of roughness: level `i` has perceptual roughness `i / (LEVELS - 1)`, the square root of the width of GGX.
+/// Levels of roughness, see [`roughness_of`].
 pub(super) const LEVELS: u32 = 6;
 /// Directions of light for each level but the first, which is a plain picture. What is rougher has wider lobes and fewer
 /// texels.
@@ -78,6 +78,12 @@ fn level_view(cube: &wgpu::Texture, level: u32, dimension: wgpu::TextureViewDime
     })
 }
 
+/// Perceptual roughness of a level, the square root of the width of GGX: `r` is what level `r (2 − r) (LEVELS − 1)` has, as
+/// `lighting.wgsl` reads it. Levels lie close where mirrors become dull, since what is between two is mixed from both.
+fn roughness_of(level: u32) -> f32 {
+    1.0 - (1.0 - level as f32 / (LEVELS - 1) as f32).sqrt()
+}
+
 /// The prefiltered cube map of a panorama on the device.
 pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Result<wgpu::Texture, ViewError> {
     use wgpu::TextureViewDimension::{Cube, D2, D2Array};
@@ -108,7 +114,7 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
         .copy_texture_to_texture(source.as_image_copy(), made.as_image_copy(), made.size());
     let gather = Step::new(gpu, "prefilter", GATHER_WGSL, Cube)?;
     for level in 1..LEVELS {
-        let roughness = level as f32 / (LEVELS - 1) as f32;
+        let roughness = roughness_of(level);
         let lobe = lobe(roughness * roughness, DIRECTIONS[level as usize], side);
         let (side, count) = (side >> level, lobe.len() as u32);
         let to = level_view(&made, level, D2Array);
