@@ -97,20 +97,22 @@ const MOST_BYTES: usize = 48 * 1024;
 const HEAD: &str = "head";
 const HEAD_SIZE: [usize; 2] = [1280, 640];
 const HEAD_BYTES: usize = 320 * 1024;
-const HEAD_SCENE: [&str; 14] = [
+const HEAD_SCENE: [&str; 16] = [
     "graphs/weathered-bench.sabi",
     "--mesh",
     "assets/meshes/bench.glb",
     "--texels",
     "2048",
     "--environment",
-    "low_sun",
-    "--rotate",
-    "-60",
+    "studio",
     "--camera",
-    "-32,14,0.62",
+    "-32,12,0.8",
     "--light",
-    "-62,28,2.5",
+    "-50,40,2",
+    "--transform",
+    "aces",
+    "--exposure",
+    "0.3",
     "--relief",
 ];
 
