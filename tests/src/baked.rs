@@ -33,13 +33,21 @@ impl Baked {
     /// # Panics
     /// If it fails.
     pub fn with_seams(graph: &str, mesh: &Path, size: u32, seams: Seams) -> Baked {
+        Baked::of(graph, ModelOptions::new(mesh, size), seams)
+    }
+
+    /// The same on a model that is taken in a certain way.
+    ///
+    /// # Panics
+    /// If it fails.
+    pub fn of(graph: &str, model: ModelOptions, seams: Seams) -> Baked {
         let folder = tempfile::tempdir().expect("a folder for maps");
         let (path, output) = (folder.path().join("test.sabi"), folder.path().join("out"));
         fs::write(&path, graph).expect("the graph's file");
         let request = BakeRequest {
             graph: path,
             workpiece: WorkpieceOptions {
-                model: ModelOptions::new(mesh, size),
+                model,
                 overrides: Overrides::default(),
                 fit: None,
                 adapter: AdapterChoice::Cpu,

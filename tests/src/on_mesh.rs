@@ -160,7 +160,8 @@ impl OnMesh {
         }
     }
 
-    fn target(&self, text: &str) -> Target {
+    /// What `id` or `id.port` names.
+    pub fn target(&self, text: &str) -> Target {
         let (id, port) = match text.split_once('.') {
             Some((id, port)) => (id, Some(port.to_owned())),
             None => (text, None),

@@ -35,7 +35,11 @@ pub fn even_light(radiance: f32) -> Panorama {
 impl Pictured {
     /// A graph on a model with `size` texels for one unit of UV, in the light of a panorama.
     pub fn new(graph: &str, mesh: &Path, size: u32, light: &Panorama) -> Pictured {
-        let mut on_mesh = OnMesh::new(graph, mesh, size);
+        Pictured::of(OnMesh::new(graph, mesh, size), light)
+    }
+
+    /// A graph that is on a model already, in the light of a panorama.
+    pub fn of(mut on_mesh: OnMesh, light: &Panorama) -> Pictured {
         let shown = show(&mut on_mesh.workpiece, None, &Silent).unwrap_or_else(|error| panic!("{error}"));
         let workpiece = &on_mesh.workpiece;
         let prepared = &workpiece.prepared;
@@ -63,6 +67,13 @@ impl Pictured {
         let mut pictured = Pictured::new(BARE, mesh, 32, light);
         pictured.set_look(look);
         pictured
+    }
+
+    /// Shows a node's own result, or a node's material, on all of the model.
+    pub fn show_node(&mut self, node: &str) {
+        let target = self.on_mesh.target(node);
+        let shown = show(&mut self.on_mesh.workpiece, Some(&target), &Silent);
+        self.shown = shown.unwrap_or_else(|error| panic!("{node}: {error}"));
     }
 
     /// Gives all materials one look.

@@ -3,6 +3,7 @@
 mod agreement;
 mod furnace;
 mod relief;
+mod sharing;
 mod sizes;
 mod sun;
 mod viewport;

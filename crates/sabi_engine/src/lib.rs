@@ -33,6 +33,7 @@ mod seen_node;
 mod session;
 mod sets;
 mod setting;
+mod sharing;
 mod solidity;
 mod source;
 mod stages;

@@ -136,7 +136,8 @@ fn height_range(workpiece: &Workpiece, plan: &Plan, run: &Run) -> Result<[f32; 2
     Ok(if range[0] <= range[1] { range } else { [0.0; 2] })
 }
 
-/// What one result looks like: a material with its maps, anything else as the number or color it is.
+/// What one result looks like: a material with its maps, anything else as the number or color it is. Where charts share a
+/// place it is what a bake or a preview writes there; see [`Workpiece::shares`].
 fn look(
     workpiece: &Workpiece,
     plan: &Plan,
@@ -154,7 +155,10 @@ fn look(
                 Some(slot) => is_opaque(workpiece, plan, run, slot)?,
                 None => true,
             };
-            let maps = workpiece.gpu.device_maps(&workpiece.surface, run, slots, options)?;
+            let shares = workpiece.shares()?;
+            let maps = workpiece
+                .gpu
+                .device_maps(&workpiece.surface, run, slots, shares, options)?;
             return Ok(MaterialLook {
                 maps,
                 is_opaque,
@@ -162,7 +166,8 @@ fn look(
             });
         }
     };
-    let texture = run.texture(result.slots[0])?;
+    let Workpiece { gpu, surface, .. } = workpiece;
+    let texture = gpu.shown_texture(surface, run, result.slots[0], workpiece.shares()?)?;
     Ok(MaterialLook {
         node: Some(NodeLook { texture, holds }),
         ..plain()

@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
-    AdapterChoice, CasterChoice, DeviceHierarchy, Gpu, GpuSurface, Hits, ResultCache, Run, RunOptions, SurfaceTables,
-    Surfaces,
+    AdapterChoice, CasterChoice, DeviceHierarchy, Gpu, GpuSurface, Hits, ResultCache, Run, RunOptions, Shares,
+    SurfaceTables, Surfaces,
 };
 use sabi_graph::{Fit, FlatGraph, FlatNode, Overrides};
 use sabi_nodes::kind::Shape;
@@ -76,6 +76,8 @@ pub struct Workpiece {
     tables: SurfaceTables,
     bvh_on_device: OnceLock<DeviceHierarchy>,
     levels: Levels,
+    /// Texels that share a place on the maps; none where each has its own.
+    pub(crate) shares: OnceLock<Option<Shares>>,
     kept_rays: KeptRays,
     seed: u32,
     surface_key: [u8; 32],
@@ -156,6 +158,7 @@ impl Workpiece {
             tables,
             bvh_on_device: OnceLock::new(),
             levels,
+            shares: OnceLock::new(),
             seed,
             surface_key,
             caster: options.caster,

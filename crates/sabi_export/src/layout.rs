@@ -1,9 +1,13 @@
 //! Which atlas texel feeds each pixel of a texture set.
 
+mod grid;
+
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, TILE};
+use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
+
+pub(crate) use grid::{Fallen, Grid};
 
 /// Stands for no texel or no pixel.
 pub const NONE: u32 = u32::MAX;
@@ -116,12 +120,6 @@ impl SetLayout {
 
     /// Goes over all texels; with `shares`, those that find their pixel taken, or lose it, are listed as they come.
     fn gather(atlas: &Atlas, key: SetKey, shares: bool) -> SetLayout {
-        let siblings = match key.udim {
-            Some(_) => set_keys(atlas),
-            None => Vec::new(),
-        };
-        let siblings = siblings.iter().filter(|other| other.material == key.material);
-        let siblings = siblings.map(|other| other.uv_tile).collect();
         let pixels = atlas.size as usize * atlas.size as usize;
         let mut layout = SetLayout {
             key,
@@ -131,17 +129,10 @@ impl SetLayout {
             shared: Vec::new(),
             collisions: 0,
         };
-        let [width, height] = atlas.page_size.map(|side| side as usize);
-        for tile in &atlas.tiles {
-            let (first_x, first_y) = (tile.column as usize * TILE as usize, tile.row as usize * TILE as usize);
-            for y in first_y..(first_y + TILE as usize).min(height) {
-                let row = (tile.page as usize * height + y) * width;
-                for x in first_x..(first_x + TILE as usize).min(width) {
-                    let loser = layout.place(atlas, &siblings, row + x, [x as i64, y as i64]);
-                    layout.shared.extend(loser.filter(|_| shares));
-                }
-            }
-        }
+        Grid::new(atlas, key).for_each(|fallen| {
+            let loser = layout.place(atlas, &fallen);
+            layout.shared.extend(loser.filter(|_| shares));
+        });
         layout
     }
 
@@ -159,39 +150,13 @@ impl SetLayout {
     }
 
     /// Gives a texel its pixel, unless one that goes before it has it: that pixel, and which of the two did not get it.
-    fn place(
-        &mut self,
-        atlas: &Atlas,
-        siblings: &BTreeSet<[i32; 2]>,
-        texel: usize,
-        [x, y]: [i64; 2],
-    ) -> Option<(u32, u32)> {
-        let (chart_index, cover) = claim(atlas, texel)?;
-        let chart = atlas.charts.get(chart_index as usize)?;
-        if chart.sheet != self.key.material {
+    fn place(&mut self, atlas: &Atlas, fallen: &Fallen) -> Option<(u32, u32)> {
+        let Fallen {
+            texel, cover, pixel, ..
+        } = *fallen;
+        if !fallen.is_here {
             return None;
         }
-        let size = i64::from(self.size);
-        let plane = [
-            x - i64::from(chart.texel_from_uv[0]),
-            y - i64::from(chart.texel_from_uv[1]),
-        ];
-        let fallen_in = plane.map(|at| at.div_euclid(size) as i32);
-        let inside = plane.map(|at| at.rem_euclid(size) as usize);
-        let several = self.key.udim.is_some();
-        let here = if cover == Cover::Ghost {
-            // A ring stays on its chart's side of the border.
-            fallen_in == chart.uv_tile && (!several || fallen_in == self.key.uv_tile)
-        } else if several && siblings.contains(&fallen_in) {
-            fallen_in == self.key.uv_tile
-        } else {
-            // Wraps: in its own tile of several, or onto the one set there is.
-            !several || chart.uv_tile == self.key.uv_tile
-        };
-        if !here {
-            return None;
-        }
-        let pixel = inside[1] * self.size as usize + inside[0];
         let (before, other) = (self.cover[pixel], self.source[pixel]);
         self.collisions += u64::from(before == Cover::Owned && cover == Cover::Owned);
         let wins = match cover.cmp(&before) {
@@ -231,7 +196,7 @@ fn is_beside(atlas: &Atlas, texel: usize, chart: u32) -> bool {
 }
 
 /// The chart that a texel belongs to, and how.
-fn claim(atlas: &Atlas, texel: usize) -> Option<(u32, Cover)> {
+pub(crate) fn claim(atlas: &Atlas, texel: usize) -> Option<(u32, Cover)> {
     match *atlas.owners.get(texel)? {
         EMPTY => None,
         ghost if ghost & GHOST_BIT != 0 => Some((atlas.ghosts.get((ghost & !GHOST_BIT) as usize)?.chart, Cover::Ghost)),

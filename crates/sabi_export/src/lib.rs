@@ -15,6 +15,7 @@ mod padding;
 pub mod preset;
 mod record;
 mod seams;
+mod shared;
 mod staging;
 mod write;
 
@@ -27,5 +28,6 @@ pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, OutputRecord};
 pub use seams::SeamSamples;
+pub use shared::SharedTexels;
 pub use staging::Staging;
 pub use write::{BakeWriter, Committed, SetOptions, SetWriter, Written};

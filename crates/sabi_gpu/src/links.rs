@@ -181,7 +181,7 @@ impl Gpu {
     }
 
     /// Submits what is encoded: one pass, since each costs software drivers something.
-    fn in_one_pass(
+    pub(crate) fn in_one_pass(
         &self,
         encode: impl FnOnce(&mut wgpu::ComputePass<'_>) -> Result<(), GpuError>,
     ) -> Result<(), GpuError> {

@@ -1,10 +1,12 @@
 //! What a result looks like, still on the device, for those that draw it.
 
+use sabi_nodes::link::Format;
 use sabi_plan::SlotRef;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::run::{Run, RunOptions};
+use crate::shares::{Mean, Shares};
 use crate::surface::GpuSurface;
 
 /// Where a run has the planes of a material.
@@ -38,21 +40,26 @@ pub struct DeviceMaps {
 }
 
 impl Gpu {
-    /// The maps of a material that a run has made. They stay what they are when the run is dropped.
+    /// The maps of a material that a run has made. Where charts share a place, they hold what the exported ones do; without
+    /// `shares`, each chart's own result. They stay what they are when the run is dropped.
     pub fn device_maps(
         &self,
         surface: &GpuSurface,
         run: &mut Run,
         slots: MaterialSlots,
+        shares: Option<&Shares>,
         options: &RunOptions<'_>,
     ) -> Result<DeviceMaps, GpuError> {
         let MaterialSlots { height, slope, .. } = slots;
         let is_flat = height.is_none() && slope.is_none();
         let normal = match is_flat {
             true => None,
-            false => Some(self.normal_texture(surface, run, height, slope, options)?),
+            false => Some(self.shown_normals(surface, run, [height, slope], shares, options)?),
         };
-        let of = |slot: Option<SlotRef>| slot.map(|slot| run.texture(slot)).transpose();
+        let mut of = |slot: Option<SlotRef>| {
+            slot.map(|slot| self.shown_texture(surface, run, slot, shares))
+                .transpose()
+        };
         Ok(DeviceMaps {
             color: of(slots.color)?,
             surface: of(slots.surface)?,
@@ -60,6 +67,39 @@ impl Gpu {
             height: of(height)?,
             normal,
         })
+    }
+
+    /// The texture of a result that the plan kept; with `shares` a copy with what is exported where charts share a place.
+    pub fn shown_texture(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        slot: SlotRef,
+        shares: Option<&Shares>,
+    ) -> Result<wgpu::Texture, GpuError> {
+        let texture = run.texture(slot)?;
+        match shares {
+            Some(shares) => self.shared(surface, run, shares, &texture, Mean::Plain),
+            None => Ok(texture),
+        }
+    }
+
+    /// The same of the normals that height and slope make.
+    fn shown_normals(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        [height, slope]: [Option<SlotRef>; 2],
+        shares: Option<&Shares>,
+        options: &RunOptions<'_>,
+    ) -> Result<wgpu::Texture, GpuError> {
+        let normals = self.normal_texture(surface, run, height, slope, options)?;
+        let Some(shares) = shares else {
+            return Ok(normals);
+        };
+        let shown = self.shared(surface, run, shares, &normals, Mean::Unit)?;
+        run.pool.release(Format::Rgba32Float, normals);
+        Ok(shown)
     }
 }
 

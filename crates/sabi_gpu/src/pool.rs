@@ -98,6 +98,20 @@ pub(crate) fn wgpu_format(format: Format) -> wgpu::TextureFormat {
     }
 }
 
+/// The format of a texture that kernels read and write.
+pub(crate) fn format_of(texture: &wgpu::Texture) -> Result<Format, GpuError> {
+    let known = [Format::R32Float, Format::Rgba16Float, Format::Rgba32Float];
+    let found = known
+        .into_iter()
+        .find(|format| wgpu_format(*format) == texture.format());
+    found.ok_or_else(|| {
+        GpuError::Driver(format!(
+            "no result is stored as {:?}; this is a mistake in Sabi",
+            texture.format()
+        ))
+    })
+}
+
 /// A texture that kernels read and write.
 pub(crate) fn texture(gpu: &Gpu, [width, height, pages]: Extent, format: Format) -> Result<wgpu::Texture, GpuError> {
     gpu.guarded("a texture", |device| {

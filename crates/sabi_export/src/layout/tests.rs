@@ -1,6 +1,6 @@
 //! Layouts of small atlases.
 
-use sabi_surface::atlas::{AtlasReport, Chart, Ghost, TileRef};
+use sabi_surface::atlas::{AtlasReport, Chart, Ghost, TILE, TileRef};
 
 use super::*;
 

@@ -1,0 +1,105 @@
+//! Where texels of an atlas fall on the pixels of a texture set.
+
+use std::collections::BTreeSet;
+
+use sabi_surface::atlas::{Atlas, Chart, TILE};
+
+use super::{Cover, SetKey, claim, set_keys};
+
+/// The pixels of a texture set, laid over the texels of an atlas.
+pub(crate) struct Grid<'a> {
+    pub(crate) atlas: &'a Atlas,
+    key: SetKey,
+    /// UV tiles of the same material that have sets of their own; empty where the material has one set.
+    siblings: BTreeSet<[i32; 2]>,
+}
+
+/// Where a texel falls.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fallen {
+    /// The texel, page by page and row by row.
+    pub(crate) texel: usize,
+    /// Its chart.
+    pub(crate) chart: u32,
+    /// How it belongs to the chart.
+    pub(crate) cover: Cover,
+    /// UV tile it falls in, v downward.
+    pub(crate) tile: [i32; 2],
+    /// Pixel there, row by row from the top.
+    pub(crate) pixel: usize,
+    /// Whether it claims this pixel of the set.
+    pub(crate) is_here: bool,
+}
+
+impl<'a> Grid<'a> {
+    pub(crate) fn new(atlas: &'a Atlas, key: SetKey) -> Grid<'a> {
+        let siblings = match key.udim {
+            Some(_) => set_keys(atlas),
+            None => Vec::new(),
+        };
+        let siblings = siblings.iter().filter(|other| other.material == key.material);
+        Grid {
+            atlas,
+            key,
+            siblings: siblings.map(|other| other.uv_tile).collect(),
+        }
+    }
+
+    /// Whether the set is one of several of its material.
+    pub(crate) fn is_of_several(&self) -> bool {
+        self.key.udim.is_some()
+    }
+
+    /// Whether a chart's own tile is that of the set.
+    pub(crate) fn is_home_of(&self, chart: &Chart) -> bool {
+        !self.is_of_several() || chart.uv_tile == self.key.uv_tile
+    }
+
+    /// All texels of the set's charts, tile by tile of the atlas.
+    pub(crate) fn for_each(&self, mut look: impl FnMut(Fallen)) {
+        let [width, height] = self.atlas.page_size;
+        for tile in &self.atlas.tiles {
+            let (first_x, first_y) = (tile.column * TILE, tile.row * TILE);
+            for y in first_y..(first_y + TILE).min(height) {
+                for x in first_x..(first_x + TILE).min(width) {
+                    if let Some(fallen) = self.fallen([x, y, tile.page]) {
+                        look(fallen);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Where a texel at a column and row of a page falls; none where it is no chart's, or one's of another sheet.
+    pub(crate) fn fallen(&self, [x, y, page]: [u32; 3]) -> Option<Fallen> {
+        let [width, height] = self.atlas.page_size.map(|side| side as usize);
+        let texel = (page as usize * height + y as usize) * width + x as usize;
+        let (chart_index, cover) = claim(self.atlas, texel)?;
+        let chart = self.atlas.charts.get(chart_index as usize)?;
+        if chart.sheet != self.key.material {
+            return None;
+        }
+        let size = i64::from(self.atlas.size);
+        let [left, top] = chart.texel_from_uv.map(i64::from);
+        let plane = [i64::from(x) - left, i64::from(y) - top];
+        let tile = plane.map(|at| at.div_euclid(size) as i32);
+        let inside = plane.map(|at| at.rem_euclid(size) as usize);
+        let is_here = if cover == Cover::Ghost {
+            // A ring stays on its chart's side of the border.
+            tile == chart.uv_tile && (!self.is_of_several() || tile == self.key.uv_tile)
+        } else if self.is_of_several() && self.siblings.contains(&tile) {
+            tile == self.key.uv_tile
+        } else {
+            // Wraps: in its own tile of several, or onto the one set there is.
+            self.is_home_of(chart)
+        };
+        Some(Fallen {
+            texel,
+            chart: chart_index,
+            cover,
+            tile,
+            pixel: inside[1] * self.atlas.size as usize + inside[0],
+            is_here,
+        })
+    }
+}

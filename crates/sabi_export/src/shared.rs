@@ -1,0 +1,150 @@
+//! Texels that have no place of their own on the maps, and what stands there instead.
+
+use sabi_surface::atlas::Atlas;
+
+use crate::layout::{Cover, Fallen, Grid, NONE, SetLayout, claim};
+
+/// Which texels of an atlas an engine would see as what other texels hold: a map has one value for each pixel, even where
+/// several charts are laid over it. Of charts that have all their pixels to themselves there is nothing here.
+///
+/// Texels are numbered page by page and row by row, and come in groups: each of a group's targets shows the mean of its
+/// sources.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SharedTexels {
+    /// Where each group's sources end in `texels`, and where its targets do.
+    ends: Vec<[usize; 2]>,
+    texels: Vec<u32>,
+}
+
+impl SharedTexels {
+    /// Whether nothing is shared.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The sources and the targets of each group; neither is empty.
+    pub fn groups(&self) -> impl Iterator<Item = [&[u32]; 2]> {
+        let starts = std::iter::once(0).chain(self.ends.iter().map(|[_, end]| *end));
+        let groups = starts.zip(&self.ends);
+        groups.map(|(start, &[middle, end])| [&self.texels[start..middle], &self.texels[middle..end]])
+    }
+
+    /// Adds those of one texture set of an atlas.
+    ///
+    /// Where a chart lost a pixel or shares one, all of its texels show what the map has, those of its ring too, which
+    /// filtering reads: a neighbor's pixel, or what a ring has written.
+    pub fn add(&mut self, atlas: &Atlas, layout: &SetLayout) {
+        if layout.collisions == 0 {
+            return;
+        }
+        let grid = Grid::new(atlas, layout.key);
+        let (mut on_map, beside) = lost(&grid, layout);
+        for ghost in beside {
+            match next_to(&grid, layout, &ghost) {
+                Some(Beside::Pixel) => on_map.push(ghost),
+                Some(Beside::Texels(sources)) => self.push(&sources, [ghost.texel as u32]),
+                None => {}
+            }
+        }
+        let mut on_map: Vec<[usize; 2]> = on_map.iter().map(|fallen| [fallen.pixel, fallen.texel]).collect();
+        on_map.sort_unstable();
+        for of_pixel in on_map.chunk_by(|[a, _], [b, _]| a == b) {
+            let sources: Vec<u32> = layout.sources(of_pixel[0][0]).map(|texel| texel as u32).collect();
+            self.push(&sources, of_pixel.iter().map(|[_, texel]| *texel as u32));
+        }
+    }
+
+    /// Adds a group, unless nothing would change.
+    fn push(&mut self, sources: &[u32], targets: impl IntoIterator<Item = u32>) {
+        let start = self.texels.len();
+        self.texels.extend(sources);
+        let middle = self.texels.len();
+        self.texels
+            .extend(targets.into_iter().filter(|target| sources != [*target]));
+        if start == middle || middle == self.texels.len() {
+            self.texels.truncate(start);
+        } else {
+            self.ends.push([middle, self.texels.len()]);
+        }
+    }
+}
+
+/// Texels whose pixel holds something else than they do, and ghosts that claim none: those of charts that do not have all
+/// pixels of their own texels to themselves.
+fn lost(grid: &Grid<'_>, layout: &SetLayout) -> (Vec<Fallen>, Vec<Fallen>) {
+    let charts = &grid.atlas.charts;
+    let mut is_sharing = vec![false; charts.len()];
+    let (mut on_map, mut beside) = (Vec::new(), Vec::new());
+    grid.for_each(|fallen| {
+        let chart = fallen.chart as usize;
+        if fallen.is_here {
+            if !layout.sources(fallen.pixel).eq([fallen.texel]) {
+                is_sharing[chart] |= fallen.cover == Cover::Owned;
+                on_map.push(fallen);
+            }
+        } else if fallen.cover == Cover::Ghost && grid.is_home_of(&charts[chart]) {
+            beside.push(fallen);
+        }
+    });
+    let is_kept = |fallen: &Fallen| is_sharing[fallen.chart as usize];
+    on_map.retain(is_kept);
+    beside.retain(is_kept);
+    (on_map, beside)
+}
+
+/// What is shown by a ghost that claims no pixel, since it lies outside of its chart's tile.
+enum Beside {
+    /// What its pixel holds.
+    Pixel,
+    /// What these texels do.
+    Texels(Vec<u32>),
+}
+
+/// Beyond the border of a tile no map says what is there: the map's other side or the same pixel once more, as a texture is
+/// repeated or not. All charts are shown with what their own ring holds there, and so is one that takes the place of
+/// another: with the ring of that one. None where nothing is known.
+fn next_to(grid: &Grid<'_>, layout: &SetLayout, ghost: &Fallen) -> Option<Beside> {
+    let atlas = grid.atlas;
+    let at = place_of(atlas, ghost.texel);
+    let steps = (0..25).map(|index| [index % 5 - 2, index / 5 - 2]);
+    let owned = steps.filter_map(|step| {
+        let near = grid.fallen(moved(atlas, at, step)?)?;
+        let is_own = near.chart == ghost.chart && near.cover == Cover::Owned;
+        is_own.then_some((step, near))
+    });
+    let ([x, y], near) = owned.min_by_key(|([x, y], _)| x * x + y * y)?;
+    if !grid.is_of_several() && near.tile == ghost.tile && layout.source[ghost.pixel] != NONE {
+        // The chart reaches over several tiles, and ends within this one.
+        return Some(Beside::Pixel);
+    }
+    let stand_in = |source: usize| {
+        let chart = |texel: usize| claim(atlas, texel).map(|(chart, _)| chart);
+        let beside = moved(atlas, place_of(atlas, source), [-x, -y]).map(|place| texel_at(atlas, place));
+        let beside = beside.filter(|&texel| chart(texel) == chart(source));
+        beside.unwrap_or(source) as u32
+    };
+    let sources = near.is_here.then(|| layout.sources(near.pixel).map(stand_in));
+    Some(Beside::Texels(sources?.collect()))
+}
+
+/// Column, row and page of a texel.
+fn place_of(atlas: &Atlas, texel: usize) -> [u32; 3] {
+    let [width, height] = atlas.page_size.map(|side| side as usize);
+    [texel % width, texel / width % height, texel / width / height].map(|at| at as u32)
+}
+
+fn texel_at(atlas: &Atlas, [x, y, page]: [u32; 3]) -> usize {
+    let [width, height] = atlas.page_size.map(|side| side as usize);
+    (page as usize * height + y as usize) * width + x as usize
+}
+
+/// A place so many columns and rows away, if the page has it.
+fn moved(atlas: &Atlas, [x, y, page]: [u32; 3], [columns, rows]: [i32; 2]) -> Option<[u32; 3]> {
+    let [width, height] = atlas.page_size;
+    let x = x.checked_add_signed(columns).filter(|x| *x < width)?;
+    let y = y.checked_add_signed(rows).filter(|y| *y < height)?;
+    Some([x, y, page])
+}
+
+#[cfg(test)]
+mod tests;

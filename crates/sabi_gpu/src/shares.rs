@@ -1,0 +1,163 @@
+//! Texels that show what the maps have at their place, where several charts share it.
+
+use bytemuck::{Pod, Zeroable};
+use sabi_nodes::link::Format;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pipelines::{read_entry, storage_entry, texture_entry, uniform_entry};
+use crate::pool::{array_view, format_of};
+use crate::run::Run;
+use crate::surface::GpuSurface;
+use crate::uploads::storage_buffer;
+
+/// Groups a workgroup.
+const GROUP: u32 = 64;
+/// Workgroups in a row of a dispatch.
+const ROW: u32 = 32_768;
+/// Numbers of a part's texels at most, but for a single group with more: 16 MiB, a fraction of a second's work for software
+/// drivers.
+const PART: usize = 4 << 20;
+
+/// What a texture's values are, where their mean is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mean {
+    /// Numbers.
+    Plain,
+    /// Unit vectors: so is their mean.
+    Unit,
+}
+
+/// Groups of texels of an atlas on the device: in each the targets show the mean of the sources.
+pub struct Shares {
+    parts: Vec<Part>,
+}
+
+/// Groups that are worked on together.
+struct Part {
+    count: u32,
+    /// As `share.wgsl` reads them.
+    starts: wgpu::Buffer,
+    texels: wgpu::Buffer,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Constants {
+    group_count: u32,
+    row_length: u32,
+    has_unit_vectors: u32,
+    pad: u32,
+}
+
+impl Shares {
+    /// Uploads the sources and the targets of each group, texels page by page and row by row. No texel is a target twice.
+    pub fn upload<'t>(gpu: &Gpu, groups: impl IntoIterator<Item = [&'t [u32]; 2]>) -> Result<Shares, GpuError> {
+        let mut parts = Vec::new();
+        let (mut starts, mut texels) = (vec![0], Vec::new());
+        for [sources, targets] in groups {
+            if texels.len() + sources.len() + targets.len() >= PART && starts.len() > 1 {
+                parts.push(Part::upload(gpu, &starts, &texels)?);
+                starts.truncate(1);
+                texels.clear();
+            }
+            texels.push(sources.len() as u32);
+            texels.extend(sources);
+            texels.extend(targets);
+            starts.push(texels.len() as u32);
+        }
+        if starts.len() > 1 {
+            parts.push(Part::upload(gpu, &starts, &texels)?);
+        }
+        Ok(Shares { parts })
+    }
+}
+
+impl Part {
+    fn upload(gpu: &Gpu, starts: &[u32], texels: &[u32]) -> Result<Part, GpuError> {
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        let buffer = |numbers: &[u32]| {
+            let buffer = storage_buffer(gpu, "the texels that share a place", 4 * numbers.len() as u64, limit)?;
+            gpu.queue.write_buffer(&buffer, 0, bytemuck::cast_slice(numbers));
+            Ok::<_, GpuError>(buffer)
+        };
+        Ok(Part {
+            count: starts.len() as u32 - 1,
+            starts: buffer(starts)?,
+            texels: buffer(texels)?,
+        })
+    }
+}
+
+impl Gpu {
+    /// A copy of a texture on the atlas with all targets set. The texture itself may be cached, and stays as it is.
+    pub fn shared(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        shares: &Shares,
+        texture: &wgpu::Texture,
+        mean: Mean,
+    ) -> Result<wgpu::Texture, GpuError> {
+        let format = format_of(texture)?;
+        let shown = run.pool.take(self, format, surface.extent)?;
+        run.report.pool = run.pool.report();
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_texture_to_texture(texture.as_image_copy(), shown.as_image_copy(), texture.size());
+        self.queue.submit([encoder.finish()]);
+        for part in &shares.parts {
+            self.share_part(surface, part, [texture, &shown], format, mean)?;
+        }
+        Ok(shown)
+    }
+
+    fn share_part(
+        &self,
+        surface: &GpuSurface,
+        part: &Part,
+        [texture, shown]: [&wgpu::Texture; 2],
+        format: Format,
+        mean: Mean,
+    ) -> Result<(), GpuError> {
+        let kernel = self.fixed_kernel(
+            "share",
+            Some(format),
+            &include_str!("../../../shaders/surface/share.wgsl").replace("FORMAT", format.wgsl()),
+            &[
+                uniform_entry(0),
+                read_entry(1),
+                read_entry(2),
+                texture_entry(3),
+                storage_entry(4, format),
+            ],
+        )?;
+        let groups = part.count.div_ceil(GROUP);
+        let constants = self.uniform(bytemuck::bytes_of(&Constants {
+            group_count: part.count,
+            row_length: ROW.min(groups),
+            has_unit_vectors: u32::from(mean == Mean::Unit),
+            pad: 0,
+        }));
+        let [texture, shown] = [texture, shown].map(array_view);
+        let group = self.bind(
+            &kernel.layout,
+            [
+                constants.as_entire_binding(),
+                part.starts.as_entire_binding(),
+                part.texels.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&texture),
+                wgpu::BindingResource::TextureView(&shown),
+            ],
+        );
+        let bound = self.surface_group(surface, &surface.ghosts.all);
+        self.in_one_pass(|pass| {
+            pass.set_pipeline(&kernel.pipeline);
+            pass.set_bind_group(0, &bound, &[]);
+            pass.set_bind_group(1, &group, &[]);
+            pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,194 @@
+//! Where charts share a place on the maps, each is shown with what is exported for it.
+
+use std::time::Duration;
+
+use glam::Vec2;
+use sabi_engine::{Kinds, ModelOptions, Overlap, Prepared, Seams, Silent};
+use sabi_gpu::Shares;
+use sabi_image::{LinearPicture, decode};
+use sabi_plan::Mode as Plans;
+use sabi_tests::{Baked, MadeMesh, MeshFile, OnMesh, Pictured, Quad, even_light, project};
+use sabi_view::{Mode, Shot, Viewpoint};
+
+use crate::seen;
+
+const SIZE: [u32; 2] = [160, 80];
+const TEXELS: u32 = 128;
+const SUBMISSION: Duration = Duration::from_millis(200);
+
+/// Another color and height at each place in space.
+const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "clouds", "nodes": {
+    "clouds": { "kind": "noise/simplex", "params": { "size": 0.3, "octaves": 2 } },
+    "base": { "kind": "source/material", "params": { "color": "#7a4a30", "roughness": 0.4 } },
+    "coat": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "clouds" },
+        "params": { "color": "#3050a0", "roughness": 0.9, "height": 0.05 } },
+    "out": { "kind": "output/material", "inputs": { "material": "coat" } },
+    "mask": { "kind": "output/mask", "inputs": { "source": "clouds" }, "params": { "name": "clouds" } } } }"##;
+
+/// A square that faces the eye, `left` of the y axis or right of it, whose picture reaches from one place of the map to
+/// another.
+fn square(left: f32, [from, to]: [[f32; 2]; 2]) -> Quad {
+    let right = left + 0.9;
+    Quad {
+        corners: [[left, 0.0, 0.0], [right, 0.0, 0.0], [right, 0.9, 0.0], [left, 0.9, 0.0]],
+        uvs: [[from[0], to[1]], to, [to[0], from[1]], from],
+    }
+}
+
+/// Two squares beside one another, the second one mirrored, with a place on the map that both of them fill.
+fn mirrored(low: f32, high: f32) -> MadeMesh {
+    let first = square(-1.0, [[low, low], [high, high]]);
+    let second = square(0.1, [[high, low], [low, high]]);
+    MeshFile::new(vec![first, second]).write()
+}
+
+fn taken(mesh: &MadeMesh, overlap: Overlap) -> ModelOptions {
+    ModelOptions {
+        overlap,
+        ..ModelOptions::new(mesh.path(), TEXELS)
+    }
+}
+
+fn pictured(mesh: &MadeMesh, overlap: Overlap) -> Pictured {
+    let on_mesh = OnMesh::on_model(GRAPH, Kinds::builtin(), taken(mesh, overlap), |_| {});
+    Pictured::of(on_mesh, &even_light(1.0))
+}
+
+/// A map as an engine reads it at a place, texels from the upper left corner: repeating, between four pixels.
+fn read(map: &LinearPicture, texel: [f32; 2]) -> glam::Vec4 {
+    let at = Vec2::from(texel) - 0.5;
+    let (corner, weight) = (at.floor(), at - at.floor());
+    let value = |step: [i32; 2]| {
+        let [x, y] = [corner.x as i32 + step[0], corner.y as i32 + step[1]].map(|at| at.rem_euclid(TEXELS as i32));
+        glam::Vec4::from(map.rgba[(y as u32 * TEXELS + x as u32) as usize])
+    };
+    let top = value([0, 0]).lerp(value([1, 0]), weight.x);
+    let bottom = value([0, 1]).lerp(value([1, 1]), weight.x);
+    top.lerp(bottom, weight.y)
+}
+
+/// The most that a mode shows beside what the engine reads of a map, in parts of the range 0 to 1; at all pixels of the
+/// model, up to its very border.
+fn difference(pictured: &Pictured, map: &LinearPicture, mode: Mode, encode: impl Fn(f32) -> f32) -> f32 {
+    let camera = pictured.camera(Viewpoint::FRONT, SIZE);
+    let shot = Shot {
+        mode,
+        ..Shot::new(camera)
+    };
+    let shown = pictured.light(&shot, SIZE);
+    let (mut most, mut compared) = (0.0_f32, [0, 0]);
+    for (pixel, picked) in seen(pictured, &camera, SIZE) {
+        let expected = read(map, picked.map_texel).to_array();
+        for (shown, expected) in shown[pixel].iter().zip(expected).take(3) {
+            most = most.max((shown - encode(expected)).abs());
+        }
+        compared[picked.chart as usize] += 1;
+    }
+    assert!(
+        compared.iter().all(|count| *count > 1000),
+        "{compared:?} pixels were compared"
+    );
+    most
+}
+
+fn map(baked: &Baked, name: &str, is_srgb: bool) -> LinearPicture {
+    decode(name, &baked.map(name)).expect("a map").linear_rgba(is_srgb)
+}
+
+#[test]
+fn charts_that_share_a_place_are_shown_as_the_exported_map_has_it() {
+    let mesh = mirrored(0.25, 0.75);
+    for overlap in [Overlap::First, Overlap::Merge] {
+        let baked = Baked::of(GRAPH, taken(&mesh, overlap), Seams::Erase);
+        let mut pictured = pictured(&mesh, overlap);
+        // A code of 8 bits may be lost in the file, which is dithered, and a half float's step in the picture.
+        let color = map(&baked, "base_color.png", true);
+        let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
+        assert!(apart < 5e-3, "{overlap:?}: colors are {apart} apart");
+        let roughness = map(&baked, "roughness.png", false);
+        let apart = difference(&pictured, &roughness, Mode::Roughness, |value| value);
+        assert!(apart < 5e-3, "{overlap:?}: roughness is {apart} apart");
+        let normals = map(&baked, "normal.png", false);
+        let apart = difference(&pictured, &normals, Mode::Normal, |value| value);
+        assert!(apart < 2e-3, "{overlap:?}: normals are {apart} apart");
+        pictured.show_node("clouds");
+        let clouds = map(&baked, "clouds.png", false);
+        let apart = difference(&pictured, &clouds, Mode::Node, |value| value);
+        assert!(apart < 5e-3, "{overlap:?}: a node's own result is {apart} apart");
+    }
+}
+
+#[test]
+fn both_halves_look_alike_even_at_the_border_of_the_map() {
+    // The squares fill the map: of what is beyond, no map has anything.
+    for [low, high] in [[0.25, 0.75], [0.0, 1.0]] {
+        let mesh = mirrored(low, high);
+        let pictured = pictured(&mesh, Overlap::First);
+        let camera = pictured.camera(Viewpoint::FRONT, SIZE);
+        for mode in [Mode::BaseColor, Mode::Normal, Mode::Height] {
+            let shot = Shot {
+                mode,
+                ..Shot::new(camera)
+            };
+            let [width, height] = SIZE.map(|side| side as usize);
+            let shown = pictured.light(&shot, SIZE);
+            let mut range = [f32::INFINITY, f32::NEG_INFINITY];
+            let mut most = 0.0_f32;
+            for pixel in 0..width * height {
+                let (x, y) = (pixel % width, pixel / width);
+                let [here, there] = [shown[pixel], shown[y * width + width - 1 - x]];
+                range = [range[0].min(here[0]), range[1].max(here[0])];
+                most = here.iter().zip(there).map(|(a, b)| (a - b).abs()).fold(most, f32::max);
+            }
+            assert!(range[1] - range[0] > 0.1, "{mode:?} shows nothing");
+            assert!(most < 2e-3, "{mode:?} at {low}: halves are {most} apart");
+        }
+    }
+}
+
+#[test]
+fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
+    let mesh = mirrored(0.25, 0.75);
+    let mut on_mesh = OnMesh::on_model(GRAPH, Kinds::builtin(), taken(&mesh, Overlap::Merge), |_| {});
+    let target = on_mesh.target("coat");
+    let workpiece = &mut on_mesh.workpiece;
+    let limits = workpiece.gpu.limits();
+    let plan = workpiece.plan(&[target], Plans::Bake { fuse: true }, limits);
+    let plan = plan.expect("a plan");
+    let mut run = workpiece.run(&plan, SUBMISSION, &Silent, None).expect("a run");
+    let (gpu, surface) = (&workpiece.gpu, &workpiece.surface);
+    let shares = Shares::upload(gpu, workpiece.prepared.shared_texels().groups()).expect("shares");
+    // One of each format that a plane has.
+    for slot in plan.results[0].slots.clone() {
+        let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
+        let shown = gpu
+            .shown_texture(surface, &mut run, slot, Some(&shares))
+            .expect("a copy");
+        let after = gpu.read(surface, &plan, &run, slot).expect("a plane");
+        assert_eq!(before, after);
+        let mut bytes = Vec::new();
+        gpu.read_layer(&shown, 0, 0, &mut bytes).expect("a layer");
+        assert_ne!(bytes, after.bytes()[..bytes.len()]);
+        let same = gpu.shown_texture(surface, &mut run, slot, None).expect("the texture");
+        assert_eq!(
+            same,
+            run.texture(slot).expect("the texture"),
+            "nothing is copied where nothing is shared"
+        );
+    }
+}
+
+#[test]
+fn models_whose_charts_have_places_of_their_own_share_nothing() {
+    for mesh in ["bench", "cube"] {
+        let mesh = project(&format!("assets/meshes/{mesh}.glb"));
+        for overlap in [Overlap::First, Overlap::Merge] {
+            let model = ModelOptions {
+                overlap,
+                ..ModelOptions::new(&mesh, 64)
+            };
+            let prepared = Prepared::open(&model, &Silent).expect("a model");
+            assert!(prepared.shared_texels().is_empty(), "{}", mesh.display());
+        }
+    }
+}
