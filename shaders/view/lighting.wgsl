@@ -14,13 +14,31 @@ fn mirrored_from(normal: vec3f, towards: vec3f, roughness: f32) -> vec3f {
     return mix(towards, normal, width * width);
 }
 
-fn from_environment(spot: Spot, made: Substance, lobe: vec2f, to_eye: vec3f, cosine: f32) -> vec3f {
+// The normal of a mirror: bumps turned so far from the eye that they would mirror what is inside of the surface are turned back
+// until they mirror what is just above it, as Cycles does. Matte light needs no such thing.
+fn mirroring_normal(spot: Spot, to_eye: vec3f) -> vec3f {
+    let up = spot.smooth_normal;
+    let sideways = spot.normal - up * dot(spot.normal, up);
+    let height = dot(to_eye, up);
+    let least = min(0.9 * height, 0.01);
+    if height <= 0.0 || length(sideways) < 1e-4 || dot(reflect(-to_eye, spot.normal), up) >= least {
+        return spot.normal;
+    }
+    // In the plane of both normals, a mirror at an angle from the surface's normal mirrors what is at twice the angle less the
+    // eye's; its height above the surface is to be `least`.
+    let aside = normalize(sideways);
+    let eye = vec2f(height, dot(to_eye, aside));
+    let angle = 0.5 * (atan2(eye.y, eye.x) + acos(clamp(least / length(eye), -1.0, 1.0)));
+    return up * cos(angle) + aside * sin(angle);
+}
+
+fn from_environment(spot: Spot, mirror: vec3f, made: Substance, lobe: vec2f, to_eye: vec3f, cosine: f32) -> vec3f {
     let both = surrounded(made, lobe);
-    let towards = reflect(-to_eye, spot.normal);
-    let from_where = mirrored_from(spot.normal, towards, made.roughness);
+    let towards = reflect(-to_eye, mirror);
+    let from_where = mirrored_from(mirror, towards, made.roughness);
     let level = made.roughness * (2.0 - made.roughness) * frame.environment.w;
     let reflected = textureSampleLevel(reflections, smooth_sampler, in_environment(from_where), level).xyz;
-    // A bent normal may send reflections through the surface.
+    // Where the smooth normal itself faces away, reflections still go through the surface.
     let above = clamp(1.0 + dot(towards, spot.smooth_normal), 0.0, 1.0);
     let share = reflected_share(cosine, spot.occlusion, made.roughness) * above * above;
     let irradiance = irradiance_at(frame.irradiance, in_environment(spot.normal));
@@ -51,9 +69,10 @@ fn from_lights(spot: Spot, pixel: Pixel, made: Substance, lobe: vec2f, to_eye: v
 
 fn lit(spot: Spot, pixel: Pixel, has_relief: bool) -> vec3f {
     let to_eye = -ray_through(pixel.position);
-    let cosine = clamp(dot(spot.normal, to_eye), 1e-3, 1.0);
+    let mirror = mirroring_normal(spot, to_eye);
+    let cosine = clamp(dot(mirror, to_eye), 1e-3, 1.0);
     let made = substance_of(max(spot.base_color, vec3f(0.0)), spot.metallic, spot.roughness);
     let lobe = albedo_of_lobe(cosine, made.roughness);
-    return from_environment(spot, made, lobe, to_eye, cosine)
+    return from_environment(spot, mirror, made, lobe, to_eye, cosine)
         + from_lights(spot, pixel, made, lobe, to_eye, has_relief) + spot.emission;
 }

@@ -1,7 +1,7 @@
 //! The white furnace: in even light a body that takes nothing away cannot be seen.
 
 use sabi_gpu::DeviceMaps;
-use sabi_tests::{Pictured, even_light, project};
+use sabi_tests::{MeshFile, Pictured, Quad, even_light, project};
 use sabi_view::{MaterialLook, Shot, Viewpoint};
 
 /// A plain material.
@@ -59,5 +59,34 @@ fn a_gray_body_never_sends_out_more_than_falls_on_it() {
             (0.4..1.2).contains(&middle),
             "roughness {roughness}, metallic {metallic}: {middle}"
         );
+    }
+}
+
+/// Hills steeper than the line of sight.
+fn steep_hills(metallic: u8) -> String {
+    format!(
+        r##"{{ "format": "sabi", "version": 1, "name": "steep", "nodes": {{
+    "clouds": {{ "kind": "noise/simplex", "params": {{ "size": 0.2, "octaves": 1 }} }},
+    "coat": {{ "kind": "effect/layer", "inputs": {{ "mask": "clouds" }}, "params": {{ "height": 0.3, "color_on": false,
+        "roughness_on": false, "metallic_on": false }} }},
+    "white": {{ "kind": "effect/layer", "inputs": {{ "base": "coat" }}, "params": {{ "color": "#ffffff", "roughness": 0.3,
+        "metallic": {metallic} }} }},
+    "out": {{ "kind": "output/material", "inputs": {{ "material": "white" }} }} }} }}"##
+    )
+}
+
+#[test]
+fn bumps_that_face_away_from_the_eye_vanish_in_even_light_too() {
+    let square = MeshFile::new(vec![Quad {
+        corners: [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]],
+        uvs: [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
+    }]);
+    let made = square.write();
+    for metallic in [0, 1] {
+        let pictured = Pictured::new(&steep_hills(metallic), made.path(), 128, &even_light(1.0));
+        let shot = Shot::new(pictured.camera(Viewpoint::at(65.0, 20.0), SIZE));
+        for (pixel, [red, ..]) in pictured.light(&shot, SIZE).iter().enumerate() {
+            assert!((red - 1.0).abs() < 0.01, "metallic {metallic}, pixel {pixel}: {red}");
+        }
     }
 }
