@@ -53,7 +53,7 @@ pub use looks::{Shown, show};
 pub use pictures::Pictures;
 pub use prepare::{ModelOptions, Overlap, Prepared, Unwrapping};
 pub use preview::{PreviewRequest, preview};
-pub use render::{RenderRequest, render};
+pub use render::{RenderRequest, Turns, render};
 pub use report::{BakeReport, StageTime, StageTimes};
 pub use seams::Seams;
 pub use session::{Recovery, Session, recoveries};

@@ -15,7 +15,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
 use crate::maps::set_layout;
 use crate::modelless::refuse_faults;
-use crate::picture_file::write_pictures;
+use crate::picture_file::PictureFiles;
 use crate::seen_node::graph_and_target;
 use crate::sets::{texture_sets, which_is_shown};
 use crate::stages::Progress;
@@ -90,7 +90,9 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     }?;
     stop_if_canceled(progress)?;
     let output = std::slice::from_ref(&request.output);
-    write_pictures(output, &[bytes], workpiece.read_files(&open))?;
+    let mut file = PictureFiles::begin(output, workpiece.read_files(&open))?;
+    file.add(bytes)?;
+    file.commit()?;
     Ok(workpiece.warnings)
 }
 

@@ -17,7 +17,7 @@ use crate::kinds::Kinds;
 use crate::looks::{Shown, show};
 use crate::modelless::{refuse_faults, targets};
 use crate::outputs::outputs;
-use crate::picture_file::write_pictures;
+use crate::picture_file::PictureFiles;
 use crate::seen_node::graph_and_target;
 use crate::stages::{Progress, Stage};
 use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
@@ -65,6 +65,18 @@ pub struct RenderRequest {
     pub samples: u32,
     /// So many frames from all around instead of one.
     pub turntable: Option<u32>,
+    /// What goes around in them.
+    pub turns: Turns,
+}
+
+/// What goes around on a turntable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Turns {
+    /// The eye, around the model.
+    #[default]
+    Camera,
+    /// The environment and all lights, while the eye stays.
+    Light,
 }
 
 /// What was written.
@@ -78,7 +90,7 @@ pub struct Rendered {
 
 /// Draws; nothing is replaced before every picture is complete.
 pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Rendered, EngineError> {
-    let files = file_names(request)?;
+    let paths = file_names(request)?;
     let (mode, node) = view_of(&request.view)?;
     let open = OpenGraph::open(&request.graph)?;
     let kinds = Kinds::beside(Some(&request.graph));
@@ -97,6 +109,9 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     let (panorama, remarks) = read_panorama(&request.environment)?;
     let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
     workpiece.warn(remarks);
+    let mut inputs = workpiece.read_files(&open);
+    inputs.push(PathBuf::from(&request.environment));
+    let mut files = PictureFiles::begin(&paths, inputs)?;
     let cache_dir = request.workpiece.model.cache_dir.as_deref();
     let (environment, remark) = environment_of(&workpiece.gpu, &panorama, cache_dir)?;
     workpiece.warn(remark);
@@ -110,13 +125,12 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
         lights: &request.lights,
     };
     let mode = if shown.is_lit { mode } else { Mode::Node };
-    let pictures = draw(request, &workpiece, &scene, (mode, shown.height_range), progress)?;
+    let range = shown.height_range;
+    draw(request, &workpiece, &scene, (mode, range), &mut files, progress)?;
     stop_if_canceled(progress)?;
-    let mut inputs = workpiece.read_files(&open);
-    inputs.push(PathBuf::from(&request.environment));
-    write_pictures(&files, &pictures, inputs)?;
+    files.commit()?;
     Ok(Rendered {
-        files,
+        files: paths,
         warnings: workpiece.warnings,
     })
 }
@@ -182,20 +196,30 @@ fn draw(
     workpiece: &Workpiece,
     scene: &Scene<'_>,
     (mode, height_range): (Mode, [f32; 2]),
+    files: &mut PictureFiles,
     progress: &dyn Progress,
-) -> Result<Vec<Vec<u8>>, EngineError> {
+) -> Result<(), EngineError> {
     let gpu = &workpiece.gpu;
     let renderer = Renderer::new(gpu)?;
     let mut canvas = Canvas::new(gpu, request.size)?;
     let frames = request.turntable.unwrap_or(1);
     let has_light = request.output.extension().is_some_and(|ending| ending == "exr");
-    let mut pictures = Vec::new();
     for frame in 0..frames {
         stop_if_canceled(progress)?;
+        let around = 360.0 * frame as f32 / frames as f32;
+        let [of_camera, of_light] = match request.turns {
+            Turns::Camera => [around, 0.0],
+            Turns::Light => [0.0, around],
+        };
         let mut camera = camera_of(request, workpiece);
-        camera.turn(360.0 * frame as f32 / frames as f32);
+        camera.turn(of_camera);
+        let lights: Vec<Light> = scene.lights.iter().map(|light| light.turned(of_light)).collect();
+        let scene = &Scene {
+            lights: &lights,
+            ..*scene
+        };
         let shot = Shot {
-            environment_turn_degrees: request.rotate,
+            environment_turn_degrees: request.rotate + of_light,
             exposure_stops: request.exposure,
             transform: request.transform,
             background: request.background,
@@ -206,15 +230,15 @@ fn draw(
             samples: request.samples,
             ..Shot::new(camera)
         };
-        pictures.push(if has_light {
+        files.add(if has_light {
             encode_light(request.size, &renderer.light(gpu, &mut canvas, scene, &shot)?)?
         } else {
             renderer.draw(gpu, &mut canvas, scene, &shot)?;
             encode(&canvas.read(gpu)?, request.background == Background::Clear)?
-        });
+        })?;
         progress.advance(Stage::Draw, frame as usize + 1, frames as usize);
     }
-    Ok(pictures)
+    Ok(())
 }
 
 fn camera_of(request: &RenderRequest, workpiece: &Workpiece) -> Camera {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use sabi_engine::Turns;
 use sabi_engine::view::{Background, Light, LightPlace, Lines, ViewTransform, Viewpoint};
 
 use super::WorkpieceArguments;
@@ -92,6 +93,9 @@ pub(crate) struct RenderArguments {
     /// Write so many frames from all around
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(1..=9999), help_heading = "Picture")]
     pub(crate) turntable: Option<u32>,
+    /// What goes around in them
+    #[arg(long, value_enum, default_value_t = Turn::Camera, help_heading = "Picture")]
+    pub(crate) turn: Turn,
 }
 
 impl RenderArguments {
@@ -121,6 +125,22 @@ impl From<Transform> for ViewTransform {
             Transform::Agx => ViewTransform::AgX,
             Transform::Aces => ViewTransform::Aces,
             Transform::Standard => ViewTransform::Standard,
+        }
+    }
+}
+
+/// What goes around on a turntable.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Turn {
+    Camera,
+    Light,
+}
+
+impl From<Turn> for Turns {
+    fn from(turn: Turn) -> Turns {
+        match turn {
+            Turn::Camera => Turns::Camera,
+            Turn::Light => Turns::Light,
         }
     }
 }

@@ -37,6 +37,7 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         }),
         samples: arguments.samples,
         turntable: arguments.turntable,
+        turns: arguments.turn.into(),
     };
     let bars = Bars::new(terminal);
     let rendered = render(&request, &bars)?;

@@ -77,6 +77,25 @@ fn a_turntable_is_numbered_frames_of_which_the_first_is_the_picture() {
     assert_eq!(place.read("turn_0000.png"), place.read("still.png"));
     assert_ne!(place.read("turn_0001.png"), place.read("turn_0002.png"));
     assert!(!place.path("turn.png").exists());
+    // The same light from the same side, whichever of the two goes around.
+    render(
+        &place,
+        &[
+            "-o",
+            "light.png",
+            "--turntable",
+            "3",
+            "--turn",
+            "light",
+            "--light",
+            "20,30",
+        ],
+    )
+    .good();
+    let turned = SMALL.map(|argument| if argument == "30" { "150" } else { argument });
+    let side = ["render", "rust.sabi", "-o", "side.png", "--light", "140,30"];
+    place.sabi(&[&side[..], &turned].concat()).good();
+    assert_eq!(place.read("light_0001.png"), place.read("side.png"));
 }
 
 /// Bumps as high as a quarter of the model.
