@@ -41,7 +41,8 @@ pub(crate) fn displaced_model(
         .map(|look| heights_of(workpiece, look, model_from_working))
         .collect::<Result<_, _>>()?;
     let options = DisplaceOptions {
-        edge_length: texel_length(&model.mesh, atlas),
+        // A map holds no hill that is narrower than two texels.
+        edge_length: 2.0 * texel_length(&model.mesh, atlas),
         triangle_budget: triangles.budget(workpiece.gpu.summary().kind),
     };
     let height = |chart: u32, texel: [f32; 2]| match plane_of(chart, atlas, shown, &heights) {
