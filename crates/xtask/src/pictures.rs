@@ -97,7 +97,7 @@ const MOST_BYTES: usize = 48 * 1024;
 const HEAD: &str = "head";
 const HEAD_SIZE: [usize; 2] = [1280, 640];
 const HEAD_BYTES: usize = 320 * 1024;
-const HEAD_SCENE: [&str; 16] = [
+const HEAD_SCENE: [&str; 18] = [
     "graphs/weathered-bench.sabi",
     "--mesh",
     "assets/meshes/bench.glb",
@@ -114,6 +114,9 @@ const HEAD_SCENE: [&str; 16] = [
     "--exposure",
     "0.3",
     "--relief",
+    "--background",
+    // Few colors would show bands in a soft one.
+    "plain",
 ];
 
 /// Draws all pictures, or those of the named graphs.
