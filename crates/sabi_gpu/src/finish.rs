@@ -22,7 +22,8 @@ struct Relief {
 }
 
 impl Gpu {
-    /// Tangent-space normals of a run's height and slope, in memory; see [`Gpu::normal_texture`].
+    /// Tangent-space normals of a run's height and slope, in memory: unit vectors, Y up, in the model's MikkTSpace frame. Those
+    /// of ghosts are in the frame of the chart they belong to.
     pub fn normals(
         &self,
         surface: &GpuSurface,
@@ -38,9 +39,7 @@ impl Gpu {
         Ok(data)
     }
 
-    /// Tangent-space normals of a run's height and slope: unit vectors, Y up, in the model's MikkTSpace frame.
-    ///
-    /// Ghosts are filled too, in the frame of the chart they belong to.
+    /// The same, on the device.
     pub(crate) fn normal_texture(
         &self,
         surface: &GpuSurface,
