@@ -52,7 +52,7 @@ pub(crate) fn run(place: &Place) -> Result<(), Stop> {
         "--environment",
         "low_sun",
         "--camera",
-        "-35,18,0.75",
+        "-35,18,0.9",
         "-o",
         PICTURE,
         "--quiet",
