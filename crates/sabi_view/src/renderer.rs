@@ -49,6 +49,15 @@ pub(crate) struct Prepared {
     bound: Bound,
 }
 
+/// One sample of a picture.
+#[derive(Clone, Copy)]
+pub(crate) struct Sample {
+    /// Which one, from 0.
+    pub(crate) number: u32,
+    /// Whether a picture is made of those so far.
+    pub(crate) is_shown: bool,
+}
+
 impl Renderer {
     /// A renderer; its pipelines are made when they are first used.
     pub fn new(gpu: &Gpu) -> Result<Renderer, ViewError> {
@@ -66,7 +75,7 @@ impl Renderer {
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..Default::default()
         });
-        let one = |format| texture(gpu, "nothing", [1, 1], format);
+        let one = |format| texture(gpu, "nothing", [1, 1, 1], format);
         let no_map = one(SUM)?.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
@@ -88,8 +97,11 @@ impl Renderer {
         let prepared = self.prepare(gpu, target, scene, shot)?;
         let samples = shot.samples.max(1);
         for sample in 0..samples {
-            let is_shown = sample + 1 == samples;
-            self.add_sample(gpu, target, scene, shot, &prepared, [sample, u32::from(is_shown)])?;
+            let next = Sample {
+                number: sample,
+                is_shown: sample + 1 == samples,
+            };
+            self.add_sample(gpu, target, scene, shot, &prepared, next)?;
             if sample % 4 == 3 {
                 // Not more in the queue than a driver is glad to take.
                 gpu.wait()?;
@@ -112,7 +124,7 @@ impl Renderer {
         })
     }
 
-    /// Draws one sample, by its number, and with a 1 after it shows the mean of all so far.
+    /// Draws one sample, and if it is shown the mean of all so far.
     pub(crate) fn add_sample(
         &self,
         gpu: &Gpu,
@@ -120,7 +132,10 @@ impl Renderer {
         scene: &Scene<'_>,
         shot: &Shot,
         prepared: &Prepared,
-        [sample, is_shown]: [u32; 2],
+        Sample {
+            number: sample,
+            is_shown,
+        }: Sample,
     ) -> Result<(), ViewError> {
         let Prepared { shadows, bound } = prepared;
         let frame = self.frame_group(gpu, shadows, scene, &Frame::new(scene, shot, target.size, sample))?;
@@ -135,6 +150,7 @@ impl Renderer {
             self.display(
                 gpu,
                 &mut encoder,
+                Draws::Encode,
                 [&light, &self.no_sum, &shown],
                 display(shot, 1, false),
             )?;
@@ -143,10 +159,10 @@ impl Renderer {
             let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
             let earlier = if sample == 0 { &self.no_sum } else { &sums[before] };
             let numbers = display(shot, sample + 1, false);
-            self.display_with(gpu, &mut encoder, Draws::Gather, [&light, earlier, &sums[now]], numbers)?;
-            if is_shown != 0 {
+            self.display(gpu, &mut encoder, Draws::Gather, [&light, earlier, &sums[now]], numbers)?;
+            if is_shown {
                 let numbers = display(shot, sample + 1, true);
-                self.display(gpu, &mut encoder, [&light, &sums[now], &shown], numbers)?;
+                self.display(gpu, &mut encoder, Draws::Encode, [&light, &sums[now], &shown], numbers)?;
             }
         }
         gpu.queue().submit([encoder.finish()]);
@@ -185,19 +201,8 @@ impl Renderer {
         &self.pipelines.layouts
     }
 
-    /// Encodes what is to be shown: light, or else a sum of samples.
-    fn display(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        views: [&wgpu::TextureView; 3],
-        numbers: Display,
-    ) -> Result<(), ViewError> {
-        self.display_with(gpu, encoder, Draws::Encode, views, numbers)
-    }
-
     /// Light and a sum of earlier samples become something that is written.
-    fn display_with(
+    fn display(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,

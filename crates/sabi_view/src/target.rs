@@ -3,6 +3,7 @@
 use sabi_gpu::Gpu;
 
 use crate::error::ViewError;
+use crate::upload::texture;
 
 /// Light of one sample: linear, with what is covered as alpha.
 pub(crate) const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -47,11 +48,11 @@ impl Target {
         if width == 0 || height == 0 || width > longest || height > longest {
             return Err(ViewError::Size { width, height, longest });
         }
-        let attachment = |what, format| attachment(gpu, what, [width, height, 1], format);
+        let attachment = |what, format| texture(gpu, what, [width, height, 1], format);
         Ok(Target {
             size,
             light: attachment("the light of a picture", LIGHT)?,
-            seen: self::attachment(gpu, "what a picture sees", [width, height, 2], SEEN)?,
+            seen: texture(gpu, "what a picture sees", [width, height, 2], SEEN)?,
             depth: attachment("the depth of a picture", DEPTH)?,
             sums: None,
             shown: attachment("a picture", SHOWN)?,
@@ -94,38 +95,11 @@ impl Target {
         }
         let sum = || -> Result<wgpu::TextureView, ViewError> {
             let [width, height] = self.size;
-            let made = attachment(gpu, "the samples of a picture", [width, height, 1], SUM)?;
+            let made = texture(gpu, "the samples of a picture", [width, height, 1], SUM)?;
             Ok(made.create_view(&wgpu::TextureViewDescriptor::default()))
         };
         let sums = [sum()?, sum()?];
         self.sums = Some(sums.clone());
         Ok(sums)
     }
-}
-
-fn attachment(
-    gpu: &Gpu,
-    what: &'static str,
-    [width, height, layers]: [u32; 3],
-    format: wgpu::TextureFormat,
-) -> Result<wgpu::Texture, ViewError> {
-    let made = gpu.guarded(what, |device| {
-        device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(what),
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: layers,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        })
-    })?;
-    Ok(made)
 }

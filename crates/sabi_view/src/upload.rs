@@ -49,16 +49,16 @@ pub(crate) fn table_of(gpu: &Gpu, what: &'static str, rows: &[[f32; 4]]) -> Resu
     }
     let mut padded = rows.to_vec();
     padded.resize((height * TABLE_WIDTH) as usize, [0.0; 4]);
-    let texture = texture(gpu, what, [TABLE_WIDTH, height], wgpu::TextureFormat::Rgba32Float)?;
+    let texture = texture(gpu, what, [TABLE_WIDTH, height, 1], wgpu::TextureFormat::Rgba32Float)?;
     write(gpu, &texture, bytemuck::cast_slice(&padded));
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }
 
-/// A texture that is written once and read by shaders.
+/// A texture that is filled or drawn into, and read by shaders.
 pub(crate) fn texture(
     gpu: &Gpu,
     what: &'static str,
-    [width, height]: [u32; 2],
+    [width, height, layers]: [u32; 3],
     format: wgpu::TextureFormat,
 ) -> Result<wgpu::Texture, GpuError> {
     gpu.guarded(what, |device| {
@@ -67,7 +67,7 @@ pub(crate) fn texture(
             size: wgpu::Extent3d {
                 width,
                 height,
-                depth_or_array_layers: 1,
+                depth_or_array_layers: layers,
             },
             mip_level_count: 1,
             sample_count: 1,

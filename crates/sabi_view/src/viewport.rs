@@ -3,7 +3,7 @@
 use sabi_gpu::{AdapterKind, Gpu};
 
 use crate::error::ViewError;
-use crate::renderer::{Prepared, Renderer};
+use crate::renderer::{Prepared, Renderer, Sample};
 use crate::scene::{Scene, Shot};
 use crate::target::Target;
 
@@ -126,7 +126,10 @@ impl Viewport {
         let shot = &drawn.wanted.shot;
         let is_left = drawn.samples < shot.samples;
         if is_left {
-            let sample = [drawn.samples, 1];
+            let sample = Sample {
+                number: drawn.samples,
+                is_shown: true,
+            };
             self.renderer
                 .add_sample(gpu, &mut target, scene, shot, &drawn.prepared, sample)?;
             drawn.samples += 1;

@@ -1,17 +1,11 @@
 //! A prefiltered cube map as bytes and back.
 
-use std::sync::mpsc::channel;
-use std::time::Duration;
-
 use half::f16;
-use sabi_gpu::{Gpu, GpuError};
+use sabi_gpu::Gpu;
 
 use super::backdrop::PIXEL_BYTES;
 use super::prefilter::{LEVELS, cube};
 use crate::error::ViewError;
-
-/// The device is done by then, and only its answer is on its way: what takes longer never comes.
-const ANSWER_LIMIT: Duration = Duration::from_secs(30);
 
 /// Bytes of the six faces of a level with this side.
 fn level_bytes(side: u32) -> usize {
@@ -68,49 +62,9 @@ pub(super) fn upload(gpu: &Gpu, side: u32, bytes: &[u8]) -> Result<wgpu::Texture
 pub(super) fn read(gpu: &Gpu, cube: &wgpu::Texture) -> Result<Vec<u8>, ViewError> {
     let mut bytes = Vec::new();
     for level in 0..cube.mip_level_count() {
-        read_level(gpu, cube, level, &mut bytes)?;
+        for face in 0..cube.depth_or_array_layers() {
+            gpu.read_layer(cube, face, level, &mut bytes)?;
+        }
     }
     Ok(bytes)
-}
-
-fn read_level(gpu: &Gpu, cube: &wgpu::Texture, level: u32, bytes: &mut Vec<u8>) -> Result<(), ViewError> {
-    let side = cube.width() >> level;
-    let row = PIXEL_BYTES * side;
-    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let buffer = gpu.guarded("a readback buffer", |device| {
-        device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("readback"),
-            size: u64::from(6 * side * padded),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        })
-    })?;
-    let layout = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(padded),
-        rows_per_image: Some(side),
-    };
-    let target = wgpu::TexelCopyBufferInfo {
-        buffer: &buffer,
-        layout,
-    };
-    let mut encoder = gpu.device().create_command_encoder(&Default::default());
-    encoder.copy_texture_to_buffer(at_level(cube, level), target, extent(side));
-    gpu.queue().submit([encoder.finish()]);
-    let (sender, answer) = channel();
-    // The receiver is gone only if the wait has failed already.
-    buffer.map_async(wgpu::MapMode::Read, .., move |mapped| drop(sender.send(mapped)));
-    gpu.wait()?;
-    let failed = |why: &str| GpuError::Driver(format!("an environment cannot be read back: {why}"));
-    // Where several threads wait for one device, another one of them may be about to pass on the answer.
-    match answer.recv_timeout(ANSWER_LIMIT) {
-        Ok(Ok(())) => {}
-        Ok(Err(error)) => return Err(failed(&error.to_string()).into()),
-        Err(_) => return Err(failed("no answer came").into()),
-    }
-    let view = buffer.get_mapped_range(..);
-    for line in view.chunks_exact(padded as usize) {
-        bytes.extend_from_slice(&line[..row as usize]);
-    }
-    Ok(())
 }

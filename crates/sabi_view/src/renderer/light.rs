@@ -2,7 +2,7 @@
 
 use sabi_gpu::Gpu;
 
-use super::Renderer;
+use super::{Renderer, Sample};
 use crate::error::ViewError;
 use crate::scene::{Scene, Shot};
 use crate::target::Target;
@@ -23,7 +23,11 @@ impl Renderer {
         let mut sums = vec![[0.0; 4]; width * height];
         let samples = shot.samples.max(1);
         for sample in 0..samples {
-            self.add_sample(gpu, target, scene, shot, &prepared, [sample, 0])?;
+            let next = Sample {
+                number: sample,
+                is_shown: false,
+            };
+            self.add_sample(gpu, target, scene, shot, &prepared, next)?;
             for (sum, light) in sums.iter_mut().zip(target.read_light(gpu)?) {
                 *sum = [0, 1, 2, 3].map(|at| sum[at] + f64::from(light[at]));
             }
