@@ -4,6 +4,7 @@
 
 mod bake;
 mod cache_dir;
+pub mod catalog;
 mod check;
 mod describe;
 mod displace;

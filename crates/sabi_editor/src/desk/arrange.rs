@@ -1,0 +1,181 @@
+//! Where nodes stand: moving, aligning, straightening, laying out.
+
+use std::collections::BTreeMap;
+
+use sabi_engine::catalog::{Entry, Knob, KnobRole};
+use sabi_graph::{Edit, NodeId};
+
+use super::{Desk, layered};
+
+/// Width of a node, canvas points.
+pub(crate) const NODE_WIDTH: f32 = 200.0;
+/// Height of the strip with a node's title.
+pub(crate) const TITLE_HEIGHT: f32 = 28.0;
+/// Height of a port or a knob.
+pub(crate) const ROW_HEIGHT: f32 = 19.0;
+/// Side of the picture of a result.
+pub(crate) const PICTURE_SIDE: f32 = 128.0;
+/// Around what a node holds.
+pub(crate) const MARGIN: f32 = 6.0;
+/// Most knobs that a node shows itself; the panel has all of them.
+const MOST_KNOBS: usize = 3;
+/// Places snap to multiples of it.
+pub(crate) const GRID: f32 = 10.0;
+
+/// Knobs that a node itself shows: its first ones that are quick to turn, and of inputs none, since those have rows.
+pub(crate) fn own_knobs(entry: &Entry) -> impl Iterator<Item = &Knob> {
+    let is_quick = |role: &KnobRole| {
+        matches!(
+            role,
+            KnobRole::Plain | KnobRole::Length | KnobRole::Angle | KnobRole::Choice(_) | KnobRole::Toggle
+        )
+    };
+    let is_small = move |knob: &&Knob| knob.role == KnobRole::Color || knob.components == 1 && is_quick(&knob.role);
+    let own = entry.knobs.iter().filter(|knob| !knob.is_of_input);
+    own.filter(is_small).take(MOST_KNOBS)
+}
+
+/// Rows below a node's title, and whether there is a picture of a result.
+pub(crate) fn height_of(entry: &Entry) -> f32 {
+    let rows = entry.inputs.len() + entry.outputs.len() + own_knobs(entry).count();
+    let picture = if entry.outputs.is_empty() && entry.category() != "output" {
+        0.0
+    } else {
+        PICTURE_SIDE + MARGIN
+    };
+    TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + 2.0 * MARGIN
+}
+
+/// What some nodes are brought in line by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Align {
+    Left,
+    Right,
+    Top,
+    Bottom,
+}
+
+impl Desk {
+    /// Height of a node that is seen, canvas points.
+    pub(crate) fn height(&self, id: &NodeId) -> f32 {
+        self.face(id).map_or(TITLE_HEIGHT, |face| height_of(face))
+    }
+
+    /// Moves nodes by so much; those that are dragged move within one step, which the caller begins and ends.
+    pub(crate) fn move_to(&mut self, step: &str, places: BTreeMap<NodeId, [f32; 2]>) -> bool {
+        let body = self.body();
+        let moved = places
+            .into_iter()
+            .filter(|(id, pos)| self.node(id).is_some_and(|node| node.pos != *pos));
+        let edits: Vec<Edit> = moved
+            .map(|(node, pos)| Edit::Move {
+                body: body.clone(),
+                node,
+                pos,
+            })
+            .collect();
+        self.edit(step, edits)
+    }
+
+    /// Places of the selected nodes.
+    pub(crate) fn places(&self) -> BTreeMap<NodeId, [f32; 2]> {
+        let selected = self.selection.iter();
+        selected
+            .filter_map(|id| Some((id.clone(), self.node(id)?.pos)))
+            .collect()
+    }
+
+    /// Brings the selected nodes in line.
+    pub(crate) fn align(&mut self, by: Align) -> bool {
+        let mut places = self.places();
+        let heights: BTreeMap<NodeId, f32> = places.keys().map(|id| (id.clone(), self.height(id))).collect();
+        let ends = places.iter().map(|(id, pos)| match by {
+            Align::Left | Align::Right => pos[0],
+            Align::Top => pos[1],
+            Align::Bottom => pos[1] + heights[id],
+        });
+        let end = match by {
+            Align::Left | Align::Top => ends.fold(f32::INFINITY, f32::min),
+            Align::Right | Align::Bottom => ends.fold(f32::NEG_INFINITY, f32::max),
+        };
+        for (id, pos) in &mut places {
+            match by {
+                Align::Left | Align::Right => pos[0] = end,
+                Align::Top => pos[1] = end,
+                Align::Bottom => pos[1] = end - heights[id],
+            }
+        }
+        self.move_to("Align", places)
+    }
+
+    /// Moves the selected nodes up or down so that the wires among them run level: each to the first of those it reads.
+    pub(crate) fn straighten(&mut self) -> bool {
+        let mut places = self.places();
+        for id in self.graph().topological_order() {
+            let Some(node) = self.node(&id).filter(|_| places.contains_key(&id)) else {
+                continue;
+            };
+            let Some(face) = self.face(&id) else { continue };
+            let wired = face.inputs.iter().enumerate().find_map(|(row, port)| {
+                let from = node.inputs.get(&port.name)?;
+                places.contains_key(&from.node).then_some((row, from.clone()))
+            });
+            let Some((row, from)) = wired else { continue };
+            let Some(source) = self.face(&from.node) else {
+                continue;
+            };
+            let out = source
+                .outputs
+                .iter()
+                .position(|port| Some(&port.name) == from.port.as_ref())
+                .unwrap_or(0);
+            let level = places[&from.node][1] + output_row(source, out);
+            let own = level - input_row(row);
+            if let Some(pos) = places.get_mut(&id) {
+                pos[1] = own;
+            }
+        }
+        self.move_to("Straighten", places)
+    }
+
+    /// Lays the selected nodes out from left to right, or all where none are selected.
+    pub(crate) fn lay_out(&mut self) -> bool {
+        let ids: Vec<NodeId> = match self.selection.is_empty() {
+            true => self.graph().ids().cloned().collect(),
+            false => self.selection.iter().cloned().collect(),
+        };
+        let boxes: Vec<layered::Boxed> = ids
+            .iter()
+            .map(|id| layered::Boxed {
+                height: self.height(id),
+                reads: self
+                    .neighbors(id, true)
+                    .iter()
+                    .filter_map(|from| ids.binary_search(from).ok())
+                    .collect(),
+            })
+            .collect();
+        let corner = ids
+            .iter()
+            .filter_map(|id| self.node(id))
+            .fold([f32::INFINITY; 2], |corner, node| {
+                [corner[0].min(node.pos[0]), corner[1].min(node.pos[1])]
+            });
+        let places = layered::lay_out(&boxes, NODE_WIDTH);
+        let snapped = |at: f32| (at / GRID).round() * GRID;
+        let places = ids.into_iter().zip(places);
+        let places = places.map(|(id, [x, y])| (id, [snapped(corner[0] + x), snapped(corner[1] + y)]));
+        let places = places.collect();
+        self.move_to("Lay out", places)
+    }
+}
+
+/// Where the wire of an input ends, from the node's upper edge: rows of inputs come first.
+pub(crate) fn input_row(row: usize) -> f32 {
+    TITLE_HEIGHT + MARGIN + (row as f32 + 0.5) * ROW_HEIGHT
+}
+
+/// Where the wire of an output begins, from the node's upper edge.
+pub(crate) fn output_row(entry: &Entry, row: usize) -> f32 {
+    input_row(entry.inputs.len() + own_knobs(entry).count() + row)
+}

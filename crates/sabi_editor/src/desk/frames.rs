@@ -1,0 +1,55 @@
+//! Titled boxes around nodes.
+
+use std::collections::BTreeSet;
+
+use sabi_graph::{Edit, Frame, NodeId};
+
+use super::Desk;
+
+/// Colors that frames take in turn.
+const COLORS: [&str; 6] = ["#4a5a6a", "#6a5a3c", "#4c6650", "#6a4a4a", "#5a4a6a", "#3c6266"];
+
+impl Desk {
+    /// Puts a frame around the selected nodes.
+    pub(crate) fn frame(&mut self) -> bool {
+        if self.selection.is_empty() {
+            self.say("select the nodes that a frame should hold");
+            return false;
+        }
+        let count = self.graph().frames().len();
+        let taken: BTreeSet<NodeId> = self.graph().frames().keys().filter_map(|id| id.parse().ok()).collect();
+        let id = self.new_id("frame", &taken);
+        let frame = Frame {
+            title: Some("Frame".to_owned()),
+            color: Some(COLORS[count % COLORS.len()].to_owned()),
+            nodes: self.selection.iter().cloned().collect(),
+            ..Frame::default()
+        };
+        self.set_frame("Frame", id.as_str(), frame)
+    }
+
+    /// Changes a frame, or adds it.
+    pub(crate) fn set_frame(&mut self, step: &str, id: &str, frame: Frame) -> bool {
+        let edit = Edit::AddFrame {
+            body: self.body(),
+            id: id.to_owned(),
+            frame,
+        };
+        self.edit(step, vec![edit])
+    }
+
+    /// Removes a frame; its nodes stay.
+    pub(crate) fn remove_frame(&mut self, id: &str) -> bool {
+        let edit = Edit::RemoveFrame {
+            body: self.body(),
+            id: id.to_owned(),
+        };
+        self.edit("Remove frame", vec![edit])
+    }
+
+    /// The color after the one that a frame has.
+    pub(crate) fn next_color(color: Option<&str>) -> String {
+        let at = COLORS.iter().position(|known| Some(*known) == color);
+        COLORS[at.map_or(0, |at| (at + 1) % COLORS.len())].to_owned()
+    }
+}

@@ -1,0 +1,193 @@
+//! A layered drawing: columns by the longest way to the end, rows by the middle of the neighbors; after Sugiyama, Tagawa and
+//! Toda, 1981.
+
+/// Between columns, canvas points.
+const COLUMN_GAP: f32 = 80.0;
+/// Between boxes of a column.
+const ROW_GAP: f32 = 30.0;
+/// How often rows are sorted by the places of their neighbors, to and fro.
+const SWEEPS: usize = 8;
+
+/// A box to be placed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Boxed {
+    pub(super) height: f32,
+    /// Boxes whose results it reads, by index; they never lead in a circle.
+    pub(super) reads: Vec<usize>,
+}
+
+/// Upper left corners, from the upper left corner of all.
+pub(super) fn lay_out(boxes: &[Boxed], width: f32) -> Vec<[f32; 2]> {
+    let readers = readers_of(boxes);
+    let columns = columns_of(boxes, &readers);
+    let last = columns.iter().copied().max().unwrap_or(0);
+    let mut ranks: Vec<Vec<usize>> = vec![Vec::new(); last + 1];
+    for (at, column) in columns.iter().enumerate() {
+        ranks[*column].push(at);
+    }
+    let mut middles = vec![0.0; boxes.len()];
+    for rank in &ranks {
+        stack(rank, boxes, &mut middles);
+    }
+    for sweep in 0..SWEEPS {
+        // From the outputs to the sources first: what an artist looks at is on the right.
+        let is_back = sweep % 2 == 0;
+        let order: Vec<usize> = if is_back {
+            (0..=last).rev().collect()
+        } else {
+            (0..=last).collect()
+        };
+        for column in order {
+            let near: &dyn Fn(usize) -> Vec<usize> = if is_back {
+                &|at: usize| readers[at].clone()
+            } else {
+                &|at: usize| boxes[at].reads.clone()
+            };
+            let wanted: Vec<f32> = (0..boxes.len())
+                .map(|at| mean(&near(at), &middles).unwrap_or(middles[at]))
+                .collect();
+            ranks[column].sort_by(|one, other| wanted[*one].total_cmp(&wanted[*other]).then(one.cmp(other)));
+            spread(&ranks[column], boxes, &wanted, &mut middles);
+        }
+    }
+    let top = (0..boxes.len())
+        .map(|at| middles[at] - boxes[at].height / 2.0)
+        .fold(f32::INFINITY, f32::min);
+    let place = |at: usize| {
+        let x = columns[at] as f32 * (width + COLUMN_GAP);
+        [x, middles[at] - boxes[at].height / 2.0 - top]
+    };
+    (0..boxes.len()).map(place).collect()
+}
+
+fn readers_of(boxes: &[Boxed]) -> Vec<Vec<usize>> {
+    let mut readers = vec![Vec::new(); boxes.len()];
+    for (at, boxed) in boxes.iter().enumerate() {
+        for source in &boxed.reads {
+            readers[*source].push(at);
+        }
+    }
+    readers
+}
+
+/// Columns counted from the left, every box as far right as its readers allow.
+fn columns_of(boxes: &[Boxed], readers: &[Vec<usize>]) -> Vec<usize> {
+    let mut to_end = vec![0usize; boxes.len()];
+    // Each round settles at least one more box of the longest way.
+    for _ in 0..boxes.len() {
+        let mut has_changed = false;
+        for at in 0..boxes.len() {
+            let steps = readers[at].iter().map(|reader| to_end[*reader] + 1).max().unwrap_or(0);
+            has_changed |= steps != to_end[at];
+            to_end[at] = steps;
+        }
+        if !has_changed {
+            break;
+        }
+    }
+    let longest = to_end.iter().copied().max().unwrap_or(0);
+    to_end.into_iter().map(|steps| longest - steps).collect()
+}
+
+/// The middle of some boxes.
+fn mean(of: &[usize], middles: &[f32]) -> Option<f32> {
+    let sum: f32 = of.iter().map(|at| middles[*at]).sum();
+    (!of.is_empty()).then(|| sum / of.len() as f32)
+}
+
+/// Puts boxes one below the other, centered on 0.
+fn stack(rank: &[usize], boxes: &[Boxed], middles: &mut [f32]) {
+    let height: f32 = rank.iter().map(|at| boxes[*at].height + ROW_GAP).sum();
+    let mut top = -height / 2.0;
+    for at in rank {
+        middles[*at] = top + boxes[*at].height / 2.0;
+        top += boxes[*at].height + ROW_GAP;
+    }
+}
+
+/// Puts boxes where they want to be, as far as they leave room for each other: those that collide share the way.
+fn spread(rank: &[usize], boxes: &[Boxed], wanted: &[f32], middles: &mut [f32]) {
+    // Blocks of boxes that touch: where their first middle lies, and which they are.
+    let mut blocks: Vec<(f32, Vec<usize>)> = Vec::new();
+    for at in rank {
+        blocks.push((wanted[*at], vec![*at]));
+        while blocks.len() > 1 {
+            let (above, below) = (&blocks[blocks.len() - 2], &blocks[blocks.len() - 1]);
+            let lowest = above.0 + offsets(&above.1, boxes).last().copied().unwrap_or(0.0);
+            let [Some(one), Some(other)] = [above.1.last(), below.1.first()] else {
+                break;
+            };
+            if below.0 - lowest >= distance(*one, *other, boxes) {
+                break;
+            }
+            let joined: Vec<usize> = above.1.iter().chain(&below.1).copied().collect();
+            let steps = offsets(&joined, boxes);
+            let sum: f32 = joined.iter().zip(&steps).map(|(at, step)| wanted[*at] - step).sum();
+            let first = sum / joined.len() as f32;
+            blocks.truncate(blocks.len() - 2);
+            blocks.push((first, joined));
+        }
+    }
+    for (first, block) in &blocks {
+        for (at, step) in block.iter().zip(offsets(block, boxes)) {
+            middles[*at] = first + step;
+        }
+    }
+}
+
+/// How far each box of a block that touches lies below the first.
+fn offsets(block: &[usize], boxes: &[Boxed]) -> Vec<f32> {
+    let mut offset = 0.0;
+    let mut offsets = vec![0.0];
+    for pair in block.windows(2) {
+        offset += distance(pair[0], pair[1], boxes);
+        offsets.push(offset);
+    }
+    offsets
+}
+
+/// Least distance of the middles of two boxes of a column.
+fn distance(one: usize, other: usize, boxes: &[Boxed]) -> f32 {
+    (boxes[one].height + boxes[other].height) / 2.0 + ROW_GAP
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn boxed(height: f32, reads: &[usize]) -> Boxed {
+        Boxed {
+            height,
+            reads: reads.to_vec(),
+        }
+    }
+
+    #[test]
+    fn a_reader_stands_right_of_all_it_reads_and_level_with_a_single_one() {
+        let boxes = [boxed(100.0, &[]), boxed(100.0, &[0]), boxed(60.0, &[1, 0])];
+        let places = lay_out(&boxes, 200.0);
+        assert!(places[0][0] < places[1][0] && places[1][0] < places[2][0], "{places:?}");
+    }
+
+    #[test]
+    fn boxes_of_a_column_never_touch() {
+        let boxes: Vec<Boxed> = (0..9)
+            .map(|at| boxed(50.0 + 20.0 * at as f32, &[]))
+            .chain([boxed(400.0, &[0, 1, 2, 3]), boxed(80.0, &[4, 5, 6, 7, 8, 0])])
+            .collect();
+        let places = lay_out(&boxes, 200.0);
+        for one in 0..boxes.len() {
+            for other in one + 1..boxes.len() {
+                let is_apart = places[one][0] != places[other][0]
+                    || places[one][1] + boxes[one].height + ROW_GAP <= places[other][1] + 0.01
+                    || places[other][1] + boxes[other].height + ROW_GAP <= places[one][1] + 0.01;
+                assert!(is_apart, "{one} and {other} touch: {places:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_laid_out_as_nothing() {
+        assert!(lay_out(&[], 200.0).is_empty());
+    }
+}

@@ -1,0 +1,244 @@
+//! What can be put into a graph, as an artist meets it: names, ports and knobs, whatever a kind is made of.
+
+mod faces;
+mod knob;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use sabi_graph::{GROUP_KIND, PortType, REROUTE_KIND};
+use sabi_nodes::kind::{InputDefault, Kind, Output, Role};
+use sabi_plan::{SourceKind, SourcePort};
+
+pub use faces::Faces;
+pub use knob::Knob;
+pub use sabi_nodes::kind::Role as KnobRole;
+
+use crate::kinds::Kinds;
+
+/// A kind of node, or one group instance, as an artist meets it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Identifier as in graph files, `category/name`.
+    pub id: String,
+    /// Name shown to artists.
+    pub label: String,
+    /// One sentence.
+    pub summary: String,
+    /// The rest of what is said of it, Markdown; may be empty.
+    pub description: String,
+    /// Other words that an artist may search for.
+    pub aliases: Vec<String>,
+    /// What may be connected, in order.
+    pub inputs: Vec<Port>,
+    /// What it gives, in order; the first one is meant where a wire names none.
+    pub outputs: Vec<Port>,
+    /// What can be set, in order; those of inputs that are not connected come last.
+    pub knobs: Vec<Knob>,
+    /// The text of its WGSL file, if it is one.
+    pub source: Option<Arc<str>>,
+}
+
+/// A place for a wire.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Port {
+    /// Name in graph files.
+    pub name: String,
+    /// Name shown to artists.
+    pub label: String,
+    /// What it is for.
+    pub doc: String,
+    /// What it carries; none where anything fits, as in a reroute that nothing is connected to.
+    pub ty: Option<PortType>,
+    /// Whether nothing comes out of the node while nothing is connected.
+    pub is_required: bool,
+}
+
+impl Port {
+    /// Whether a wire that carries `from` may end here.
+    pub fn accepts(&self, from: Option<PortType>) -> bool {
+        match (self.ty, from) {
+            (Some(ty), Some(from)) => ty.accepts(from),
+            _ => true,
+        }
+    }
+}
+
+impl Entry {
+    /// The part of the id before the stroke, by which nodes are sorted in menus.
+    pub fn category(&self) -> &str {
+        self.id
+            .split_once('/')
+            .map_or(self.id.as_str(), |(category, _)| category)
+    }
+
+    /// The input of that name.
+    pub fn input(&self, name: &str) -> Option<&Port> {
+        self.inputs.iter().find(|port| port.name == name)
+    }
+
+    /// The output of that name, or the first one where there is none.
+    pub fn output(&self, name: Option<&str>) -> Option<&Port> {
+        match name {
+            Some(name) => self.outputs.iter().find(|port| port.name == name),
+            None => self.outputs.first(),
+        }
+    }
+
+    /// The knob of that name.
+    pub fn knob(&self, name: &str) -> Option<&Knob> {
+        self.knobs.iter().find(|knob| knob.name == name)
+    }
+
+    /// The first input that takes such a wire.
+    pub fn input_for(&self, carries: Option<PortType>) -> Option<&Port> {
+        // What fits as it is goes before what has to be converted.
+        let exact = self.inputs.iter().find(|port| port.ty == carries);
+        exact.or_else(|| self.inputs.iter().find(|port| port.accepts(carries)))
+    }
+
+    /// The first output that may go into such an input.
+    pub fn output_for(&self, input: &Port) -> Option<&Port> {
+        let exact = self.outputs.iter().find(|port| port.ty == input.ty);
+        exact.or_else(|| self.outputs.iter().find(|port| input.accepts(port.ty)))
+    }
+}
+
+/// All kinds of nodes by id.
+#[derive(Clone, Debug, Default)]
+pub struct Catalog {
+    entries: BTreeMap<String, Arc<Entry>>,
+}
+
+impl Catalog {
+    /// Everything that these kinds are.
+    pub fn new(kinds: &Kinds) -> Catalog {
+        let of_files = kinds.library.kinds().map(entry_of_kind);
+        let of_rust = kinds.sources.values().chain(kinds.sinks.values()).map(entry_of_source);
+        let all = of_files.chain(of_rust).chain([reroute()]);
+        Catalog {
+            entries: all.map(|entry| (entry.id.clone(), Arc::new(entry))).collect(),
+        }
+    }
+
+    /// All of them, sorted by id; groups are not among them, since each is another one.
+    pub fn entries(&self) -> impl Iterator<Item = &Arc<Entry>> {
+        self.entries.values()
+    }
+
+    /// The kind of that id, with or without its version.
+    pub fn entry(&self, kind: &str) -> Option<&Arc<Entry>> {
+        let plain = kind.split_once('@').map_or(kind, |(plain, _)| plain);
+        self.entries.get(plain)
+    }
+}
+
+fn entry_of_kind(kind: &Kind) -> Entry {
+    let shown = kind
+        .params
+        .iter()
+        .filter(|param| !matches!(param.role, Role::Extent { .. }));
+    let of_inputs = kind.inputs.iter().filter_map(Knob::of_input);
+    let inputs = kind.inputs.iter().map(|input| Port {
+        name: input.name.clone(),
+        label: input.label.clone(),
+        doc: input.doc.clone(),
+        ty: Some(input.ty),
+        is_required: input.default == InputDefault::Required,
+    });
+    Entry {
+        id: kind.id.clone(),
+        label: kind.label.clone(),
+        summary: kind.summary.clone(),
+        description: kind.description.clone(),
+        aliases: kind.aliases.clone(),
+        inputs: inputs.collect(),
+        outputs: kind.outputs.iter().map(port_of_output).collect(),
+        knobs: shown.map(Knob::of_param).chain(of_inputs).collect(),
+        source: Some(kind.source.clone()),
+    }
+}
+
+fn port_of_output(output: &Output) -> Port {
+    Port {
+        name: output.name.clone(),
+        label: readable(&output.name),
+        doc: output.doc.clone(),
+        ty: Some(output.ty),
+        is_required: false,
+    }
+}
+
+fn entry_of_source(kind: &SourceKind) -> Entry {
+    let port = |port: &SourcePort, is_required: bool| Port {
+        name: port.name.clone(),
+        label: readable(&port.name),
+        doc: port.doc.clone(),
+        ty: Some(port.ty),
+        is_required,
+    };
+    Entry {
+        id: kind.id.clone(),
+        label: kind.label.clone(),
+        summary: kind.summary.clone(),
+        description: String::new(),
+        aliases: kind.aliases.clone(),
+        inputs: kind.inputs.iter().map(|input| port(input, true)).collect(),
+        outputs: kind.outputs.iter().map(|output| port(output, false)).collect(),
+        knobs: kind.params.iter().map(Knob::of_param).collect(),
+        source: None,
+    }
+}
+
+/// The kind that only bends a wire.
+fn reroute() -> Entry {
+    let port = |doc: &str| Port {
+        name: "source".to_owned(),
+        label: "Source".to_owned(),
+        doc: doc.to_owned(),
+        ty: None,
+        is_required: false,
+    };
+    Entry {
+        id: REROUTE_KIND.to_owned(),
+        label: "Reroute".to_owned(),
+        summary: "A bend in a wire; passes on whatever comes in.".to_owned(),
+        description: String::new(),
+        aliases: ["bend", "dot", "knot"].map(str::to_owned).to_vec(),
+        inputs: vec![port("Anything.")],
+        outputs: vec![port("The same.")],
+        knobs: Vec::new(),
+        source: None,
+    }
+}
+
+/// A name as people write it: spaces for strokes, a capital in front.
+pub(crate) fn readable(name: &str) -> String {
+    let spaced = name.replace('_', " ");
+    let mut letters = spaced.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => spaced,
+    }
+}
+
+/// What stands for something whose kind nobody knows: its node is kept and shown, and nothing comes out of it.
+pub(crate) fn placeholder(kind: &str) -> Entry {
+    let is_group = kind == GROUP_KIND;
+    Entry {
+        id: kind.to_owned(),
+        label: if is_group { "Group".to_owned() } else { kind.to_owned() },
+        summary: match is_group {
+            true => "The group that this node names is not there.".to_owned(),
+            false => "No file describes this kind; the node is kept as it is.".to_owned(),
+        },
+        description: String::new(),
+        aliases: Vec::new(),
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        knobs: Vec::new(),
+        source: None,
+    }
+}

@@ -1,0 +1,105 @@
+use sabi_graph::{Body, Document, PortType, Value};
+
+use super::{Catalog, Faces, KnobRole};
+use crate::kinds::Kinds;
+
+fn catalog() -> Catalog {
+    Catalog::new(&Kinds::builtin())
+}
+
+fn document(nodes: &str) -> Document {
+    let text = format!(r#"{{ "format": "sabi", "version": 1, "name": "", {nodes} }}"#);
+    Document::from_json(&text).expect("the test's graph")
+}
+
+fn faces(document: &Document) -> Faces {
+    Faces::new(&catalog(), document, &mut |_| None)
+}
+
+#[test]
+fn every_kind_has_a_face_with_a_name_and_something_to_connect() {
+    for entry in catalog().entries() {
+        assert!(!entry.label.is_empty() && !entry.summary.is_empty(), "{}", entry.id);
+        assert!(entry.inputs.len() + entry.outputs.len() > 0, "{}", entry.id);
+        assert!(
+            !entry.category().is_empty() && entry.category() != entry.id,
+            "{}",
+            entry.id
+        );
+    }
+}
+
+#[test]
+fn a_knob_holds_its_default_as_a_file_would() {
+    let catalog = catalog();
+    let knob = |kind: &str, name: &str| {
+        let entry = catalog.entry(kind).expect("a built-in kind");
+        entry.knob(name).expect("a documented parameter").clone()
+    };
+    assert_eq!(knob("noise/simplex", "size").default, Value::Number(0.25));
+    assert_eq!(knob("noise/simplex", "size").role, KnobRole::Length);
+    assert_eq!(knob("noise/simplex", "mode").default, Value::Text("fbm".to_owned()));
+    assert_eq!(knob("effect/layer", "color_on").default, Value::Bool(true));
+    assert_eq!(knob("effect/layer", "color").default, Value::Text("#808080".to_owned()));
+    let toward = Value::List([0.0, 1.0, 0.0].map(Value::Number).to_vec());
+    assert_eq!(knob("surface/direction", "toward").default, toward);
+}
+
+#[test]
+fn an_input_that_is_not_connected_is_a_knob() {
+    let catalog = catalog();
+    let blend = catalog.entry("blend/mask").expect("a built-in kind");
+    let below = blend.knob("below").expect("an input with a knob");
+    assert!(below.is_of_input);
+    assert_eq!(below.slider(), [0.0, 1.0]);
+}
+
+#[test]
+fn a_wire_finds_the_port_that_takes_it_as_it_is_before_one_that_converts() {
+    let catalog = catalog();
+    let layer = catalog.entry("effect/layer").expect("a built-in kind");
+    let found = |ty| layer.input_for(Some(ty)).map(|port| port.name.as_str());
+    assert_eq!(found(PortType::Material), Some("base"));
+    assert_eq!(found(PortType::Mask), Some("mask"));
+    assert_eq!(found(PortType::Color), Some("color_map"));
+    assert_eq!(found(PortType::Vector), None);
+}
+
+#[test]
+fn a_group_shows_what_it_publishes_and_a_reroute_what_comes_in() {
+    let document = document(
+        r#""groups": { "wear": {
+            "inputs": { "where": { "to": ["worn.below"] } },
+            "outputs": { "mask": "worn" },
+            "exposed": { "amount": { "to": ["worn.opacity"], "range": [0, 0.5], "default": 0.4 } },
+            "variants": { "light": { "amount": 0.1 } },
+            "nodes": { "worn": { "kind": "blend/mask", "pos": [0, 0] } } } },
+          "nodes": {
+            "bend": { "kind": "graph/reroute", "inputs": { "source": "worn_1" }, "pos": [0, 0] },
+            "worn_1": { "kind": "graph/group", "group": "wear", "pos": [0, 0] } }"#,
+    );
+    let faces = faces(&document);
+    let group = faces.of(&Body::Main, "worn_1").expect("an instance");
+    assert_eq!(group.label, "wear");
+    assert_eq!(group.input("where").and_then(|port| port.ty), Some(PortType::Mask));
+    assert_eq!(group.output(None).and_then(|port| port.ty), Some(PortType::Mask));
+    let amount = group.knob("amount").expect("an exposed knob");
+    assert_eq!((amount.default.as_number(), amount.slider()), (Some(0.4), [0.0, 0.5]));
+    let names: Vec<&str> = group.knobs.iter().map(|knob| knob.name.as_str()).collect();
+    assert_eq!(names, ["amount", "seed", "scale", "variant"]);
+    let bend = faces.of(&Body::Main, "bend").expect("a reroute");
+    assert_eq!(bend.outputs[0].ty, Some(PortType::Mask));
+}
+
+#[test]
+fn what_nobody_knows_has_a_face_all_the_same() {
+    let document = document(
+        r#""nodes": {
+            "lost": { "kind": "magic/wand", "pos": [0, 0] },
+            "gone": { "kind": "graph/group", "group": "gone.sabi", "pos": [0, 0] } }"#,
+    );
+    let faces = faces(&document);
+    let [lost, gone] = ["lost", "gone"].map(|id| faces.of(&Body::Main, id).expect("a placeholder"));
+    assert_eq!(lost.label, "magic/wand");
+    assert_eq!(gone.summary, "The group that this node names is not there.");
+}
