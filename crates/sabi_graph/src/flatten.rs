@@ -94,6 +94,18 @@ impl FlatGraph {
     }
 }
 
+/// A result of a node of the document, by where the node stands: a real one, a group instance or a reroute.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeRef {
+    /// The node's id; inside groups `instance/inner`.
+    pub node: String,
+    /// The output port; `None` means the first.
+    pub port: Option<String>,
+}
+
+/// Where the result of a [`NodeRef`] comes from; none where there is no such node, or nothing is connected behind it.
+pub type Found = Result<Option<FlatRef>, FlattenError>;
+
 /// Inlines groups, removes reroutes, and applies knobs, the variant and the overrides. `group_file` reads a group file
 /// by its path relative to the document's own file; its error is a sentence.
 ///
@@ -104,20 +116,41 @@ pub fn flatten(
     overrides: &Overrides,
     group_file: &mut dyn FnMut(&str) -> Result<Document, String>,
 ) -> Result<FlatGraph, FlattenError> {
+    flatten_and_find(document, overrides, group_file, &[]).map(|(graph, _)| graph)
+}
+
+/// The same, and where in the flat graph the results of some nodes come from: group instances and reroutes are gone there.
+///
+/// # Errors
+/// As [`flatten`].
+pub fn flatten_and_find(
+    document: &Document,
+    overrides: &Overrides,
+    group_file: &mut dyn FnMut(&str) -> Result<Document, String>,
+    wanted: &[NodeRef],
+) -> Result<(FlatGraph, Vec<Found>), FlattenError> {
     let all = definitions::Definitions::collect(document, overrides.fit, group_file)?;
     let mut expansion = expand::expand(&all, document.seed, overrides)?;
     let mut nodes = std::mem::take(&mut expansion.nodes);
+    let places: Vec<_> = wanted.iter().map(|wanted| expansion.place(&all, wanted)).collect();
     let mut tracer = trace::Tracer::new(&all, &expansion);
     for (node, (instance, id)) in nodes.iter_mut().zip(&expansion.origins) {
         node.inputs = tracer.inputs(*instance, id)?;
     }
-    Ok(FlatGraph {
-        nodes: in_order(nodes)?,
-    })
+    let traced = places.iter().map(|place| match place {
+        Some((instance, from)) => tracer.trace(*instance, from),
+        None => Ok(None),
+    });
+    let mut found: Vec<Found> = traced.collect();
+    let (nodes, place) = in_order(nodes)?;
+    for source in found.iter_mut().flatten().flatten() {
+        source.node = place[source.node];
+    }
+    Ok((FlatGraph { nodes }, found))
 }
 
-/// Puts every node after those it reads, and points its links at where they stand now.
-fn in_order(nodes: Vec<FlatNode>) -> Result<Vec<FlatNode>, FlattenError> {
+/// Puts every node after those it reads, and points its links at where they stand now; and for each node where that is.
+fn in_order(nodes: Vec<FlatNode>) -> Result<(Vec<FlatNode>, Vec<usize>), FlattenError> {
     let ids: Vec<&str> = nodes.iter().map(|node| node.id.as_str()).collect();
     let reads: Vec<Vec<usize>> = nodes
         .iter()
@@ -138,5 +171,5 @@ fn in_order(nodes: Vec<FlatNode>) -> Result<Vec<FlatNode>, FlattenError> {
             source.node = place[source.node];
         }
     }
-    Ok(sorted)
+    Ok((sorted, place))
 }

@@ -40,7 +40,7 @@ mod value;
 pub use document::{Document, Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
 pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
-pub use flatten::{FlatGraph, FlatNode, FlatRef, FlattenError, Overrides, flatten};
+pub use flatten::{FlatGraph, FlatNode, FlatRef, FlattenError, Found, NodeRef, Overrides, flatten, flatten_and_find};
 pub use graph::{Graph, Node};
 pub use history::{History, UNDO_STEPS};
 pub use id::{NodeId, OutputRef, SlotRef};

@@ -2,6 +2,7 @@
 
 mod edits;
 mod errors;
+mod finding;
 mod fits;
 mod flat;
 mod group_files;

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::definitions::Definitions;
 use super::knobs::{self, Settings};
-use super::{FlatNode, FlattenError, Overrides};
+use super::{FlatNode, FlattenError, NodeRef, Overrides};
 use crate::problem::{hint, listed, shown};
-use crate::{GROUP_KIND, Node, NodeId, REROUTE_KIND, Value};
+use crate::{GROUP_KIND, Node, NodeId, OutputRef, REROUTE_KIND, Value};
 
 /// Instances inside instances beyond this are refused.
 const DEPTH_LIMIT: usize = 256;
@@ -75,6 +75,27 @@ pub(super) fn expand(all: &Definitions<'_>, seed: u32, overrides: &Overrides) ->
 }
 
 impl Expansion {
+    /// The instance that a node stands in, and its result there; none where there is no such node.
+    pub(super) fn place(&self, all: &Definitions<'_>, wanted: &NodeRef) -> Option<(usize, OutputRef)> {
+        let (prefix, id) = match wanted.node.rfind('/') {
+            Some(at) => wanted.node.split_at(at + 1),
+            None => ("", wanted.node.as_str()),
+        };
+        let instance = self.instances.iter().position(|instance| instance.prefix == prefix)?;
+        let (id, spot) = self.spots.get(&instance)?.get_key_value(id)?;
+        let port = match spot {
+            // A link has to say which, but who looks at an instance sees its first output.
+            Spot::Opened(inner) if wanted.port.is_none() => all
+                .get(self.instances[*inner].definition)
+                .outputs
+                .keys()
+                .next()
+                .cloned(),
+            _ => wanted.port.clone(),
+        };
+        Some((instance, OutputRef { node: id.clone(), port }))
+    }
+
     fn open(&mut self, all: &Definitions<'_>, number: usize) -> Result<(), FlattenError> {
         let definition = all.get(self.instances[number].definition);
         let mut set: BTreeMap<NodeId, Vec<(String, Value)>> = BTreeMap::new();

@@ -81,7 +81,11 @@ impl<'a> Tracer<'a> {
     }
 
     /// The real node at the beginning of a link; `None` when it begins at a reroute with nothing connected.
-    fn trace(&mut self, mut instance: usize, mut from: &'a OutputRef) -> Result<Option<FlatRef>, FlattenError> {
+    pub(super) fn trace(
+        &mut self,
+        mut instance: usize,
+        mut from: &'a OutputRef,
+    ) -> Result<Option<FlatRef>, FlattenError> {
         let mut passed = Vec::new();
         let found = loop {
             match self.spot(instance, &from.node) {
