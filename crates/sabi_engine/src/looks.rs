@@ -9,7 +9,6 @@ use sabi_graph::{Fit, FlatNode, PortType};
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Mode, Plan, PlannedResult, SlotRef, Target};
-use sabi_surface::atlas::{Atlas, GHOST_BIT};
 use sabi_view::{MaterialLook, NodeLook, NodeType};
 
 use crate::error::EngineError;
@@ -47,145 +46,133 @@ pub struct Shown {
     pub height_range: [f32; 2],
 }
 
+/// Which result each material shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Shows {
+    /// All of them the only one.
+    One,
+    /// Each that of the node that serves it.
+    Served(BTreeMap<u32, usize>),
+}
+
 /// How long one submission may take.
 const SUBMISSION: Duration = Duration::from_millis(200);
 
 /// Evaluates what is shown: one node, or else the outputs, and the model's own looks where no output serves a material.
 pub fn show(workpiece: &mut Workpiece, seen: Option<&Target>, progress: &dyn Progress) -> Result<Shown, EngineError> {
+    let (wanted, shows) = match seen {
+        Some(target) => (vec![target.clone()], Shows::One),
+        None => {
+            let (serving, idle) = shown_by(&workpiece.graph, &workpiece.prepared.model, &workpiece.prepared.atlas);
+            workpiece.warn(idle);
+            if serving.values().any(|&node| node == workpiece.graph.nodes.len()) {
+                workpiece.graph.nodes.push(models_own(workpiece.fit));
+            }
+            let nodes: BTreeSet<usize> = serving.values().copied().collect();
+            (targets(nodes), Shows::Served(serving))
+        }
+    };
+    let limits = workpiece.gpu.limits();
+    let plan = workpiece.plan(&wanted, Mode::Bake { fuse: true }, limits)?;
+    let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
     let options = RunOptions {
         is_canceled: &|| progress.is_canceled(),
         ..RunOptions::new(SUBMISSION, workpiece.budget_bytes)
     };
-    let mode = Mode::Bake { fuse: true };
-    let limits = workpiece.gpu.limits();
-    if let Some(target) = seen {
-        let plan = workpiece.plan(std::slice::from_ref(target), mode, limits)?;
-        let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
-        return look_of_node(workpiece, &plan, &mut run, &options);
-    }
-    let (serving, idle) = shown_by(&workpiece.graph, &workpiece.prepared.model, &workpiece.prepared.atlas);
-    workpiece.warn(idle);
-    if serving.values().any(|&node| node == workpiece.graph.nodes.len()) {
-        workpiece.graph.nodes.push(models_own(workpiece.fit));
-    }
-    let nodes: BTreeSet<usize> = serving.values().copied().collect();
-    let plan = workpiece.plan(&targets(nodes), mode, limits)?;
-    let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
-    looks(workpiece, &plan, &mut run, &serving, &options)
+    shown(workpiece, &plan, &mut run, &shows, &options)
 }
 
-/// What each material looks like by the node that serves it.
-fn looks(
+/// What each material looks like by the results of a run.
+pub(crate) fn shown(
     workpiece: &Workpiece,
     plan: &Plan,
     run: &mut Run,
-    serving: &BTreeMap<u32, usize>,
+    shows: &Shows,
     options: &RunOptions<'_>,
 ) -> Result<Shown, EngineError> {
+    let (are_opaque, height_range) = value_extents(workpiece, plan, run, options)?;
     // Materials that cover no triangle look plain.
     let mut looks = vec![plain()];
-    for result in &plan.results {
-        looks.push(look(workpiece, plan, run, result, options)?);
+    for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
+        looks.push(MaterialLook {
+            is_opaque,
+            ..look(workpiece, run, result, options)?
+        });
     }
-    let of_material = |material: u32| {
-        let node = serving.get(&material)?;
-        Some(1 + plan.results.iter().position(|result| result.target.node == *node)?)
+    let of_material = |material: u32| match shows {
+        Shows::One => Some(looks.len() - 1),
+        Shows::Served(serving) => {
+            let node = serving.get(&material)?;
+            Some(1 + plan.results.iter().position(|result| result.target.node == *node)?)
+        }
     };
     let materials = 0..workpiece.prepared.model.materials.len() as u32;
     Ok(Shown {
-        looks,
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
-        is_lit: true,
-        height_range: height_range(workpiece, plan, run)?,
+        is_lit: looks.iter().all(|look| look.node.is_none()),
+        height_range,
+        looks,
     })
 }
 
-/// What the whole model looks like by one node, which is all that the plan has.
-fn look_of_node(
+/// Which results are opaque everywhere; and the lowest and the highest height of all of them, working units, 0 where nothing
+/// sets it.
+fn value_extents(
     workpiece: &Workpiece,
     plan: &Plan,
-    run: &mut Run,
+    run: &Run,
     options: &RunOptions<'_>,
-) -> Result<Shown, EngineError> {
-    let result = plan.results.first();
-    let look = result
-        .map(|result| look(workpiece, plan, run, result, options))
-        .transpose()?;
-    let look = look.unwrap_or_else(plain);
-    Ok(Shown {
-        is_lit: look.node.is_none(),
-        looks: vec![look],
-        look_of_material: vec![0; workpiece.prepared.model.materials.len()],
-        height_range: height_range(workpiece, plan, run)?,
-    })
-}
-
-/// Lowest and highest height of all results, working units; 0 where nothing sets it.
-fn height_range(workpiece: &Workpiece, plan: &Plan, run: &Run) -> Result<[f32; 2], EngineError> {
-    let mut range = [f32::INFINITY, f32::NEG_INFINITY];
-    for result in &plan.results {
-        let Some(slot) = slot_of(result, Plane::Material(Stored::Height)) else {
-            continue;
-        };
-        let heights = workpiece.gpu.read(&workpiece.surface, plan, run, slot)?;
-        for texel in owned_texels(&workpiece.prepared.atlas) {
-            let [height, ..] = heights.texel(texel);
-            range = [range[0].min(height), range[1].max(height)];
+) -> Result<(Vec<bool>, [f32; 2]), EngineError> {
+    const ALPHA: u32 = 3;
+    let mut asked = Vec::new();
+    for (at, result) in plan.results.iter().enumerate() {
+        for (channel, component) in [(Stored::Color, ALPHA), (Stored::Height, 0)] {
+            if let Some(slot) = slot_of(result, Plane::Material(channel)) {
+                asked.push((at, run.texture(slot)?, component));
+            }
         }
     }
-    Ok(if range[0] <= range[1] { range } else { [0.0; 2] })
+    let components: Vec<_> = asked
+        .iter()
+        .map(|(_, texture, component)| (texture, *component))
+        .collect();
+    let extents = workpiece.gpu.extents(&workpiece.surface, &components, options)?;
+    let mut are_opaque = vec![true; plan.results.len()];
+    let mut heights = [f32::INFINITY, f32::NEG_INFINITY];
+    for ((at, _, component), extent) in asked.iter().zip(extents) {
+        if *component == ALPHA {
+            are_opaque[*at] = extent.not_numbers == 0 && extent.range.is_none_or(|[low, _]| low >= 1.0);
+        } else if let Some([low, high]) = extent.range {
+            heights = [heights[0].min(low), heights[1].max(high)];
+        }
+    }
+    Ok((are_opaque, if heights[0] <= heights[1] { heights } else { [0.0; 2] }))
 }
 
-/// What one result looks like: a material with its maps, anything else as the number or color it is. Where charts share a
-/// place it is what a bake or a preview writes there; see [`Workpiece::shares`].
+/// What one result looks like, taken for opaque: a material with its maps, anything else as the number or color it is. Where
+/// charts share a place it is what a bake or a preview writes there; see [`Workpiece::shares`].
 fn look(
     workpiece: &Workpiece,
-    plan: &Plan,
     run: &mut Run,
     result: &PlannedResult,
     options: &RunOptions<'_>,
 ) -> Result<MaterialLook, EngineError> {
+    let Workpiece { gpu, surface, .. } = workpiece;
+    let shares = workpiece.shares()?;
     let holds = match result.stored.ty {
         PortType::Mask => NodeType::Mask,
         PortType::Color => NodeType::Color,
         PortType::Vector => NodeType::Vector,
         PortType::Material => {
-            let slots = material_slots(result);
-            let is_opaque = match slots.color {
-                Some(slot) => is_opaque(workpiece, plan, run, slot)?,
-                None => true,
-            };
-            let shares = workpiece.shares()?;
-            let maps = workpiece
-                .gpu
-                .device_maps(&workpiece.surface, run, slots, shares, options)?;
-            return Ok(MaterialLook {
-                maps,
-                is_opaque,
-                ..plain()
-            });
+            let maps = gpu.device_maps(surface, run, material_slots(result), shares, options)?;
+            return Ok(MaterialLook { maps, ..plain() });
         }
     };
-    let Workpiece { gpu, surface, .. } = workpiece;
-    let texture = gpu.shown_texture(surface, run, result.slots[0], workpiece.shares()?)?;
+    let texture = gpu.shown_texture(surface, run, result.slots[0], shares)?;
     Ok(MaterialLook {
         node: Some(NodeLook { texture, holds }),
         ..plain()
     })
-}
-
-/// Whether all of a color plane's alpha is 1.
-fn is_opaque(workpiece: &Workpiece, plan: &Plan, run: &Run, slot: SlotRef) -> Result<bool, EngineError> {
-    let colors = workpiece.gpu.read(&workpiece.surface, plan, run, slot)?;
-    Ok(owned_texels(&workpiece.prepared.atlas).all(|texel| colors.texel(texel)[3] >= 1.0))
-}
-
-/// Texels of an atlas that lie on the model.
-fn owned_texels(atlas: &Atlas) -> impl Iterator<Item = usize> {
-    let owners = atlas.owners.iter().enumerate();
-    owners
-        .filter(|(_, owner)| **owner & GHOST_BIT == 0)
-        .map(|(texel, _)| texel)
 }
 
 /// Where the planes of a material are.

@@ -1,0 +1,122 @@
+//! The lowest and the highest value of a result, found on the device.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pipelines::{texture_entry, uniform_entry, write_entry};
+use crate::pool::array_view;
+use crate::run::RunOptions;
+use crate::surface::GpuSurface;
+use crate::tiles::Slices;
+
+/// What one component of a result holds on the texels that lie on the model, ghosts aside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ValueExtent {
+    /// Lowest and highest number; none where no texel holds one.
+    pub range: Option<[f32; 2]>,
+    /// Texels that hold no number.
+    pub not_numbers: u32,
+}
+
+/// As `Asked` in `extent.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Asked {
+    component: u32,
+    place: u32,
+    pad: [u32; 2],
+}
+
+/// Numbers for each extent: lowest key, highest key, texels without a number.
+const PLACES: usize = 3;
+
+impl Gpu {
+    /// Extents of components of textures on the atlas, each given with the number of its component.
+    pub fn extents(
+        &self,
+        surface: &GpuSurface,
+        of: &[(&wgpu::Texture, u32)],
+        options: &RunOptions<'_>,
+    ) -> Result<Vec<ValueExtent>, GpuError> {
+        if of.is_empty() {
+            return Ok(Vec::new());
+        }
+        let bytes = (of.len() * PLACES * size_of::<u32>()) as u64;
+        let found = self.guarded("the extents of results", |device| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("extents"),
+                size: bytes,
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            })
+        })?;
+        let start = [u32::MAX, 0, 0].repeat(of.len());
+        self.queue.write_buffer(&found, 0, bytemuck::cast_slice(&start));
+        let text = include_str!("../../../shaders/surface/extent.wgsl");
+        let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
+        let kernel = self.fixed_kernel("extent", None, text, &entries)?;
+        let slices = Slices::new(self, surface, options.submission);
+        for (at, (texture, component)) in of.iter().enumerate() {
+            let asked = self.uniform(bytemuck::bytes_of(&Asked {
+                component: *component,
+                place: (at * PLACES) as u32,
+                pad: [0; 2],
+            }));
+            let view = array_view(texture);
+            let resources = [
+                asked.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&view),
+                found.as_entire_binding(),
+            ];
+            let group = self.bind(&kernel.layout, resources);
+            slices.run(&kernel.pipeline, &group, options.is_canceled)?;
+        }
+        let readback = self.readback_buffer(bytes)?;
+        let mapping = self.start_mapping(&found, &readback, bytes);
+        self.finish_mapping(mapping, &readback, |bytes| {
+            let (words, _) = bytes.as_chunks::<4>();
+            let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
+            words.chunks_exact(PLACES).map(extent).collect()
+        })
+    }
+}
+
+fn extent(found: &[u32]) -> ValueExtent {
+    let [low, high, not_numbers] = [0, 1, 2].map(|at| found.get(at).copied().unwrap_or_default());
+    ValueExtent {
+        range: (low <= high).then(|| [low, high].map(value_of)),
+        not_numbers,
+    }
+}
+
+/// The value of a key; see `key_of` in `extent.wgsl`.
+fn value_of(key: u32) -> f32 {
+    let sign = 1 << 31;
+    let value = f32::from_bits(if key & sign == 0 { !key } else { key ^ sign });
+    // There is but one zero to whoever asks.
+    value + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_stands_for_its_value_and_sorts_like_it() {
+        let key = |value: f32| {
+            let bits = value.to_bits();
+            if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
+        };
+        let rising = [f32::NEG_INFINITY, -2.5, -1e-40, 0.0, 1e-40, 0.3, 7.0, f32::INFINITY];
+        assert!(rising.windows(2).all(|pair| key(pair[0]) < key(pair[1])));
+        assert_eq!(rising.map(|value| value_of(key(value))), rising);
+        assert_eq!(value_of(key(-0.0)).to_bits(), 0);
+    }
+
+    #[test]
+    fn a_surface_without_numbers_has_no_range() {
+        let nothing = extent(&[u32::MAX, 0, 4]);
+        assert_eq!((nothing.range, nothing.not_numbers), (None, 4));
+    }
+}
