@@ -52,6 +52,7 @@ impl From<sabi_gpu::GpuError> for EngineError {
         let kind = match error {
             GpuError::Canceled => ErrorKind::Interrupted,
             GpuError::Source(_)
+            | GpuError::Node { .. }
             | GpuError::TooLarge { .. }
             | GpuError::TooDeep { .. }
             | GpuError::OverBudget { .. }

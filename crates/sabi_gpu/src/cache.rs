@@ -49,6 +49,16 @@ impl ResultCache {
         (self.bytes + self.hits.bytes(), self.budget_bytes)
     }
 
+    /// Whether all of a result is kept, or some of its planes: `content` is a key that a plan gives.
+    pub fn knows(&self, content: &[u8; 32]) -> bool {
+        self.kept.keys().any(|key| key.content == *content)
+    }
+
+    /// Lets go of everything.
+    pub fn clear(&mut self) {
+        *self = ResultCache::new(self.budget_bytes);
+    }
+
     /// Textures of the slots whose content is known.
     pub(crate) fn known(&self, keys: &BTreeMap<SlotRef, ResultKey>) -> BTreeMap<SlotRef, wgpu::Texture> {
         keys.iter()

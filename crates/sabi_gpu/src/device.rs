@@ -1,120 +1,11 @@
-//! Choosing an adapter and keeping its device.
+//! The device, and what it says when something goes wrong.
 
-use std::fmt;
-use std::str::FromStr;
 use std::sync::{Arc, Mutex};
 
+use crate::adapter::{AdapterChoice, AdapterSummary, device_descriptor, first_of_choice, found, shortage, unfit};
 use crate::error::GpuError;
 use crate::pipelines::Pipelines;
 use crate::surface::SURFACE_TEXTURES;
-
-/// Which adapter to use; of several that are meant, the first that can run Sabi.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum AdapterChoice {
-    /// A discrete card before an integrated one before a software driver.
-    #[default]
-    Auto,
-    /// A software driver.
-    Cpu,
-    /// A graphics card.
-    Gpu,
-    /// One whose name contains this, case aside.
-    Named(String),
-}
-
-impl FromStr for AdapterChoice {
-    type Err = std::convert::Infallible;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Ok(match text {
-            "auto" => AdapterChoice::Auto,
-            "cpu" => AdapterChoice::Cpu,
-            "gpu" => AdapterChoice::Gpu,
-            name => AdapterChoice::Named(name.to_owned()),
-        })
-    }
-}
-
-impl fmt::Display for AdapterChoice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            AdapterChoice::Auto => "auto",
-            AdapterChoice::Cpu => "cpu",
-            AdapterChoice::Gpu => "gpu",
-            AdapterChoice::Named(name) => name,
-        })
-    }
-}
-
-/// What kind of adapter it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum AdapterKind {
-    /// A graphics card of its own.
-    Discrete,
-    /// Part of the processor.
-    Integrated,
-    /// A driver that runs on the processor.
-    Cpu,
-}
-
-impl fmt::Display for AdapterKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            AdapterKind::Discrete => "discrete",
-            AdapterKind::Integrated => "integrated",
-            AdapterKind::Cpu => "cpu",
-        })
-    }
-}
-
-/// What is shown of an adapter.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct AdapterSummary {
-    /// Name as the driver gives it.
-    pub name: String,
-    /// What kind it is.
-    pub kind: AdapterKind,
-    /// Driver and its version.
-    pub driver: String,
-    /// Interface it is reached by, such as `vulkan`.
-    pub backend: String,
-}
-
-impl AdapterSummary {
-    fn of(info: &wgpu::AdapterInfo) -> AdapterSummary {
-        let kind = match info.device_type {
-            wgpu::DeviceType::DiscreteGpu => AdapterKind::Discrete,
-            wgpu::DeviceType::Cpu => AdapterKind::Cpu,
-            wgpu::DeviceType::IntegratedGpu | wgpu::DeviceType::VirtualGpu | wgpu::DeviceType::Other => {
-                AdapterKind::Integrated
-            }
-        };
-        AdapterSummary {
-            name: info.name.clone(),
-            kind,
-            driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
-            backend: info.backend.to_string(),
-        }
-    }
-}
-
-fn found() -> Vec<(AdapterSummary, wgpu::Adapter)> {
-    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-    descriptor.backends = wgpu::Backends::PRIMARY;
-    let instance = wgpu::Instance::new(descriptor);
-    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
-    let mut found: Vec<_> = adapters
-        .into_iter()
-        .map(|adapter| (AdapterSummary::of(&adapter.get_info()), adapter))
-        .collect();
-    found.sort_by_key(|(summary, _)| summary.kind);
-    found
-}
-
-/// All adapters, the one that `auto` takes first.
-pub fn adapters() -> Vec<AdapterSummary> {
-    found().into_iter().map(|(summary, _)| summary).collect()
-}
 
 /// What the driver said outside of any call.
 #[derive(Debug, Default)]
@@ -158,47 +49,20 @@ pub struct Gpu {
 impl Gpu {
     /// Opens the adapter of choice.
     pub fn open(choice: &AdapterChoice) -> Result<Gpu, GpuError> {
-        let found = found();
-        if found.is_empty() {
-            return Err(GpuError::NoAdapter);
-        }
-        let known = found
-            .iter()
-            .map(|(summary, _)| summary.name.as_str())
-            .collect::<Vec<_>>()
-            .join(", ");
-        let fits = |summary: &AdapterSummary| match choice {
-            AdapterChoice::Auto => true,
-            AdapterChoice::Cpu => summary.kind == AdapterKind::Cpu,
-            AdapterChoice::Gpu => summary.kind != AdapterKind::Cpu,
-            AdapterChoice::Named(name) => summary.name.to_lowercase().contains(&name.to_lowercase()),
-        };
-        let meant = found.into_iter().filter(|(summary, _)| fits(summary));
-        let opened = first_that_opens(meant, |(summary, adapter)| Gpu::adopt(summary, &adapter));
-        opened.unwrap_or_else(|| {
-            Err(GpuError::NoSuchAdapter {
-                wanted: choice.to_string(),
-                known,
-            })
+        first_of_choice(choice, &found(), |adapter| {
+            let opened = pollster::block_on(adapter.request_device(&device_descriptor(adapter)?));
+            let (device, queue) = opened.map_err(|error| unfit(adapter, error.to_string()))?;
+            Gpu::adopt_device(adapter, device, queue)
         })
     }
 
-    fn adopt(summary: AdapterSummary, adapter: &wgpu::Adapter) -> Result<Gpu, GpuError> {
-        let unfit = |why: String| GpuError::Unfit {
-            adapter: summary.name.clone(),
-            why,
-        };
-        let available = adapter.limits();
+    /// Takes a device that somebody else draws with too, such as a window's. It must have been asked for by
+    /// [`crate::device_descriptor`]; what it says when it is lost or complains outside of any call is heard here from now on.
+    pub fn adopt_device(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Result<Gpu, GpuError> {
+        let available = device.limits();
         if let Some(why) = shortage(&available) {
-            return Err(unfit(why));
+            return Err(unfit(adapter, why));
         }
-        let descriptor = wgpu::DeviceDescriptor {
-            label: Some("sabi"),
-            required_limits: available.clone(),
-            ..Default::default()
-        };
-        let opened = pollster::block_on(adapter.request_device(&descriptor));
-        let (device, queue) = opened.map_err(|error| unfit(error.to_string()))?;
         let complaints = Arc::new(Complaints::default());
         let lost = complaints.clone();
         device.set_device_lost_callback(move |_, message| lost.put(GpuError::Lost(message)));
@@ -217,9 +81,15 @@ impl Gpu {
             device,
             queue,
             complaints,
-            summary,
+            summary: AdapterSummary::of(&adapter.get_info()),
             limits,
         })
+    }
+
+    /// Why the device is gone, if it is; nothing brings it back.
+    pub fn loss(&self) -> Option<GpuError> {
+        let first = self.complaints.first.lock().ok()?;
+        first.clone().filter(|error| matches!(error, GpuError::Lost(_)))
     }
 
     /// The device, for those that draw with it too.
@@ -276,47 +146,6 @@ impl Gpu {
     }
 }
 
-/// The first candidate that opens, or why the last one does not; nothing without candidates.
-fn first_that_opens<C, T>(
-    candidates: impl Iterator<Item = C>,
-    open: impl Fn(C) -> Result<T, GpuError>,
-) -> Option<Result<T, GpuError>> {
-    let mut last = None;
-    for candidate in candidates {
-        match open(candidate) {
-            Ok(opened) => return Some(Ok(opened)),
-            Err(error) => last = Some(Err(error)),
-        }
-    }
-    last
-}
-
-/// What an adapter has too little of, as a sentence without its end.
-fn shortage(limits: &wgpu::Limits) -> Option<String> {
-    let needs = [
-        // A page of the atlas has up to 8192 texels a side.
-        (limits.max_texture_dimension_2d, 8192, "texels along a texture's side"),
-        (
-            limits.max_storage_buffers_per_shader_stage,
-            6,
-            "storage buffers in a kernel",
-        ),
-        // A whole material is written by one kernel.
-        (
-            limits.max_storage_textures_per_shader_stage,
-            5,
-            "written textures in a kernel",
-        ),
-        (
-            limits.max_sampled_textures_per_shader_stage,
-            16,
-            "read textures in a kernel",
-        ),
-    ];
-    let (has, needed, what) = needs.into_iter().find(|(has, needed, _)| has < needed)?;
-    Some(format!("it allows {has} {what}, and Sabi needs {needed}"))
-}
-
 fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
     match error {
         wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory { what: what.to_owned() },
@@ -326,7 +155,7 @@ fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
 
 #[cfg(test)]
 mod tests {
-    use super::{AdapterChoice, Gpu, GpuError, first_that_opens, shortage};
+    use super::{AdapterChoice, Gpu, GpuError, device_descriptor, found};
     use crate::pool::texture;
     use sabi_nodes::link::Format;
 
@@ -346,40 +175,32 @@ mod tests {
     }
 
     #[test]
-    fn an_unfit_adapter_makes_way_for_the_next() {
-        let unfit = |name: &str| GpuError::Unfit {
-            adapter: name.to_owned(),
-            why: "it is too small".to_owned(),
-        };
-        let open = |(name, opens): (&'static str, bool)| if opens { Ok(name) } else { Err(unfit(name)) };
-        let chosen = |all: &[(&'static str, bool)]| first_that_opens(all.iter().copied(), open);
-        assert_eq!(
-            chosen(&[("old", false), ("good", true), ("late", true)]),
-            Some(Ok("good"))
-        );
-        assert_eq!(chosen(&[("old", false), ("older", false)]), Some(Err(unfit("older"))));
-        assert_eq!(chosen(&[]), None);
+    fn a_device_that_somebody_else_opened_is_taken_and_its_loss_is_heard() {
+        let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
+        let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &found(), None).expect(install);
+        let asked_for = device_descriptor(&adapter).expect("an adapter that was chosen is fit");
+        let opened = pollster::block_on(adapter.request_device(&asked_for));
+        let (device, queue) = opened.expect("a device");
+        let gpu = Gpu::adopt_device(&adapter, device.clone(), queue).expect("it was asked for what Sabi needs");
+        assert!(texture(&gpu, [8, 8, 1], Format::R32Float).is_ok());
+        assert_eq!(gpu.loss(), None);
+        device.destroy();
+        // The loss is told at the next wait, if not before.
+        let _ = gpu.wait();
+        assert!(matches!(gpu.loss(), Some(GpuError::Lost(_))));
     }
 
     #[test]
-    fn an_adapter_is_told_what_it_lacks() {
-        let enough = wgpu::Limits {
-            max_storage_textures_per_shader_stage: 5,
-            ..wgpu::Limits::default()
-        };
-        assert_eq!(shortage(&enough), None);
-        let few = wgpu::Limits {
-            max_storage_textures_per_shader_stage: 4,
-            ..wgpu::Limits::default()
-        };
+    fn a_device_that_was_asked_for_too_little_is_refused() {
+        let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
+        let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &found(), None).expect(install);
+        let opened = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));
+        let (device, queue) = opened.expect("a device");
+        let error = Gpu::adopt_device(&adapter, device, queue)
+            .err()
+            .expect("it allows too little");
         let told = "it allows 4 written textures in a kernel, and Sabi needs 5";
-        assert_eq!(shortage(&few).as_deref(), Some(told));
-        let small = wgpu::Limits {
-            max_texture_dimension_2d: 4096,
-            ..enough
-        };
-        let told = "it allows 4096 texels along a texture's side, and Sabi needs 8192";
-        assert_eq!(shortage(&small).as_deref(), Some(told));
+        assert!(error.to_string().contains(told), "{error}");
     }
 
     #[test]

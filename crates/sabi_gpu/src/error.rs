@@ -84,6 +84,14 @@ pub enum GpuError {
     /// The user stopped it.
     #[error("stopped")]
     Canceled,
+    /// The result of a node that is no kernel could not be made.
+    #[error("{why}")]
+    Node {
+        /// Its id.
+        node: String,
+        /// Why, as a sentence that names it.
+        why: String,
+    },
     /// A source could not be filled.
     #[error("{0}")]
     Source(String),

@@ -1,9 +1,11 @@
 //! The device: choosing it, textures, pipelines, running a plan, readback.
 
+mod adapter;
 mod blocks;
 mod cache;
 mod device;
 mod error;
+mod extents;
 mod finish;
 mod leaps;
 mod levels;
@@ -22,9 +24,11 @@ mod tables;
 mod tiles;
 mod uploads;
 
+pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters, choose_adapter, device_descriptor};
 pub use cache::{ResultCache, ResultKey};
-pub use device::{AdapterChoice, AdapterKind, AdapterSummary, Gpu, adapters};
+pub use device::Gpu;
 pub use error::GpuError;
+pub use extents::ValueExtent;
 pub use levels::{CoarseSurface, Surfaces};
 pub use maps::{DeviceMaps, MaterialSlots};
 pub use pool::{DEFAULT_BUDGET_BYTES, PoolReport};

@@ -91,6 +91,11 @@ pub(crate) fn needed_steps(plan: &Plan, known: &BTreeMap<SlotRef, wgpu::Texture>
     steps
 }
 
+/// Slots that some steps of a plan write.
+pub(crate) fn written_by(plan: &Plan, steps: &[usize]) -> BTreeSet<SlotRef> {
+    steps.iter().flat_map(|at| writes(&plan.steps[*at])).collect()
+}
+
 /// For each slot the steps after which nobody reads what it holds at that time.
 pub(crate) fn last_uses(plan: &Plan) -> BTreeMap<SlotRef, usize> {
     let mut last = BTreeMap::new();

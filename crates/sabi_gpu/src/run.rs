@@ -2,6 +2,7 @@
 
 mod dispatch;
 mod rays;
+mod source;
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -16,8 +17,8 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::levels::Surfaces;
 use crate::links::LinkRound;
-use crate::needs::{last_uses, needed_steps, slot_keys};
-use crate::pool::{PoolReport, TexturePool, texture, wgpu_format};
+use crate::needs::{last_uses, needed_steps, slot_keys, written_by};
+use crate::pool::{PoolReport, TexturePool, texture};
 use crate::rays::{CasterChoice, HitMemory, Hits, RayScene};
 use crate::survey::SURVEY_EXTENT;
 
@@ -98,6 +99,8 @@ pub struct RunReport {
     pub steps: Vec<StepTime>,
     /// The part of `run` in which ghosts were filled, if that was measured.
     pub ghosts: Duration,
+    /// Whether some follow from what longer rays were remembered to hit, and so may differ from others by rounding.
+    pub is_remembered: bool,
     /// Nodes whose rays were not shot, since their results were kept from an earlier run.
     pub found_on_disk: Vec<String>,
     /// Bytes of textures held, the surface's included.
@@ -158,27 +161,19 @@ impl Gpu {
             report: RunReport::default(),
             open_planes: BTreeMap::new(),
             memory: memory.filter(|_| options.hits == Hits::Remembered),
-            is_remembered: false,
             found_on_disk: Vec::new(),
         };
         let steps = needed_steps(plan, &known);
+        // What is known may be in somebody's picture by now: who makes it again makes it elsewhere.
+        let made_again = written_by(plan, &steps);
         for (slot, texture) in known {
-            runner.textures[slot] = Some(texture);
+            runner.textures[slot] = (!made_again.contains(&slot)).then_some(texture);
         }
-        let last_use = last_uses(plan);
-        for (done, at) in steps.iter().enumerate() {
-            runner.step(&plan.steps[*at], sources)?;
-            if !keeps_all {
-                runner.release_after(*at, &last_use);
-            }
-            (options.progress)(done + 1, steps.len());
-        }
-        self.wait()?;
+        let ended = runner.run(&steps, sources, !keeps_all);
         let Runner {
             textures,
             pool,
             mut report,
-            is_remembered,
             found_on_disk,
             ..
         } = runner;
@@ -186,11 +181,15 @@ impl Gpu {
         report.pool = pool.report();
         report.run = started.elapsed().saturating_sub(report.compile);
         if let Some(cache) = cache
-            && !is_remembered
+            && !report.is_remembered
+            && !matches!(ended, Err(GpuError::Lost(_)))
         {
-            cache.keep(&keys, &textures, plan, surfaces.finest.texels());
+            // Every step that ended is worth keeping, even where a later one failed or was stopped.
+            let unfinished = written_by(plan, &steps[report.steps.len()..]);
+            let finished = keys.into_iter().filter(|(slot, _)| !unfinished.contains(slot));
+            cache.keep(&finished.collect(), &textures, plan, surfaces.finest.texels());
         }
-        Ok(Run { textures, report, pool })
+        ended.map(|()| Run { textures, report, pool })
     }
 }
 
@@ -208,12 +207,23 @@ struct Runner<'a> {
     open_planes: BTreeMap<(Format, bool), wgpu::Texture>,
     /// What long rays hit, where that will do.
     memory: Option<&'a mut HitMemory>,
-    /// Whether a result comes from there.
-    is_remembered: bool,
     found_on_disk: Vec<String>,
 }
 
 impl Runner<'_> {
+    /// Runs steps in order, and lets go of what no later one reads.
+    fn run(&mut self, steps: &[usize], sources: &mut dyn SourceFill, releases: bool) -> Result<(), GpuError> {
+        let last_use = last_uses(self.plan);
+        for (done, at) in steps.iter().enumerate() {
+            self.step(&self.plan.steps[*at], sources)?;
+            if releases {
+                self.release_after(*at, &last_use);
+            }
+            (self.options.progress)(done + 1, steps.len());
+        }
+        self.gpu.wait()
+    }
+
     fn step(&mut self, step: &Step, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
         if (self.options.is_canceled)() {
             return Err(GpuError::Canceled);
@@ -283,53 +293,6 @@ impl Runner<'_> {
         let made = texture(self.gpu, [1, 1, 1], format)?;
         self.open_planes.insert((format, is_written), made.clone());
         Ok(made)
-    }
-
-    fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
-        for (output, planes) in &step.writes {
-            for (plane, slot) in planes {
-                if (self.options.is_canceled)() {
-                    return Err(GpuError::Canceled);
-                }
-                let texture = self.texture(*slot)?;
-                let format = self.plan.slots[*slot].format;
-                let bytes = sources.plane(step, output, *plane).map_err(GpuError::Source)?;
-                if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
-                    let given = bytes.len();
-                    let message = format!(
-                        "node '{}' gave {given} bytes for '{output}', too few or too many; this is a mistake in Sabi",
-                        step.id
-                    );
-                    return Err(GpuError::Source(message));
-                }
-                self.upload(&texture, format, &bytes);
-                drop(bytes);
-                // The driver holds a copy until it is on the device: let it go before the next plane is made.
-                self.gpu.queue.submit([]);
-                self.gpu.wait()?;
-            }
-        }
-        Ok(())
-    }
-
-    fn upload(&self, texture: &wgpu::Texture, format: Format, bytes: &[u8]) {
-        debug_assert_eq!(texture.format(), wgpu_format(format));
-        let [width, height, pages] = self.surfaces.finest.extent;
-        let bytes_per_row = Some(width * format.texel_bytes() as u32);
-        self.gpu.queue.write_texture(
-            texture.as_image_copy(),
-            bytes,
-            wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row,
-                rows_per_image: Some(height),
-            },
-            wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: pages,
-            },
-        );
     }
 
     fn kernel(&mut self, step: &KernelStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {

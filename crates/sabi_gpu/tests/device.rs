@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on may stop")]
 
+#[path = "device/kept.rs"]
+mod kept;
+
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -263,41 +266,6 @@ fn a_run_stops_when_it_is_told_to() {
         ..options()
     };
     assert_eq!(bench.run(&plan, &canceled, None).err(), Some(GpuError::Canceled));
-}
-
-#[test]
-fn a_slider_runs_its_node_and_what_hangs_below_it() {
-    let bench = Bench::new(64);
-    let mut cache = ResultCache::new(DEFAULT_BUDGET_BYTES);
-    let mut names = |nodes: &str| {
-        let plan = bench.plan(nodes, Mode::Interactive);
-        let run = bench.run(&plan, &options(), Some(&mut cache)).unwrap();
-        let names = run
-            .report
-            .steps
-            .iter()
-            .flat_map(|step| step.nodes.iter().map(|(name, _)| name.clone()));
-        names.collect::<Vec<_>>()
-    };
-    assert_eq!(names(CHAIN), ["clouds", "cut", "last"]);
-    assert_eq!(names(CHAIN), [""; 0]);
-    let moved = CHAIN.replace(
-        r#""adjust/threshold","#,
-        r#""adjust/threshold", "params": { "at": 0.3 },"#,
-    );
-    assert_eq!(names(&moved), ["cut", "last"]);
-    assert_eq!(names(CHAIN), [""; 0], "what was made before is still known");
-}
-
-#[test]
-fn a_full_cache_drops_what_was_used_longest_ago() {
-    let bench = Bench::new(64);
-    let one_result = bench.surface.texels() * 4;
-    let mut cache = ResultCache::new(2 * one_result);
-    let plan = bench.plan(CHAIN, Mode::Interactive);
-    bench.run(&plan, &options(), Some(&mut cache)).unwrap();
-    let (held, allowed) = cache.bytes();
-    assert!(held > 0 && held <= allowed);
 }
 
 #[test]

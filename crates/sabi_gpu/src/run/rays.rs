@@ -55,7 +55,7 @@ impl Runner<'_> {
                     memory.keep(key, buffers.remember(&pass, &groups(rays.reach), &mut caster)?);
                 }
                 buffers.recall(&pass, memory.recall(&key))?;
-                self.is_remembered = true;
+                self.report.is_remembered = true;
             }
             _ => buffers.run(&pass, &mut caster(gpu, choice, sources)?)?,
         }

@@ -1,0 +1,291 @@
+//! Adapters: which there are, which of them can run Sabi, and what a device of one is asked for.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::error::GpuError;
+
+/// Which adapter to use; of several that are meant, the first that can run Sabi.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum AdapterChoice {
+    /// A discrete card before an integrated one before a software driver.
+    #[default]
+    Auto,
+    /// A software driver.
+    Cpu,
+    /// A graphics card.
+    Gpu,
+    /// One whose name contains this, case aside.
+    Named(String),
+}
+
+impl FromStr for AdapterChoice {
+    type Err = std::convert::Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(match text {
+            "auto" => AdapterChoice::Auto,
+            "cpu" => AdapterChoice::Cpu,
+            "gpu" => AdapterChoice::Gpu,
+            name => AdapterChoice::Named(name.to_owned()),
+        })
+    }
+}
+
+impl fmt::Display for AdapterChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            AdapterChoice::Auto => "auto",
+            AdapterChoice::Cpu => "cpu",
+            AdapterChoice::Gpu => "gpu",
+            AdapterChoice::Named(name) => name,
+        })
+    }
+}
+
+impl AdapterChoice {
+    fn means(&self, summary: &AdapterSummary) -> bool {
+        match self {
+            AdapterChoice::Auto => true,
+            AdapterChoice::Cpu => summary.kind == AdapterKind::Cpu,
+            AdapterChoice::Gpu => summary.kind != AdapterKind::Cpu,
+            AdapterChoice::Named(name) => summary.name.to_lowercase().contains(&name.to_lowercase()),
+        }
+    }
+}
+
+/// What kind of adapter it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AdapterKind {
+    /// A graphics card of its own.
+    Discrete,
+    /// Part of the processor.
+    Integrated,
+    /// A driver that runs on the processor.
+    Cpu,
+}
+
+impl fmt::Display for AdapterKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            AdapterKind::Discrete => "discrete",
+            AdapterKind::Integrated => "integrated",
+            AdapterKind::Cpu => "cpu",
+        })
+    }
+}
+
+/// What is shown of an adapter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AdapterSummary {
+    /// Name as the driver gives it.
+    pub name: String,
+    /// What kind it is.
+    pub kind: AdapterKind,
+    /// Driver and its version.
+    pub driver: String,
+    /// Interface it is reached by, such as `vulkan`.
+    pub backend: String,
+}
+
+impl AdapterSummary {
+    pub(crate) fn of(info: &wgpu::AdapterInfo) -> AdapterSummary {
+        let kind = match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => AdapterKind::Discrete,
+            wgpu::DeviceType::Cpu => AdapterKind::Cpu,
+            wgpu::DeviceType::IntegratedGpu | wgpu::DeviceType::VirtualGpu | wgpu::DeviceType::Other => {
+                AdapterKind::Integrated
+            }
+        };
+        AdapterSummary {
+            name: info.name.clone(),
+            kind,
+            driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+            backend: info.backend.to_string(),
+        }
+    }
+}
+
+/// All adapters, the one that `auto` takes first.
+pub fn adapters() -> Vec<AdapterSummary> {
+    let found = found();
+    in_order(&found).into_iter().map(|(summary, _)| summary).collect()
+}
+
+/// All adapters, as the system lists them.
+pub(crate) fn found() -> Vec<wgpu::Adapter> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::PRIMARY;
+    let instance = wgpu::Instance::new(descriptor);
+    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
+}
+
+fn in_order(adapters: &[wgpu::Adapter]) -> Vec<(AdapterSummary, &wgpu::Adapter)> {
+    let summary = |adapter: &wgpu::Adapter| AdapterSummary::of(&adapter.get_info());
+    let mut found: Vec<_> = adapters.iter().map(|adapter| (summary(adapter), adapter)).collect();
+    found.sort_by_key(|(summary, _)| summary.kind);
+    found
+}
+
+/// The adapter of choice among those that somebody else found, such as the ones of a window; one that cannot run Sabi makes
+/// way for the next. With a surface, only adapters count that can draw on it.
+pub fn choose_adapter(
+    choice: &AdapterChoice,
+    adapters: &[wgpu::Adapter],
+    surface: Option<&wgpu::Surface<'_>>,
+) -> Result<wgpu::Adapter, GpuError> {
+    let draws = |adapter: &&wgpu::Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
+    let drawing: Vec<wgpu::Adapter> = adapters.iter().filter(draws).cloned().collect();
+    first_of_choice(choice, &drawing, |adapter| {
+        device_descriptor(adapter).map(|_| adapter.clone())
+    })
+}
+
+/// The first adapter of choice that opens, or why the last one does not.
+pub(crate) fn first_of_choice<T>(
+    choice: &AdapterChoice,
+    adapters: &[wgpu::Adapter],
+    open: impl Fn(&wgpu::Adapter) -> Result<T, GpuError>,
+) -> Result<T, GpuError> {
+    let found = in_order(adapters);
+    if found.is_empty() {
+        return Err(GpuError::NoAdapter);
+    }
+    let names = || found.iter().map(|(summary, _)| summary.name.as_str());
+    let meant = found.iter().filter(|(summary, _)| choice.means(summary));
+    let opened = first_that_opens(meant, |(_, adapter)| open(adapter));
+    opened.unwrap_or_else(|| {
+        Err(GpuError::NoSuchAdapter {
+            wanted: choice.to_string(),
+            known: names().collect::<Vec<_>>().join(", "),
+        })
+    })
+}
+
+/// What a device must be asked for so that [`crate::Gpu::adopt_device`] takes it; why not, where the adapter cannot run Sabi.
+pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescriptor<'static>, GpuError> {
+    let available = adapter.limits();
+    match shortage(&available) {
+        Some(why) => Err(unfit(adapter, why)),
+        None => Ok(wgpu::DeviceDescriptor {
+            label: Some("sabi"),
+            required_limits: available,
+            ..Default::default()
+        }),
+    }
+}
+
+/// An adapter cannot be used.
+pub(crate) fn unfit(adapter: &wgpu::Adapter, why: String) -> GpuError {
+    GpuError::Unfit {
+        adapter: adapter.get_info().name,
+        why,
+    }
+}
+
+/// The first candidate that opens, or why the last one does not; nothing without candidates.
+fn first_that_opens<C, T>(
+    candidates: impl Iterator<Item = C>,
+    open: impl Fn(C) -> Result<T, GpuError>,
+) -> Option<Result<T, GpuError>> {
+    let mut last = None;
+    for candidate in candidates {
+        match open(candidate) {
+            Ok(opened) => return Some(Ok(opened)),
+            Err(error) => last = Some(Err(error)),
+        }
+    }
+    last
+}
+
+/// What an adapter has too little of, as a sentence without its end.
+pub(crate) fn shortage(limits: &wgpu::Limits) -> Option<String> {
+    let needs = [
+        // A page of the atlas has up to 8192 texels a side.
+        (limits.max_texture_dimension_2d, 8192, "texels along a texture's side"),
+        (
+            limits.max_storage_buffers_per_shader_stage,
+            6,
+            "storage buffers in a kernel",
+        ),
+        // A whole material is written by one kernel.
+        (
+            limits.max_storage_textures_per_shader_stage,
+            5,
+            "written textures in a kernel",
+        ),
+        (
+            limits.max_sampled_textures_per_shader_stage,
+            16,
+            "read textures in a kernel",
+        ),
+    ];
+    let (has, needed, what) = needs.into_iter().find(|(has, needed, _)| has < needed)?;
+    Some(format!("it allows {has} {what}, and Sabi needs {needed}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unfit_adapter_makes_way_for_the_next() {
+        let unfit = |name: &str| GpuError::Unfit {
+            adapter: name.to_owned(),
+            why: "it is too small".to_owned(),
+        };
+        let open = |(name, opens): (&'static str, bool)| if opens { Ok(name) } else { Err(unfit(name)) };
+        let chosen = |all: &[(&'static str, bool)]| first_that_opens(all.iter().copied(), open);
+        assert_eq!(
+            chosen(&[("old", false), ("good", true), ("late", true)]),
+            Some(Ok("good"))
+        );
+        assert_eq!(chosen(&[("old", false), ("older", false)]), Some(Err(unfit("older"))));
+        assert_eq!(chosen(&[]), None);
+    }
+
+    #[test]
+    fn an_adapter_is_told_what_it_lacks() {
+        let enough = wgpu::Limits {
+            max_storage_textures_per_shader_stage: 5,
+            ..wgpu::Limits::default()
+        };
+        assert_eq!(shortage(&enough), None);
+        let few = wgpu::Limits {
+            max_storage_textures_per_shader_stage: 4,
+            ..wgpu::Limits::default()
+        };
+        let told = "it allows 4 written textures in a kernel, and Sabi needs 5";
+        assert_eq!(shortage(&few).as_deref(), Some(told));
+        let small = wgpu::Limits {
+            max_texture_dimension_2d: 4096,
+            ..enough
+        };
+        let told = "it allows 4096 texels along a texture's side, and Sabi needs 8192";
+        assert_eq!(shortage(&small).as_deref(), Some(told));
+    }
+
+    #[test]
+    fn a_choice_means_adapters_by_kind_or_by_a_part_of_the_name() {
+        let summary = |name: &str, kind: AdapterKind| AdapterSummary {
+            name: name.to_owned(),
+            kind,
+            driver: String::new(),
+            backend: "vulkan".to_owned(),
+        };
+        let all = [
+            summary("GeForce", AdapterKind::Discrete),
+            summary("Iris", AdapterKind::Integrated),
+            summary("llvmpipe", AdapterKind::Cpu),
+        ];
+        let meant = |choice: &str| -> Vec<&str> {
+            let Ok(choice) = choice.parse::<AdapterChoice>();
+            let meant = all.iter().filter(|summary| choice.means(summary));
+            meant.map(|summary| summary.name.as_str()).collect()
+        };
+        assert_eq!(meant("auto"), ["GeForce", "Iris", "llvmpipe"]);
+        assert_eq!(meant("gpu"), ["GeForce", "Iris"]);
+        assert_eq!(meant("cpu"), ["llvmpipe"]);
+        assert_eq!(meant("force"), ["GeForce"]);
+    }
+}

@@ -1,0 +1,61 @@
+//! Results that are no kernel's, brought onto the device.
+
+use sabi_nodes::link::Format;
+use sabi_plan::SourceStep;
+
+use super::{Runner, SourceFill};
+use crate::error::GpuError;
+use crate::pool::wgpu_format;
+
+impl Runner<'_> {
+    pub(super) fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
+        for (output, planes) in &step.writes {
+            for (plane, slot) in planes {
+                if (self.options.is_canceled)() {
+                    return Err(GpuError::Canceled);
+                }
+                let texture = self.texture(*slot)?;
+                let format = self.plan.slots[*slot].format;
+                let failed = |why: String| GpuError::Node {
+                    node: step.id.clone(),
+                    why,
+                };
+                let bytes = sources.plane(step, output, *plane).map_err(failed)?;
+                if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
+                    let given = bytes.len();
+                    let message = format!(
+                        "node '{}' gave {given} bytes for '{output}', too few or too many; this is a mistake in Sabi",
+                        step.id
+                    );
+                    return Err(GpuError::Source(message));
+                }
+                self.upload(&texture, format, &bytes);
+                drop(bytes);
+                // The driver holds a copy until it is on the device: let it go before the next plane is made.
+                self.gpu.queue.submit([]);
+                self.gpu.wait()?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn upload(&self, texture: &wgpu::Texture, format: Format, bytes: &[u8]) {
+        debug_assert_eq!(texture.format(), wgpu_format(format));
+        let [width, height, pages] = self.surfaces.finest.extent;
+        let bytes_per_row = Some(width * format.texel_bytes() as u32);
+        self.gpu.queue.write_texture(
+            texture.as_image_copy(),
+            bytes,
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row,
+                rows_per_image: Some(height),
+            },
+            wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: pages,
+            },
+        );
+    }
+}
