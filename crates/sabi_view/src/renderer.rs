@@ -3,6 +3,7 @@
 mod bound;
 mod light;
 mod passes;
+mod pose;
 
 use bound::Bound;
 use bytemuck::{Pod, Zeroable};
@@ -17,6 +18,7 @@ use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
 use crate::shadows::ShadowMaps;
 use crate::target::{SUM, Target};
 use crate::upload::{buffer_of, texture};
+pub use pose::Pose;
 
 /// Draws scenes on one device.
 pub struct Renderer {
@@ -47,6 +49,7 @@ struct Display {
 pub(crate) struct Prepared {
     shadows: ShadowMaps,
     bound: Bound,
+    seen: wgpu::BindGroup,
 }
 
 /// One sample of a picture.
@@ -120,7 +123,8 @@ impl Renderer {
     ) -> Result<Prepared, ViewError> {
         Ok(Prepared {
             shadows: self.cast_shadows(gpu, scene)?,
-            bound: self.bound(gpu, target, scene, shot)?,
+            bound: self.bound(gpu, target.size, scene, shot)?,
+            seen: self.seen_group(gpu, &target.sight, scene),
         })
     }
 
@@ -132,40 +136,48 @@ impl Renderer {
         scene: &Scene<'_>,
         shot: &Shot,
         prepared: &Prepared,
+        sample: Sample,
+    ) -> Result<(), ViewError> {
+        let Prepared { shadows, bound, seen } = prepared;
+        let numbers = Frame::new(scene, shot, target.size, sample.number);
+        let frame = self.frame_group(gpu, shadows, scene, &numbers)?;
+        let mut encoder = gpu
+            .device()
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        draw_raster(&mut encoder, &target.sight, scene, &frame, bound);
+        draw_light(&mut encoder, &target.light, (&target.sight, seen), scene, &frame, bound);
+        self.finish_sample(gpu, &mut encoder, target, shot, sample)?;
+        gpu.queue().submit([encoder.finish()]);
+        Ok(())
+    }
+
+    /// The light of one sample goes into the picture, or into the sum of those so far and from there into the picture.
+    fn finish_sample(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &mut Target,
+        shot: &Shot,
         Sample {
             number: sample,
             is_shown,
         }: Sample,
     ) -> Result<(), ViewError> {
-        let Prepared { shadows, bound } = prepared;
-        let frame = self.frame_group(gpu, shadows, scene, &Frame::new(scene, shot, target.size, sample))?;
-        let mut encoder = gpu
-            .device()
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        draw_raster(&mut encoder, target, scene, &frame, bound);
-        draw_light(&mut encoder, target, scene, &frame, bound);
         let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
         let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
         if shot.samples <= 1 {
-            self.display(
-                gpu,
-                &mut encoder,
-                Draws::Encode,
-                [&light, &self.no_sum, &shown],
-                display(shot, 1, false),
-            )?;
-        } else {
-            let sums = target.sums(gpu)?;
-            let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
-            let earlier = if sample == 0 { &self.no_sum } else { &sums[before] };
-            let numbers = display(shot, sample + 1, false);
-            self.display(gpu, &mut encoder, Draws::Gather, [&light, earlier, &sums[now]], numbers)?;
-            if is_shown {
-                let numbers = display(shot, sample + 1, true);
-                self.display(gpu, &mut encoder, Draws::Encode, [&light, &sums[now], &shown], numbers)?;
-            }
+            let views = [&light, &self.no_sum, &shown];
+            return self.display(gpu, encoder, Draws::Encode, views, display(shot, 1, false));
         }
-        gpu.queue().submit([encoder.finish()]);
+        let sums = target.sums(gpu)?;
+        let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
+        let earlier = if sample == 0 { &self.no_sum } else { &sums[before] };
+        let numbers = display(shot, sample + 1, false);
+        self.display(gpu, encoder, Draws::Gather, [&light, earlier, &sums[now]], numbers)?;
+        if is_shown {
+            let numbers = display(shot, sample + 1, true);
+            self.display(gpu, encoder, Draws::Encode, [&light, &sums[now], &shown], numbers)?;
+        }
         Ok(())
     }
 

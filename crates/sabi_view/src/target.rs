@@ -19,13 +19,28 @@ pub(crate) const SHOWN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// The longest side of a picture, pixels.
 pub const LONGEST_SIDE: u32 = 8192;
 
+/// What the pixels of a picture see.
+pub(crate) struct Sight {
+    pub(crate) seen: wgpu::Texture,
+    pub(crate) depth: wgpu::Texture,
+}
+
+impl Sight {
+    /// Room for what so many pixels see.
+    pub(crate) fn new(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<Sight, ViewError> {
+        Ok(Sight {
+            seen: texture(gpu, "what a picture sees", [width, height, 2], SEEN)?,
+            depth: texture(gpu, "the depth of a picture", [width, height, 1], DEPTH)?,
+        })
+    }
+}
+
 /// A picture on the device, and what it takes to draw it.
 pub struct Target {
     /// Width and height, pixels.
     pub(crate) size: [u32; 2],
     pub(crate) light: wgpu::Texture,
-    pub(crate) seen: wgpu::Texture,
-    pub(crate) depth: wgpu::Texture,
+    pub(crate) sight: Sight,
     /// Taking turns; none until a picture has several samples.
     pub(crate) sums: Option<[wgpu::TextureView; 2]>,
     pub(crate) shown: wgpu::Texture,
@@ -52,8 +67,7 @@ impl Target {
         Ok(Target {
             size,
             light: attachment("the light of a picture", LIGHT)?,
-            seen: texture(gpu, "what a picture sees", [width, height, 2], SEEN)?,
-            depth: attachment("the depth of a picture", DEPTH)?,
+            sight: Sight::new(gpu, size)?,
             sums: None,
             shown: attachment("a picture", SHOWN)?,
         })

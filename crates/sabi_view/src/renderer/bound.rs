@@ -9,7 +9,7 @@ use crate::frame::Frame;
 use crate::pipelines::{Draws, Ground, Paint};
 use crate::scene::{Background, Lines, MaterialLook, Mode, NodeType, Scene, Shot};
 use crate::shadows::ShadowMaps;
-use crate::target::Target;
+use crate::target::Sight;
 
 /// As `Material` in `maps.wgsl`.
 #[repr(C)]
@@ -45,7 +45,6 @@ pub(super) struct Bound {
     pub(super) looks: Vec<wgpu::BindGroup>,
     pub(super) drawn: Vec<Drawn>,
     pub(super) charts: wgpu::BindGroup,
-    pub(super) seen: wgpu::BindGroup,
     pub(super) panorama: wgpu::BindGroup,
     pub(super) paint: wgpu::RenderPipeline,
     pub(super) background: Option<wgpu::RenderPipeline>,
@@ -77,14 +76,20 @@ impl Renderer {
         Ok(self.bind(gpu, &self.layouts().frame, resources))
     }
 
-    pub(super) fn bound(&self, gpu: &Gpu, target: &Target, scene: &Scene<'_>, shot: &Shot) -> Result<Bound, ViewError> {
-        let looks = &scene.looks[..scene.looks.len().min(MOST_LOOKS)];
-        let view = wgpu::BindingResource::TextureView;
-        let places = target.seen.create_view(&wgpu::TextureViewDescriptor::default());
-        let depth = target.depth.create_view(&wgpu::TextureViewDescriptor {
+    /// What the raster says of each pixel.
+    pub(super) fn seen_group(&self, gpu: &Gpu, sight: &Sight, scene: &Scene<'_>) -> wgpu::BindGroup {
+        let places = sight.seen.create_view(&wgpu::TextureViewDescriptor::default());
+        let depth = sight.depth.create_view(&wgpu::TextureViewDescriptor {
             aspect: wgpu::TextureAspect::DepthOnly,
             ..Default::default()
         });
+        let views = [&scene.model.charts, &places, &depth].map(wgpu::BindingResource::TextureView);
+        self.bind(gpu, &self.layouts().seen, views)
+    }
+
+    pub(super) fn bound(&self, gpu: &Gpu, size: [u32; 2], scene: &Scene<'_>, shot: &Shot) -> Result<Bound, ViewError> {
+        let looks = &scene.looks[..scene.looks.len().min(MOST_LOOKS)];
+        let view = wgpu::BindingResource::TextureView;
         let panorama = scene.environment.backdrop();
         let charts = view(&scene.model.charts);
         let is_lit = shot.mode == Mode::Material;
@@ -98,7 +103,7 @@ impl Renderer {
             false => Paint::Lit,
         };
         let lines = |lines: &Lines| -> Result<_, ViewError> {
-            let numbers = self.numbers(gpu, &line_style(*lines, shot, target.size))?;
+            let numbers = self.numbers(gpu, &line_style(*lines, shot, size))?;
             let group = self.bind(gpu, &self.layouts().numbers, [numbers.as_entire_binding()]);
             Ok((*lines, group, self.pipelines.get(gpu, Draws::Lines)?))
         };
@@ -108,8 +113,7 @@ impl Renderer {
                 .map(|look| self.look_group(gpu, look, shot.mode))
                 .collect::<Result<_, _>>()?,
             drawn: self.drawn(gpu, scene, shot)?,
-            charts: self.bind(gpu, &self.layouts().charts, [charts.clone()]),
-            seen: self.bind(gpu, &self.layouts().seen, [charts, view(&places), view(&depth)]),
+            charts: self.bind(gpu, &self.layouts().charts, [charts]),
             panorama: self.bind(
                 gpu,
                 &self.layouts().panorama,

@@ -8,7 +8,7 @@ use crate::error::ViewError;
 use crate::pipelines::Draws;
 use crate::scene::{Lines, MOST_LIGHTS, Scene};
 use crate::shadows::{ShadowMaps, layers_of, shadow_matrices};
-use crate::target::Target;
+use crate::target::Sight;
 
 impl Renderer {
     /// The model as each light sees it.
@@ -46,13 +46,13 @@ impl Renderer {
 /// Which place of the model each pixel sees, and by its stencil which look.
 pub(super) fn draw_raster(
     encoder: &mut wgpu::CommandEncoder,
-    target: &Target,
+    sight: &Sight,
     scene: &Scene<'_>,
     frame: &wgpu::BindGroup,
     bound: &Bound,
 ) {
     let layer = |layer| {
-        target.seen.create_view(&wgpu::TextureViewDescriptor {
+        sight.seen.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2),
             base_array_layer: layer,
             array_layer_count: Some(1),
@@ -60,7 +60,7 @@ pub(super) fn draw_raster(
         })
     };
     let (places, frames) = (layer(0), layer(1));
-    let depth = target.depth.create_view(&wgpu::TextureViewDescriptor::default());
+    let depth = sight.depth.create_view(&wgpu::TextureViewDescriptor::default());
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("raster"),
         color_attachments: &[Some(color_attachment(&places)), Some(color_attachment(&frames))],
@@ -88,13 +88,14 @@ pub(super) fn draw_raster(
 /// One sample's light.
 pub(super) fn draw_light(
     encoder: &mut wgpu::CommandEncoder,
-    target: &Target,
+    light: &wgpu::Texture,
+    (sight, seen): (&Sight, &wgpu::BindGroup),
     scene: &Scene<'_>,
     frame: &wgpu::BindGroup,
     bound: &Bound,
 ) {
-    let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
-    let depth = target.depth.create_view(&wgpu::TextureViewDescriptor::default());
+    let light = light.create_view(&wgpu::TextureViewDescriptor::default());
+    let depth = sight.depth.create_view(&wgpu::TextureViewDescriptor::default());
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("light"),
         color_attachments: &[Some(color_attachment(&light))],
@@ -107,7 +108,7 @@ pub(super) fn draw_light(
         ..Default::default()
     });
     pass.set_bind_group(0, frame, &[]);
-    pass.set_bind_group(2, &bound.seen, &[]);
+    pass.set_bind_group(2, seen, &[]);
     pass.set_bind_group(3, &scene.model.surface, &[]);
     pass.set_pipeline(&bound.paint);
     for (index, look) in bound.looks.iter().enumerate() {
