@@ -1,5 +1,6 @@
 //! Adding a node takes one file and nothing else, at run time too.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use sabi_engine::{Kinds, NodeWatcher};
@@ -145,7 +146,7 @@ fn a_model_may_have_more_parts_and_materials_than_sixteen_bits_count() {
     let graph = r#"{ "format": "sabi", "version": 1, "nodes": { "one": { "kind": "own/numbered" } } }"#;
     let kinds = NodeFolder::new(&[("own/numbered", NUMBERED)]).kinds();
     let mut on_mesh = OnMesh::on(graph, kinds, &project("assets/meshes/cube.glb"), 64, |prepared| {
-        let mesh = &mut prepared.model.mesh;
+        let mesh = &mut Arc::make_mut(&mut prepared.model).mesh;
         mesh.triangle_part.fill(70_000);
         mesh.triangle_material.fill(66_001);
     });

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_graph::{Document, FlatGraph, FlattenError, Overrides, flatten, locate};
+use sabi_graph::{Document, FlatGraph, FlattenError, Found, NodeRef, Overrides, flatten_and_find, locate};
 use sabi_plan::{FileContents, PlanError};
 use sabi_surface::load::{Unread, read_plain};
 
@@ -73,7 +73,16 @@ impl OpenGraph {
 
     /// The graph without groups and reroutes, with overrides applied.
     pub fn flatten(&self, overrides: &Overrides) -> Result<FlatGraph, EngineError> {
-        self.try_flatten(overrides).map_err(|(error, of_file)| {
+        self.flatten_and_find(overrides, &[]).map(|(graph, _)| graph)
+    }
+
+    /// The same, and where in it the results of some nodes of the document come from.
+    pub(crate) fn flatten_and_find(
+        &self,
+        overrides: &Overrides,
+        wanted: &[NodeRef],
+    ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
+        self.try_flatten(overrides, wanted).map_err(|(error, of_file)| {
             let kind = if self.is_asked_for(&error, overrides) {
                 ErrorKind::Usage
             } else {
@@ -84,7 +93,11 @@ impl OpenGraph {
     }
 
     /// Flattens; an error comes with its kind if the files are to blame.
-    fn try_flatten(&self, overrides: &Overrides) -> Result<FlatGraph, (FlattenError, ErrorKind)> {
+    fn try_flatten(
+        &self,
+        overrides: &Overrides,
+        wanted: &[NodeRef],
+    ) -> Result<(FlatGraph, Vec<Found>), (FlattenError, ErrorKind)> {
         let folder = self.folder().to_owned();
         let mut kind = ErrorKind::BadInput;
         let mut group_file = |name: &str| {
@@ -95,12 +108,12 @@ impl OpenGraph {
             })?;
             Document::from_json(&text).map_err(|error| error.with_name(path.display().to_string()).to_string())
         };
-        flatten(&self.document, overrides, &mut group_file).map_err(|error| (error, kind))
+        flatten_and_find(&self.document, overrides, &mut group_file, wanted).map_err(|error| (error, kind))
     }
 
     /// Whether an error comes from what was set on top of the files, which are without it otherwise.
     fn is_asked_for(&self, error: &FlattenError, overrides: &Overrides) -> bool {
-        let is_gone_without = |less: &Overrides| match self.try_flatten(less) {
+        let is_gone_without = |less: &Overrides| match self.try_flatten(less, &[]) {
             Ok(_) => true,
             Err((other, _)) => other != *error,
         };

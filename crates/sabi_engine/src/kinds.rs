@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use sabi_nodes::kind::Role;
 use sabi_nodes::{Fault, Library};
 use sabi_plan::SourceKind;
+use sabi_surface::model::Model;
 
 use crate::source;
 
@@ -43,6 +44,12 @@ impl Kinds {
             }
         }
         kinds
+    }
+
+    /// Has the kinds that show the model know this one.
+    pub(crate) fn adapt_to(&mut self, model: &Model) {
+        let own = source::kinds_for(model);
+        self.sources.extend(own.map(|kind| (kind.id.clone(), kind)));
     }
 
     /// Whether a parameter of a kind is written as a text.

@@ -1,7 +1,7 @@
 //! A model, made ready: loaded, its atlas built or found, its lengths known.
 
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use sabi_gpu::SurfaceTables;
 use sabi_graph::Fit;
@@ -68,7 +68,7 @@ impl ModelOptions {
 /// A model with its atlas.
 pub struct Prepared {
     /// The model; where it was unwrapped, with its new mesh.
-    pub model: Model,
+    pub model: Arc<Model>,
     /// How it was unwrapped; none where its own UVs are used.
     pub unwrapped: Option<Unwrapping>,
     /// What charts that share a place on the maps get.
@@ -76,9 +76,9 @@ pub struct Prepared {
     /// Its linked atlas.
     pub atlas: Atlas,
     /// What hangs together inside its parts.
-    pub pieces: Pieces,
+    pub pieces: Arc<Pieces>,
     /// What its rays are followed through; built when the first one is shot.
-    pub bvh: OnceLock<Bvh>,
+    pub bvh: Arc<OnceLock<Bvh>>,
     finest_texel: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
     /// What rays cannot rely on, as sentences.
@@ -135,10 +135,7 @@ impl Prepared {
     /// Builds or finds the atlas of a loaded model, which is unwrapped first where it has to be.
     pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
         progress.advance(Stage::Atlas, 0, 1);
-        let refused = |error: String| {
-            let why = format!("{}: {error}", options.path.display());
-            EngineError::new(ErrorKind::BadInput, why)
-        };
+        let refused = |error: String| refused(options, &error);
         let mut unwrapped = None;
         if options.overlap == Overlap::Unwrap || needs_unwrapping(&mut model) {
             unwrapped = Some(unwrap_model(&mut model, options).map_err(refused)?);
@@ -156,21 +153,43 @@ impl Prepared {
         progress.advance(Stage::Atlas, 1, 1);
         let (largest_side, farthest) = extents(&model);
         // After the atlas, which has refused meshes that are not whole.
-        let pieces = Pieces::of(&model.mesh);
+        let pieces = Arc::new(Pieces::of(&model.mesh));
         Ok(Prepared {
-            model,
+            model: Arc::new(model),
             unwrapped,
             overlap: options.overlap,
             atlas,
             atlas_was_cached,
             pieces,
-            bvh: OnceLock::new(),
+            bvh: Arc::default(),
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),
             solidity: OnceLock::new(),
             largest_side,
             farthest,
             scale: f64::from(options.scale),
+        })
+    }
+
+    /// The same model with an atlas of another size. The model itself, and what rays are followed through, are shared.
+    pub fn resized(&self, options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
+        progress.advance(Stage::Atlas, 0, 1);
+        let cache_dir = options.cache_folder();
+        let built = cached(cache_dir.as_deref(), &self.model.mesh, &AtlasOptions::new(options.size));
+        let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, &with_advice(&error)))?;
+        progress.advance(Stage::Atlas, 1, 1);
+        Ok(Prepared {
+            model: self.model.clone(),
+            unwrapped: self.unwrapped.clone(),
+            overlap: self.overlap,
+            atlas,
+            atlas_was_cached,
+            pieces: self.pieces.clone(),
+            bvh: self.bvh.clone(),
+            finest_texel: OnceLock::new(),
+            usable_levels: OnceLock::new(),
+            solidity: OnceLock::new(),
+            ..*self
         })
     }
 
@@ -257,6 +276,11 @@ fn first_of(names: &[String]) -> String {
         0 => named,
         more => format!("{named} and {more} more"),
     }
+}
+
+/// A model that cannot be worked on.
+fn refused(options: &ModelOptions, error: &str) -> EngineError {
+    EngineError::new(ErrorKind::BadInput, format!("{}: {error}", options.path.display()))
 }
 
 /// Puts the unwrapped mesh in the place of the model's own.

@@ -1,14 +1,16 @@
 //! A graph and a model brought together on a device.
 
+mod change;
+
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
-    AdapterChoice, CasterChoice, DeviceHierarchy, Gpu, GpuSurface, Hits, ResultCache, Run, RunOptions, Shares,
-    SurfaceTables, Surfaces,
+    AdapterChoice, CasterChoice, DeviceHierarchy, Gpu, GpuError, GpuSurface, Hits, ResultCache, Run, RunOptions,
+    Shares, SurfaceTables, Surfaces,
 };
-use sabi_graph::{Fit, FlatGraph, FlatNode, Overrides};
+use sabi_graph::{Fit, FlatGraph, FlatNode, Found, NodeRef, Overrides};
 use sabi_nodes::kind::Shape;
 use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Target};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
@@ -25,7 +27,7 @@ use crate::prepare::{ModelOptions, Prepared};
 use crate::report::StageTimes;
 use crate::setting::read_typed;
 use crate::solidity;
-use crate::source::{Files, Ground, Sources, kinds_for};
+use crate::source::{Files, Ground, Sources};
 use crate::stages::{Progress, Stage};
 
 /// How a graph and a model are brought together.
@@ -53,7 +55,7 @@ pub struct Workpiece {
     /// All node kinds, with `source/model` as this model has it.
     pub kinds: Kinds,
     /// The model with its atlas.
-    pub prepared: Prepared,
+    pub prepared: Arc<Prepared>,
     /// The device.
     pub gpu: Arc<Gpu>,
     /// The atlas on the device.
@@ -79,6 +81,8 @@ pub struct Workpiece {
     /// Texels that share a place on the maps; none where each has its own.
     pub(crate) shares: OnceLock<Option<Shares>>,
     kept_rays: KeptRays,
+    /// What takes the place of the document's own.
+    chosen: (Option<Fit>, Option<u32>),
     seed: u32,
     surface_key: [u8; 32],
     pub(crate) budget_bytes: u64,
@@ -87,14 +91,24 @@ pub struct Workpiece {
 impl Workpiece {
     /// The graph as these options want it, without groups; values that no node takes are refused.
     pub fn flat_graph(open: &OpenGraph, kinds: &Kinds, options: &WorkpieceOptions) -> Result<FlatGraph, EngineError> {
+        Workpiece::flat_graph_and_find(open, kinds, options, &[]).map(|(graph, _)| graph)
+    }
+
+    /// The same, and where in it the results of some nodes of the document come from.
+    pub(crate) fn flat_graph_and_find(
+        open: &OpenGraph,
+        kinds: &Kinds,
+        options: &WorkpieceOptions,
+        wanted: &[NodeRef],
+    ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
         let overrides = Overrides {
             fit: options.fit.or(options.overrides.fit),
             ..options.overrides.clone()
         };
         let overrides = read_typed(open, kinds, &overrides);
-        let graph = open.flatten(&overrides)?;
+        let (graph, found) = open.flatten_and_find(&overrides, wanted)?;
         refuse_bad_values(open, &graph, kinds, &overrides)?;
-        Ok(graph)
+        Ok((graph, found))
     }
 
     /// Opens everything on the adapter of choice; `graph` is from [`Workpiece::flat_graph`].
@@ -124,24 +138,22 @@ impl Workpiece {
         open: &OpenGraph,
         graph: FlatGraph,
         mut kinds: Kinds,
-        prepared: Prepared,
+        prepared: impl Into<Arc<Prepared>>,
         gpu: Arc<Gpu>,
         options: &WorkpieceOptions,
     ) -> Result<Workpiece, EngineError> {
+        let prepared: Arc<Prepared> = prepared.into();
         let mut times = StageTimes::default();
-        let fit = options.fit.or(options.overrides.fit).unwrap_or(open.document.fit);
-        let seed = options.overrides.seed.unwrap_or(open.document.seed);
+        let chosen = (options.fit.or(options.overrides.fit), options.overrides.seed);
+        let fit = chosen.0.unwrap_or(open.document.fit);
+        let seed = chosen.1.unwrap_or(open.document.seed);
         let tables = times.load.time(|| prepared.tables(&fit, seed));
         let levels = times.atlas.time(|| Levels::new(&prepared, &fit));
         let surface = times
             .load
             .time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables, levels.of(0)))?;
-        let own = kinds_for(&prepared.model);
-        kinds.sources.extend(own.map(|kind| (kind.id.clone(), kind)));
-        let mut warnings = prepared.model.warnings.clone();
-        warnings.extend(prepared.atlas.report.warnings.iter().cloned());
-        warnings.extend(Sharing::of(&prepared).warning(&prepared));
-        warnings.extend(kinds.left_out());
+        kinds.adapt_to(&prepared.model);
+        let warnings = first_warnings(&prepared, &kinds);
         let surface_key = surface_key(&prepared, &tables);
         let budget_bytes = options.budget_bytes;
         Ok(Workpiece {
@@ -159,6 +171,7 @@ impl Workpiece {
             bvh_on_device: OnceLock::new(),
             levels,
             shares: OnceLock::new(),
+            chosen,
             seed,
             surface_key,
             caster: options.caster,
@@ -264,6 +277,17 @@ impl Workpiece {
     ) -> Result<Run, EngineError> {
         self.levels
             .make(plan, &self.gpu, &self.prepared, &self.fit, self.seed)?;
+        Ok(self.run_on_levels(plan, submission, progress, cache)?)
+    }
+
+    /// The same, where all levels that the plan runs on are there.
+    fn run_on_levels(
+        &mut self,
+        plan: &Plan,
+        submission: Duration,
+        progress: &dyn Progress,
+        cache: Option<&mut ResultCache>,
+    ) -> Result<Run, GpuError> {
         let ground = Ground {
             model: &self.prepared.model,
             atlas: &self.prepared.atlas,
@@ -310,6 +334,15 @@ pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineErro
         return Err(EngineError::new(ErrorKind::Interrupted, "stopped; nothing was written"));
     }
     Ok(())
+}
+
+/// What is to be known before anything is evaluated.
+fn first_warnings(prepared: &Prepared, kinds: &Kinds) -> Vec<String> {
+    let mut warnings = prepared.model.warnings.clone();
+    warnings.extend(prepared.atlas.report.warnings.iter().cloned());
+    warnings.extend(Sharing::of(prepared).warning(prepared));
+    warnings.extend(kinds.left_out());
+    warnings
 }
 
 /// Names the surface: the atlas by what it is made of, and where every triangle lies in space. The program itself need not be
