@@ -29,7 +29,8 @@ impl From<ErrorKind> for Exit {
         match kind {
             ErrorKind::Usage => Exit::Usage,
             ErrorKind::NoAdapter => Exit::NoAdapter,
-            ErrorKind::BadInput => Exit::BadInput,
+            // What a smaller size would mend, the command line would, too.
+            ErrorKind::BadInput | ErrorKind::OutOfMemory => Exit::BadInput,
             ErrorKind::MissingInput => Exit::MissingInput,
             ErrorKind::CannotWrite => Exit::CannotWrite,
             ErrorKind::Interrupted => Exit::Interrupted,

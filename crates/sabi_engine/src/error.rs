@@ -13,6 +13,8 @@ pub enum ErrorKind {
     BadInput,
     /// A file is not there, or cannot be read.
     MissingInput,
+    /// Textures do not fit into memory, or into the budget for them; smaller ones would.
+    OutOfMemory,
     /// Results cannot be written.
     CannotWrite,
     /// The user stopped it.
@@ -51,12 +53,10 @@ impl From<sabi_gpu::GpuError> for EngineError {
         use sabi_gpu::GpuError;
         let kind = match error {
             GpuError::Canceled => ErrorKind::Interrupted,
-            GpuError::Source(_)
-            | GpuError::Node { .. }
-            | GpuError::TooLarge { .. }
-            | GpuError::TooDeep { .. }
-            | GpuError::OverBudget { .. }
-            | GpuError::OutOfMemory { .. } => ErrorKind::BadInput,
+            GpuError::Source(_) | GpuError::Node { .. } | GpuError::TooLarge { .. } | GpuError::TooDeep { .. } => {
+                ErrorKind::BadInput
+            }
+            GpuError::OverBudget { .. } | GpuError::OutOfMemory { .. } => ErrorKind::OutOfMemory,
             GpuError::NoAdapter
             | GpuError::NoSuchAdapter { .. }
             | GpuError::Unfit { .. }
@@ -112,9 +112,9 @@ mod tests {
         let of = |error: GpuError| EngineError::from(error).kind;
         let (needed_mib, budget_mib) = (9, 4);
         let over = GpuError::OverBudget { needed_mib, budget_mib };
-        assert_eq!(of(over), ErrorKind::BadInput);
+        assert_eq!(of(over), ErrorKind::OutOfMemory);
         let what = "a texture".to_owned();
-        assert_eq!(of(GpuError::OutOfMemory { what }), ErrorKind::BadInput);
+        assert_eq!(of(GpuError::OutOfMemory { what }), ErrorKind::OutOfMemory);
         assert_eq!(of(GpuError::NoAdapter), ErrorKind::NoAdapter);
         assert_eq!(of(GpuError::Canceled), ErrorKind::Interrupted);
     }

@@ -14,7 +14,12 @@ pub(crate) fn warnings(plan: &Plan, prepared: &Prepared) -> Vec<String> {
     if !plan.steps.iter().any(shoots) {
         return Vec::new();
     }
-    prepared.solidity.get_or_init(|| about(prepared)).clone()
+    of_model(prepared).to_vec()
+}
+
+/// The same whatever is planned; found once for a model.
+pub(crate) fn of_model(prepared: &Prepared) -> &[String] {
+    prepared.solidity.get_or_init(|| about(prepared))
 }
 
 fn about(prepared: &Prepared) -> Vec<String> {

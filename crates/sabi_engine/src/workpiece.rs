@@ -81,6 +81,8 @@ pub struct Workpiece {
     /// Texels that share a place on the maps; none where each has its own.
     pub(crate) shares: OnceLock<Option<Shares>>,
     kept_rays: KeptRays,
+    /// What is to be known of the model itself.
+    of_model: Vec<String>,
     /// What takes the place of the document's own.
     chosen: (Option<Fit>, Option<u32>),
     seed: u32,
@@ -153,7 +155,8 @@ impl Workpiece {
             .load
             .time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables, levels.of(0)))?;
         kinds.adapt_to(&prepared.model);
-        let warnings = first_warnings(&prepared, &kinds);
+        let of_model = warnings_of(&prepared);
+        let warnings = of_model.iter().cloned().chain(kinds.left_out()).collect();
         let surface_key = surface_key(&prepared, &tables);
         let budget_bytes = options.budget_bytes;
         Ok(Workpiece {
@@ -171,6 +174,7 @@ impl Workpiece {
             bvh_on_device: OnceLock::new(),
             levels,
             shares: OnceLock::new(),
+            of_model,
             chosen,
             seed,
             surface_key,
@@ -275,13 +279,17 @@ impl Workpiece {
         progress: &dyn Progress,
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, EngineError> {
-        self.levels
-            .make(plan, &self.gpu, &self.prepared, &self.fit, self.seed)?;
+        self.make_levels(plan)?;
         Ok(self.run_on_levels(plan, submission, progress, cache)?)
     }
 
-    /// The same, where all levels that the plan runs on are there.
-    fn run_on_levels(
+    /// Makes the coarser levels that a plan runs on and that are not there yet.
+    pub(crate) fn make_levels(&mut self, plan: &Plan) -> Result<(), EngineError> {
+        self.levels.make(plan, &self.gpu, &self.prepared, &self.fit, self.seed)
+    }
+
+    /// Runs a plan whose levels are there.
+    pub(crate) fn run_on_levels(
         &mut self,
         plan: &Plan,
         submission: Duration,
@@ -336,12 +344,11 @@ pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineErro
     Ok(())
 }
 
-/// What is to be known before anything is evaluated.
-fn first_warnings(prepared: &Prepared, kinds: &Kinds) -> Vec<String> {
+/// What is to be known of a model before anything is evaluated on it.
+fn warnings_of(prepared: &Prepared) -> Vec<String> {
     let mut warnings = prepared.model.warnings.clone();
     warnings.extend(prepared.atlas.report.warnings.iter().cloned());
     warnings.extend(Sharing::of(prepared).warning(prepared));
-    warnings.extend(kinds.left_out());
     warnings
 }
 

@@ -88,6 +88,8 @@ impl Gpu {
 
     /// Why the device is gone, if it is; nothing brings it back.
     pub fn loss(&self) -> Option<GpuError> {
+        // A loss is told to those who ask what is done.
+        let _ = self.device.poll(wgpu::PollType::Poll);
         let first = self.complaints.first.lock().ok()?;
         first.clone().filter(|error| matches!(error, GpuError::Lost(_)))
     }

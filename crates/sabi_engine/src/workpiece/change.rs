@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use sabi_gpu::GpuSurface;
 use sabi_graph::FlatGraph;
 
-use super::{Workpiece, first_warnings, surface_key};
+use super::{Workpiece, surface_key};
 use crate::document::OpenGraph;
 use crate::error::EngineError;
 use crate::kinds::Kinds;
@@ -29,7 +29,7 @@ impl Workpiece {
         self.path.clone_from(&open.path);
         self.pictures = open.pictures.clone();
         self.graph = graph;
-        self.warnings = first_warnings(&self.prepared, &self.kinds);
+        self.begin_warnings();
         Ok(())
     }
 
@@ -37,6 +37,11 @@ impl Workpiece {
     pub fn set_kinds(&mut self, mut kinds: Kinds) {
         kinds.adapt_to(&self.prepared.model);
         self.kinds = kinds;
-        self.warnings = first_warnings(&self.prepared, &self.kinds);
+        self.begin_warnings();
+    }
+
+    /// Forgets what was said of the last graph.
+    fn begin_warnings(&mut self) {
+        self.warnings = self.of_model.iter().cloned().chain(self.kinds.left_out()).collect();
     }
 }

@@ -1,0 +1,80 @@
+//! A graph that is evaluated while it is worked on: a window wishes, and is told of results as they come.
+//!
+//! One thread owns all evaluation, so that no window ever waits. It keeps the model at two sizes, evaluates on the coarse one
+//! first, and keeps results by what they are: an edit evaluates the nodes that it changes and what hangs below them.
+
+mod faults;
+mod flat;
+mod inspect;
+mod mailbox;
+mod model;
+mod news;
+mod show;
+mod stage;
+mod studio;
+mod thumbnails;
+mod trouble;
+mod wish;
+mod worker;
+
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use sabi_gpu::Gpu;
+
+use crate::error::{EngineError, ErrorKind};
+use mailbox::Mailbox;
+pub use news::{Faults, Inspected, LiveModel, LiveTimes, News, NodeFault, Waiting};
+pub use wish::{LiveOptions, Seen, Wish};
+use worker::Worker;
+
+/// Evaluates a graph while it is worked on. Dropping it stops the work at its next step and waits for that.
+pub struct Live {
+    mailbox: Arc<Mailbox>,
+    worker: Option<JoinHandle<()>>,
+}
+
+impl Live {
+    /// Starts the thread that works. `wake` is called there whenever news have come.
+    pub fn start(gpu: Arc<Gpu>, options: LiveOptions, wake: impl Fn() + Send + 'static) -> Live {
+        let mailbox = Arc::new(Mailbox::default());
+        let worker = Worker::new(gpu, options, mailbox.clone(), Box::new(wake));
+        let started = std::thread::Builder::new()
+            .name("sabi live".to_owned())
+            .spawn(move || worker.work());
+        if let Err(error) = &started {
+            let why = format!("the system gives no thread to evaluate the graph on ({error}); close other programs");
+            mailbox.tell(News::Lost(EngineError::new(ErrorKind::OutOfMemory, why)));
+            mailbox.close();
+        }
+        Live {
+            mailbox,
+            worker: started.ok(),
+        }
+    }
+
+    /// Wishes for something else than before. Work that is of no use any more ends at its next step.
+    pub fn ask(&self, wish: Wish) {
+        self.mailbox.ask(wish);
+    }
+
+    /// What came since the last call, oldest first.
+    pub fn news(&self) -> Vec<News> {
+        self.mailbox.take_news()
+    }
+
+    /// Whether more news are to be expected.
+    pub fn is_busy(&self) -> bool {
+        self.mailbox.is_busy()
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        self.mailbox.close();
+        if let Some(worker) = self.worker.take() {
+            // A worker that panicked has said so in its last news.
+            let _ = worker.join();
+        }
+    }
+}

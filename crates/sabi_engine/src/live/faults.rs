@@ -1,0 +1,213 @@
+//! The graph without its groups, and what is wrong with it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_graph::{FlatGraph, NodeRef, Overrides, Value};
+use sabi_plan::{FileContents, PlanError, Target};
+
+use super::model::Loaded;
+use super::news::{Faults, News, NodeFault, Waiting};
+use super::wish::Seen;
+use super::worker::{Job, Worker};
+use crate::modelless::{all_nodes, planner};
+use crate::outputs::clashes;
+
+/// The graph of a wish, flat, and where in it the wanted results are.
+pub(super) struct Laid {
+    pub(super) graph: FlatGraph,
+    /// What the wish names, as far as it is there.
+    pub(super) found: BTreeMap<NodeRef, Target>,
+    contents: FileContents,
+    /// What is wrong, before anything is evaluated.
+    faults: Faults,
+}
+
+/// A node whose result could not be made, and what that hangs on: once it changes the node is tried again.
+pub(super) struct Broken {
+    why: String,
+    params: BTreeMap<String, Value>,
+    content: Option<[u8; 32]>,
+}
+
+impl Worker {
+    /// Flattens the graph of a wish and tells what is wrong with it; nothing where it cannot be flattened.
+    pub(super) fn lay_out(&mut self, job: &Job) -> Option<Laid> {
+        let wish = &job.wish;
+        let seen = wish.seen.iter().filter_map(|seen| match seen {
+            Seen::Node(node) => Some(node),
+            Seen::Outputs => None,
+        });
+        let named = seen.chain(&wish.inspected).chain(&wish.thumbnails);
+        let named: Vec<NodeRef> = named.cloned().collect::<BTreeSet<_>>().into_iter().collect();
+        let (graph, found) = match wish.graph.flatten_and_find(&Overrides::default(), &named) {
+            Ok(laid) => laid,
+            Err(error) => {
+                let other = error.messages;
+                self.tell_if_new(
+                    job,
+                    Faults {
+                        other,
+                        ..Faults::default()
+                    },
+                );
+                return None;
+            }
+        };
+        let mut other = clashes(&graph);
+        let mut targets = BTreeMap::new();
+        for (node, found) in named.into_iter().zip(found) {
+            match found {
+                Ok(Some(from)) => {
+                    let target = Target {
+                        node: from.node,
+                        port: from.port,
+                    };
+                    targets.insert(node, target);
+                }
+                Ok(None) => {}
+                Err(error) => other.push(error.to_string()),
+            }
+        }
+        let contents = wish.graph.file_contents(&graph, &wish.kinds, 0..graph.nodes.len());
+        let laid = Laid {
+            faults: faults_of(job, &graph, &contents, other),
+            graph,
+            found: targets,
+            contents,
+        };
+        self.broken.retain(|id, broken| laid.is_still_broken(id, broken));
+        self.tell_faults(job, &laid);
+        Some(laid)
+    }
+
+    /// Tells what is wrong, if that has changed.
+    pub(super) fn tell_faults(&mut self, job: &Job, laid: &Laid) {
+        let mut faults = laid.faults.clone();
+        let broken = self.broken.iter().map(|(node, broken)| NodeFault {
+            node: node.clone(),
+            sentence: broken.why.clone(),
+        });
+        faults.faults.extend(broken);
+        for id in self.broken.keys() {
+            let waits = laid.behind(id).filter(|node| !is_named(&faults, node));
+            let waiting: Vec<Waiting> = waits
+                .map(|node| Waiting {
+                    node: node.to_owned(),
+                    on: id.clone(),
+                })
+                .collect();
+            faults.waiting.extend(waiting);
+        }
+        if let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) {
+            let mut known: BTreeSet<String> = faults.warnings.iter().cloned().collect();
+            let fresh = stage.warnings().filter(|sentence| known.insert((*sentence).clone()));
+            faults.warnings.extend(fresh.cloned());
+        }
+        self.tell_if_new(job, faults);
+    }
+
+    fn tell_if_new(&mut self, job: &Job, faults: Faults) {
+        if self.sent.faults.as_ref() == Some(&faults) {
+            return;
+        }
+        self.sent.faults = Some(faults.clone());
+        self.tell(News::Faults {
+            revision: job.wish.revision,
+            faults,
+        });
+    }
+}
+
+impl Laid {
+    /// Takes down that a node's result cannot be made. Says whether that was news of a node of this graph: anything else is a
+    /// mistake, and trying again would not end.
+    pub(super) fn take_down(&self, broken: &mut BTreeMap<String, Broken>, node: &str, why: &str) -> bool {
+        let Some(index) = self.graph.find(node) else {
+            return false;
+        };
+        let found = Broken {
+            why: why.to_owned(),
+            params: self.graph.nodes[index].params.clone(),
+            content: self.content(index),
+        };
+        broken.insert(node.to_owned(), found).is_none()
+    }
+
+    fn content(&self, node: usize) -> Option<[u8; 32]> {
+        self.contents.get(&node)?.as_ref().ok().copied()
+    }
+
+    fn is_still_broken(&self, id: &str, broken: &Broken) -> bool {
+        self.graph.find(id).is_some_and(|index| {
+            let node = &self.graph.nodes[index];
+            !node.muted && node.params == broken.params && self.content(index) == broken.content
+        })
+    }
+
+    /// Ids of all nodes that need a node.
+    fn behind(&self, id: &str) -> impl Iterator<Item = &str> {
+        let index = self.graph.find(id);
+        let needs = move |node: &usize| {
+            Some(*node) != index && index.is_some_and(|index| self.graph.upstream(&[*node]).contains(&index))
+        };
+        let nodes = (0..self.graph.nodes.len()).filter(needs);
+        nodes.map(|node| self.graph.nodes[node].id.as_str())
+    }
+
+    /// Those of some targets that need no broken node.
+    pub(super) fn sound(&self, targets: &[Target], broken: &BTreeMap<String, Broken>) -> Vec<Target> {
+        let broken: Vec<usize> = broken.keys().filter_map(|id| self.graph.find(id)).collect();
+        let is_sound = |target: &&Target| {
+            // The model's own looks stand after all nodes of the graph and need none of them.
+            let needed = self.graph.upstream(&[target.node]);
+            !broken.iter().any(|broken| needed.contains(broken))
+        };
+        targets.iter().filter(is_sound).cloned().collect()
+    }
+}
+
+fn is_named(faults: &Faults, node: &str) -> bool {
+    faults.waiting.iter().any(|waiting| waiting.node == node) || faults.faults.iter().any(|fault| fault.node == node)
+}
+
+/// What is wrong with all nodes of a graph, whoever needs them.
+fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<String>) -> Faults {
+    let resolved = planner(graph, &job.wish.kinds, contents).resolve(&all_nodes(graph));
+    let (warnings, errors): (Vec<&PlanError>, Vec<&PlanError>) =
+        resolved.errors.iter().partition(|error| error.is_warning());
+    let faults: Vec<NodeFault> = errors
+        .iter()
+        .map(|error| NodeFault {
+            node: error.node.clone(),
+            sentence: error.to_string(),
+        })
+        .collect();
+    let at_fault: BTreeSet<&str> = errors.iter().map(|error| error.node.as_str()).collect();
+    let mut waits_for: BTreeMap<usize, &str> = BTreeMap::new();
+    // Inputs stand before those who read them.
+    for (index, node) in graph.nodes.iter().enumerate() {
+        if at_fault.contains(node.id.as_str()) || resolved.nodes[index].is_some() {
+            continue;
+        }
+        let on = node.inputs.values().find_map(|from| {
+            let id = graph.nodes[from.node].id.as_str();
+            let is_at_fault = at_fault.contains(id);
+            is_at_fault.then_some(id).or_else(|| waits_for.get(&from.node).copied())
+        });
+        if let Some(on) = on {
+            waits_for.insert(index, on);
+        }
+    }
+    let waiting = waits_for.iter().filter(|(index, _)| !graph.nodes[**index].muted);
+    Faults {
+        waiting: waiting
+            .map(|(index, on)| Waiting {
+                node: graph.nodes[*index].id.clone(),
+                on: (*on).to_owned(),
+            })
+            .collect(),
+        warnings: warnings.iter().map(ToString::to_string).collect(),
+        faults,
+        other,
+    }
+}

@@ -1,0 +1,81 @@
+//! Thumbnails of texture space.
+
+use sabi_gpu::Run;
+use sabi_plan::{Plan, PlannedResult};
+use sabi_view::Pixels;
+
+use super::stage::Stage;
+use crate::error::{EngineError, ErrorKind};
+use crate::sheet::rgb_codes;
+
+impl Stage {
+    /// A result in texture space as a square picture, clear where no chart lies.
+    pub(super) fn flat_picture(
+        &mut self,
+        plan: &Plan,
+        run: &Run,
+        result: &PlannedResult,
+        side: u32,
+    ) -> Result<Pixels, EngineError> {
+        self.lay_sheet()?;
+        let nothing = || EngineError::new(ErrorKind::BadInput, "the model has no texture space to be shown");
+        let (sheet, _) = self.sheet.as_ref().ok_or_else(nothing)?;
+        let planes = sheet.planes(&self.workpiece, plan, run, result)?;
+        let plane = planes.first().ok_or_else(nothing)?;
+        let code = |pixel: usize| {
+            let values = &plane.values[pixel * plane.components..][..plane.components];
+            rgb_codes(result.stored.ty, values)
+        };
+        Ok(Pixels {
+            size: [side; 2],
+            rgba: reduced(sheet.layout.size as usize, side as usize, &sheet.is_owned(), code),
+        })
+    }
+}
+
+/// A square picture of another size: each pixel is the mean of those that it covers and that are there, or is the nearest one.
+fn reduced(from: usize, to: usize, is_there: &[bool], code: impl Fn(usize) -> [u8; 3]) -> Vec<u8> {
+    let range = |at: usize| {
+        let start = at * from / to;
+        start..((at + 1) * from / to).max(start + 1).min(from)
+    };
+    let mut rgba = Vec::with_capacity(4 * to * to);
+    for row in 0..to {
+        for column in 0..to {
+            let rows = range(row);
+            let covered = rows.len() * range(column).len();
+            let pixels = rows.flat_map(|y| range(column).map(move |x| y * from + x));
+            let mut sum = [0_usize; 3];
+            let mut count = 0;
+            for pixel in pixels.filter(|pixel| is_there[*pixel]) {
+                let own = code(pixel);
+                sum = [0, 1, 2].map(|at| sum[at] + usize::from(own[at]));
+                count += 1;
+            }
+            rgba.extend(sum.map(|sum| (sum / count.max(1)) as u8));
+            rgba.push((255 * count / covered.max(1)) as u8);
+        }
+    }
+    rgba
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reduced;
+
+    #[test]
+    fn a_pixel_is_the_mean_of_what_lies_on_charts() {
+        // Two by two become one; the last of them lies on no chart.
+        let codes = [[0, 0, 0], [90, 0, 0], [0, 0, 30], [255; 3]];
+        let one = reduced(2, 1, &[true, true, true, false], |pixel| codes[pixel]);
+        assert_eq!(one, [30, 0, 10, 191]);
+        let none = reduced(2, 1, &[false; 4], |pixel| codes[pixel]);
+        assert_eq!(none, [0, 0, 0, 0]);
+    }
+
+    #[test]
+    fn a_smaller_picture_is_enlarged() {
+        let larger = reduced(1, 2, &[true], |_| [7, 8, 9]);
+        assert_eq!(larger, [7, 8, 9, 255].repeat(4));
+    }
+}

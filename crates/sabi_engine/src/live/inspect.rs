@@ -1,0 +1,114 @@
+//! The exact values of one node.
+
+use std::sync::Arc;
+
+use sabi_graph::NodeRef;
+use sabi_plan::Target;
+
+use super::faults::Laid;
+use super::mailbox::Watch;
+use super::model::Loaded;
+use super::news::{Inspected, News};
+use super::show::evaluate;
+use super::stage::Stage;
+use super::trouble::Trouble;
+use super::worker::{Job, Worker};
+use crate::error::EngineError;
+use crate::sets::texture_sets;
+use crate::sheet::Sheet;
+
+impl Worker {
+    /// Tells the values of the inspected node, if they have changed.
+    pub(super) fn inspect(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
+        let inspected = job.wish.inspected.clone();
+        let Some((node, target)) = inspected.and_then(|node| laid.found.get(&node).map(|target| (node, target))) else {
+            return Ok(());
+        };
+        self.go_on()?;
+        self.take_graph_in_full(job, laid)?;
+        match self.inspect_one(job, laid, node, target) {
+            Err(Trouble::Failed(error)) => {
+                self.tell(News::Failed {
+                    revision: job.wish.revision,
+                    error,
+                });
+                Ok(())
+            }
+            inspected => inspected,
+        }
+    }
+
+    fn inspect_one(&mut self, job: &mut Job, laid: &Laid, node: NodeRef, target: &Target) -> Result<(), Trouble> {
+        let Worker {
+            loaded,
+            broken,
+            mailbox,
+            gpu,
+            sent,
+            ..
+        } = self;
+        let Some(stage) = loaded.as_mut().and_then(Loaded::best) else {
+            return Ok(());
+        };
+        let wanted = std::slice::from_ref(target);
+        let plan = stage.plan(&laid.sound(wanted, broken));
+        let Some(result) = plan.results.first() else {
+            return Ok(());
+        };
+        let marks = [u8::from(stage.is_approximate(&plan))];
+        let key = *blake3::Hasher::new()
+            .update(&marks)
+            .update(&result.key)
+            .finalize()
+            .as_bytes();
+        let now = Some((node.clone(), key));
+        if sent.inspected == now {
+            return Ok(());
+        }
+        let watch = Watch {
+            mailbox,
+            gives_way: true,
+        };
+        let (plan, run) = evaluate(stage, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
+        let Some(result) = plan.results.first() else {
+            return Ok(());
+        };
+        let trouble = |error: EngineError| Trouble::of(gpu, error);
+        stage.lay_sheet().map_err(trouble)?;
+        let Stage {
+            sheet: Some((sheet, set)),
+            workpiece,
+            ..
+        } = stage
+        else {
+            return Ok(());
+        };
+        let values = Inspected {
+            ty: result.stored.ty,
+            size: sheet.layout.size,
+            set: set.clone(),
+            planes: sheet.planes(workpiece, &plan, &run, result).map_err(trouble)?,
+            is_on_surface: sheet.is_owned(),
+        };
+        sent.inspected = now;
+        self.tell(News::Inspected {
+            revision: job.wish.revision,
+            node,
+            values: Arc::new(values),
+        });
+        Ok(())
+    }
+}
+
+impl Stage {
+    /// Lays out the model's first texture set, once.
+    pub(super) fn lay_sheet(&mut self) -> Result<(), EngineError> {
+        if self.sheet.is_none() {
+            let prepared = &self.workpiece.prepared;
+            // There is at least one where there is no error.
+            let first = texture_sets(&prepared.model, &prepared.atlas, None)?.into_iter().next();
+            self.sheet = first.map(|set| (Sheet::new(prepared, set.key), set.name));
+        }
+        Ok(())
+    }
+}

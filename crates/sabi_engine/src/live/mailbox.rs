@@ -1,0 +1,133 @@
+//! What lies between a window and the thread that works for it.
+
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+use super::news::News;
+use super::wish::Wish;
+use crate::stages::{Progress, Stage};
+
+/// A wish, and when it was made.
+pub(super) type Asked = (Wish, Instant);
+
+/// The last wish on its way to the worker, and news on their way to the window.
+#[derive(Default)]
+pub(super) struct Mailbox {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    wish: Option<Asked>,
+    news: Vec<News>,
+    is_working: bool,
+    is_closed: bool,
+}
+
+impl Mailbox {
+    /// Puts a wish in the place of the last one.
+    pub(super) fn ask(&self, wish: Wish) {
+        self.lock().wish = Some((wish, Instant::now()));
+        self.changed.notify_one();
+    }
+
+    /// Waits for a wish; none once nobody wishes any more.
+    pub(super) fn next(&self) -> Option<Asked> {
+        let mut state = self.lock();
+        loop {
+            state.is_working = false;
+            if state.is_closed {
+                return None;
+            }
+            if let Some(asked) = state.wish.take() {
+                state.is_working = true;
+                return Some(asked);
+            }
+            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Ends all work.
+    pub(super) fn close(&self) {
+        self.lock().is_closed = true;
+        self.changed.notify_one();
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        self.lock().is_closed
+    }
+
+    /// Whether the work at hand is of no use any more.
+    pub(super) fn is_superseded(&self) -> bool {
+        let state = self.lock();
+        state.is_closed || state.wish.is_some()
+    }
+
+    pub(super) fn is_busy(&self) -> bool {
+        let state = self.lock();
+        !state.is_closed && (state.is_working || state.wish.is_some())
+    }
+
+    pub(super) fn tell(&self, news: News) {
+        let mut state = self.lock();
+        // A window that does not listen for a while wants the newest pictures and none of those before.
+        state.news.retain(|older| !is_outdated(older, &news));
+        if matches!(news, News::Done { .. } | News::Lost(_)) {
+            state.is_working = false;
+        }
+        state.news.push(news);
+    }
+
+    pub(super) fn take_news(&self) -> Vec<News> {
+        std::mem::take(&mut self.lock().news)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        // What is in it is put in whole, so a panic elsewhere leaves nothing half made.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Whether older news are of no use beside newer ones: pictures of the same thing, of an older wish.
+fn is_outdated(older: &News, newer: &News) -> bool {
+    match (older, newer) {
+        (
+            News::Shown { revision, seen, .. },
+            News::Shown {
+                revision: newer,
+                seen: same,
+                ..
+            },
+        ) => revision < newer && seen == same,
+        (
+            News::Thumbnail { revision, node, .. },
+            News::Thumbnail {
+                revision: newer,
+                node: same,
+                ..
+            },
+        ) => revision < newer && node == same,
+        (News::Inspected { revision, .. }, News::Inspected { revision: newer, .. }) => revision < newer,
+        _ => false,
+    }
+}
+
+/// Stops work that is of no use any more, between two of its steps.
+pub(super) struct Watch<'m> {
+    pub(super) mailbox: &'m Mailbox,
+    /// Whether it is ended by a newer wish, or only when nobody wishes any more.
+    pub(super) gives_way: bool,
+}
+
+impl Progress for Watch<'_> {
+    fn advance(&self, _stage: Stage, _done: usize, _of: usize) {}
+
+    fn is_canceled(&self) -> bool {
+        if self.gives_way {
+            self.mailbox.is_superseded()
+        } else {
+            self.mailbox.is_closed()
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Loading the model, coarse before full.
+
+use std::sync::Arc;
+
+use super::faults::Laid;
+use super::news::News;
+use super::stage::Stage;
+use super::trouble::Trouble;
+use super::worker::{Job, Worker};
+use crate::error::EngineError;
+use crate::prepare::{ModelOptions, Prepared};
+use crate::stages::Silent;
+
+/// A model, at one size or two.
+pub(super) struct Loaded {
+    revision: u64,
+    /// How it is taken; its size is the full one.
+    options: Arc<ModelOptions>,
+    /// None where the full size is no larger.
+    pub(super) coarse: Option<Stage>,
+    /// None until it was asked for, and where it cannot be had.
+    pub(super) full: Option<Stage>,
+    /// Whether the full size cannot be had.
+    is_full_refused: bool,
+}
+
+impl Loaded {
+    /// Where first pictures are made.
+    pub(super) fn first(&mut self) -> Option<&mut Stage> {
+        self.coarse.as_mut().or(self.full.as_mut())
+    }
+
+    /// Where pictures are as good as they get.
+    pub(super) fn best(&mut self) -> Option<&mut Stage> {
+        self.full.as_mut().or(self.coarse.as_mut())
+    }
+
+    pub(super) fn stages(&self) -> impl Iterator<Item = &Stage> {
+        self.coarse.iter().chain(&self.full)
+    }
+}
+
+impl Worker {
+    /// Loads the model if it is another one, coarse where that is enough for a first picture.
+    pub(super) fn load_first(&mut self, job: &Job) -> Result<(), Trouble> {
+        let wish = &job.wish;
+        if self.tried == Some(wish.model_revision) {
+            return Ok(());
+        }
+        self.tried = Some(wish.model_revision);
+        let is_coarse = wish.coarse_size < wish.model.size;
+        let options = ModelOptions {
+            size: if is_coarse { wish.coarse_size } else { wish.model.size },
+            cache_dir: self.options.cache_dir.clone(),
+            ..(*wish.model).clone()
+        };
+        let opened = Prepared::open(&options, &Silent).and_then(|prepared| {
+            let model = (Arc::new(prepared), wish.model_revision);
+            Stage::new(&self.gpu, &self.options, wish, model, is_coarse)
+        });
+        let stage = match opened {
+            Ok(stage) => stage,
+            Err(error) => return self.model_failed(job, error),
+        };
+        self.tell_model(&stage);
+        let (coarse, full) = if is_coarse {
+            (Some(stage), None)
+        } else {
+            (None, Some(stage))
+        };
+        self.loaded = Some(Loaded {
+            revision: wish.model_revision,
+            options: wish.model.clone(),
+            coarse,
+            full,
+            is_full_refused: false,
+        });
+        self.sent.shown.clear();
+        self.sent.thumbnails.clear();
+        self.sent.inspected = None;
+        self.full_took = None;
+        Ok(())
+    }
+
+    /// Loads the model at full size, if it is not there yet.
+    pub(super) fn load_full(&mut self, job: &Job) -> Result<(), Trouble> {
+        let Some(loaded) = self.loaded.as_mut().filter(|loaded| !loaded.is_full_refused) else {
+            return Ok(());
+        };
+        let (None, Some(coarse)) = (&loaded.full, &loaded.coarse) else {
+            return Ok(());
+        };
+        let options = ModelOptions {
+            cache_dir: self.options.cache_dir.clone(),
+            ..(*loaded.options).clone()
+        };
+        let resized = coarse.model.prepared.resized(&options, &Silent);
+        let stage = resized.and_then(|prepared| {
+            let model = (Arc::new(prepared), loaded.revision);
+            Stage::new(&self.gpu, &self.options, &job.wish, model, false)
+        });
+        match stage {
+            Ok(stage) => {
+                self.tell_model(&stage);
+                if let Some(loaded) = &mut self.loaded {
+                    loaded.full = Some(stage);
+                }
+                Ok(())
+            }
+            Err(error) => {
+                loaded.is_full_refused = true;
+                self.model_failed(job, error)
+            }
+        }
+    }
+
+    /// Puts the graph on the first size of the model.
+    pub(super) fn take_graph(&mut self, job: &Job, laid: &Laid) -> Result<(), Trouble> {
+        let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) else {
+            return Ok(());
+        };
+        let is_another = stage.take(&job.wish, &laid.graph);
+        if is_another.map_err(|error| Trouble::of(&self.gpu, error))?
+            && let Some(stage) = self.loaded.as_mut().and_then(Loaded::first)
+        {
+            let news = model_news(stage);
+            self.tell(news);
+        }
+        Ok(())
+    }
+
+    /// The same on the full size, which is loaded where it is not there yet. Says whether there is one.
+    pub(super) fn take_graph_in_full(&mut self, job: &Job, laid: &Laid) -> Result<bool, Trouble> {
+        self.load_full(job)?;
+        let Some(Loaded {
+            coarse,
+            full: Some(stage),
+            ..
+        }) = &mut self.loaded
+        else {
+            return Ok(false);
+        };
+        if coarse.is_some() {
+            let is_another = stage.take(&job.wish, &laid.graph);
+            if is_another.map_err(|error| Trouble::of(&self.gpu, error))? {
+                let news = model_news(stage);
+                self.tell(news);
+            }
+        }
+        Ok(true)
+    }
+
+    fn tell_model(&self, stage: &Stage) {
+        self.tell(model_news(stage));
+    }
+
+    fn model_failed(&self, job: &Job, error: EngineError) -> Result<(), Trouble> {
+        match Trouble::of(&self.gpu, error) {
+            Trouble::Failed(error) => {
+                self.tell(News::ModelFailed {
+                    model_revision: job.wish.model_revision,
+                    error,
+                });
+                Ok(())
+            }
+            trouble => Err(trouble),
+        }
+    }
+}
+
+fn model_news(stage: &Stage) -> News {
+    News::Model {
+        model_revision: stage.model.model_revision,
+        size: stage.model.size,
+        model: stage.model.clone(),
+    }
+}

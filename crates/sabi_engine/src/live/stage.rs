@@ -1,0 +1,248 @@
+//! The model at one size, with the graph on it and the results that are known there.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+use std::time::Duration;
+
+use sabi_gpu::{Gpu, Hits, ResultCache, Run, RunOptions, RunReport};
+use sabi_graph::{FlatGraph, Overrides};
+use sabi_plan::{Mode, Plan, Step, Target};
+use sabi_view::ViewModel;
+
+use super::news::LiveModel;
+use super::trouble::Trouble;
+use super::wish::{LiveOptions, Wish};
+use crate::AdapterChoice;
+use crate::error::EngineError;
+use crate::looks::models_own;
+use crate::prepare::{ModelOptions, Prepared};
+use crate::sets::shown_by;
+use crate::sheet::Sheet;
+use crate::solidity;
+use crate::stages::Progress;
+use crate::workpiece::{Workpiece, WorkpieceOptions};
+
+/// Rays of a place in a first picture while a knob is moved.
+const FEW_RAYS: u32 = 8;
+
+/// The model at one size.
+pub(super) struct Stage {
+    pub(super) workpiece: Workpiece,
+    pub(super) cache: ResultCache,
+    pub(super) model: Arc<LiveModel>,
+    /// How results are laid out to be inspected, and the name of what is; made when something is.
+    pub(super) sheet: Option<(Sheet, String)>,
+    /// Which node each material is shown by.
+    pub(super) serving: BTreeMap<u32, usize>,
+    /// Outputs that serve nothing, as sentences.
+    idle: Vec<String>,
+    /// Sentences that came while something was made of these sources: sources whose results are known say nothing again.
+    noted: Vec<(BTreeSet<[u8; 32]>, String)>,
+    /// Sources that the wish at hand needs.
+    sources: BTreeSet<[u8; 32]>,
+    /// Whether the wish at hand shoots rays.
+    shoots: bool,
+    kinds_revision: u64,
+    /// Whether it is there for a first picture.
+    is_coarse: bool,
+    submission: Duration,
+}
+
+/// What runs took, all together.
+#[derive(Default)]
+pub(super) struct Tally {
+    pub(super) nodes: BTreeMap<String, Duration>,
+    pub(super) steps: usize,
+    pub(super) cache_hits: usize,
+}
+
+impl Tally {
+    fn add(&mut self, plan: &Plan, report: &RunReport) {
+        self.steps += report.steps.len();
+        self.cache_hits += plan.steps.len() - report.steps.len();
+        for step in &report.steps {
+            for (node, share) in &step.nodes {
+                *self.nodes.entry(node.clone()).or_default() += step.run.mul_f32(share.max(0.0));
+            }
+        }
+    }
+}
+
+impl Stage {
+    /// Brings a model onto the device.
+    pub(super) fn new(
+        gpu: &Arc<Gpu>,
+        options: &LiveOptions,
+        wish: &Wish,
+        (prepared, model_revision): (Arc<Prepared>, u64),
+        is_coarse: bool,
+    ) -> Result<Stage, EngineError> {
+        let workpiece_options = WorkpieceOptions {
+            model: ModelOptions {
+                cache_dir: options.cache_dir.clone(),
+                size: prepared.atlas.size,
+                ..(*wish.model).clone()
+            },
+            overrides: Overrides::default(),
+            fit: None,
+            adapter: AdapterChoice::Auto,
+            caster: options.caster,
+            budget_bytes: options.budget_bytes,
+        };
+        let graph = FlatGraph::default();
+        let kinds = (*wish.kinds).clone();
+        let workpiece = Workpiece::assemble(&wish.graph, graph, kinds, prepared, gpu.clone(), &workpiece_options)?;
+        // Coarse results have a quarter of a full one's texels, or fewer.
+        let of_coarse = options.cache_bytes / 4;
+        let cache_bytes = if is_coarse {
+            of_coarse
+        } else {
+            options.cache_bytes - of_coarse
+        };
+        Ok(Stage {
+            model: live_model(&workpiece, model_revision)?,
+            workpiece,
+            cache: ResultCache::new(cache_bytes),
+            sheet: None,
+            serving: BTreeMap::new(),
+            idle: Vec::new(),
+            noted: Vec::new(),
+            sources: BTreeSet::new(),
+            shoots: false,
+            kinds_revision: wish.kinds_revision,
+            is_coarse,
+            submission: options.submission,
+        })
+    }
+
+    /// Takes the graph of a wish. Says whether the model is another one to those who draw it.
+    pub(super) fn take(&mut self, wish: &Wish, graph: &FlatGraph) -> Result<bool, EngineError> {
+        if self.kinds_revision != wish.kinds_revision {
+            self.workpiece.set_kinds((*wish.kinds).clone());
+            self.kinds_revision = wish.kinds_revision;
+        }
+        let prepared = &self.workpiece.prepared;
+        let (serving, idle) = shown_by(graph, &prepared.model, &prepared.atlas);
+        self.serving = serving;
+        // Materials that no output serves are shown by a node of the model's own looks at the end of the graph.
+        let mut graph = graph.clone();
+        graph.nodes.push(models_own(wish.graph.document.fit));
+        self.workpiece.set_graph(&wish.graph, graph)?;
+        self.idle = idle;
+        self.sources.clear();
+        self.shoots = false;
+        self.workpiece.hits = if wish.is_moving { Hits::Remembered } else { Hits::Shot };
+        let is_another = self.workpiece.fit != self.model.fit;
+        if is_another {
+            self.model = live_model(&self.workpiece, self.model.model_revision)?;
+        }
+        Ok(is_another)
+    }
+
+    /// Plans what of the targets can be planned. While a knob is moved, rays of a first picture that are not known are few.
+    pub(super) fn plan(&mut self, targets: &[Target]) -> Plan {
+        self.workpiece.most_rays = None;
+        let mut plan = self.try_plan(targets);
+        let is_new = |keys: &[[u8; 32]]| keys.iter().any(|key| !self.cache.knows(key));
+        let shoots =
+            |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some() && is_new(&kernel.keys));
+        if self.is_coarse && self.is_moving() && plan.steps.iter().any(shoots) {
+            self.workpiece.most_rays = Some(FEW_RAYS);
+            plan = self.try_plan(targets);
+        }
+        self.shoots |= plan.steps.iter().any(has_rays);
+        self.sources.extend(sources_of(&plan));
+        plan
+    }
+
+    fn try_plan(&self, targets: &[Target]) -> Plan {
+        let limits = self.workpiece.gpu.limits();
+        // Faults of all nodes are told already.
+        self.workpiece.try_plan(targets, Mode::Interactive, limits).0
+    }
+
+    /// What the artist should know of what the wish at hand needs.
+    pub(super) fn warnings(&self) -> impl Iterator<Item = &String> {
+        let is_of_now = |of: &BTreeSet<[u8; 32]>| of.is_empty() || !of.is_disjoint(&self.sources);
+        let noted = self.noted.iter().filter(move |(of, _)| is_of_now(of));
+        let of_model = self.shoots.then(|| self.model.prepared.solidity.get()).flatten();
+        let workpiece = self.workpiece.warnings.iter().chain(&self.idle);
+        workpiece
+            .chain(noted.map(|(_, sentence)| sentence))
+            .chain(of_model.into_iter().flatten())
+    }
+
+    /// Finds out what rays cannot rely on, if there are any.
+    pub(super) fn look_at_solidity(&self) {
+        if self.shoots {
+            solidity::of_model(&self.model.prepared);
+        }
+    }
+
+    fn is_moving(&self) -> bool {
+        self.workpiece.hits == Hits::Remembered
+    }
+
+    /// Whether results of a plan may differ, by rounding or grain, from those that come once no knob is moved any more.
+    pub(super) fn is_approximate(&self, plan: &Plan) -> bool {
+        self.is_moving() && plan.steps.iter().any(has_rays)
+    }
+
+    /// Runs a plan.
+    pub(super) fn run(&mut self, plan: &Plan, progress: &dyn Progress, tally: &mut Tally) -> Result<Run, Trouble> {
+        let (gpu, size) = (self.workpiece.gpu.clone(), self.model.size);
+        let made = self.workpiece.make_levels(plan);
+        made.map_err(|error| Trouble::of(&gpu, error))?;
+        let known = self.workpiece.warnings.len();
+        let cache = Some(&mut self.cache);
+        let run = self.workpiece.run_on_levels(plan, self.submission, progress, cache);
+        for sentence in self.workpiece.warnings.drain(known..) {
+            self.noted.retain(|(_, other)| *other != sentence);
+            self.noted.push((sources_of(plan).collect(), sentence));
+        }
+        let run = run.map_err(|error| Trouble::of_run(&gpu, size, error))?;
+        tally.add(plan, &run.report);
+        Ok(run)
+    }
+
+    /// How further work on results is done.
+    pub(super) fn run_options<'o>(&self, is_canceled: &'o dyn Fn() -> bool) -> RunOptions<'o> {
+        RunOptions {
+            is_canceled,
+            ..RunOptions::new(self.submission, self.workpiece.budget_bytes)
+        }
+    }
+}
+
+fn has_rays(step: &Step) -> bool {
+    matches!(step, Step::Kernel(kernel) if kernel.rays.is_some())
+}
+
+/// Names of what a plan's sources give.
+fn sources_of(plan: &Plan) -> impl Iterator<Item = [u8; 32]> {
+    let keys = |step: &Step| match step {
+        Step::Source(source) => source.keys.clone(),
+        _ => Vec::new(),
+    };
+    plan.steps.iter().flat_map(keys)
+}
+
+fn live_model(workpiece: &Workpiece, model_revision: u64) -> Result<Arc<LiveModel>, EngineError> {
+    let prepared = &workpiece.prepared;
+    let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
+    let view = ViewModel::new(
+        &workpiece.gpu,
+        &prepared.model,
+        &prepared.atlas,
+        &workpiece.surface,
+        model_from_working,
+    )?;
+    Ok(Arc::new(LiveModel {
+        model_revision,
+        size: prepared.atlas.size,
+        prepared: prepared.clone(),
+        placement: view.placement,
+        view,
+        fit: workpiece.fit,
+    }))
+}

@@ -1,0 +1,71 @@
+//! Where thumbnails are taken: one camera, one light, nothing behind the model.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use sabi_gpu::Gpu;
+use sabi_view::{Background, Camera, Environment, MaterialLook, Pixels, Pose, Renderer, Shot, Viewpoint};
+
+use super::news::LiveModel;
+use crate::environment::{built_in_environments, load_environment};
+use crate::error::EngineError;
+
+/// Pictures from slightly different places within each pixel: an outline on a clear background shows its steps.
+const SAMPLES: u32 = 4;
+
+/// Takes pictures of models.
+pub(super) struct Studio {
+    renderer: Renderer,
+    environment: Environment,
+    /// The last model, as it sits for its pictures.
+    sitting: Option<(Arc<LiveModel>, Pose)>,
+}
+
+impl Studio {
+    /// Sets up the light.
+    pub(super) fn new(gpu: &Gpu, cache_dir: Option<&Path>) -> Result<Studio, EngineError> {
+        let light = built_in_environments().next().unwrap_or_default();
+        // What could not be kept on disk is made again the next time.
+        let (environment, _) = load_environment(gpu, light, cache_dir)?;
+        Ok(Studio {
+            renderer: Renderer::new(gpu)?,
+            environment,
+            sitting: None,
+        })
+    }
+
+    /// A square picture of a look on all of a model.
+    pub(super) fn picture(
+        &mut self,
+        gpu: &Gpu,
+        side: u32,
+        model: &Arc<LiveModel>,
+        look: &MaterialLook,
+    ) -> Result<Pixels, EngineError> {
+        let is_same = |(sitting, _): &(Arc<LiveModel>, Pose)| Arc::ptr_eq(sitting, model);
+        let mut pose = match self.sitting.take().filter(is_same) {
+            Some((_, pose)) => pose,
+            None => self.pose(gpu, side, model)?,
+        };
+        let Studio {
+            renderer, environment, ..
+        } = self;
+        let drawn = renderer.draw_look(gpu, &mut pose, &model.view, environment, look)?;
+        let pixels = drawn.read(gpu)?;
+        self.sitting = Some((model.clone(), pose));
+        Ok(pixels)
+    }
+
+    fn pose(&self, gpu: &Gpu, side: u32, model: &LiveModel) -> Result<Pose, EngineError> {
+        let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+        let shot = Shot {
+            background: Background::Clear,
+            samples: SAMPLES,
+            ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, 1.0))
+        };
+        let Studio {
+            renderer, environment, ..
+        } = self;
+        Ok(renderer.pose(gpu, [side; 2], &model.view, environment, &shot)?)
+    }
+}

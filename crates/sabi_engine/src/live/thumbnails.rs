@@ -1,0 +1,126 @@
+//! Small pictures of what nodes give.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_graph::NodeRef;
+use sabi_plan::{Plan, Target};
+use sabi_view::Pixels;
+
+use super::faults::Laid;
+use super::mailbox::Watch;
+use super::model::Loaded;
+use super::news::News;
+use super::show::evaluate;
+use super::stage::Stage;
+use super::studio::Studio;
+use super::trouble::Trouble;
+use super::worker::{Job, Key, Worker};
+use crate::error::EngineError;
+use crate::looks::{Shows, shown};
+use crate::stages::Progress;
+
+impl Worker {
+    /// Takes pictures of the nodes that give something else than on their last one.
+    pub(super) fn show_thumbnails(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
+        let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) else {
+            return Ok(());
+        };
+        let nodes = job.wish.thumbnails.iter();
+        let targets: Vec<(NodeRef, Target)> = nodes
+            .filter_map(|node| Some((node.clone(), laid.found.get(node)?.clone())))
+            .collect();
+        let all: BTreeSet<Target> = targets.iter().map(|(_, target)| target.clone()).collect();
+        let all: Vec<Target> = all.into_iter().collect();
+        let plan = stage.plan(&laid.sound(&all, &self.broken));
+        let keys = keys(stage, &plan, job.wish.is_flat);
+        for (node, target) in targets {
+            let Some(key) = keys.get(&target) else { continue };
+            if self.sent.thumbnails.get(&node) == Some(key) {
+                continue;
+            }
+            self.go_on()?;
+            match self.picture(job, laid, &target) {
+                Ok(Some(picture)) => {
+                    self.sent.thumbnails.insert(node.clone(), *key);
+                    self.tell(News::Thumbnail {
+                        revision: job.wish.revision,
+                        node,
+                        picture,
+                    });
+                }
+                Ok(None) => {}
+                Err(Trouble::Failed(error)) => {
+                    // The others would most likely fail as well.
+                    self.tell(News::Failed {
+                        revision: job.wish.revision,
+                        error,
+                    });
+                    return Ok(());
+                }
+                Err(trouble) => return Err(trouble),
+            }
+        }
+        Ok(())
+    }
+
+    /// A picture of one result; none where it turns out that it cannot be made.
+    fn picture(&mut self, job: &mut Job, laid: &Laid, target: &Target) -> Result<Option<Pixels>, Trouble> {
+        let Worker {
+            loaded,
+            broken,
+            mailbox,
+            studio,
+            gpu,
+            options,
+            ..
+        } = self;
+        let Some(stage) = loaded.as_mut().and_then(Loaded::first) else {
+            return Ok(None);
+        };
+        let watch = Watch {
+            mailbox,
+            gives_way: true,
+        };
+        let wanted = std::slice::from_ref(target);
+        let plan = stage.plan(&laid.sound(wanted, broken));
+        let (plan, mut run) = evaluate(stage, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
+        let Some(result) = plan.results.first() else {
+            return Ok(None);
+        };
+        let trouble = |error: EngineError| Trouble::of(gpu, error);
+        let side = options.thumbnail_px;
+        if job.wish.is_flat {
+            let picture = stage.flat_picture(&plan, &run, result, side);
+            return picture.map(Some).map_err(trouble);
+        }
+        let is_canceled = || watch.is_canceled();
+        let run_options = stage.run_options(&is_canceled);
+        let looks = shown(&stage.workpiece, &plan, &mut run, &Shows::One, &run_options).map_err(trouble)?;
+        let Some(look) = looks.looks.last() else {
+            return Ok(None);
+        };
+        if studio.is_none() {
+            *studio = Some(Studio::new(gpu, options.cache_dir.as_deref()).map_err(trouble)?);
+        }
+        let picture = studio
+            .as_mut()
+            .map(|studio| studio.picture(gpu, side, &stage.model, look));
+        picture.transpose().map_err(trouble)
+    }
+}
+
+/// What the pictures of results show, by the results.
+fn keys(stage: &Stage, plan: &Plan, is_flat: bool) -> BTreeMap<Target, Key> {
+    let marks = [u8::from(stage.is_approximate(plan)), u8::from(is_flat)];
+    let key = |content: &Key| {
+        *blake3::Hasher::new()
+            .update(&marks)
+            .update(content)
+            .finalize()
+            .as_bytes()
+    };
+    let results = plan.results.iter();
+    results
+        .map(|result| (result.target.clone(), key(&result.key)))
+        .collect()
+}

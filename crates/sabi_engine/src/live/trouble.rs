@@ -1,0 +1,51 @@
+//! What keeps an evaluation from its end.
+
+use sabi_gpu::{Gpu, GpuError};
+
+use crate::error::{EngineError, ErrorKind};
+
+/// Why something was not evaluated.
+pub(super) enum Trouble {
+    /// A newer wish is there, or nobody wishes any more.
+    Superseded,
+    /// The device is gone.
+    Lost(EngineError),
+    /// The result of a node that is no kernel cannot be made; what does not need it can.
+    Node { node: String, why: String },
+    /// Anything else.
+    Failed(EngineError),
+}
+
+impl Trouble {
+    /// What an error means to whoever works on this device.
+    pub(super) fn of(gpu: &Gpu, error: impl Into<EngineError>) -> Trouble {
+        if let Some(loss) = gpu.loss() {
+            return Trouble::Lost(loss.into());
+        }
+        let error = error.into();
+        match error.kind {
+            ErrorKind::Interrupted => Trouble::Superseded,
+            _ => Trouble::Failed(error),
+        }
+    }
+
+    /// The same of a run on a surface of so many texels for one unit of UV.
+    pub(super) fn of_run(gpu: &Gpu, size: u32, error: GpuError) -> Trouble {
+        let room = match error {
+            GpuError::Node { node, why } => return Trouble::Node { node, why },
+            GpuError::OverBudget { needed_mib, budget_mib } => format!(
+                "the graph's results need {needed_mib} MiB of textures at a size of {size}, more than the budget of \
+                 {budget_mib} MiB"
+            ),
+            GpuError::OutOfMemory { what } => {
+                format!("the device is out of memory while making {what} at a size of {size}")
+            }
+            other => return Trouble::of(gpu, other),
+        };
+        let advice = "work at a smaller size, or close other programs that use the graphics card";
+        Trouble::of(
+            gpu,
+            EngineError::new(ErrorKind::OutOfMemory, format!("{room}; {advice}")),
+        )
+    }
+}

@@ -1,0 +1,214 @@
+//! The thread that works: it takes the last wish and answers it step by step.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use sabi_gpu::Gpu;
+use sabi_graph::NodeRef;
+
+use super::faults::Broken;
+use super::mailbox::Mailbox;
+use super::model::Loaded;
+use super::news::{Faults, LiveTimes, News};
+use super::stage::Tally;
+use super::studio::Studio;
+use super::trouble::Trouble;
+use super::wish::{LiveOptions, Seen, Wish};
+use crate::error::{EngineError, ErrorKind};
+
+/// Names what a picture shows.
+pub(super) type Key = [u8; 32];
+
+/// Owns all evaluation.
+pub(super) struct Worker {
+    pub(super) gpu: Arc<Gpu>,
+    pub(super) options: LiveOptions,
+    pub(super) mailbox: Arc<Mailbox>,
+    wake: Box<dyn Fn() + Send>,
+    /// The last good model.
+    pub(super) loaded: Option<Loaded>,
+    /// The last model that was tried, good or not.
+    pub(super) tried: Option<u64>,
+    pub(super) sent: Sent,
+    /// Nodes that are no kernels and whose results could not be made.
+    pub(super) broken: BTreeMap<String, Broken>,
+    pub(super) studio: Option<Studio>,
+    /// How long the last full picture took.
+    pub(super) full_took: Option<Duration>,
+}
+
+/// What the window has been told, so that nothing is told twice.
+#[derive(Default)]
+pub(super) struct Sent {
+    pub(super) shown: BTreeMap<Seen, SentShown>,
+    pub(super) thumbnails: BTreeMap<NodeRef, Key>,
+    pub(super) inspected: Option<(NodeRef, Key)>,
+    pub(super) faults: Option<Faults>,
+}
+
+/// What a viewport shows.
+#[derive(Clone, Copy, Default)]
+pub(super) struct SentShown {
+    /// As a coarse picture has it, though the window may have the full one by now.
+    pub(super) coarse: Option<Key>,
+    /// As a full picture has it, once it was told.
+    pub(super) full: Option<Key>,
+    /// Whether nothing that it is made of was at fault.
+    pub(super) is_whole: bool,
+}
+
+/// The answer to one wish in the making.
+pub(super) struct Job {
+    pub(super) wish: Wish,
+    pub(super) asked: Instant,
+    pub(super) tally: Tally,
+    pub(super) latency: Option<Duration>,
+    /// What coarse pictures of this wish are.
+    pub(super) coarse_keys: BTreeMap<Seen, Key>,
+    /// Whether somebody waits for the full picture alone, so that it is finished once it was begun.
+    pub(super) is_full_first: bool,
+}
+
+impl Worker {
+    pub(super) fn new(
+        gpu: Arc<Gpu>,
+        options: LiveOptions,
+        mailbox: Arc<Mailbox>,
+        wake: Box<dyn Fn() + Send>,
+    ) -> Worker {
+        Worker {
+            gpu,
+            options,
+            mailbox,
+            wake,
+            loaded: None,
+            tried: None,
+            sent: Sent::default(),
+            broken: BTreeMap::new(),
+            studio: None,
+            full_took: None,
+        }
+    }
+
+    /// Answers wishes until nobody wishes any more, or the device is gone.
+    pub(super) fn work(self) {
+        let mut worker = LastWords(self);
+        while let Some((wish, asked)) = worker.0.mailbox.next() {
+            if let Err(loss) = worker.0.answer(wish, asked) {
+                worker.0.mailbox.close();
+                worker.0.tell(News::Lost(loss));
+                return;
+            }
+        }
+    }
+
+    pub(super) fn tell(&self, news: News) {
+        self.mailbox.tell(news);
+        (self.wake)();
+    }
+
+    /// Ends the job if a newer wish is there.
+    pub(super) fn go_on(&self) -> Result<(), Trouble> {
+        if self.mailbox.is_superseded() {
+            return Err(Trouble::Superseded);
+        }
+        Ok(())
+    }
+
+    /// Answers one wish; an error is the loss of the device.
+    fn answer(&mut self, wish: Wish, asked: Instant) -> Result<(), EngineError> {
+        let revision = wish.revision;
+        let mut job = Job {
+            wish,
+            asked,
+            tally: Tally::default(),
+            latency: None,
+            coarse_keys: BTreeMap::new(),
+            is_full_first: false,
+        };
+        let outcome = self.answer_in_order(&mut job);
+        if job.tally.steps + job.tally.cache_hits > 0 {
+            self.tell_times(&job);
+        }
+        match outcome {
+            Ok(()) => self.tell(News::Done { revision }),
+            Err(Trouble::Superseded) => {}
+            Err(Trouble::Lost(loss)) => return Err(loss),
+            Err(Trouble::Failed(error)) => self.fail(revision, error),
+            Err(Trouble::Node { why, .. }) => self.fail(revision, EngineError::new(ErrorKind::BadInput, why)),
+        }
+        Ok(())
+    }
+
+    /// Ends a wish that could not be answered.
+    fn fail(&self, revision: u64, error: EngineError) {
+        self.tell(News::Failed { revision, error });
+        self.tell(News::Done { revision });
+    }
+
+    /// All that a wish asks for, what is missed most first.
+    fn answer_in_order(&mut self, job: &mut Job) -> Result<(), Trouble> {
+        let laid = self.lay_out(job);
+        self.load_first(job)?;
+        let Some(laid) = laid else {
+            self.go_on()?;
+            return self.load_full(job);
+        };
+        self.take_graph(job, &laid)?;
+        self.show_first(job, &laid)?;
+        self.tell_faults(job, &laid);
+        if job.wish.is_moving {
+            self.show_full(job, &laid)?;
+            self.show_thumbnails(job, &laid)?;
+        } else {
+            self.show_thumbnails(job, &laid)?;
+            self.show_full(job, &laid)?;
+        }
+        self.inspect(job, &laid)?;
+        if let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) {
+            stage.look_at_solidity();
+        }
+        self.tell_faults(job, &laid);
+        Ok(())
+    }
+
+    fn tell_times(&self, job: &Job) {
+        let stages = self.loaded.iter().flat_map(Loaded::stages);
+        let (texture_bytes, budget_bytes) = stages
+            .map(|stage| stage.cache.bytes())
+            .fold((0, 0), |(held, allowed), (more, most)| (held + more, allowed + most));
+        let times = LiveTimes {
+            nodes: job
+                .tally
+                .nodes
+                .iter()
+                .map(|(node, time)| (node.clone(), *time))
+                .collect(),
+            steps: job.tally.steps,
+            cache_hits: job.tally.cache_hits,
+            texture_bytes,
+            budget_bytes,
+            latency: job.latency,
+        };
+        self.tell(News::Times {
+            revision: job.wish.revision,
+            times,
+        });
+    }
+}
+
+/// A worker that says so when it ends by a mistake, since nobody would wait for news otherwise.
+struct LastWords(Worker);
+
+impl Drop for LastWords {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            let why = "the evaluation of the graph broke off; this is a mistake in Sabi";
+            self.0.mailbox.close();
+            self.0
+                .mailbox
+                .tell(News::Lost(EngineError::new(ErrorKind::BadInput, why)));
+        }
+    }
+}

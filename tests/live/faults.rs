@@ -1,0 +1,140 @@
+//! A faulty node is told and leaves the others.
+
+use std::fs;
+use std::sync::Arc;
+
+use sabi_engine::{Faults, NodeFault, OpenGraph, Waiting, Wish};
+use sabi_image::{PngData, PngOptions, encode_png};
+
+use crate::window::{Window, document, graph, node, wish};
+
+fn fault(node: &str, sentence: &str) -> NodeFault {
+    NodeFault {
+        node: node.to_owned(),
+        sentence: sentence.to_owned(),
+    }
+}
+
+fn waiting(node: &str, on: &str) -> Waiting {
+    Waiting {
+        node: node.to_owned(),
+        on: on.to_owned(),
+    }
+}
+
+const HALF_WIRED: &str = r#"
+    "blurred": { "kind": "filter/blur" },
+    "sharp": { "kind": "adjust/invert", "inputs": { "source": "blurred" } },
+    "clouds": { "kind": "noise/simplex" },
+    "plain": { "kind": "source/material" },
+    "out": { "kind": "output/material", "inputs": { "material": "plain" } }"#;
+
+#[test]
+fn a_faulty_node_leaves_the_others() {
+    let window = Window::new();
+    let all = Wish {
+        thumbnails: ["blurred", "sharp", "clouds", "plain"].map(node).to_vec(),
+        ..wish(1, graph(HALF_WIRED))
+    };
+    let told = window.answer(all);
+    let faults = told.faults().expect("faults");
+    let sentence = "input 'source' of node 'blurred' (filter/blur) must be connected to a mask";
+    assert_eq!(faults.faults, [fault("blurred", sentence)]);
+    assert_eq!(faults.waiting, [waiting("sharp", "blurred")]);
+    assert_eq!(told.coarse_and_full(), [true, false]);
+    assert_eq!(told.pictured(), ["clouds", "plain"]);
+}
+
+#[test]
+fn faults_are_told_when_they_change_and_only_then() {
+    let window = Window::new();
+    let faults = |revision: u64, nodes: &str| window.answer(wish(revision, graph(nodes))).faults().cloned();
+    assert!(faults(1, HALF_WIRED).is_some());
+    assert_eq!(faults(2, HALF_WIRED), None);
+    let mended = HALF_WIRED.replace(r#""filter/blur""#, r#""filter/blur", "inputs": { "source": "clouds" }"#);
+    assert_eq!(faults(3, &mended), Some(Faults::default()));
+}
+
+#[test]
+fn what_was_shown_stays_while_something_is_at_fault() {
+    let window = Window::new();
+    let wired = r#""plain": { "kind": "source/material" },
+        "out": { "kind": "output/material", "inputs": { "material": "plain" } }"#;
+    window.answer(wish(1, graph(wired)));
+    let loose = wired.replace(r#", "inputs": { "material": "plain" }"#, "");
+    let told = window.answer(wish(2, graph(&loose)));
+    assert!(told.shown().is_empty());
+    assert_eq!(told.faults().map(|faults| faults.faults.len()), Some(1));
+    // Nothing has to be made for what is there already.
+    let back = window.answer(wish(3, graph(wired)));
+    assert!(back.shown().is_empty() && back.evaluated().is_empty());
+}
+
+#[test]
+fn a_graph_that_is_at_fault_from_the_start_shows_the_model_all_the_same() {
+    let window = Window::new();
+    let told = window.answer(wish(1, graph(r#""out": { "kind": "output/material" }"#)));
+    assert_eq!(told.coarse_and_full(), [true, false]);
+}
+
+#[test]
+fn a_group_that_is_missing_is_told_and_the_model_is_loaded() {
+    let window = Window::new();
+    let told = window.answer(wish(
+        1,
+        graph(r#""i": { "kind": "graph/group", "group": "gone.sabi" }"#),
+    ));
+    let other = &told.faults().expect("faults").other;
+    assert!(other[0].contains("needs the group file \"gone.sabi\""), "{other:?}");
+    let is_model = |news: &&sabi_engine::News| matches!(news, sabi_engine::News::Model { .. });
+    assert_eq!(told.all.iter().filter(is_model).count(), 2);
+}
+
+/// A picture whose header is whole and whose pixels are not.
+fn torn_picture() -> Vec<u8> {
+    let codes: Vec<u8> = (0..64 * 64 * 3).map(|at: u32| (at * at >> 3) as u8).collect();
+    let options = PngOptions {
+        channels: 3,
+        bits: 8,
+        srgb_chunk: true,
+    };
+    let mut png = encode_png(64, 64, PngData::U8(&codes), options).expect("a picture");
+    png.truncate(png.len() / 2);
+    png
+}
+
+#[test]
+fn a_picture_that_cannot_be_decoded_is_the_fault_of_its_node() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("torn.png"), torn_picture()).expect("a picture");
+    let nodes = r##""torn": { "kind": "source/image", "params": { "file": "torn.png" } },
+        "after": { "kind": "adjust/invert", "inputs": { "source": "torn.mask" } },
+        "clouds": { "kind": "noise/simplex" },
+        "plain": { "kind": "source/material", "params": { "color": "#112233" } },
+        "out": { "kind": "output/material", "inputs": { "material": "plain" } }"##;
+    let text = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
+    let beside = |revision: u64| Wish {
+        graph: Arc::new(OpenGraph {
+            path: folder.path().join("live.sabi"),
+            ..document(&text)
+        }),
+        thumbnails: ["torn", "after", "clouds"].map(node).to_vec(),
+        ..wish(revision, document(&text))
+    };
+    let window = Window::new();
+    let told = window.answer(beside(1));
+    assert_eq!(told.pictured(), ["clouds"]);
+    let faults = told.faults().expect("faults").clone();
+    assert_eq!(faults.faults.len(), 1, "{faults:?}");
+    assert!(
+        faults.faults[0].sentence.starts_with("node 'torn' (source/image): "),
+        "{faults:?}"
+    );
+    assert_eq!(faults.waiting, [waiting("after", "torn")]);
+    let again = window.answer(beside(2));
+    assert_eq!(again.faults(), None, "it stays at fault");
+    fs::remove_file(folder.path().join("torn.png")).expect("no picture");
+    let gone = window.answer(beside(3));
+    let sentence = &gone.faults().expect("faults").faults[0].sentence;
+    assert!(sentence.contains("there is no file"), "{sentence}");
+}

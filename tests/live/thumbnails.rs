@@ -1,0 +1,108 @@
+//! Small pictures of nodes come when what they give changes, and only then.
+
+use sabi_engine::Wish;
+
+use crate::window::{Window, document, graph, node, wish};
+
+const NODES: &str = r##"
+    "clouds": { "kind": "noise/simplex" },
+    "cells": { "kind": "noise/cells" },
+    "red": { "kind": "color/constant", "params": { "color": "#ff0000" } },
+    "paint": { "kind": "source/material", "params": { "color": "#00ff00" } },
+    "out": { "kind": "output/material", "inputs": { "material": "paint" } }"##;
+
+fn pictured(revision: u64, nodes: &str, thumbnails: &[&str]) -> Wish {
+    Wish {
+        thumbnails: thumbnails.iter().map(|id| node(id)).collect(),
+        ..wish(revision, graph(nodes))
+    }
+}
+
+#[test]
+fn a_thumbnail_comes_once_while_nothing_changes() {
+    let window = Window::new();
+    let all = ["clouds", "red", "paint", "out"];
+    assert_eq!(window.answer(pictured(1, NODES, &all)).pictured(), all);
+    assert_eq!(window.answer(pictured(2, NODES, &all)).pictured(), [""; 0]);
+    let edited = NODES.replace("#ff0000", "#0000ff");
+    assert_eq!(window.answer(pictured(3, &edited, &all)).pictured(), ["red"]);
+}
+
+#[test]
+fn scrolling_sends_thumbnails_only() {
+    let window = Window::new();
+    window.answer(pictured(1, NODES, &["clouds"]));
+    let told = window.answer(pictured(2, NODES, &["cells", "red"]));
+    assert_eq!(told.pictured(), ["cells", "red"]);
+    assert!(told.shown().is_empty());
+    assert_eq!(told.evaluated(), ["cells", "red"]);
+}
+
+#[test]
+fn a_thumbnail_shows_the_model_in_what_the_node_gives_on_a_clear_ground() {
+    let window = Window::new();
+    let told = window.answer(pictured(1, NODES, &["red", "paint"]));
+    for (id, picture) in told.thumbnails() {
+        assert_eq!(picture.size, [32; 2]);
+        let pixel = |x: usize, y: usize| &picture.rgba[4 * (32 * y + x)..][..4];
+        assert_eq!(pixel(0, 0)[3], 0, "{id}: nothing is behind the model");
+        let [r, g, b, a] = [0, 1, 2, 3].map(|at| pixel(16, 16)[at]);
+        assert_eq!(a, 255, "{id}");
+        match id {
+            "red" => assert_eq!([r, g, b], [255, 0, 0]),
+            _ => assert!(g > r && g > b && g > 30, "{id}: {r} {g} {b}"),
+        }
+        let soft = picture
+            .rgba
+            .iter()
+            .skip(3)
+            .step_by(4)
+            .filter(|alpha| (1..255).contains(*alpha));
+        assert!(soft.count() > 8, "{id}: the outline is smooth");
+    }
+}
+
+#[test]
+fn flat_thumbnails_show_texture_space() {
+    let window = Window::new();
+    let flat = |revision: u64, is_flat: bool| Wish {
+        is_flat,
+        ..pictured(revision, NODES, &["red"])
+    };
+    let told = window.answer(flat(1, true));
+    let [(_, picture)] = told.thumbnails()[..] else {
+        panic!("one thumbnail");
+    };
+    let (pixels, _) = picture.rgba.as_chunks::<4>();
+    assert!(pixels.iter().any(|pixel| *pixel == [255, 0, 0, 255]));
+    assert!(pixels.iter().any(|pixel| pixel[3] == 0), "between the charts");
+    assert_eq!(
+        window.answer(flat(2, false)).pictured(),
+        ["red"],
+        "the other kind is another picture"
+    );
+}
+
+#[test]
+fn a_group_instance_and_a_node_inside_it_have_thumbnails() {
+    let grouped = r#"{ "format": "sabi", "version": 1,
+        "groups": { "wear": { "outputs": { "mask": "cut" }, "nodes": {
+            "bend": { "kind": "graph/reroute", "inputs": { "source": "noise" } },
+            "cut": { "kind": "adjust/threshold", "inputs": { "source": "bend" } },
+            "noise": { "kind": "noise/simplex" } } } },
+        "nodes": {
+            "wear_1": { "kind": "graph/group", "group": "wear" },
+            "way": { "kind": "graph/reroute", "inputs": { "source": "wear_1" } } } }"#;
+    let window = Window::new();
+    let all = ["wear_1", "wear_1/bend", "wear_1/noise", "way"];
+    let wished = Wish {
+        thumbnails: all.map(node).to_vec(),
+        ..wish(1, document(grouped))
+    };
+    let told = window.answer(wished);
+    assert_eq!(told.pictured(), all);
+    let pictures: Vec<&Vec<u8>> = told.thumbnails().iter().map(|(_, picture)| &picture.rgba).collect();
+    assert_eq!(pictures[0], pictures[3], "a reroute shows what it passes on");
+    assert_eq!(pictures[1], pictures[2]);
+    assert_ne!(pictures[0], pictures[1]);
+}

@@ -1,0 +1,216 @@
+//! A window that is not there: it wishes, and takes down what it is told.
+
+use std::cell::Cell;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration;
+
+use sabi_engine::{
+    Faults, Gpu, Kinds, Live, LiveModel, LiveOptions, LiveTimes, ModelOptions, News, NodeRef, OpenGraph, Pictures,
+    Seen, Shown, Wish,
+};
+use sabi_graph::Document;
+use sabi_tests::{device, project};
+use sabi_view::Pixels;
+
+/// Nobody waits longer for news: far more than any of these tests takes.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Sizes of pictures.
+pub(crate) const COARSE: u32 = 32;
+pub(crate) const FULL: u32 = 64;
+
+/// A window and its evaluator.
+pub(crate) struct Window {
+    // Dropped first, so that the evaluator does not wait for a window that is gone.
+    woken: Receiver<()>,
+    goes_on: Sender<()>,
+    is_held: Cell<bool>,
+    pub(crate) live: Live,
+}
+
+/// What a window was told until a wish was answered.
+#[derive(Default)]
+pub(crate) struct Told {
+    pub(crate) all: Vec<News>,
+}
+
+/// A graph of these nodes, in a folder of no interest.
+pub(crate) fn graph(nodes: &str) -> OpenGraph {
+    document(&format!(
+        r#"{{ "format": "sabi", "version": 1, "name": "live", "nodes": {{ {nodes} }} }}"#
+    ))
+}
+
+/// A graph of this text.
+pub(crate) fn document(text: &str) -> OpenGraph {
+    OpenGraph {
+        path: PathBuf::from("live.sabi"),
+        text: text.into(),
+        pictures: Pictures::default(),
+        document: Document::from_json(text).unwrap_or_else(|error| panic!("{error}\n{text}")),
+    }
+}
+
+/// A node by its id.
+pub(crate) fn node(id: &str) -> NodeRef {
+    NodeRef {
+        node: id.to_owned(),
+        port: None,
+    }
+}
+
+/// What the outputs of a graph make of the cube.
+pub(crate) fn wish(revision: u64, graph: OpenGraph) -> Wish {
+    Wish {
+        revision,
+        graph: Arc::new(graph),
+        kinds: Arc::new(Kinds::builtin()),
+        kinds_revision: 0,
+        model: Arc::new(ModelOptions::new(&project("assets/meshes/cube.glb"), FULL)),
+        model_revision: 0,
+        coarse_size: COARSE,
+        seen: vec![Seen::Outputs],
+        inspected: None,
+        thumbnails: Vec::new(),
+        is_flat: false,
+        is_moving: false,
+    }
+}
+
+/// Options with which nothing hangs on how quick the machine is.
+pub(crate) fn options() -> LiveOptions {
+    LiveOptions {
+        coarse_after: Duration::ZERO,
+        thumbnail_px: 32,
+        ..LiveOptions::default()
+    }
+}
+
+impl Window {
+    /// A window on the device that all tests share.
+    pub(crate) fn new() -> Window {
+        Window::on(device(), options())
+    }
+
+    pub(crate) fn on(gpu: Arc<Gpu>, options: LiveOptions) -> Window {
+        // The evaluator goes on when the window looks for more news, and not before.
+        let (wake, woken) = channel();
+        let (goes_on, held) = channel();
+        let live = Live::start(gpu, options, move || {
+            // Nobody listens once the window is closed.
+            let _ = wake.send(()).map(|()| held.recv());
+        });
+        Window {
+            woken,
+            goes_on,
+            is_held: Cell::new(false),
+            live,
+        }
+    }
+
+    /// News, as soon as there are some. The evaluator does nothing until the next call.
+    pub(crate) fn news(&self) -> Vec<News> {
+        if self.is_held.replace(false) {
+            // One that has ended does not care.
+            let _ = self.goes_on.send(());
+        }
+        self.woken.recv_timeout(PATIENCE).expect("somebody works");
+        self.is_held.set(true);
+        self.live.news()
+    }
+
+    /// All news up to one that is meant.
+    pub(crate) fn until(&self, is_meant: impl Fn(&News) -> bool) -> Told {
+        let mut told = Told::default();
+        while !told.all.last().is_some_and(&is_meant) {
+            told.all.extend(self.news());
+        }
+        told
+    }
+
+    /// Wishes, and waits until all of it was told.
+    pub(crate) fn answer(&self, wish: Wish) -> Told {
+        let asked = wish.revision;
+        self.live.ask(wish);
+        self.until(|news| matches!(news, News::Done { revision } if *revision == asked))
+    }
+}
+
+impl Told {
+    /// What viewports were shown, in order: wish, whether it was coarse, the model and the looks.
+    pub(crate) fn shown(&self) -> Vec<(u64, bool, &Arc<LiveModel>, &Arc<Shown>)> {
+        let shown = self.all.iter().filter_map(|news| match news {
+            News::Shown {
+                revision,
+                is_coarse,
+                model,
+                shown,
+                ..
+            } => Some((*revision, *is_coarse, model, shown)),
+            _ => None,
+        });
+        shown.collect()
+    }
+
+    /// Whether pictures were coarse, in order.
+    pub(crate) fn coarse_and_full(&self) -> Vec<bool> {
+        self.shown().iter().map(|(_, is_coarse, ..)| *is_coarse).collect()
+    }
+
+    /// Thumbnails by node.
+    pub(crate) fn thumbnails(&self) -> Vec<(&str, &Pixels)> {
+        let thumbnails = self.all.iter().filter_map(|news| match news {
+            News::Thumbnail { node, picture, .. } => Some((node.node.as_str(), picture)),
+            _ => None,
+        });
+        thumbnails.collect()
+    }
+
+    /// Nodes that have new thumbnails.
+    pub(crate) fn pictured(&self) -> Vec<&str> {
+        self.thumbnails().iter().map(|(node, _)| *node).collect()
+    }
+
+    /// What is wrong with the graph, as it was told last.
+    pub(crate) fn faults(&self) -> Option<&Faults> {
+        let mut faults = self.all.iter().rev();
+        faults.find_map(|news| match news {
+            News::Faults { faults, .. } => Some(faults),
+            _ => None,
+        })
+    }
+
+    /// What it took; nothing where nothing was evaluated.
+    pub(crate) fn times(&self) -> LiveTimes {
+        let mut times = self.all.iter().rev();
+        let found = times.find_map(|news| match news {
+            News::Times { times, .. } => Some(times.clone()),
+            _ => None,
+        });
+        found.unwrap_or_default()
+    }
+
+    /// Nodes that were evaluated.
+    pub(crate) fn evaluated(&self) -> Vec<String> {
+        self.times().nodes.into_iter().map(|(node, _)| node).collect()
+    }
+}
+
+/// The bytes of all textures of what is shown.
+pub(crate) fn bytes(shown: &Shown) -> Vec<u8> {
+    let gpu = device();
+    let mut bytes = Vec::new();
+    for look in &shown.looks {
+        let maps = &look.maps;
+        let maps = [&maps.color, &maps.surface, &maps.emission, &maps.height, &maps.normal];
+        let node = look.node.iter().map(|node| &node.texture);
+        for texture in maps.into_iter().flatten().chain(node) {
+            for page in 0..texture.depth_or_array_layers() {
+                gpu.read_layer(texture, page, 0, &mut bytes).expect("a page");
+            }
+        }
+    }
+    bytes
+}
