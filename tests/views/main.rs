@@ -1,7 +1,9 @@
 //! What is seen of a model: light, maps, relief and shadows, pixel by pixel.
 
 mod agreement;
+mod extents;
 mod furnace;
+mod poses;
 mod relief;
 mod sharing;
 mod sizes;
