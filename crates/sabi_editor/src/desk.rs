@@ -2,15 +2,31 @@
 //! window is needed for any of it.
 
 mod arrange;
+mod bringing;
 mod clipboard;
+mod copies;
 mod frames;
+mod group_files;
+mod grouping;
 mod groups;
+mod healing;
+mod heirs;
+mod instances;
 mod layered;
+mod layers;
+mod library;
 mod names;
 mod nodes;
+mod panel;
+mod ports;
+mod replacing;
 mod selecting;
+mod stack;
 #[cfg(test)]
 mod tests;
+mod turning;
+mod ungrouping;
+mod variants;
 mod wires;
 
 use std::collections::BTreeSet;
@@ -18,10 +34,15 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Catalog, Entry, Faces};
-use sabi_engine::{Kinds, Session};
+use sabi_engine::{EngineError, Kinds, Session};
 use sabi_graph::{Body, Document, Edit, Graph, Node, NodeId, OutputRef, SlotRef};
 
-pub(crate) use arrange::Align;
+pub(crate) use arrange::{
+    Align, GRID, MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT, input_row, output_row, own_knobs,
+};
+pub(crate) use library::ENDING;
+pub(crate) use panel::PanelKnob;
+pub(crate) use stack::{Layer, Stack, StackEnd};
 pub(crate) use wires::Merge;
 
 /// What a wire that is being dragged is tied to.
@@ -40,10 +61,15 @@ pub(crate) struct Desk {
     /// Rises when node files were read again.
     kinds_revision: u64,
     catalog: Arc<Catalog>,
+    /// Rises when pictures or group files were written anew.
+    files_revision: u64,
     /// What nodes show, of a revision of the document and of the kinds.
     faces: (Option<(u64, u64)>, Faces),
+    group_files: group_files::GroupFiles,
     /// Instances that were entered, outermost first.
     inside: Vec<NodeId>,
+    /// The graph that they lead to.
+    seen: Body,
     selection: BTreeSet<NodeId>,
     names: names::Names,
     /// Sentences that the artist has not seen yet.
@@ -59,13 +85,20 @@ impl Desk {
     fn with_names(session: Session, names: names::Names) -> Desk {
         let kinds = Arc::new(Kinds::beside(session.file()));
         let catalog = Arc::new(Catalog::new(&kinds));
+        Desk::with_kinds(session, names, kinds, catalog)
+    }
+
+    fn with_kinds(session: Session, names: names::Names, kinds: Arc<Kinds>, catalog: Arc<Catalog>) -> Desk {
         let mut desk = Desk {
             session,
             catalog,
             kinds,
             kinds_revision: 0,
+            files_revision: 0,
             faces: (None, Faces::default()),
+            group_files: group_files::GroupFiles::default(),
             inside: Vec::new(),
+            seen: Body::Main,
             selection: BTreeSet::new(),
             names,
             notices: Vec::new(),
@@ -86,6 +119,11 @@ impl Desk {
         (&self.kinds, self.kinds_revision)
     }
 
+    /// Rises when files that the graph names were written anew.
+    pub(crate) fn files_revision(&self) -> u64 {
+        self.files_revision
+    }
+
     pub(crate) fn catalog(&self) -> &Arc<Catalog> {
         &self.catalog
     }
@@ -96,7 +134,7 @@ impl Desk {
 
     /// The graph that is seen: the main one, or the group that was entered.
     pub(crate) fn body(&self) -> Body {
-        self.bodies().pop().unwrap_or_default()
+        self.seen.clone()
     }
 
     /// The main graph and the groups that were entered, one for each step.
@@ -120,7 +158,7 @@ impl Desk {
     /// The nodes that are seen.
     pub(crate) fn graph(&self) -> &Graph {
         // The body is one that is there.
-        self.graph_of(&self.body()).unwrap_or(&self.document().graph)
+        self.graph_of(&self.seen).unwrap_or(&self.document().graph)
     }
 
     pub(crate) fn node(&self, id: &NodeId) -> Option<&Node> {
@@ -129,7 +167,7 @@ impl Desk {
 
     /// What a node that is seen shows.
     pub(crate) fn face(&self, id: &NodeId) -> Option<&Arc<Entry>> {
-        self.faces.1.of(&self.body(), id.as_str())
+        self.faces.1.of(&self.seen, id.as_str())
     }
 
     pub(crate) fn faces(&self) -> &Faces {
@@ -150,11 +188,12 @@ impl Desk {
         path.collect::<Vec<_>>().join("/")
     }
 
-    /// Makes an edit as a step of that name; says so where it is refused.
+    /// Makes an edit as a step of that name; says so where it is refused. Instances of a group follow what it publishes.
     pub(crate) fn edit(&mut self, step: &str, edits: Vec<Edit>) -> bool {
         if edits.is_empty() {
             return false;
         }
+        let edits = instances::followed(self.document(), edits);
         let edit = match <[Edit; 1]>::try_from(edits) {
             Ok([one]) => one,
             Err(several) => Edit::Batch(several),
@@ -167,24 +206,54 @@ impl Desk {
         made.is_ok()
     }
 
-    /// Takes the last step back.
+    /// Takes the last step back. Nodes that come back are selected.
     pub(crate) fn undo(&mut self) {
+        let before = self.seen_ids();
         let undone = self.session.undo();
-        self.tell(undone.map(|step| step.map(|name| format!("Undone: {name}"))));
+        self.tell(undone.map(|step| step.map(|name| format!("Undone: {name}"))), before);
     }
 
-    /// Does the last step again that was undone.
+    /// Does the last step again that was undone. Nodes that come back are selected.
     pub(crate) fn redo(&mut self) {
+        let before = self.seen_ids();
         let redone = self.session.redo();
-        self.tell(redone.map(|step| step.map(|name| format!("Done again: {name}"))));
+        self.tell(
+            redone.map(|step| step.map(|name| format!("Done again: {name}"))),
+            before,
+        );
     }
 
-    fn tell(&mut self, told: Result<Option<String>, sabi_graph::EditError>) {
+    fn seen_ids(&self) -> (usize, BTreeSet<NodeId>) {
+        (self.inside.len(), self.graph().ids().cloned().collect())
+    }
+
+    fn tell(&mut self, told: Result<Option<String>, sabi_graph::EditError>, before: (usize, BTreeSet<NodeId>)) {
         match told {
             Ok(sentence) => self.notices.extend(sentence),
             Err(error) => self.say(error.to_string()),
         }
         self.refresh();
+        let (depth, ids) = before;
+        let came: Vec<NodeId> = self.graph().ids().filter(|id| !ids.contains(*id)).cloned().collect();
+        if depth == self.inside.len() && !came.is_empty() {
+            self.select(came);
+        }
+    }
+
+    /// Saves the graph to its file.
+    pub(crate) fn save(&mut self) -> Result<(), EngineError> {
+        self.session.save()
+    }
+
+    /// Saves the graph to a file, which is its own from then on. In another folder, other node files lie beside it.
+    pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
+        let folder = self.session.graph().folder().to_owned();
+        self.session.save_as(path)?;
+        if self.session.graph().folder() != folder {
+            self.take_kinds(Kinds::beside(Some(path)));
+        }
+        self.refresh();
+        Ok(())
     }
 
     /// Keeps a sentence for the artist.
@@ -192,9 +261,21 @@ impl Desk {
         self.notices.push(sentence.into());
     }
 
+    /// Says why something is not done.
+    fn refuse(&mut self, sentence: impl Into<String>) -> bool {
+        self.say(sentence);
+        false
+    }
+
     /// Sentences since the last call.
     pub(crate) fn take_notices(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notices)
+    }
+
+    /// Looks again at group files, since some were saved by somebody else.
+    pub(crate) fn group_files_changed(&mut self) {
+        self.faces.0 = None;
+        self.refresh();
     }
 
     /// Brings what follows from the document up to date.
@@ -204,28 +285,22 @@ impl Desk {
             return;
         }
         let folder = self.session.graph().folder().to_owned();
-        let mut read = |name: &str| read_group(&folder, name);
-        let faces = Faces::new(&self.catalog, self.document(), &mut read);
+        let files = &mut self.group_files;
+        let mut read = |name: &str| files.read(&folder.join(name));
+        let faces = Faces::new(&self.catalog, self.session.document(), &mut read);
         self.faces = (Some(now), faces);
-        // What is gone is neither entered nor selected.
         let depth = self.bodies().len() - 1;
-        self.inside.truncate(depth);
-        let gone: Vec<NodeId> = self
-            .selection
-            .iter()
-            .filter(|id| self.node(id).is_none())
-            .cloned()
-            .collect();
-        for id in gone {
-            self.selection.remove(&id);
+        if depth < self.inside.len() {
+            // What was selected is in a graph that is not seen any more.
+            self.inside.truncate(depth);
+            self.selection.clear();
         }
+        self.look();
+        self.forget_what_is_gone();
     }
-}
 
-/// A graph file that is used as a group.
-fn read_group(folder: &Path, name: &str) -> Option<Document> {
-    // What is wrong with it, the evaluation says.
-    sabi_engine::OpenGraph::open(&folder.join(name))
-        .ok()
-        .map(|open| open.document)
+    /// Turns to the graph that the entered instances lead to.
+    fn look(&mut self) {
+        self.seen = self.bodies().pop().unwrap_or_default();
+    }
 }

@@ -61,24 +61,52 @@ pub struct BakeRequest {
 
 /// Bakes; nothing is replaced before everything is complete, and no model is loaded for a graph with a fault.
 pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
-    let options = set_options(request)?;
+    // A preset that is not there is said before anything is read.
+    set_options(request)?;
     let mut reading = StageTime::default();
     let open = reading.time(|| OpenGraph::open(&request.graph))?;
     let kinds = reading.time(|| Kinds::beside(Some(&request.graph)));
-    let graph = reading.time(|| Workpiece::flat_graph(&open, &kinds, &request.workpiece))?;
-    let outputs = reading.time(|| sound_outputs(&open, &graph, &kinds))?;
+    bake_open(&open, kinds, reading, request, progress)
+}
+
+/// Bakes a graph as it is at hand, saved or not.
+pub fn bake_graph(
+    open: &OpenGraph,
+    kinds: &Kinds,
+    request: &BakeRequest,
+    progress: &dyn Progress,
+) -> Result<BakeReport, EngineError> {
+    bake_open(open, kinds.clone(), StageTime::default(), request, progress)
+}
+
+/// Names of all presets, the one that is taken unless told otherwise first.
+pub fn export_presets() -> impl Iterator<Item = &'static str> {
+    ["raw"].into_iter()
+}
+
+/// Bakes what was read in that time.
+fn bake_open(
+    open: &OpenGraph,
+    kinds: Kinds,
+    mut reading: StageTime,
+    request: &BakeRequest,
+    progress: &dyn Progress,
+) -> Result<BakeReport, EngineError> {
+    let options = set_options(request)?;
+    let graph = reading.time(|| Workpiece::flat_graph(open, &kinds, &request.workpiece))?;
+    let outputs = reading.time(|| sound_outputs(open, &graph, &kinds))?;
     // A folder that cannot be written to is found before the work, not after it.
     refuse_foreign_folder(request, &graph)?;
     let mut writer = BakeWriter::create(&request.output)?;
-    let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
+    let mut workpiece = Workpiece::open(open, graph, kinds, &request.workpiece, progress)?;
     workpiece.times.load.add(reading.total());
-    let read = workpiece.read_files(&open);
+    let read = workpiece.read_files(open);
     refuse_read_report(request, &read)?;
     writer.protect(read);
     workpiece.warn(bare_materials(&workpiece.prepared.model, &workpiece.prepared.atlas));
     let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    let mut serving = serve(&open, &workpiece.graph, &outputs, model, atlas, &sets)?;
+    let mut serving = serve(open, &workpiece.graph, &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &workpiece.prepared, &sets, &mut serving, &mut writer)?;
     workpiece.warn(std::mem::take(&mut serving.warnings));
     let own_looks = serving.model.map(|_| models_own(workpiece.fit));
@@ -127,8 +155,9 @@ fn left_over(committed: &Committed) -> impl Iterator<Item = String> {
 
 fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineError> {
     for name in &request.presets {
-        if name != "raw" {
-            let why = format!("there is no preset '{name}'; there is: raw");
+        if !export_presets().any(|known| known == name) {
+            let known = export_presets().collect::<Vec<_>>().join(", ");
+            let why = format!("there is no preset '{name}'; there is: {known}");
             return Err(EngineError::new(ErrorKind::Usage, why));
         }
     }

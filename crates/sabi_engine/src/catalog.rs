@@ -12,8 +12,9 @@ use sabi_graph::{GROUP_KIND, PortType, REROUTE_KIND};
 use sabi_nodes::kind::{InputDefault, Kind, Output, Role};
 use sabi_plan::{SourceKind, SourcePort};
 
-pub use faces::Faces;
+pub use faces::{Faces, ReadGroup};
 pub use knob::Knob;
+pub use sabi_nodes::curve_points;
 pub use sabi_nodes::kind::Role as KnobRole;
 
 use crate::kinds::Kinds;
@@ -215,7 +216,7 @@ fn reroute() -> Entry {
 }
 
 /// A name as people write it: spaces for strokes, a capital in front.
-pub(crate) fn readable(name: &str) -> String {
+pub fn readable(name: &str) -> String {
     let spaced = name.replace('_', " ");
     let mut letters = spaced.chars();
     match letters.next() {

@@ -43,7 +43,7 @@ mod stages;
 mod watch;
 mod workpiece;
 
-pub use bake::{BakeRequest, bake};
+pub use bake::{BakeRequest, bake, bake_graph, export_presets};
 pub use cache_dir::default_cache_dir;
 pub use check::{CheckReport, check};
 pub use describe::{describe_mesh, describe_nodes, diagnose};
@@ -67,7 +67,9 @@ pub use stages::{Progress, Silent, Stage};
 pub use watch::NodeWatcher;
 pub use workpiece::{Workpiece, WorkpieceOptions};
 
-pub use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits};
+pub use sabi_gpu::{
+    AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,
+};
 pub use sabi_graph::{Fit, NodeRef, Overrides, nearest};
 pub use sabi_surface::load::Up;
 /// What is seen of a model, and how.

@@ -1,6 +1,7 @@
 //! A graph that is being worked on: its edits and how they are taken back, its file, and what is kept of it in case the
 //! program ends before it is saved.
 
+mod moving;
 mod recovery;
 #[cfg(test)]
 mod tests;
@@ -11,6 +12,7 @@ use std::path::{Path, PathBuf};
 use sabi_export::Staging;
 use sabi_graph::{Document, Edit, EditError, History};
 
+use moving::Moving;
 pub use recovery::{Recovery, recoveries};
 
 use crate::document::OpenGraph;
@@ -133,8 +135,11 @@ impl Session {
         self.history.redo_names()
     }
 
-    /// Makes an edit, as a step of that name or a part of the one that was begun.
+    /// Makes an edit, as a step of that name or a part of the one that was begun. One that changes nothing is no step.
     pub fn edit(&mut self, name: &str, edit: Edit) -> Result<(), EditError> {
+        if self.open.document.is_as_after(&edit) {
+            return Ok(());
+        }
         self.history.apply(&mut self.open.document, name, edit)?;
         self.revision += 1;
         Ok(())
@@ -189,9 +194,29 @@ impl Session {
 
     /// Saves to a file, which is the session's from then on. The file that was there stays beside it under a name that ends
     /// in `.bak`; at every moment either the old text or the new one is there, whole.
+    ///
+    /// In another folder, relative paths are written so that they lead where they led before. That is no step of its own:
+    /// what can be undone and done again is rewritten with it, so that every state before and after the save names the same
+    /// files as ever, by their paths from the new folder.
     pub fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
-        let text = self.text().to_owned();
+        self.end();
+        let moving = Moving::between(self.open.folder(), path.parent().unwrap_or(Path::new("")));
+        let moved = moving.map(|moving| {
+            let document = moving.relocate(|relocation| self.open.document.relocated(relocation));
+            (moving, document)
+        });
+        let text = match &moved {
+            Some((_, document)) => document.to_json(),
+            None => self.text().to_owned(),
+        };
         write_with_backup(path, &text)?;
+        // Only now, since a file that could not be written changes nothing.
+        if let Some((moving, document)) = moved {
+            moving.relocate(|relocation| self.history.relocate(&self.open.document, relocation));
+            self.revision += u64::from(document != self.open.document);
+            self.open.document = document;
+            self.text = (self.revision, text.clone());
+        }
         if let Some(recovery) = &mut self.recovery {
             recovery.forget();
             recovery.name(Some(path));

@@ -1,15 +1,16 @@
 //! Making edits, each with its exact inverse.
 
+mod groups;
+mod idle;
 mod nodes;
 mod panel;
 
 use std::collections::BTreeMap;
 
-use crate::document::{GroupDef, GroupInput};
-use crate::name::check_name;
-use crate::problem::{Problem, hint, listed, shown};
+use crate::document::GroupInput;
+use crate::problem::{Problem, hint, shown};
 use crate::validate;
-use crate::{Body, Document, Edit, EditError, GROUP_KIND, Graph, OutputRef, Value};
+use crate::{Body, Document, Edit, EditError, Graph, OutputRef, Value};
 
 /// Graph, inputs and outputs of a body.
 type PartsMut<'a> = (
@@ -52,6 +53,7 @@ impl Document {
             Edit::SetOutput { body, name, output } => self.set_output(body, name, output),
             Edit::AddGroup { name, group } => self.add_group(name, *group),
             Edit::RemoveGroup { name } => self.remove_group(name),
+            Edit::RenameGroup { name, to, shown } => self.rename_group(name, to, shown),
             Edit::RenameDocument { name } => {
                 let name = std::mem::replace(&mut self.name, name);
                 Ok(Edit::RenameDocument { name })
@@ -126,59 +128,6 @@ impl Document {
                 None => Err(missing("group", name, std::iter::empty::<&String>())),
             },
         }
-    }
-
-    fn add_group(&mut self, name: String, mut group: GroupDef) -> Result<Edit, EditError> {
-        check_name("group", &name, "")?;
-        if self.groups.contains_key(&name) {
-            return Err(EditError::GroupExists { name: shown(&name) });
-        }
-        validate::group_ports(&group)?;
-        for (_, node) in group.graph.nodes() {
-            let is_group = |used: &str| used == name || self.groups.contains_key(used);
-            validate::kind_and_group(node, is_group, self.groups.keys().map(String::as_str))?;
-        }
-        group.fit = match group.fit {
-            Some(fit) => Some(validate::fit(fit).ok_or(EditError::BadFit)?),
-            None => None,
-        };
-        keep_all(&mut group.extra)?;
-        for input in group.inputs.values_mut() {
-            keep_all(&mut input.extra)?;
-        }
-        self.groups.insert(name.clone(), group);
-        Ok(Edit::RemoveGroup { name })
-    }
-
-    fn remove_group(&mut self, name: String) -> Result<Edit, EditError> {
-        let users = self.instances_of(&name);
-        if !users.is_empty() {
-            return Err(EditError::GroupInUse {
-                name: shown(&name),
-                users: listed(users.iter().map(String::as_str)),
-            });
-        }
-        match self.groups.remove(&name) {
-            Some(group) => Ok(Edit::AddGroup {
-                name,
-                group: Box::new(group),
-            }),
-            None => Err(missing("group", &name, self.groups.keys())),
-        }
-    }
-
-    /// Instances of a group outside itself: `node`, or `group/node`.
-    fn instances_of(&self, name: &str) -> Vec<String> {
-        let main = std::iter::once((None, &self.graph));
-        let groups = self.groups.iter().filter(|(group, _)| *group != name);
-        main.chain(groups.map(|(group, def)| (Some(group), &def.graph)))
-            .flat_map(|(group, graph)| graph.nodes().map(move |(id, node)| (group, id, node)))
-            .filter(|(_, _, node)| node.kind == GROUP_KIND && node.group.as_deref() == Some(name))
-            .map(|(group, id, _)| match group {
-                None => id.to_string(),
-                Some(group) => format!("{group}/{id}"),
-            })
-            .collect()
     }
 }
 

@@ -110,6 +110,10 @@ pub struct Exposed {
     pub to: Vec<SlotRef>,
     /// Name shown to artists.
     pub label: Option<String>,
+    /// Title of the part of the panel that it stands in.
+    pub section: Option<String>,
+    /// Place on the panel; knobs without one come last, by name.
+    pub order: Option<u32>,
     /// Numbers outside are refused.
     pub range: Option<[f64; 2]>,
     /// Its value while neither a variant nor the user sets it; without it the nodes keep their own.

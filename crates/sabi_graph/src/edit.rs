@@ -82,6 +82,13 @@ pub enum Edit {
     AddGroup { name: String, group: Box<GroupDef> },
     /// Removes a group that has no instances.
     RemoveGroup { name: String },
+    /// Files a group under another name, under which all its instances name it from then on, and sets the name people see
+    /// where it differs.
+    RenameGroup {
+        name: String,
+        to: String,
+        shown: Option<String>,
+    },
     /// Sets what to look at while editing.
     SetPreview { preview: Option<Preview> },
     /// Sets what counts as length 1.

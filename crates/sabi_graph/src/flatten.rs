@@ -9,6 +9,7 @@ mod trace;
 use std::collections::BTreeMap;
 
 pub use error::FlattenError;
+pub use knobs::INSTANCE_KNOBS;
 
 use crate::{Document, Fit, Value};
 

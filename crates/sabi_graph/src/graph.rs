@@ -122,6 +122,21 @@ impl Graph {
         &self.exposed
     }
 
+    /// Published knobs as they stand on the panel: by their order and then their name, those of a section together where
+    /// its first one stands.
+    pub fn panel(&self) -> Vec<(&str, &Exposed)> {
+        let mut knobs: Vec<(&str, &Exposed)> = self.exposed.iter().map(|(name, knob)| (name.as_str(), knob)).collect();
+        knobs.sort_by_key(|(_, knob)| knob.order.unwrap_or(u32::MAX));
+        let mut sections: Vec<Option<&str>> = Vec::new();
+        for (_, knob) in &knobs {
+            if !sections.contains(&knob.section.as_deref()) {
+                sections.push(knob.section.as_deref());
+            }
+        }
+        knobs.sort_by_key(|(_, knob)| sections.iter().position(|title| *title == knob.section.as_deref()));
+        knobs
+    }
+
     /// Named settings of the knobs: for each variant, values by knob.
     pub fn variants(&self) -> &BTreeMap<String, BTreeMap<String, Value>> {
         &self.variants

@@ -1,5 +1,6 @@
 //! Undo and redo.
 
+use crate::relocate::{Places, Relocation, may_bring_paths};
 use crate::{Document, Edit, EditError};
 
 /// Steps that can be undone at least; beyond, the oldest are forgotten, so that a long day's work takes no more memory than a
@@ -92,6 +93,29 @@ impl History {
     pub fn redo(&mut self, document: &mut Document) -> Result<Option<String>, EditError> {
         self.end();
         replay(document, &mut self.redo, &mut self.undo)
+    }
+
+    /// Follows a document that was written in another folder: undo leads to what was there before, as it is written in the
+    /// new folder. `document` is as it was in the old one.
+    pub fn relocate(&mut self, document: &Document, relocation: Relocation<'_>) {
+        self.end();
+        for steps in [&mut self.undo, &mut self.redo] {
+            let mut state = document.clone();
+            for step in steps.iter_mut().rev() {
+                let edit = Edit::Batch(step.edits.clone());
+                // What a parameter means is known while its node is there: before the step, or after it.
+                let before = may_bring_paths(&edit).then(|| state.clone());
+                if state.apply(edit).is_err() {
+                    // The document was changed past this history, which undo says.
+                    break;
+                }
+                if let Some(before) = &before {
+                    let states = vec![before, &state];
+                    let places = Places { relocation, states };
+                    step.edits.iter_mut().for_each(|edit| places.edit(edit));
+                }
+            }
+        }
     }
 
     /// Names of the steps that can be undone, the next one last.

@@ -31,6 +31,7 @@ mod order;
 mod port;
 mod problem;
 mod read;
+mod relocate;
 mod save;
 #[cfg(test)]
 mod tests;
@@ -40,7 +41,9 @@ mod value;
 pub use document::{Document, Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
 pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
-pub use flatten::{FlatGraph, FlatNode, FlatRef, FlattenError, Found, NodeRef, Overrides, flatten, flatten_and_find};
+pub use flatten::{
+    FlatGraph, FlatNode, FlatRef, FlattenError, Found, INSTANCE_KNOBS, NodeRef, Overrides, flatten, flatten_and_find,
+};
 pub use graph::{Graph, Node};
 pub use history::{History, UNDO_STEPS};
 pub use id::{NodeId, OutputRef, SlotRef};
@@ -48,6 +51,7 @@ pub use locate::locate;
 pub use nearest::nearest;
 pub use port::PortType;
 pub use problem::Problem;
+pub use relocate::Relocation;
 pub use value::{Value, canonical_number};
 
 /// Kind of the node that stands for a whole group.

@@ -98,9 +98,11 @@ fn exposed_item(knob: &Exposed) -> Item {
     let mut keys = Keys::default();
     keys.put("to", slots(&knob.to));
     keys.put_some("label", knob.label.as_deref());
+    keys.put_some("section", knob.section.as_deref());
+    keys.put_some("order", knob.order);
     keys.put_some("range", knob.range.map(|ends| ends.to_vec()));
     keys.put_some("default", knob.default.clone());
-    keys.put_extra(&knob.extra, &["to", "label", "range", "default"]);
+    keys.put_extra(&knob.extra, &["to", "label", "section", "order", "range", "default"]);
     Item::Keys(keys)
 }
 

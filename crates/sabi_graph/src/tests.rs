@@ -6,6 +6,8 @@ mod finding;
 mod fits;
 mod flat;
 mod group_files;
+mod moved;
+mod panel;
 mod random;
 mod round_trip;
 

@@ -15,8 +15,8 @@ pub(crate) const TITLE_HEIGHT: f32 = 28.0;
 pub(crate) const ROW_HEIGHT: f32 = 19.0;
 /// Side of the picture of a result.
 pub(crate) const PICTURE_SIDE: f32 = 128.0;
-/// Around what a node holds.
-pub(crate) const MARGIN: f32 = 6.0;
+/// Above the picture, and below everything.
+pub(crate) const MARGIN: f32 = 5.0;
 /// Most knobs that a node shows itself; the panel has all of them.
 const MOST_KNOBS: usize = 3;
 /// Places snap to multiples of it.
@@ -43,7 +43,7 @@ pub(crate) fn height_of(entry: &Entry) -> f32 {
     } else {
         PICTURE_SIDE + MARGIN
     };
-    TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + 2.0 * MARGIN
+    TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + MARGIN
 }
 
 /// What some nodes are brought in line by.
@@ -172,7 +172,7 @@ impl Desk {
 
 /// Where the wire of an input ends, from the node's upper edge: rows of inputs come first.
 pub(crate) fn input_row(row: usize) -> f32 {
-    TITLE_HEIGHT + MARGIN + (row as f32 + 0.5) * ROW_HEIGHT
+    TITLE_HEIGHT + (row as f32 + 0.5) * ROW_HEIGHT
 }
 
 /// Where the wire of an output begins, from the node's upper edge.

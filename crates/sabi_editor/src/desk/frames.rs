@@ -17,7 +17,7 @@ impl Desk {
             return false;
         }
         let count = self.graph().frames().len();
-        let taken: BTreeSet<NodeId> = self.graph().frames().keys().filter_map(|id| id.parse().ok()).collect();
+        let taken = self.frame_ids();
         let id = self.new_id("frame", &taken);
         let frame = Frame {
             title: Some("Frame".to_owned()),
@@ -26,6 +26,43 @@ impl Desk {
             ..Frame::default()
         };
         self.set_frame("Frame", id.as_str(), frame)
+    }
+
+    /// Ids of frames that are seen, as far as a new one could have them.
+    pub(super) fn frame_ids(&self) -> BTreeSet<NodeId> {
+        let frames = self.graph().frames().keys();
+        frames.filter_map(|id| id.parse().ok()).collect()
+    }
+
+    /// Selects the nodes in a frame.
+    pub(crate) fn select_frame(&mut self, id: &str) {
+        let frame = self.graph().frames().get(id);
+        let nodes = frame.map(|frame| frame.nodes.clone());
+        self.select(nodes.unwrap_or_default());
+    }
+
+    /// Puts nodes into a frame, or (`None`) takes them out of all.
+    pub(crate) fn put_into_frame(&mut self, nodes: &BTreeSet<NodeId>, id: Option<&str>) -> bool {
+        let mut edits = Vec::new();
+        for (known, frame) in self.graph().frames() {
+            let mut changed = frame.clone();
+            changed.nodes.retain(|node| !nodes.contains(node));
+            if Some(known.as_str()) == id {
+                changed.nodes.extend(nodes.iter().cloned());
+                // As long as all were in it already, they keep their places.
+                if nodes.iter().all(|node| frame.nodes.contains(node)) {
+                    continue;
+                }
+            }
+            if changed != *frame {
+                edits.push(Edit::AddFrame {
+                    body: self.body(),
+                    id: known.clone(),
+                    frame: changed,
+                });
+            }
+        }
+        self.edit("Change frame", edits)
     }
 
     /// Changes a frame, or adds it.

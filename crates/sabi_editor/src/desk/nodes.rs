@@ -1,14 +1,22 @@
 //! Nodes: adding, removing, copying, changing.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::Arc;
 
-use sabi_engine::catalog::{Entry, KnobRole};
-use sabi_graph::{Edit, GROUP_KIND, Graph, Node, NodeId, SlotRef, Value};
+use sabi_engine::catalog::{Entry, Faces, KnobRole};
+use sabi_graph::{Body, Edit, GROUP_KIND, Graph, Node, NodeId, Value};
 
+use super::variants::NO_VARIANT;
 use super::{Desk, Loose};
 
-/// How far a copy stands from what it was made of, canvas points.
-const COPY_OFFSET: [f32; 2] = [40.0, 40.0];
+/// How names of groups end that are files.
+const FILE_ENDING: &str = ".sabi";
+
+/// Whether a group of that name is a file, unless the document has one of that name.
+pub(super) fn is_file(group: &str) -> bool {
+    group.ends_with(FILE_ENDING)
+}
 
 impl Desk {
     /// A new node of a kind with its id and seeds of its own; it is in no graph yet.
@@ -53,17 +61,68 @@ impl Desk {
         self.place_new(id, node, &entry, loose)
     }
 
-    /// Adds an instance of one of the document's groups.
+    /// Adds an instance of a group: one of the document's own, or a graph file by its path relative to this one.
     pub(crate) fn add_group_instance(&mut self, group: &str, pos: [f32; 2], loose: Option<&Loose>) -> Option<NodeId> {
-        let Some(entry) = self.faces.1.of_group(group).cloned() else {
-            self.say(format!("there is no group '{group}'"));
+        if let Some(open) = self.would_hold_itself(group) {
+            self.say(format!(
+                "'{group}' holds '{open}', which is open here; a group cannot be inside itself"
+            ));
+            return None;
+        }
+        let Some(entry) = self.group_entry(group) else {
+            self.say(match is_file(group) {
+                true => format!("'{group}' cannot be read; choose a graph file"),
+                false => format!("there is no group '{group}'"),
+            });
             return None;
         };
         let (_, mut node) = self.fresh(GROUP_KIND, pos);
         node.group = Some(group.to_owned());
-        let stem = group.to_lowercase().replace(' ', "_");
+        let name = group.rsplit('/').next().unwrap_or(group);
+        let stem = name
+            .strip_suffix(FILE_ENDING)
+            .unwrap_or(name)
+            .to_lowercase()
+            .replace([' ', '-'], "_");
         let id = self.new_id(&stem, &BTreeSet::new());
         self.place_new(id, node, &entry, loose)
+    }
+
+    /// What an instance of a group shows, whether there is one or not.
+    fn group_entry(&mut self, group: &str) -> Option<Arc<Entry>> {
+        if let Some(known) = self.faces.1.of_group(group) {
+            return Some(known.clone());
+        }
+        if !is_file(group) {
+            return None;
+        }
+        let path = self.session.graph().folder().join(group);
+        let files = &mut self.group_files;
+        let document = files.read(&path)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let mut read = |name: &str| files.read(&folder.join(name));
+        Faces::new(&self.catalog, &document, &mut read).of_whole().cloned()
+    }
+
+    /// The group that is seen, if instances of another one inside it would hold it in turn.
+    pub(super) fn would_hold_itself(&self, group: &str) -> Option<String> {
+        let Body::Group(open) = &self.seen else { return None };
+        let mut seen = BTreeSet::from([group]);
+        let mut next = vec![group];
+        while let Some(name) = next.pop() {
+            if name == open {
+                return Some(open.clone());
+            }
+            let inner = self
+                .document()
+                .groups
+                .get(name)
+                .into_iter()
+                .flat_map(|group| group.graph.nodes());
+            let held = inner.filter_map(|(_, node)| node.group.as_deref().filter(|_| node.kind == GROUP_KIND));
+            next.extend(held.filter(|held| seen.insert(held)));
+        }
+        None
     }
 
     fn place_new(&mut self, id: NodeId, node: Node, entry: &Entry, loose: Option<&Loose>) -> Option<NodeId> {
@@ -92,145 +151,19 @@ impl Desk {
     pub(crate) fn mute(&mut self) -> bool {
         let is_muted = |id: &NodeId| self.node(id).is_some_and(|node| node.muted);
         let muted = !self.selection.iter().all(is_muted);
+        self.set_muted(self.selection.clone(), muted)
+    }
+
+    /// Mutes nodes, or lets them speak.
+    pub(super) fn set_muted(&mut self, ids: impl IntoIterator<Item = NodeId>, muted: bool) -> bool {
         let body = self.body();
-        let edits = self.selection.iter().map(|id| Edit::SetMuted {
+        let edits = ids.into_iter().map(|node| Edit::SetMuted {
             body: body.clone(),
-            node: id.clone(),
+            node,
             muted,
         });
         let edits = edits.collect();
         self.edit(if muted { "Mute" } else { "Unmute" }, edits)
-    }
-
-    /// Copies the selected nodes, wires among them included; with `keeps_inputs` also those that come from elsewhere.
-    pub(crate) fn duplicate(&mut self, keeps_inputs: bool) -> bool {
-        let chosen = self
-            .selection
-            .iter()
-            .filter_map(|id| Some((id.clone(), self.node(id)?.clone())));
-        let chosen: BTreeMap<NodeId, Node> = chosen.collect();
-        let copies = self.copies(&chosen, keeps_inputs, COPY_OFFSET);
-        self.add_all("Duplicate", copies)
-    }
-
-    /// Copies under new ids; a copy keeps its seed, so that it looks like what it was made of.
-    pub(super) fn copies(
-        &mut self,
-        nodes: &BTreeMap<NodeId, Node>,
-        keeps_inputs: bool,
-        offset: [f32; 2],
-    ) -> Vec<(NodeId, Node)> {
-        let body = self.body();
-        let mut taken = BTreeSet::new();
-        let mut new_id = BTreeMap::new();
-        for id in nodes.keys() {
-            let graph = self.session.document().body(&body);
-            let copy = self.names.copy_of(id, graph.unwrap_or(&Graph::default()), &taken);
-            taken.insert(copy.clone());
-            new_id.insert(id, copy);
-        }
-        let copy = |(id, node): (&NodeId, &Node)| {
-            let mut copy = node.clone();
-            copy.inputs
-                .retain(|_, from| keeps_inputs || nodes.contains_key(&from.node));
-            for from in copy.inputs.values_mut() {
-                if let Some(new) = new_id.get(&from.node) {
-                    from.node = new.clone();
-                }
-            }
-            copy.pos = [0, 1].map(|axis| node.pos[axis] + offset[axis]);
-            (new_id[id].clone(), copy)
-        };
-        nodes.iter().map(copy).collect()
-    }
-
-    /// Adds nodes as one step and selects them. They may read each other.
-    pub(super) fn add_all(&mut self, step: &str, nodes: Vec<(NodeId, Node)>) -> bool {
-        let ids: Vec<NodeId> = nodes.iter().map(|(id, _)| id.clone()).collect();
-        let edits = self.adding_all(nodes);
-        let is_made = self.edit(step, edits);
-        if is_made {
-            self.select(ids);
-        }
-        is_made
-    }
-
-    /// The edits that add nodes which read each other: all of them first, then their wires.
-    pub(super) fn adding_all(&self, nodes: Vec<(NodeId, Node)>) -> Vec<Edit> {
-        let body = self.body();
-        let mut wires = Vec::new();
-        let mut edits: Vec<Edit> = Vec::new();
-        for (id, mut node) in nodes {
-            for (input, from) in std::mem::take(&mut node.inputs) {
-                wires.push(Edit::Connect {
-                    body: body.clone(),
-                    node: id.clone(),
-                    input,
-                    from,
-                });
-            }
-            edits.push(self.adding(&id, node));
-        }
-        edits.extend(wires);
-        edits
-    }
-
-    /// Puts a node of another kind in the place of one; wires that fit stay, and so do parameters of the same name.
-    pub(crate) fn replace(&mut self, id: &NodeId, kind: &str) -> bool {
-        let Some((old, face)) = self.node(id).cloned().zip(self.face(id).cloned()) else {
-            return false;
-        };
-        let Some(entry) = self.catalog.entry(kind).cloned() else {
-            return false;
-        };
-        let (new_id, mut node) = self.fresh(kind, old.pos);
-        node.muted = old.muted;
-        node.label = old.label.clone();
-        for knob in &entry.knobs {
-            let same = face.knob(&knob.name).is_some_and(|known| known.role == knob.role);
-            if let Some(value) = old.params.get(&knob.name).filter(|_| same) {
-                node.params.insert(knob.name.clone(), value.clone());
-            }
-        }
-        let mut free: Vec<_> = entry.inputs.iter().collect();
-        for (name, from) in &old.inputs {
-            let carried = self.faces.1.carried(&self.body(), from);
-            let same = free.iter().position(|port| port.name == *name && port.accepts(carried));
-            let fitting = same.or_else(|| free.iter().position(|port| port.ty == carried));
-            if let Some(at) = fitting {
-                node.inputs.insert(free.remove(at).name.clone(), from.clone());
-            }
-        }
-        let readers = self.graph().readers(id.as_str());
-        let mut edits = vec![self.adding(&new_id, node)];
-        edits.extend(readers.iter().filter_map(|slot| self.retied(slot, &new_id, &entry)));
-        edits.push(Edit::RemoveNode {
-            body: self.body(),
-            id: id.clone(),
-        });
-        let is_made = self.edit(&format!("Replace by {}", entry.label), edits);
-        if is_made {
-            self.select([new_id]);
-        }
-        is_made
-    }
-
-    /// The edit that has a reader read another node instead, by the output of the same name or one that fits.
-    fn retied(&self, slot: &SlotRef, id: &NodeId, entry: &Entry) -> Option<Edit> {
-        let input = self.input(slot)?;
-        let named = self.wire_into(slot)?.port.clone();
-        let same = entry.output(named.as_deref()).filter(|port| input.accepts(port.ty));
-        let output = same.or_else(|| entry.output_for(input))?;
-        let is_first = entry.outputs.first().is_some_and(|first| first.name == output.name);
-        Some(Edit::Connect {
-            body: self.body(),
-            node: slot.node.clone(),
-            input: slot.name.clone(),
-            from: sabi_graph::OutputRef {
-                node: id.clone(),
-                port: (!is_first).then(|| output.name.clone()),
-            },
-        })
     }
 
     /// Sets a knob of one node, or (`None`) gives it its default back.
@@ -250,18 +183,28 @@ impl Desk {
     }
 
     fn set_knob_of(&mut self, ids: impl IntoIterator<Item = NodeId>, knob: &str, value: Option<Value>) -> bool {
-        let body = self.body();
-        let edits: Vec<Edit> = ids
-            .into_iter()
-            .map(|node| Edit::SetParam {
-                body: body.clone(),
+        let mut edits = Vec::new();
+        for node in ids {
+            let value = value.clone().filter(|value| !self.means_no_variant(&node, knob, value));
+            if let Some(why) = value.as_ref().and_then(|value| self.why_not_set(&node, knob, value)) {
+                return self.refuse(why);
+            }
+            edits.extend(self.published_default(&node, knob, value.as_ref()));
+            edits.push(Edit::SetParam {
+                body: self.body(),
                 node,
                 param: knob.to_owned(),
-                value: value.clone(),
-            })
-            .collect();
+                value,
+            });
+        }
         let step = format!("Set {}", knob.replace('_', " "));
         self.edit(&step, edits)
+    }
+
+    /// Whether a value says that an instance starts from no variant of its group, for which a file has no word.
+    fn means_no_variant(&self, id: &NodeId, knob: &str, value: &Value) -> bool {
+        let is_instance = self.node(id).is_some_and(|node| node.kind == GROUP_KIND);
+        is_instance && knob == "variant" && value.as_text() == Some(NO_VARIANT)
     }
 
     /// Gives a node a name, or its kind's one back.

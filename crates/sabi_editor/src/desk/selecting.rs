@@ -26,15 +26,14 @@ impl Desk {
     /// Selects these and nothing else.
     pub(crate) fn select(&mut self, ids: impl IntoIterator<Item = NodeId>) {
         self.selection = ids.into_iter().collect();
-        let gone: Vec<NodeId> = self
-            .selection
-            .iter()
-            .filter(|id| self.node(id).is_none())
-            .cloned()
-            .collect();
-        for id in gone {
-            self.selection.remove(&id);
-        }
+        self.forget_what_is_gone();
+    }
+
+    /// Selects only nodes that are there.
+    pub(super) fn forget_what_is_gone(&mut self) {
+        let selection = std::mem::take(&mut self.selection);
+        let there = selection.into_iter().filter(|id| self.node(id).is_some());
+        self.selection = there.collect();
     }
 
     /// Selects a node besides the others, or no more.

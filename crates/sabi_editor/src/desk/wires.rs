@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::Port;
-use sabi_graph::{Edit, NodeId, OutputRef, REROUTE_KIND, SlotRef, Value};
+use sabi_engine::catalog::{Entry, Port};
+use sabi_graph::{Edit, GROUP_KIND, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef, Value};
 
 use super::{Desk, Loose};
 
@@ -34,8 +34,7 @@ impl Desk {
     /// Ties a wire to an input in place of what was there. What the wire carries has to fit.
     pub(crate) fn connect(&mut self, from: &OutputRef, to: &SlotRef) -> bool {
         if let Err(why) = self.fits(from, to) {
-            self.say(why);
-            return false;
+            return self.refuse(why);
         }
         let edit = self.tie(from, to);
         self.edit("Connect", vec![edit])
@@ -43,17 +42,80 @@ impl Desk {
 
     /// Why a wire cannot lead there.
     pub(crate) fn fits(&self, from: &OutputRef, to: &SlotRef) -> Result<(), String> {
-        let input = self
-            .input(to)
-            .ok_or_else(|| format!("'{}' has no input '{}'", to.node, to.name))?;
-        let carried = self.faces.1.carried(&self.body(), from);
-        match (carried, input.ty) {
-            (Some(carried), Some(takes)) if !takes.accepts(carried) => Err(format!(
-                "'{}' takes a {takes}, and this wire carries a {carried}; only masks and colors turn into each other",
-                input.label
-            )),
-            _ => Ok(()),
+        self.carries_what_fits(from, to)?;
+        if !self.is_made_from(&from.node, &to.node) {
+            return Ok(());
         }
+        let [one, other] = [&from.node, &to.node].map(|id| self.title(id));
+        Err(match from.node == to.node {
+            true => format!("'{one}' cannot read its own result"),
+            false => format!("'{one}' is made from '{other}'; this wire would lead in a circle"),
+        })
+    }
+
+    /// Why a wire that leads there carries something else.
+    pub(super) fn carries_what_fits(&self, from: &OutputRef, to: &SlotRef) -> Result<(), String> {
+        let Some(input) = self.input(to) else {
+            return Err(format!("'{}' has no input '{}'", self.title(&to.node), to.name));
+        };
+        let source = self.face(&from.node);
+        if source.and_then(|face| face.output(from.port.as_deref())).is_none() {
+            let title = self.title(&from.node);
+            return Err(match &from.port {
+                Some(port) => format!("'{title}' gives no result '{port}'"),
+                None => format!("'{title}' gives no result"),
+            });
+        }
+        let Some(carried) = self.carried(from) else {
+            return Ok(());
+        };
+        let refused = |label: &str, takes: PortType| {
+            let why = "only masks and colors turn into each other";
+            Err(format!(
+                "'{label}' takes a {takes}, and this wire carries a {carried}; {why}"
+            ))
+        };
+        if !self.is_reroute(&to.node) {
+            return match input.ty {
+                Some(takes) if !takes.accepts(carried) => refused(&input.label, takes),
+                _ => Ok(()),
+            };
+        }
+        // A bend takes whatever those take who read it.
+        match self
+            .behind_bends(&to.node)
+            .into_iter()
+            .find(|(_, takes)| !takes.accepts(carried))
+        {
+            Some((label, takes)) => refused(&label, takes),
+            None => Ok(()),
+        }
+    }
+
+    fn is_reroute(&self, id: &NodeId) -> bool {
+        self.node(id).is_some_and(|node| node.kind == REROUTE_KIND)
+    }
+
+    /// The inputs that a reroute leads to in the end, each with what it takes.
+    fn behind_bends(&self, id: &NodeId) -> Vec<(String, PortType)> {
+        let mut found = Vec::new();
+        let mut seen = BTreeSet::from([id.clone()]);
+        let mut next = vec![id.clone()];
+        while let Some(id) = next.pop() {
+            for slot in self.graph().readers(id.as_str()) {
+                if self.is_reroute(&slot.node) {
+                    next.extend(Some(slot.node).filter(|id| seen.insert(id.clone())));
+                } else if let Some((port, takes)) = self.input(&slot).and_then(|port| Some((port, port.ty?))) {
+                    found.push((port.label.clone(), takes));
+                }
+            }
+        }
+        found
+    }
+
+    /// What is carried by a wire from there.
+    pub(super) fn carried(&self, from: &OutputRef) -> Option<PortType> {
+        self.faces().carried(&self.seen, from)
     }
 
     /// An input of a node that is seen.
@@ -61,7 +123,7 @@ impl Desk {
         self.face(&slot.node)?.input(&slot.name)
     }
 
-    fn tie(&self, from: &OutputRef, to: &SlotRef) -> Edit {
+    pub(super) fn tie(&self, from: &OutputRef, to: &SlotRef) -> Edit {
         Edit::Connect {
             body: self.body(),
             node: to.node.clone(),
@@ -70,16 +132,14 @@ impl Desk {
         }
     }
 
-    /// A wire from a node's first output names the node alone.
-    fn shortest(&self, from: &OutputRef) -> OutputRef {
+    /// A wire from a node's first output names the node alone; one from a group always says which it means, since the group
+    /// may get another.
+    pub(super) fn shortest(&self, from: &OutputRef) -> OutputRef {
         let face = self.face(&from.node);
-        let is_first = face.is_some_and(|face| {
-            let first = face.outputs.first().map(|port| port.name.as_str());
-            first.is_some() && first == from.port.as_deref()
-        });
+        let named = face.and_then(|face| Some(port_in_wire(face, face.output(from.port.as_deref())?)));
         OutputRef {
             node: from.node.clone(),
-            port: from.port.clone().filter(|_| !is_first),
+            port: named.unwrap_or_else(|| from.port.clone()),
         }
     }
 
@@ -96,7 +156,7 @@ impl Desk {
         self.edit(step, edits)
     }
 
-    fn untie(&self, slot: &SlotRef) -> Edit {
+    pub(super) fn untie(&self, slot: &SlotRef) -> Edit {
         Edit::Disconnect {
             body: self.body(),
             node: slot.node.clone(),
@@ -108,7 +168,7 @@ impl Desk {
     pub(crate) fn may_merge(&self, from: &OutputRef, to: &SlotRef) -> bool {
         use sabi_graph::PortType::Mask;
         let takes_mask = self.input(to).is_some_and(|port| port.ty == Some(Mask));
-        let carries = self.faces.1.carried(&self.body(), from);
+        let carries = self.carried(from);
         takes_mask && carries.is_some_and(|ty| Mask.accepts(ty)) && self.wire_into(to).is_some_and(|tied| tied != from)
     }
 
@@ -121,6 +181,9 @@ impl Desk {
         let Some((mode, first)) = mode else {
             return self.connect(from, to);
         };
+        if let Err(why) = self.fits(from, to) {
+            return self.refuse(why);
+        }
         let Some(reader) = self.node(&to.node) else {
             return false;
         };
@@ -142,11 +205,14 @@ impl Desk {
     }
 
     /// The edit that ties a loose wire to a node of the given face at its first port that fits; none where none does.
-    pub(super) fn tie_loose(&self, loose: &Loose, id: &NodeId, face: &sabi_engine::catalog::Entry) -> Option<Edit> {
+    pub(super) fn tie_loose(&self, loose: &Loose, id: &NodeId, face: &Entry) -> Option<Edit> {
+        let own = self.node(id).map(|node| &node.inputs);
+        let is_free = |port: &Port| own.is_none_or(|inputs| !inputs.contains_key(&port.name));
         match loose {
             Loose::From(from) => {
-                let carried = self.faces.1.carried(&self.body(), from);
-                let input = face.input_for(carried)?;
+                let carried = self.carried(from);
+                let exact = face.inputs.iter().find(|port| port.ty == carried && is_free(port));
+                let input = exact.or_else(|| face.inputs.iter().find(|port| port.accepts(carried) && is_free(port)))?;
                 let to = SlotRef {
                     node: id.clone(),
                     name: input.name.clone(),
@@ -155,22 +221,26 @@ impl Desk {
             }
             Loose::Into(to) => {
                 let output = face.output_for(self.input(to)?)?;
-                let is_first = face.outputs.first().is_some_and(|first| first.name == output.name);
-                let from = OutputRef {
-                    node: id.clone(),
-                    port: (!is_first).then(|| output.name.clone()),
-                };
-                Some(self.tie(&from, to))
+                Some(Edit::Connect {
+                    body: self.body(),
+                    node: to.node.clone(),
+                    input: to.name.clone(),
+                    from: OutputRef {
+                        node: id.clone(),
+                        port: port_in_wire(face, output),
+                    },
+                })
             }
         }
     }
 
     /// Puts a node into the wire that leads to an input: it reads what the input read, and the input reads it.
     pub(crate) fn insert(&mut self, id: &NodeId, to: &SlotRef) -> bool {
-        let edits = self.inserting(id, to);
-        match edits {
+        match self.inserting(id, to) {
             Some(edits) => self.edit("Insert", edits),
-            None => false,
+            None => self.refuse(
+                "only a node that nobody reads yet, with a free input and a result that fit, can be put into a wire",
+            ),
         }
     }
 
@@ -181,15 +251,31 @@ impl Desk {
 
     fn inserting(&self, id: &NodeId, to: &SlotRef) -> Option<Vec<Edit>> {
         let from = self.wire_into(to)?.clone();
-        let is_tied = from.node == *id || to.node == *id || !self.graph().readers(id.as_str()).is_empty();
-        let node = self.node(id)?;
-        if is_tied || !node.inputs.is_empty() {
+        let is_read = !self.graph().readers(id.as_str()).is_empty();
+        if from.node == *id || is_read || self.is_made_from(id, &to.node) {
             return None;
         }
         let face = self.face(id)?.clone();
         let into = self.tie_loose(&Loose::From(from), id, &face)?;
         let out = self.tie_loose(&Loose::Into(to.clone()), id, &face)?;
         Some(vec![into, out])
+    }
+
+    /// Whether a node is another one, or made from it.
+    fn is_made_from(&self, id: &NodeId, source: &NodeId) -> bool {
+        let mut seen = BTreeSet::from([id.clone()]);
+        let mut next = vec![id.clone()];
+        while let Some(id) = next.pop() {
+            if id == *source {
+                return true;
+            }
+            next.extend(
+                self.neighbors(&id, true)
+                    .into_iter()
+                    .filter(|id| seen.insert(id.clone())),
+            );
+        }
+        false
     }
 
     /// Puts a bend into the wire that leads to an input.
@@ -205,40 +291,6 @@ impl Desk {
         };
         let edits = vec![self.adding(&id, node), self.tie(&bend, to)];
         self.edit("Bend wire", edits)
-    }
-
-    /// The edits that tie everybody who reads these nodes to what the nodes pass on, as muting them would.
-    pub(super) fn healing(&self, ids: &BTreeSet<NodeId>) -> Vec<Edit> {
-        let mut edits = Vec::new();
-        for id in ids {
-            for slot in self.graph().readers(id.as_str()) {
-                if ids.contains(&slot.node) {
-                    continue;
-                }
-                let tied = self.wire_into(&slot).cloned();
-                let passed = tied.and_then(|from| self.passed_on(&from, ids));
-                let fitting = passed.filter(|from| self.fits(from, &slot).is_ok());
-                edits.push(match fitting {
-                    Some(from) => self.tie(&from, &slot),
-                    None => self.untie(&slot),
-                });
-            }
-        }
-        edits
-    }
-
-    /// What comes out of a wire when the nodes `gone` are mere wires: their first input of the same type.
-    fn passed_on(&self, from: &OutputRef, gone: &BTreeSet<NodeId>) -> Option<OutputRef> {
-        let mut at = from.clone();
-        // Wires lead in no circle, so that this ends.
-        while gone.contains(&at.node) {
-            let face = self.face(&at.node)?;
-            let ty = face.output(at.port.as_deref())?.ty;
-            let node = self.node(&at.node)?;
-            let fitting = face.inputs.iter().filter(|port| port.ty == ty);
-            at = fitting.filter_map(|port| node.inputs.get(&port.name)).next()?.clone();
-        }
-        Some(at)
     }
 
     /// Takes the selected nodes out of their wires, which heal behind them.
@@ -258,7 +310,7 @@ impl Desk {
         self.edit("Take out of the wires", edits)
     }
 
-    /// Swaps what the first two inputs of the same type read.
+    /// Swaps the first two inputs of the same type of each selected node: what they read, and the knobs that stand in for it.
     pub(crate) fn swap_inputs(&mut self) -> bool {
         let mut edits = Vec::new();
         for id in &self.selection {
@@ -269,12 +321,12 @@ impl Desk {
                 node: id.clone(),
                 name: port.name.clone(),
             };
-            let pairs = face.inputs.iter().enumerate().flat_map(|(at, one)| {
+            let mut pairs = face.inputs.iter().enumerate().flat_map(|(at, one)| {
                 let rest = face.inputs[at + 1..].iter();
                 rest.filter(|other| other.ty == one.ty).map(move |other| (one, other))
             });
             let is_tied = |port: &Port| node.inputs.contains_key(&port.name);
-            let Some((one, other)) = pairs.into_iter().find(|(one, other)| is_tied(one) || is_tied(other)) else {
+            let Some((one, other)) = pairs.find(|(one, other)| is_tied(one) || is_tied(other)) else {
                 continue;
             };
             for (to, from) in [(one, other), (other, one)] {
@@ -282,8 +334,25 @@ impl Desk {
                     Some(from) => self.tie(from, &slot(to)),
                     None => self.untie(&slot(to)),
                 });
+                if [to, from]
+                    .iter()
+                    .all(|port| face.knob(&port.name).is_some_and(|knob| knob.is_of_input))
+                {
+                    edits.push(Edit::SetParam {
+                        body: self.body(),
+                        node: id.clone(),
+                        param: to.name.clone(),
+                        value: node.params.get(&from.name).cloned(),
+                    });
+                }
             }
         }
         self.edit("Swap inputs", edits)
     }
+}
+
+/// How a wire names an output of a node: not at all where it is the first one of a kind.
+pub(super) fn port_in_wire(face: &Entry, port: &Port) -> Option<String> {
+    let is_first = face.outputs.first().is_some_and(|first| first.name == port.name);
+    (!is_first || face.id == GROUP_KIND).then(|| port.name.clone())
 }

@@ -67,6 +67,11 @@ impl Faces {
         self.of_groups.get(name)
     }
 
+    /// What an instance of the document itself shows, when another file uses it as a group.
+    pub fn of_whole(&self) -> Option<&Arc<Entry>> {
+        self.of_whole.as_ref()
+    }
+
     /// What is carried by a wire from there.
     pub fn carried(&self, body: &Body, from: &OutputRef) -> Option<PortType> {
         let entry = self.of(body, from.node.as_str())?;
@@ -206,7 +211,7 @@ impl Published<'_> {
                 is_required: false,
             }
         });
-        let exposed = self.graph.exposed().iter();
+        let exposed = self.graph.panel().into_iter();
         let knobs = exposed.filter_map(|(name, knob)| self.knob(faces, body, name, knob));
         Entry {
             id: GROUP_KIND.to_owned(),

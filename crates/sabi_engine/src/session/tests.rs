@@ -140,3 +140,97 @@ fn a_drag_is_one_step() {
     assert_eq!(session.undo().unwrap().as_deref(), Some("Gain"));
     assert_eq!(session.text(), before);
 }
+
+fn image(id: &str, file: &str) -> Edit {
+    let mut node = Node::new("source/image");
+    node.params.insert("file".to_owned(), Value::from(file));
+    Edit::AddNode {
+        body: Body::Main,
+        id: id.parse().unwrap(),
+        node,
+    }
+}
+
+/// The picture that a node names, as a place on the disk.
+fn picture(session: &Session, id: &str) -> PathBuf {
+    let path = session.document().graph.node(id).unwrap().params["file"]
+        .as_text()
+        .unwrap();
+    session.graph().folder().join(path).canonicalize().unwrap()
+}
+
+#[test]
+fn a_graph_saved_to_another_folder_names_the_same_files_before_and_after_undo() {
+    let desk = desk();
+    fs::create_dir_all(desk.path().join("deep/er")).unwrap();
+    let [one, other] = ["one.png", "other.png"].map(|name| {
+        fs::write(desk.path().join(name), name).unwrap();
+        desk.path().join(name).canonicalize().unwrap()
+    });
+    let mut session = Session::new(None);
+    session.save_as(&desk.path().join("a.sabi")).unwrap();
+    session.edit("Add", image("a", "one.png")).unwrap();
+    session
+        .edit(
+            "Remove",
+            Edit::RemoveNode {
+                body: Body::Main,
+                id: "a".parse().unwrap(),
+            },
+        )
+        .unwrap();
+    session.edit("Add", image("b", "other.png")).unwrap();
+    let steps: Vec<String> = session.undo_names().map(str::to_owned).collect();
+    let revision = session.revision();
+    session.save_as(&desk.path().join("deep/er/b.sabi")).unwrap();
+    assert!(!session.is_dirty());
+    assert!(
+        session.revision() > revision,
+        "what follows from the document is made again"
+    );
+    assert_eq!(session.undo_names().collect::<Vec<_>>(), steps, "saving is no step");
+    assert_eq!(
+        session.document().graph.node("b").unwrap().params["file"].as_text(),
+        Some("../../other.png")
+    );
+    assert_eq!(
+        fs::read_to_string(desk.path().join("deep/er/b.sabi")).unwrap(),
+        session.text()
+    );
+    assert_eq!(picture(&session, "b"), other);
+    session.undo().unwrap();
+    session.undo().unwrap();
+    assert_eq!(picture(&session, "a"), one);
+    session.redo().unwrap();
+    session.redo().unwrap();
+    assert!(!session.is_dirty(), "the same bytes as were saved");
+    session.save_as(&desk.path().join("a.sabi")).unwrap();
+    assert_eq!(
+        session.document().graph.node("b").unwrap().params["file"].as_text(),
+        Some("other.png")
+    );
+}
+
+#[test]
+fn a_graph_that_could_not_be_saved_elsewhere_keeps_its_paths() {
+    let desk = desk();
+    let mut session = Session::new(None);
+    session.save_as(&desk.path().join("a.sabi")).unwrap();
+    session.edit("Add", image("a", "one.png")).unwrap();
+    let before = session.text().to_owned();
+    fs::create_dir_all(desk.path().join("deep/b.sabi")).unwrap();
+    session.save_as(&desk.path().join("deep/b.sabi")).unwrap_err();
+    assert_eq!(session.text(), before);
+    assert_eq!(session.file(), Some(desk.path().join("a.sabi").as_path()));
+}
+
+#[test]
+fn an_edit_that_changes_nothing_is_no_step() {
+    let mut session = Session::new(None);
+    session.edit("Add", add("a")).unwrap();
+    session.edit("Gain", set_gain(0.5)).unwrap();
+    session.undo().unwrap();
+    session.edit("Gain", Edit::SetSeed { seed: 0 }).unwrap();
+    assert_eq!(session.undo_names().count(), 1);
+    assert_eq!(session.redo_names().count(), 1, "what was undone is still there");
+}

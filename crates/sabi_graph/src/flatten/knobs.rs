@@ -8,8 +8,8 @@ use crate::problem::{Problem, hint, listed, shown};
 use crate::value::number_text;
 use crate::{Graph, SlotRef, Value};
 
-/// Knobs that every group instance has, beside those its group exposes.
-pub(super) const INSTANCE_KNOBS: [&str; 3] = ["scale", "seed", "variant"];
+/// Knobs that every group instance has beside those its group exposes, which therefore take other names.
+pub const INSTANCE_KNOBS: [&str; 3] = ["scale", "seed", "variant"];
 
 /// Parameters that knobs set, in order: later ones win.
 pub(super) type Settings = Vec<(SlotRef, Value)>;

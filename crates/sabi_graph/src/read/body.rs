@@ -150,6 +150,8 @@ fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, Fail> 
     let knob = Exposed {
         to: read_slots(graph, &mut fields)?,
         label: fields.text("label")?,
+        section: fields.text("section")?,
+        order: fields.whole("order")?,
         range: fields.pair("range")?,
         default: fields.take("default").map(|json| value(json, "default")).transpose()?,
         extra: fields.extra()?,

@@ -93,15 +93,19 @@ fn a_node() -> impl Strategy<Value = Node> {
 fn a_knob() -> impl Strategy<Value = Exposed> {
     let range = prop::option::of((-10.0..0.0f64, 0.0..10.0f64).prop_map(|(low, high)| [low, high]));
     let words = prop::option::of(any::<String>());
-    (slots(), words, range, prop::option::of(a_value()), values()).prop_map(|(to, label, range, default, extra)| {
-        Exposed {
+    let place = (prop::option::of(any::<String>()), prop::option::of(any::<u32>()));
+    let told = (words, place);
+    (slots(), told, range, prop::option::of(a_value()), values()).prop_map(
+        |(to, (label, (section, order)), range, default, extra)| Exposed {
             to,
             label,
+            section,
+            order,
             range,
             default,
             extra,
-        }
-    })
+        },
+    )
 }
 
 fn an_input() -> impl Strategy<Value = GroupInput> {
@@ -187,6 +191,11 @@ fn a_panel_edit() -> impl Strategy<Value = Edit> {
             group: Box::new(group)
         }),
         a_name().prop_map(|name| Edit::RemoveGroup { name }),
+        (a_name(), a_name(), prop::option::of(any::<String>())).prop_map(|(name, to, shown)| Edit::RenameGroup {
+            name,
+            to,
+            shown
+        }),
         any::<String>().prop_map(|name| Edit::RenameDocument { name }),
         prop::option::of(a_preview()).prop_map(|preview| Edit::SetPreview { preview }),
         a_fit().prop_map(|fit| Edit::SetFit { fit }),

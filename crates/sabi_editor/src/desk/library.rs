@@ -1,0 +1,134 @@
+//! Groups that are kept to be used in other graphs: each a graph file of its own.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sabi_engine::OpenGraph;
+use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
+
+use super::{Desk, Loose, bringing};
+
+/// What graph files end in.
+pub(crate) const ENDING: &str = "sabi";
+
+impl Desk {
+    /// Writes the group of the selected instance into a folder, as a graph file that other graphs can use.
+    pub(crate) fn shelve(&mut self, folder: &Path) -> Option<PathBuf> {
+        let name = self.selected_one().and_then(|id| self.node(id)?.group.clone());
+        let Some((name, group)) =
+            name.and_then(|name| Some((name.clone(), self.document().groups.get(&name)?.clone())))
+        else {
+            self.say("Select a group to put it into the library; Ctrl+G makes one of the selected nodes.");
+            return None;
+        };
+        let document = match self.as_document(&name, &group) {
+            Ok(document) => document,
+            Err(why) => {
+                self.say(why);
+                return None;
+            }
+        };
+        let file = folder.join(format!("{}.{ENDING}", file_stem(&name)));
+        let written = fs::create_dir_all(folder).and_then(|()| {
+            let partial = file.with_extension("part");
+            fs::write(&partial, document.to_json())?;
+            fs::rename(&partial, &file)
+        });
+        match written {
+            Ok(()) => {
+                self.say(format!("'{name}' is in the library now."));
+                Some(file)
+            }
+            Err(error) => {
+                self.say(format!("{} cannot be written: {error}", file.display()));
+                None
+            }
+        }
+    }
+
+    /// A group as a document of its own, with the groups that it needs.
+    fn as_document(&self, name: &str, group: &GroupDef) -> Result<Document, String> {
+        let mut document = Document::new(group.name.as_deref().unwrap_or(name));
+        document.fit = group.fit.unwrap_or(self.document().fit);
+        let refused = |error: sabi_graph::EditError| format!("'{name}' cannot be a file of its own: {error}");
+        let named = group.graph.nodes().filter_map(|(_, node)| node.group.clone());
+        let needed = bringing::needed(self.document(), named);
+        for name in bringing::in_order(self.document(), &needed) {
+            let add = Edit::AddGroup {
+                group: Box::new(self.document().groups[&name].clone()),
+                name,
+            };
+            document.apply(add).map_err(refused)?;
+        }
+        for id in group.graph.topological_order() {
+            if let Some(node) = group.graph.node(id.as_str()).cloned() {
+                let add = Edit::AddNode {
+                    body: Body::Main,
+                    id,
+                    node,
+                };
+                document.apply(add).map_err(refused)?;
+            }
+        }
+        for edit in bringing::publishing(&Body::Main, group) {
+            document.apply(edit).map_err(refused)?;
+        }
+        Ok(document)
+    }
+
+    /// Adds an instance of a group out of the library; the group becomes one of the document's own.
+    pub(crate) fn add_from_library(&mut self, file: &Path, pos: [f32; 2], loose: Option<&Loose>) -> Option<NodeId> {
+        let open = match OpenGraph::open(file) {
+            Ok(open) => open,
+            Err(error) => {
+                self.say(error.to_string());
+                return None;
+            }
+        };
+        let mut document = open.document;
+        let stem = file
+            .file_stem()
+            .map_or_else(|| "Group".to_owned(), |stem| stem.to_string_lossy().into_owned());
+        let name = if document.name.is_empty() {
+            stem
+        } else {
+            document.name.clone()
+        };
+        let group = GroupDef {
+            name: None,
+            fit: Some(document.fit),
+            graph: document.graph.clone(),
+            inputs: document.inputs.clone(),
+            outputs: document.outputs.clone(),
+            ..GroupDef::default()
+        };
+        document.groups.insert(name.clone(), group);
+        let mut instance = Node::new(GROUP_KIND);
+        instance.group = Some(name);
+        let (id, _) = self.fresh(GROUP_KIND, pos);
+        let brought = self.brought_groups(&document, &BTreeMap::from([(id, instance.clone())]));
+        brought.rename(&mut instance);
+        if !brought.edits.is_empty() && !self.edit("Add a group", brought.edits) {
+            return None;
+        }
+        self.add_group_instance(instance.group.as_deref()?, pos, loose)
+    }
+}
+
+/// A name as files are called on every system.
+fn file_stem(name: &str) -> String {
+    let kept = name.chars().map(|letter| {
+        if letter.is_alphanumeric() || letter == '-' {
+            letter
+        } else {
+            '_'
+        }
+    });
+    let stem: String = kept.collect();
+    if stem.trim_matches('_').is_empty() {
+        "group".to_owned()
+    } else {
+        stem.to_lowercase()
+    }
+}

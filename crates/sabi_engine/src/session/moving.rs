@@ -1,0 +1,134 @@
+//! Paths in a graph that is saved to another folder: they lead where they led before.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+
+use sabi_graph::Relocation;
+use sabi_nodes::kind::Role;
+
+use crate::source;
+
+/// The way from one folder to another.
+pub(super) struct Moving {
+    from: PathBuf,
+    to: PathBuf,
+    /// Parameters that are paths of files, by kind. Nodes in WGSL name no files.
+    files: BTreeMap<String, Vec<String>>,
+}
+
+impl Moving {
+    /// The way between two folders; none where both are the same.
+    pub(super) fn between(from: &Path, to: &Path) -> Option<Moving> {
+        let [from, to] = [from, to].map(real);
+        if from == to {
+            return None;
+        }
+        let files = source::kinds().into_iter().map(|(id, kind)| {
+            let files = kind.params.into_iter().filter(|param| param.role == Role::File);
+            (id, files.map(|param| param.name).collect())
+        });
+        let files = files.collect();
+        Some(Moving { from, to, files })
+    }
+
+    /// What is done with this move as a relocation.
+    pub(super) fn relocate<T>(&self, done: impl FnOnce(Relocation<'_>) -> T) -> T {
+        let is_file = |kind: &str, param: &str| self.is_file(kind, param);
+        let moved = |path: &str| moved(path, &self.from, &self.to);
+        done(Relocation {
+            is_file: &is_file,
+            moved: &moved,
+        })
+    }
+
+    fn is_file(&self, kind: &str, param: &str) -> bool {
+        let files = self.files.get(kind);
+        files.is_some_and(|files| files.iter().any(|known| known == param))
+    }
+}
+
+/// A folder by its one name, as far as it is there.
+fn real(folder: &Path) -> PathBuf {
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let whole = folder.canonicalize().or_else(|_| std::path::absolute(folder));
+    plain(&whole.unwrap_or_else(|_| folder.to_owned()))
+}
+
+/// A path without steps back and forth.
+fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
+                plain.pop();
+            }
+            // Nothing lies above the root.
+            Component::ParentDir if plain.has_root() => {}
+            part => plain.push(part),
+        }
+    }
+    plain
+}
+
+/// A path out of a file in folder `from` as a file in folder `to` writes it: relative where both lie on one drive. Absolute
+/// paths, and those of nothing, stay.
+fn moved(path: &str, from: &Path, to: &Path) -> String {
+    let written = path.replace('\\', "/");
+    let has_drive = written.as_bytes().get(1) == Some(&b':');
+    if path.trim().is_empty() || written.starts_with('/') || has_drive {
+        return path.to_owned();
+    }
+    let target = plain(&from.join(&written));
+    let [there, here] = [target.components(), to.components()].map(Iterator::collect::<Vec<_>>);
+    let shared = there.iter().zip(&here).take_while(|(one, other)| one == other).count();
+    if shared == 0 {
+        return slashed(&target);
+    }
+    let up = std::iter::repeat_n(Component::ParentDir, here.len() - shared);
+    slashed(&up.chain(there[shared..].iter().copied()).collect::<PathBuf>())
+}
+
+/// As files have it on every system.
+fn slashed(path: &Path) -> String {
+    path.to_string_lossy().replace('\\', "/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_leads_where_it_led_from_another_folder() {
+        for (path, from, to, written) in [
+            ("a.png", "/w/here", "/w/there", "../here/a.png"),
+            ("a.png", "/w", "/w/there", "../a.png"),
+            ("there/a.png", "/w", "/w/there", "a.png"),
+            ("../a.png", "/w/here", "/w", "a.png"),
+            ("./b/../a.png", "/w", "/w/x/y", "../../a.png"),
+            ("b\\a.png", "/w", "/w/x", "../b/a.png"),
+            ("../../../a.png", "/w", "/v", "../a.png"),
+            ("/x/a.png", "/w", "/v", "/x/a.png"),
+            ("C:\\x\\a.png", "/w", "/v", "C:\\x\\a.png"),
+            ("", "/w", "/v", ""),
+        ] {
+            assert_eq!(
+                moved(path, Path::new(from), Path::new(to)),
+                written,
+                "{path} from {from} to {to}"
+            );
+        }
+    }
+
+    #[test]
+    fn only_the_picture_of_an_image_is_a_file() {
+        let moving = Moving::between(Path::new("/w"), Path::new("/v")).unwrap();
+        assert!(moving.is_file("source/image", "file"));
+        assert!(!moving.is_file("source/image", "projection") && !moving.is_file("noise/simplex", "file"));
+        assert!(Moving::between(Path::new("/w/./v"), Path::new("/w/v")).is_none());
+    }
+}

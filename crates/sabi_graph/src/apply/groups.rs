@@ -1,0 +1,98 @@
+//! Edits of groups as a whole.
+
+use super::{keep_all, missing};
+use crate::document::GroupDef;
+use crate::name::check_name;
+use crate::problem::{listed, shown};
+use crate::validate;
+use crate::{Document, Edit, EditError, GROUP_KIND};
+
+impl Document {
+    pub(super) fn add_group(&mut self, name: String, mut group: GroupDef) -> Result<Edit, EditError> {
+        check_name("group", &name, "")?;
+        if self.groups.contains_key(&name) {
+            return Err(EditError::GroupExists { name: shown(&name) });
+        }
+        validate::group_ports(&group)?;
+        for (_, node) in group.graph.nodes() {
+            let is_group = |used: &str| used == name || self.groups.contains_key(used);
+            validate::kind_and_group(node, is_group, self.groups.keys().map(String::as_str))?;
+        }
+        group.fit = match group.fit {
+            Some(fit) => Some(validate::fit(fit).ok_or(EditError::BadFit)?),
+            None => None,
+        };
+        keep_all(&mut group.extra)?;
+        for input in group.inputs.values_mut() {
+            keep_all(&mut input.extra)?;
+        }
+        self.groups.insert(name.clone(), group);
+        Ok(Edit::RemoveGroup { name })
+    }
+
+    pub(super) fn remove_group(&mut self, name: String) -> Result<Edit, EditError> {
+        let users = self.instances_of(&name);
+        if !users.is_empty() {
+            return Err(EditError::GroupInUse {
+                name: shown(&name),
+                users: listed(users.iter().map(String::as_str)),
+            });
+        }
+        match self.groups.remove(&name) {
+            Some(group) => Ok(Edit::AddGroup {
+                name,
+                group: Box::new(group),
+            }),
+            None => Err(missing("group", &name, self.groups.keys())),
+        }
+    }
+
+    /// Instances of a group outside itself: `node`, or `group/node`.
+    fn instances_of(&self, name: &str) -> Vec<String> {
+        let main = std::iter::once((None, &self.graph));
+        let groups = self.groups.iter().filter(|(group, _)| *group != name);
+        main.chain(groups.map(|(group, def)| (Some(group), &def.graph)))
+            .flat_map(|(group, graph)| graph.nodes().map(move |(id, node)| (group, id, node)))
+            .filter(|(_, _, node)| node.kind == GROUP_KIND && node.group.as_deref() == Some(name))
+            .map(|(group, id, _)| match group {
+                None => id.to_string(),
+                Some(group) => format!("{group}/{id}"),
+            })
+            .collect()
+    }
+
+    /// The group's own instances of itself, which no evaluation takes, follow as well: what was there stays there.
+    pub(super) fn rename_group(
+        &mut self,
+        name: String,
+        to: String,
+        shown_as: Option<String>,
+    ) -> Result<Edit, EditError> {
+        check_name("group", &to, "")?;
+        if !self.groups.contains_key(&name) {
+            return Err(missing("group", &name, self.groups.keys()));
+        }
+        // Instances of a file of that name would be taken for those of the group, and not be told apart on the way back.
+        if to != name && (self.groups.contains_key(&to) || !self.instances_of(&to).is_empty()) {
+            return Err(EditError::GroupExists { name: shown(&to) });
+        }
+        let Some(mut group) = self.groups.remove(&name) else {
+            return Err(missing("group", &name, self.groups.keys()));
+        };
+        let before = std::mem::replace(&mut group.name, shown_as);
+        self.groups.insert(to.clone(), group);
+        let inner = self.groups.values_mut().map(|group| &mut group.graph);
+        for graph in std::iter::once(&mut self.graph).chain(inner) {
+            for (_, node) in graph.net.node_weights_mut() {
+                if node.kind == GROUP_KIND && node.group.as_deref() == Some(name.as_str()) {
+                    node.group = Some(to.clone());
+                }
+            }
+        }
+        Ok(Edit::RenameGroup {
+            name: to,
+            to: name,
+            shown: before,
+        })
+    }
+}

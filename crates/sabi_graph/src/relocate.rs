@@ -1,0 +1,177 @@
+//! Paths that are relative to the file's folder, when the file moves to another one.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::document::{Exposed, GroupDef, Preview};
+use crate::validate::is_group_file;
+use crate::{Body, Document, Edit, GROUP_KIND, Graph, Node, SlotRef, Value};
+
+/// How paths change when a file moves to another folder.
+#[derive(Clone, Copy)]
+pub struct Relocation<'a> {
+    /// Whether a parameter of a kind holds the path of a file: the kind without its version, and the parameter.
+    pub is_file: &'a dyn Fn(&str, &str) -> bool,
+    /// A path as it is written in the new folder, from how it was in the old one.
+    pub moved: &'a dyn Fn(&str) -> String,
+}
+
+impl Document {
+    /// This document as it is written in another folder: the model, pictures and group files that it names are those that
+    /// it named before.
+    pub fn relocated(&self, relocation: Relocation<'_>) -> Document {
+        let places = Places {
+            relocation,
+            states: vec![self],
+        };
+        let mut moved = self.clone();
+        places.preview(moved.preview.as_mut());
+        places.graph(&Body::Main, &mut moved.graph);
+        for (name, group) in &mut moved.groups {
+            places.group(name, group);
+        }
+        moved
+    }
+}
+
+/// Finds paths with the help of documents that say what parameters mean.
+pub(crate) struct Places<'a> {
+    pub(crate) relocation: Relocation<'a>,
+    pub(crate) states: Vec<&'a Document>,
+}
+
+impl Places<'_> {
+    /// Changes the paths that an edit brings into the document.
+    pub(crate) fn edit(&self, edit: &mut Edit) {
+        match edit {
+            Edit::AddNode { node, .. } => self.node(node),
+            Edit::SetParam {
+                body,
+                node,
+                param,
+                value: Some(value),
+            } => {
+                let slot = SlotRef {
+                    node: node.clone(),
+                    name: param.clone(),
+                };
+                self.value(value, self.is_file(body, &slot));
+            }
+            Edit::Expose { body, knob, .. } => self.knob(body, knob),
+            Edit::SetVariant {
+                body,
+                values: Some(values),
+                ..
+            } => self.variant(body, values),
+            Edit::AddGroup { name, group } => self.group(name, group),
+            Edit::SetPreview { preview } => self.preview(preview.as_mut()),
+            Edit::Batch(edits) => edits.iter_mut().for_each(|edit| self.edit(edit)),
+            _ => {}
+        }
+    }
+
+    fn preview(&self, preview: Option<&mut Preview>) {
+        if let Some(mesh) = preview.and_then(|preview| preview.mesh.as_mut()) {
+            *mesh = (self.relocation.moved)(mesh);
+        }
+    }
+
+    fn group(&self, name: &str, group: &mut GroupDef) {
+        self.graph(&Body::Group(name.to_owned()), &mut group.graph);
+    }
+
+    fn graph(&self, body: &Body, graph: &mut Graph) {
+        for (_, node) in graph.net.node_weights_mut() {
+            self.node(node);
+        }
+        for knob in graph.exposed.values_mut() {
+            self.knob(body, knob);
+        }
+        for values in graph.variants.values_mut() {
+            self.variant(body, values);
+        }
+    }
+
+    fn node(&self, node: &mut Node) {
+        let Node {
+            kind, group, params, ..
+        } = node;
+        for (param, value) in params {
+            self.value(
+                value,
+                self.names_file(kind, group.as_deref(), param, &mut BTreeSet::new()),
+            );
+        }
+        if let Some(name) = group
+            && is_group_file(name)
+            && !self.states.iter().any(|state| state.groups.contains_key(name))
+        {
+            *name = (self.relocation.moved)(name);
+        }
+    }
+
+    fn knob(&self, body: &Body, knob: &mut Exposed) {
+        let is_file = knob.to.iter().any(|slot| self.is_file(body, slot));
+        if let Some(value) = &mut knob.default {
+            self.value(value, is_file);
+        }
+    }
+
+    fn variant(&self, body: &Body, values: &mut BTreeMap<String, Value>) {
+        for (name, value) in values {
+            let graphs = self.states.iter().filter_map(|state| state.body(body).ok());
+            let mut knobs = graphs.filter_map(|graph| graph.exposed().get(name));
+            let is_file = knobs.any(|knob| knob.to.iter().any(|slot| self.is_file(body, slot)));
+            self.value(value, is_file);
+        }
+    }
+
+    fn value(&self, value: &mut Value, is_file: bool) {
+        if let Value::Text(path) = value
+            && is_file
+        {
+            *path = (self.relocation.moved)(path);
+        }
+    }
+
+    fn is_file(&self, body: &Body, slot: &SlotRef) -> bool {
+        self.leads_to_file(body, slot, &mut BTreeSet::new())
+    }
+
+    fn leads_to_file(&self, body: &Body, slot: &SlotRef, seen: &mut BTreeSet<(String, String)>) -> bool {
+        let graphs = self.states.iter().filter_map(|state| state.body(body).ok());
+        let mut nodes = graphs.filter_map(|graph| graph.node(slot.node.as_str()));
+        nodes.any(|node| self.names_file(&node.kind, node.group.as_deref(), &slot.name, seen))
+    }
+
+    /// Whether a parameter of such a node is a path; those of an instance are what they turn inside the group. What is set
+    /// in a group file is relative to that file, which stays where it is.
+    fn names_file(&self, kind: &str, group: Option<&str>, param: &str, seen: &mut BTreeSet<(String, String)>) -> bool {
+        if kind != GROUP_KIND {
+            let plain = kind.split_once('@').map_or(kind, |(plain, _)| plain);
+            return (self.relocation.is_file)(plain, param);
+        }
+        let Some(group) = group else { return false };
+        if !seen.insert((group.to_owned(), param.to_owned())) {
+            return false;
+        }
+        let body = Body::Group(group.to_owned());
+        let graphs = self.states.iter().filter_map(|state| state.body(&body).ok());
+        let knobs = graphs.filter_map(|graph| graph.exposed().get(param));
+        let slots: Vec<&SlotRef> = knobs.flat_map(|knob| &knob.to).collect();
+        slots.into_iter().any(|slot| self.leads_to_file(&body, slot, seen))
+    }
+}
+
+/// Whether an edit may bring a path into the document.
+pub(crate) fn may_bring_paths(edit: &Edit) -> bool {
+    match edit {
+        Edit::SetParam { value, .. } => matches!(value, Some(Value::Text(_))),
+        Edit::AddNode { node, .. } => {
+            node.group.is_some() || node.params.values().any(|value| matches!(value, Value::Text(_)))
+        }
+        Edit::Expose { knob, .. } => matches!(knob.default, Some(Value::Text(_))),
+        Edit::SetVariant { .. } | Edit::AddGroup { .. } | Edit::SetPreview { .. } => true,
+        Edit::Batch(edits) => edits.iter().any(may_bring_paths),
+        _ => false,
+    }
+}

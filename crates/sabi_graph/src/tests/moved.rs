@@ -1,0 +1,102 @@
+//! Documents that are written in another folder.
+
+use super::document;
+use crate::{Body, Document, Edit, History, Node, Relocation, Value};
+
+/// One folder deeper, where everything that was here is one folder up.
+fn deeper(path: &str) -> String {
+    format!("../{path}")
+}
+
+fn back(path: &str) -> String {
+    path.strip_prefix("../").unwrap_or(path).to_owned()
+}
+
+fn is_file(kind: &str, param: &str) -> bool {
+    kind == "source/image" && param == "file"
+}
+
+fn relocation(moved: &dyn Fn(&str) -> String) -> Relocation<'_> {
+    Relocation {
+        is_file: &is_file,
+        moved,
+    }
+}
+
+/// Paths in all places that have some, and the same words where they are none.
+fn pictures() -> Document {
+    document(
+        r#""preview": { "mesh": "a.glb" },
+           "exposed": { "where": { "to": ["i.picture"], "default": "d.png" }, "word": { "to": ["i.word"], "default": "w" } },
+           "variants": { "other": { "where": "v.png", "word": "v.png" } },
+           "groups": {
+             "decal": {
+               "exposed": { "picture": { "to": ["m.file"] }, "word": { "to": ["m.projection"] } },
+               "nodes": { "m": { "kind": "source/image@1", "params": { "file": "m.png", "projection": "m.png" } } } } },"#,
+        r#""f": { "kind": "graph/group", "group": "lib/f.sabi", "params": { "picture": "kept.png" } },
+           "g": { "kind": "not/known", "params": { "file": "kept.png" } },
+           "i": { "kind": "graph/group", "group": "decal", "params": { "picture": "i.png", "word": "i.png" } }"#,
+    )
+}
+
+#[test]
+fn all_paths_and_nothing_else_follow_to_another_folder() {
+    let before = pictures().to_json();
+    let moved = pictures().relocated(relocation(&deeper));
+    let text = moved.to_json();
+    for path in ["a.glb", "d.png", "m.png", "i.png", "lib/f.sabi"] {
+        assert!(text.contains(&format!("\"../{path}\"")), "{path}: {text}");
+    }
+    assert_eq!(text.matches("../").count(), 6, "and one in the variant: {text}");
+    assert_eq!(moved.relocated(relocation(&back)).to_json(), before);
+}
+
+#[test]
+fn undo_after_a_move_leads_to_what_was_before_as_it_is_written_now() {
+    let (mut document, mut history) = (Document::default(), History::new());
+    let mut image = Node::new("source/image");
+    image.params.insert("file".to_owned(), Value::from("a.png"));
+    let id = "m".parse().unwrap();
+    let steps = [
+        Edit::AddNode {
+            body: Body::Main,
+            id,
+            node: image,
+        },
+        Edit::SetParam {
+            body: Body::Main,
+            node: "m".parse().unwrap(),
+            param: "file".to_owned(),
+            value: Some(Value::from("b.png")),
+        },
+        Edit::RemoveNode {
+            body: Body::Main,
+            id: "m".parse().unwrap(),
+        },
+        Edit::AddGroup {
+            name: "decal".to_owned(),
+            group: Box::new(pictures().groups["decal"].clone()),
+        },
+        Edit::RemoveGroup {
+            name: "decal".to_owned(),
+        },
+    ];
+    let mut states = vec![document.clone()];
+    for edit in steps {
+        history.apply(&mut document, "Step", edit).unwrap();
+        states.push(document.clone());
+    }
+    history.undo(&mut document).unwrap();
+    history.undo(&mut document).unwrap();
+    history.relocate(&document, relocation(&deeper));
+    document = document.relocated(relocation(&deeper));
+    let written = |state: &Document| state.relocated(relocation(&deeper)).to_json();
+    for state in states[..3].iter().rev() {
+        history.undo(&mut document).unwrap();
+        assert_eq!(document.to_json(), written(state));
+    }
+    for state in &states[1..] {
+        history.redo(&mut document).unwrap();
+        assert_eq!(document.to_json(), written(state));
+    }
+}

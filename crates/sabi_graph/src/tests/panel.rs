@@ -1,0 +1,117 @@
+//! The panel, names of groups, and edits that change nothing.
+
+use proptest::prelude::*;
+
+use super::random::{a_document, an_edit};
+use super::{config, document};
+use crate::{Document, Edit, Node};
+
+#[test]
+fn knobs_stand_on_the_panel_by_order_then_name_and_sections_stay_together() {
+    let document = document(
+        r#""exposed": {
+             "a": { "to": ["n.a"] },
+             "b": { "to": ["n.b"], "section": "Wear", "order": 2 },
+             "c": { "to": ["n.c"], "order": 3 },
+             "d": { "to": ["n.d"], "section": "Wear", "order": 4 },
+             "e": { "to": ["n.e"], "order": 1 } },"#,
+        r#""n": { "kind": "noise/white" }"#,
+    );
+    let names: Vec<&str> = document.graph.panel().into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["e", "c", "a", "b", "d"]);
+    assert_eq!(Document::from_json(&document.to_json()), Ok(document));
+}
+
+/// A group inside a group, and instances of the inner one in both graphs.
+fn nested() -> Document {
+    document(
+        r#""groups": {
+             "inner": { "name": "Inside", "nodes": { "n": { "kind": "noise/white" } }, "outputs": { "mask": "n" } },
+             "outer": { "nodes": { "i": { "kind": "graph/group", "group": "inner" } } } },"#,
+        r#""i": { "kind": "graph/group", "group": "inner" }, "f": { "kind": "graph/group", "group": "file.sabi" }"#,
+    )
+}
+
+fn rename(to: &str, shown: Option<&str>) -> Edit {
+    Edit::RenameGroup {
+        name: "inner".to_owned(),
+        to: to.to_owned(),
+        shown: shown.map(str::to_owned),
+    }
+}
+
+#[test]
+fn a_group_is_renamed_in_all_its_instances_and_undo_brings_every_byte_back() {
+    let mut document = nested();
+    let before = document.to_json();
+    let inverse = document.apply(rename("grain", None)).unwrap();
+    let group = |node: Option<&Node>| node.and_then(|node| node.group.clone());
+    assert_eq!(group(document.graph.node("i")).as_deref(), Some("grain"));
+    assert_eq!(
+        group(document.groups["outer"].graph.node("i")).as_deref(),
+        Some("grain")
+    );
+    assert_eq!(group(document.graph.node("f")).as_deref(), Some("file.sabi"));
+    assert!(document.groups["grain"].name.is_none());
+    assert_eq!(Document::from_json(&document.to_json()).as_ref(), Ok(&document));
+    document.apply(inverse).unwrap();
+    assert_eq!(document.to_json(), before);
+}
+
+#[test]
+fn a_group_takes_no_name_that_another_one_has() {
+    for name in ["outer", "file.sabi"] {
+        let mut document = nested();
+        let error = document.apply(rename(name, None)).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            format!("there is a group \"{name}\" already; choose another name")
+        );
+        assert_eq!(document, nested());
+    }
+    let unknown = Edit::RenameGroup {
+        name: "iner".to_owned(),
+        to: "x".to_owned(),
+        shown: None,
+    };
+    let error = nested().apply(unknown).unwrap_err().to_string();
+    assert_eq!(error, "there is no group \"iner\" (did you mean \"inner\"?)");
+}
+
+#[test]
+fn an_edit_that_would_be_refused_is_not_one_that_changes_nothing() {
+    let document = nested();
+    let lost = Edit::SetParam {
+        body: crate::Body::Main,
+        node: "lost".parse().unwrap(),
+        param: "gain".to_owned(),
+        value: None,
+    };
+    assert!(!document.is_as_after(&lost));
+    assert!(document.is_as_after(&rename("inner", Some("Inside"))));
+    assert!(!document.is_as_after(&rename("inner", None)));
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn an_edit_is_said_to_change_nothing_only_if_it_does(mut document in a_document(), edits in prop::collection::vec(an_edit(), 1..20)) {
+        for edit in edits {
+            let before = document.to_json();
+            let is_idle = document.is_as_after(&edit);
+            // Made a second time, what gives values finds them there already.
+            let gives = matches!(edit, Edit::Move { .. } | Edit::SetMuted { .. } | Edit::SetLabel { .. }
+                | Edit::SetParam { .. } | Edit::Connect { .. } | Edit::Disconnect { .. } | Edit::SetSeed { .. }
+                | Edit::SetOutput { .. } | Edit::RenameDocument { .. });
+            let made = document.apply(edit.clone());
+            if is_idle {
+                prop_assert!(made.is_ok(), "{edit:?}");
+                prop_assert_eq!(document.to_json(), before);
+            }
+            if gives && made.is_ok() {
+                prop_assert!(document.is_as_after(&edit), "{edit:?}");
+            }
+        }
+    }
+}
