@@ -1,6 +1,7 @@
 //! What can be said on the command line.
 
 mod bake;
+mod edit;
 mod inspect;
 mod preview;
 mod render;
@@ -9,19 +10,22 @@ mod workpiece;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use bake::BakeArguments;
+pub(crate) use edit::EditArguments;
 pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
 pub(crate) use preview::PreviewArguments;
 pub(crate) use render::RenderArguments;
 pub(crate) use workpiece::{MapArguments, ModelArguments, WorkpieceArguments};
 
-/// Procedural, aging materials on real models: bakes a node graph into the maps of a PBR texture set.
+/// Procedural, aging materials on real models: an editor for node graphs, and what bakes them into PBR texture sets.
 #[derive(Debug, Parser)]
 #[command(
     name = "sabi",
     version,
-    arg_required_else_help = true,
+    args_conflicts_with_subcommands = true,
     before_help = "\
 Examples:
+  sabi
+  sabi graph.sabi --mesh model.glb
   sabi bake graph.sabi --mesh model.glb -o out
   sabi bake graph.sabi --mesh model.glb -o out --size 2048 --variant heavy --set amount=0.8
   sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
@@ -36,9 +40,18 @@ Exit codes: 0 done, 2 wrong command line, 4 no usable adapter, 65 bad input, 66 
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    pub(crate) command: Command,
+    command: Option<Command>,
+    #[command(flatten)]
+    edit: EditArguments,
     #[command(flatten)]
     pub(crate) global: Global,
+}
+
+impl Arguments {
+    /// What is to be done: without a command, the editor is opened.
+    pub(crate) fn command(self) -> (Command, Global) {
+        (self.command.unwrap_or(Command::Edit(self.edit)), self.global)
+    }
 }
 
 /// What every command takes.
@@ -58,6 +71,8 @@ pub(crate) struct Global {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Open the editor; without a command, too
+    Edit(EditArguments),
     /// Bake a graph on a model into a PBR texture set
     Bake(BakeArguments),
     /// Write the result of any node, in texture space
@@ -72,6 +87,15 @@ pub(crate) enum Command {
     Mesh(MeshArguments),
     /// Tell whether this machine can run Sabi
     Doctor(DoctorArguments),
+}
+
+/// Names of all commands.
+pub(crate) fn command_names() -> Vec<String> {
+    let command = <Arguments as clap::CommandFactory>::command();
+    command
+        .get_subcommands()
+        .map(|known| known.get_name().to_owned())
+        .collect()
 }
 
 #[cfg(test)]

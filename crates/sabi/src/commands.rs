@@ -3,6 +3,7 @@
 mod bake;
 mod check;
 mod doctor;
+mod edit;
 mod mesh;
 mod nodes;
 mod preview;
@@ -15,6 +16,7 @@ use crate::terminal::Terminal;
 /// Does what was asked.
 pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure> {
     match command {
+        Command::Edit(arguments) => edit::run(&arguments),
         Command::Bake(arguments) => bake::run(&arguments, terminal),
         Command::Preview(arguments) => preview::run(&arguments, terminal),
         Command::Render(arguments) => render::run(&arguments, terminal),

@@ -38,8 +38,9 @@ fn start() -> Exit {
             };
         }
     };
-    let terminal = Terminal::new(&arguments.global);
-    let done = start_log(arguments.global.log.as_deref()).and_then(|()| commands::run(arguments.command, &terminal));
+    let (command, global) = arguments.command();
+    let terminal = Terminal::new(&global);
+    let done = start_log(global.log.as_deref()).and_then(|()| commands::run(command, &terminal));
     match done {
         Ok(exit) => exit,
         Err(failure) => {

@@ -1,4 +1,20 @@
 //! The window: a canvas for the graph, panels around it, the model in the light.
 
+mod action;
+mod app;
+mod canvas;
+mod command;
 mod desk;
+mod dock;
+mod files;
+mod flat_view;
+mod knobs;
+mod model_view;
+mod panels;
+mod search;
+mod settings;
+mod stage;
 mod theme;
+mod window;
+
+pub use window::{EditRequest, edit};

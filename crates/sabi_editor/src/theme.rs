@@ -203,7 +203,7 @@ impl Theme {
         visuals.slider_trailing_fill = true;
         let widgets = &mut visuals.widgets;
         let states = [
-            (&mut widgets.noninteractive, self.panel, self.quiet, self.line),
+            (&mut widgets.noninteractive, self.panel, self.text, self.line),
             (&mut widgets.inactive, self.raised, self.text, Color32::TRANSPARENT),
             (&mut widgets.hovered, self.hovered, self.text, self.line),
             (&mut widgets.active, self.hovered, self.text, self.accent),

@@ -1,0 +1,33 @@
+//! `sabi edit`: the window.
+
+use sabi_editor::{EditRequest, edit};
+use sabi_engine::nearest;
+
+use crate::arguments::{EditArguments, command_names};
+use crate::exit::{Exit, Failure};
+
+pub(crate) fn run(arguments: &EditArguments) -> Result<Exit, Failure> {
+    refuse_mistyped_command(arguments)?;
+    edit(&EditRequest {
+        graph: arguments.graph.clone(),
+        mesh: arguments.mesh.clone(),
+        adapter: arguments.adapter.clone(),
+    })?;
+    Ok(Exit::Done)
+}
+
+/// A command that was mistyped looks like a graph.
+fn refuse_mistyped_command(arguments: &EditArguments) -> Result<(), Failure> {
+    let typed = arguments.graph.as_ref().filter(|graph| !graph.exists());
+    let Some(typed) = typed.and_then(|graph| graph.to_str()) else {
+        return Ok(());
+    };
+    let names = command_names();
+    match nearest(typed, names.iter().map(String::as_str)) {
+        Some(meant) => {
+            let why = format!("there is no file '{typed}' to edit, and no such command; did you mean 'sabi {meant}'?");
+            Err(Failure::new(Exit::Usage, why))
+        }
+        None => Ok(()),
+    }
+}

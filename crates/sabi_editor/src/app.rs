@@ -1,0 +1,457 @@
+//! The window: what happens in a frame, and what is held from frame to frame.
+
+mod ask;
+mod bars;
+mod documents;
+mod keys;
+mod perform;
+
+use std::collections::{BTreeMap, VecDeque};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use eframe::egui_wgpu::RenderState;
+use egui::{Context, Rect, Ui};
+use sabi_engine::{Gpu, Session};
+use sabi_graph::NodeRef;
+
+pub(crate) use documents::model_of;
+
+use crate::action::Action;
+use crate::canvas::{Around, Canvas, NodeState};
+use crate::command::{Command, KeyMap};
+use crate::desk::Desk;
+use crate::dock::{self, Docked, Layout, Panel};
+use crate::files::{Files, Question};
+use crate::flat_view::FlatView;
+use crate::knobs::KnobMemory;
+use crate::model_view::{ModelView, Subject};
+use crate::panels;
+use crate::search::{Candidate, candidates};
+use crate::settings::Settings;
+use crate::stage::Stage;
+use crate::theme::Theme;
+
+/// How often what is not saved is kept in case the program ends.
+const KEEP_EVERY: Duration = Duration::from_secs(3);
+/// How long a sentence stays.
+const NOTICE_LASTS: Duration = Duration::from_secs(6);
+
+/// Folders of the program on this machine; none where there is no such place.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Folders {
+    pub(crate) settings: Option<PathBuf>,
+    pub(crate) cache: Option<PathBuf>,
+    /// What is not saved is kept here.
+    pub(crate) recovery: Option<PathBuf>,
+    /// Groups that were saved to be used again.
+    pub(crate) library: Option<PathBuf>,
+    /// Examples that were opened.
+    pub(crate) examples: Option<PathBuf>,
+}
+
+/// What a window begins with.
+pub(crate) struct Beginning {
+    pub(crate) session: Session,
+    pub(crate) model: PathBuf,
+    pub(crate) folders: Folders,
+    /// Whether the start page is shown.
+    pub(crate) is_start: bool,
+}
+
+/// What outlives a window whose device was lost.
+pub(crate) struct Kept {
+    pub(crate) desk: Desk,
+    pub(crate) canvas: Canvas,
+    pub(crate) model: PathBuf,
+}
+
+/// Where a window leaves what outlives it.
+pub(crate) type Handover = Arc<Mutex<Option<Kept>>>;
+
+/// The window.
+pub(crate) struct Editor {
+    pub(crate) desk: Desk,
+    pub(crate) canvas: Canvas,
+    pub(crate) stage: Stage,
+    pub(crate) model_view: ModelView,
+    pub(crate) flat_view: FlatView,
+    theme: Arc<Theme>,
+    keys: KeyMap,
+    pub(crate) settings: Settings,
+    kept_settings: Option<String>,
+    folders: Folders,
+    layout: Layout,
+    use_layout: Option<Layout>,
+    /// Where panels were when they were last drawn.
+    rects: BTreeMap<Panel, Rect>,
+    /// The panel that keys are for.
+    pub(crate) active: Panel,
+    candidates: (Option<(u64, u64)>, Vec<Candidate>),
+    /// The node that is looked at, and the output of it.
+    shown: Option<NodeRef>,
+    /// Kept in the 2D view whatever is clicked.
+    pinned: Option<NodeRef>,
+    /// Kept on the model whatever is clicked.
+    locked: Option<NodeRef>,
+    /// Whether the model shows the node that is looked at, and not the outputs.
+    pub(crate) follows: bool,
+    /// Outputs of nodes other than the first that thumbnails show, by the full id of the node.
+    ports: BTreeMap<String, String>,
+    /// Whether a knob is being moved.
+    is_moving: bool,
+    knob_memory: KnobMemory,
+    pub(crate) panels: panels::Panels,
+    pub(crate) files: Files,
+    notices: VecDeque<(Instant, String)>,
+    kept_at: Instant,
+    render: Option<RenderState>,
+    handover: Handover,
+    is_leaving: bool,
+    context: Context,
+    /// The command that waits for another key.
+    pub(crate) waits_for_key: Option<Command>,
+    /// Time of the last frames without the drawing of the device.
+    pub(crate) frame_times: VecDeque<Duration>,
+}
+
+impl Editor {
+    /// A window on a device.
+    pub(crate) fn new(
+        beginning: Beginning,
+        context: &Context,
+        gpu: Arc<Gpu>,
+        render: Option<RenderState>,
+        handover: Handover,
+    ) -> Editor {
+        let (settings, fault) = Settings::load(beginning.folders.settings.as_deref());
+        let (keys, mut faults) = KeyMap::new(settings.habit, &settings.keys);
+        faults.extend(fault);
+        let theme = Arc::new(Theme::of(settings.shade));
+        dress(context, &theme, settings.scale);
+        let kept = handover.lock().ok().and_then(|mut kept| kept.take());
+        let (desk, canvas, model) = match kept {
+            Some(kept) => (kept.desk, kept.canvas, kept.model),
+            None => (Desk::new(beginning.session), Canvas::default(), beginning.model),
+        };
+        let stage = Stage::new(gpu, &model, beginning.folders.cache.clone(), context);
+        let mut editor = Editor {
+            model_view: ModelView::new(&settings.environment),
+            flat_view: FlatView::default(),
+            layout: dock::sound(settings.layout.clone()),
+            use_layout: None,
+            keys,
+            theme,
+            kept_settings: None,
+            settings,
+            files: Files::new(beginning.is_start, beginning.folders.recovery.as_deref()),
+            folders: beginning.folders,
+            rects: BTreeMap::new(),
+            active: Panel::Canvas,
+            candidates: (None, Vec::new()),
+            shown: None,
+            pinned: None,
+            locked: None,
+            follows: false,
+            ports: BTreeMap::new(),
+            is_moving: false,
+            knob_memory: KnobMemory::default(),
+            panels: panels::Panels::default(),
+            notices: VecDeque::new(),
+            kept_at: Instant::now(),
+            desk,
+            canvas,
+            stage,
+            render,
+            handover,
+            is_leaving: false,
+            context: context.clone(),
+            waits_for_key: None,
+            frame_times: VecDeque::new(),
+        };
+        editor.remember_model();
+        for fault in faults {
+            editor.say(fault);
+        }
+        editor
+    }
+
+    /// Shows a sentence for a while.
+    pub(crate) fn say(&mut self, sentence: impl Into<String>) {
+        let sentence = sentence.into();
+        self.notices.retain(|(_, known)| *known != sentence);
+        self.notices.push_back((Instant::now(), sentence));
+        while self.notices.len() > 4 {
+            self.notices.pop_front();
+        }
+    }
+
+    /// Draws everything and does what is asked for.
+    pub(crate) fn frame(&mut self, ui: &mut Ui) {
+        let began = Instant::now();
+        let context = ui.ctx().clone();
+        self.stage.take_news(&context);
+        if self.stage.lost.is_some() {
+            self.hand_over(&context);
+            return;
+        }
+        let mut actions = self.keys_pressed(ui);
+        self.take_dropped(&context, &mut actions);
+        self.refresh_candidates();
+        self.top_bar(ui, &mut actions);
+        self.status_bar(ui);
+        self.panels(ui, &mut actions);
+        self.show_files(ui, &mut actions);
+        self.show_notices(ui);
+        for action in actions {
+            self.perform(action, ui);
+        }
+        for sentence in self.desk.take_notices() {
+            self.say(sentence);
+        }
+        self.wish(&context);
+        self.keep(&context);
+        self.frame_times.push_back(began.elapsed());
+        while self.frame_times.len() > 120 {
+            self.frame_times.pop_front();
+        }
+    }
+
+    fn panels(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let is_use = self.use_layout.is_some();
+        let slot = if is_use { self.use_layout.take() } else { None };
+        let mut layout = slot.unwrap_or_else(|| std::mem::replace(&mut self.layout, Layout::empty("panels")));
+        let theme = self.theme.clone();
+        let problems = self.problem_count();
+        self.rects.clear();
+        let mut docked = Docked {
+            theme: &theme,
+            problems,
+            contents: &mut |ui, panel| self.panel(ui, panel, actions),
+        };
+        let frame = egui::Frame::new().fill(theme.ground);
+        egui::CentralPanel::default()
+            .frame(frame)
+            .show(ui, |ui| layout.ui(&mut docked, ui));
+        if is_use {
+            self.use_layout = Some(layout);
+        } else {
+            self.layout = layout;
+        }
+    }
+
+    /// Draws what is in a panel.
+    fn panel(&mut self, ui: &mut Ui, panel: Panel, actions: &mut Vec<Action>) {
+        self.rects.insert(panel, ui.max_rect());
+        match panel {
+            Panel::Canvas => self.canvas_panel(ui, actions),
+            Panel::Viewport => self.model_panel(ui, actions),
+            Panel::Flat => {
+                let wanted = self.pinned.clone().or(self.shown.clone());
+                let title = wanted.as_ref().map_or_else(String::new, |node| self.title_of(node));
+                self.padded(ui, |editor, ui| {
+                    editor
+                        .flat_view
+                        .show(ui, &editor.stage, &editor.theme.clone(), wanted.as_ref(), &title);
+                });
+            }
+            _ => self.padded(ui, |editor, ui| editor.side_panel(ui, panel, actions)),
+        }
+    }
+
+    fn side_panel(&mut self, ui: &mut Ui, panel: Panel, actions: &mut Vec<Action>) {
+        let theme = self.theme.clone();
+        match panel {
+            Panel::Parameters => panels::parameters::show(self, ui, &theme, actions),
+            Panel::Stack => panels::stack::show(self, ui, &theme, actions),
+            Panel::Library => panels::library::show(self, ui, &theme, actions),
+            Panel::Export => panels::export::show(self, ui, &theme),
+            Panel::History => panels::history::show(self, ui, &theme, actions),
+            Panel::Problems => panels::problems::show(self, ui, &theme, actions),
+            Panel::Performance => panels::performance::show(self, ui, &theme),
+            Panel::Page => panels::page::show(self, ui, &theme),
+            Panel::Canvas | Panel::Viewport | Panel::Flat => {}
+        }
+    }
+
+    /// A panel with room around what is in it.
+    fn padded(&mut self, ui: &mut Ui, contents: impl FnOnce(&mut Editor, &mut Ui)) {
+        let frame = egui::Frame::new().fill(self.theme.panel).inner_margin(8);
+        frame.show(ui, |ui| {
+            ui.set_min_size(ui.available_size());
+            contents(self, ui);
+        });
+    }
+
+    fn canvas_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        self.breadcrumb(ui, actions);
+        let (stage, desk, ports) = (&self.stage, &self.desk, &self.ports);
+        let state_of = |id: &sabi_graph::NodeId| {
+            let node = desk.full_id(id);
+            let reference = NodeRef {
+                port: ports.get(&node).cloned(),
+                node,
+            };
+            NodeState {
+                picture: stage.thumbnail(&reference).map(egui::TextureHandle::id),
+                time: stage.time(&reference.node),
+                fault: stage.fault(&reference.node).cloned(),
+                waits: stage.waits(&reference.node).cloned(),
+            }
+        };
+        let looked_at = self.pinned.as_ref().or(self.shown.as_ref());
+        let previewed = looked_at.and_then(|node| {
+            let own = node.node.rsplit('/').next()?;
+            let id = own.parse::<sabi_graph::NodeId>().ok()?;
+            (desk.full_id(&id) == node.node).then_some(id)
+        });
+        let around = Around {
+            desk,
+            theme: &self.theme,
+            state_of: &state_of,
+            candidates: &self.candidates.1,
+            previewed: previewed.as_ref(),
+        };
+        actions.extend(self.canvas.show(ui, &around));
+    }
+
+    fn model_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        self.model_strip(ui, actions);
+        let seen = self.seen();
+        let locked = self.locked_seen();
+        let theme = self.theme.clone();
+        let subject = Subject {
+            seen: &seen,
+            locked: locked.as_ref(),
+            is_moving: self.is_moving,
+            theme: &theme,
+        };
+        let render = self.render.clone();
+        let done = self.model_view.show(ui, &self.stage, render.as_ref(), &subject);
+        if let Some(environment) = done.environment {
+            self.settings.environment = environment;
+        }
+        if let Some(picked) = done.picked {
+            self.take_picked(&picked);
+        }
+    }
+
+    /// What may be added, brought up to date.
+    fn refresh_candidates(&mut self) {
+        let now = (self.desk.session.revision(), self.desk.kinds().1);
+        if self.candidates.0 == Some(now) && !self.panels.library.has_changed() {
+            return;
+        }
+        let groups: Vec<String> = self.desk.document().groups.keys().cloned().collect();
+        let shelf = self
+            .panels
+            .library
+            .shelf(self.folders.library.as_deref(), self.desk.catalog());
+        let found = candidates(self.desk.catalog(), self.desk.faces(), &groups, &shelf);
+        self.candidates = (Some(now), found);
+    }
+
+    /// Keeps what is not saved, and settings that changed.
+    fn keep(&mut self, context: &Context) {
+        if self.kept_at.elapsed() >= KEEP_EVERY {
+            self.kept_at = Instant::now();
+            if let Err(error) = self.desk.session.keep() {
+                self.say(format!("What is not saved cannot be kept in case of a crash: {error}"));
+            }
+            self.keep_settings();
+        }
+        if self.desk.session.is_dirty() {
+            context.request_repaint_after(KEEP_EVERY);
+        }
+    }
+
+    fn keep_settings(&mut self) {
+        self.settings.layout = Some(self.layout.clone());
+        let Some(folder) = self.folders.settings.clone() else {
+            return;
+        };
+        let text = serde_json::to_string(&self.settings).ok();
+        if text == self.kept_settings {
+            return;
+        }
+        self.kept_settings = text;
+        if let Err(why) = self.settings.save(&folder) {
+            self.say(why);
+        }
+    }
+
+    /// Leaves the work to a window on another device, since this one's is gone.
+    fn hand_over(&mut self, context: &Context) {
+        let desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
+        if let Ok(mut handover) = self.handover.lock() {
+            *handover = Some(Kept {
+                desk,
+                canvas: std::mem::take(&mut self.canvas),
+                model: self.stage.model_file().to_owned(),
+            });
+        }
+        self.stage.lost = None;
+        self.is_leaving = true;
+        context.send_viewport_cmd(egui::ViewportCommand::Close);
+    }
+}
+
+/// Gives the window its look and its letters.
+fn dress(context: &Context, theme: &Theme, scale: f32) {
+    let mut fonts = egui::FontDefinitions::default();
+    egui_phosphor::add_to_fonts(&mut fonts, egui_phosphor::Variant::Regular);
+    context.set_fonts(fonts);
+    theme.apply(context);
+    context.set_zoom_factor(scale);
+}
+
+impl eframe::App for Editor {
+    fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+        self.frame(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.keep_settings();
+        if !self.is_leaving {
+            let desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
+            desk.session.close();
+        }
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+}
+
+/// The question that is open, if there is one.
+impl Editor {
+    /// The picture of a node's result, if there is one.
+    pub(crate) fn thumbnail_of(&self, id: &sabi_graph::NodeId) -> Option<egui::TextureId> {
+        let node = self.desk.full_id(id);
+        let port = self.ports.get(&node).cloned();
+        self.stage
+            .thumbnail(&NodeRef { node, port })
+            .map(egui::TextureHandle::id)
+    }
+
+    pub(crate) fn theme(&self) -> &Arc<Theme> {
+        &self.theme
+    }
+
+    pub(crate) fn keys(&self) -> &KeyMap {
+        &self.keys
+    }
+
+    pub(crate) fn candidates(&self) -> &[Candidate] {
+        &self.candidates.1
+    }
+
+    pub(crate) fn knob_memory(&mut self) -> &mut KnobMemory {
+        &mut self.knob_memory
+    }
+
+    pub(crate) fn question(&self) -> Option<&Question> {
+        self.files.question.as_ref()
+    }
+}

@@ -1,0 +1,314 @@
+//! What stands around the panels: the menu, the models, the path into groups, and what is going on.
+
+use std::time::Instant;
+
+use egui::{Align, Area, Frame, Layout, Order, RichText, Ui, vec2};
+use egui_phosphor::regular as icon;
+
+use super::{Editor, NOTICE_LASTS, dress};
+use crate::action::Action;
+use crate::command::{Command, Habit, KeyMap};
+use crate::dock::{self, Panel};
+use crate::settings::MOST_MODELS;
+use crate::theme::{Shade, Theme, space, type_size};
+
+impl Editor {
+    pub(super) fn top_bar(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let frame = Frame::new()
+            .fill(self.theme.ground)
+            .inner_margin(egui::Margin::symmetric(8, 4));
+        egui::Panel::top("top")
+            .frame(frame)
+            .show_separator_line(false)
+            .show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    ui.label(
+                        RichText::new(icon::DIAMONDS_FOUR)
+                            .color(self.theme.accent)
+                            .size(type_size::HEADING),
+                    );
+                    ui.menu_button("File", |ui| self.file_menu(ui, actions));
+                    ui.menu_button("Edit", |ui| self.commands(ui, EDIT, actions));
+                    ui.menu_button("Arrange", |ui| self.commands(ui, ARRANGE, actions));
+                    ui.menu_button("Window", |ui| self.window_menu(ui, actions));
+                    ui.menu_button("Help", |ui| self.commands(ui, HELP, actions));
+                    ui.add_space(space::WIDE);
+                    self.button(ui, icon::ARROW_U_UP_LEFT, Command::Undo, actions);
+                    self.button(ui, icon::ARROW_U_UP_RIGHT, Command::Redo, actions);
+                    self.button(ui, icon::FLOPPY_DISK, Command::Save, actions);
+                    self.button(ui, icon::EXPORT, Command::Export, actions);
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        self.button(ui, icon::SLIDERS_HORIZONTAL, Command::UseView, actions);
+                        ui.with_layout(Layout::centered_and_justified(egui::Direction::LeftToRight), |ui| {
+                            let mark = if self.desk.session.is_dirty() { " •" } else { "" };
+                            let name = self.desk.session.file().and_then(|file| file.file_name());
+                            let name = name.map_or("untitled".into(), |name| name.to_string_lossy());
+                            ui.label(RichText::new(format!("{name}{mark}")).color(self.theme.quiet));
+                        });
+                    });
+                });
+            });
+    }
+
+    fn button(&self, ui: &mut Ui, sign: &str, command: Command, actions: &mut Vec<Action>) {
+        let keys = self.keys.shown(command);
+        let response = ui.button(sign).on_hover_text(format!("{}  {keys}", command.title()));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, command.title()));
+        if response.clicked() {
+            actions.push(Action::Do(command));
+        }
+    }
+
+    fn commands(&self, ui: &mut Ui, commands: &[Option<Command>], actions: &mut Vec<Action>) {
+        ui.set_min_width(220.0);
+        for command in commands {
+            match command {
+                None => {
+                    ui.separator();
+                }
+                Some(command) => {
+                    let keys = self.keys.shown(*command);
+                    if ui.add(egui::Button::new(command.title()).shortcut_text(keys)).clicked() {
+                        actions.push(Action::Do(*command));
+                    }
+                }
+            }
+        }
+    }
+
+    fn file_menu(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        self.commands(ui, &[Some(Command::New), Some(Command::Open)], actions);
+        ui.menu_button("Recent", |ui| {
+            for path in &self.settings.recent {
+                if ui.button(path.display().to_string()).clicked() {
+                    actions.push(Action::OpenFile(path.clone()));
+                }
+            }
+            if self.settings.recent.is_empty() {
+                ui.weak("Nothing was open yet");
+            }
+        });
+        if ui.button("Examples…").clicked() {
+            self.files.is_start = true;
+        }
+        ui.separator();
+        self.commands(
+            ui,
+            &[Some(Command::Save), Some(Command::SaveAs), None, Some(Command::Export)],
+            actions,
+        );
+    }
+
+    fn window_menu(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        for panel in Panel::ALL {
+            if ui.button(panel.title()).clicked() {
+                dock::bring_up(&mut self.layout, panel);
+            }
+        }
+        if ui.button("All panels where they were at first").clicked() {
+            self.layout = dock::default_layout();
+            self.use_layout = None;
+        }
+        ui.separator();
+        self.commands(
+            ui,
+            &[
+                Some(Command::UseView),
+                Some(Command::MiniMap),
+                Some(Command::Flat),
+                None,
+            ],
+            actions,
+        );
+        let before = (self.settings.shade, self.settings.habit);
+        ui.horizontal(|ui| {
+            ui.selectable_value(&mut self.settings.shade, Shade::Dark, "Dark");
+            ui.selectable_value(&mut self.settings.shade, Shade::Light, "Light");
+        });
+        ui.horizontal(|ui| {
+            ui.label("Keys as in");
+            for (habit, name) in Habit::ALL {
+                ui.selectable_value(&mut self.settings.habit, habit, name);
+            }
+        });
+        self.commands(ui, &[Some(Command::Larger), Some(Command::Smaller)], actions);
+        if before != (self.settings.shade, self.settings.habit) {
+            self.take_settings(ui.ctx());
+        }
+    }
+
+    /// Follows settings that were changed.
+    pub(crate) fn take_settings(&mut self, context: &egui::Context) {
+        self.theme = std::sync::Arc::new(Theme::of(self.settings.shade));
+        dress(context, &self.theme, self.settings.scale);
+        let (keys, faults) = KeyMap::new(self.settings.habit, &self.settings.keys);
+        self.keys = keys;
+        for fault in faults {
+            self.say(fault);
+        }
+    }
+
+    /// The models that the graph is tried on.
+    pub(super) fn model_strip(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let frame = Frame::new()
+            .fill(self.theme.panel)
+            .inner_margin(egui::Margin::symmetric(6, 3));
+        egui::Panel::top("models")
+            .frame(frame)
+            .show_separator_line(false)
+            .show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    let mut gone = None;
+                    for (at, model) in self.settings.models.iter().enumerate() {
+                        let name = model.file_stem().unwrap_or_default().to_string_lossy();
+                        let is_shown = self.stage.model_file() == model;
+                        let response = ui.selectable_label(is_shown, format!("{} {name}", icon::CUBE));
+                        if response.clicked() {
+                            actions.push(Action::TakeModel(model.clone()));
+                        }
+                        response.on_hover_text(model.display().to_string()).context_menu(|ui| {
+                            if ui.button("Take off the strip").clicked() {
+                                gone = Some(at);
+                            }
+                        });
+                    }
+                    if let Some(at) = gone {
+                        self.settings.models.remove(at);
+                    }
+                    let add = ui
+                        .button(icon::PLUS)
+                        .on_hover_text(format!("Add a model, up to {MOST_MODELS}"));
+                    add.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, "Add a model"));
+                    if add.clicked() {
+                        self.files.ask_for_model();
+                    }
+                });
+            });
+    }
+
+    /// The path into groups.
+    pub(super) fn breadcrumb(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let path = self.desk.path();
+        if path.is_empty() {
+            return;
+        }
+        let frame = Frame::new()
+            .fill(self.theme.panel)
+            .inner_margin(egui::Margin::symmetric(8, 3));
+        egui::Panel::top("path")
+            .frame(frame)
+            .show_separator_line(false)
+            .show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    if ui.link("Graph").clicked() {
+                        actions.push(Action::LeaveTo(0));
+                    }
+                    for (depth, (_, title)) in path.iter().enumerate() {
+                        ui.label(icon::CARET_RIGHT);
+                        if depth + 1 == path.len() {
+                            ui.strong(title);
+                        } else if ui.link(title).clicked() {
+                            actions.push(Action::LeaveTo(depth + 1));
+                        }
+                    }
+                });
+            });
+    }
+
+    pub(super) fn status_bar(&mut self, ui: &mut Ui) {
+        let frame = Frame::new()
+            .fill(self.theme.ground)
+            .inner_margin(egui::Margin::symmetric(8, 2));
+        egui::Panel::bottom("status")
+            .frame(frame)
+            .show_separator_line(false)
+            .show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    let quiet = |text: String| RichText::new(text).size(type_size::SMALL).color(self.theme.quiet);
+                    let summary = self.stage.gpu().summary();
+                    ui.label(quiet(format!("{} ({})", summary.name, summary.kind)));
+                    if self.stage.is_busy() {
+                        ui.add(egui::Spinner::new().size(10.0));
+                    }
+                    if let Some(latency) = self.stage.last.latency {
+                        ui.label(quiet(crate::canvas::shown_time(latency)));
+                    }
+                    let count = self.problem_count();
+                    if count > 0 {
+                        let text = format!("{} {count}", icon::WARNING);
+                        let problems = ui.link(RichText::new(text).color(self.theme.fault).size(type_size::SMALL));
+                        if problems.clicked() {
+                            dock::bring_up(&mut self.layout, Panel::Problems);
+                        }
+                    }
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        let size = self.stage.size();
+                        ui.label(quiet(format!("{size} texels")));
+                        ui.label(quiet(format!("{} nodes", self.desk.graph().len())));
+                    });
+                });
+            });
+    }
+
+    /// Sentences that were said lately.
+    pub(super) fn show_notices(&mut self, ui: &Ui) {
+        self.notices.retain(|(said, _)| said.elapsed() < NOTICE_LASTS);
+        let Some((oldest, _)) = self.notices.front() else {
+            return;
+        };
+        let left = NOTICE_LASTS.saturating_sub(Instant::now().duration_since(*oldest));
+        ui.ctx().request_repaint_after(left);
+        let area = Area::new("notices".into()).order(Order::Tooltip).interactable(false);
+        let corner = ui.ctx().content_rect().center_bottom() - vec2(0.0, 40.0);
+        area.fixed_pos(corner)
+            .pivot(egui::Align2::CENTER_BOTTOM)
+            .show(ui.ctx(), |ui| {
+                for (_, sentence) in &self.notices {
+                    Frame::popup(ui.style()).show(ui, |ui| {
+                        ui.set_max_width(560.0);
+                        ui.label(sentence);
+                    });
+                }
+            });
+    }
+}
+
+const EDIT: &[Option<Command>] = &[
+    Some(Command::Undo),
+    Some(Command::Redo),
+    None,
+    Some(Command::AddMenu),
+    Some(Command::Duplicate),
+    Some(Command::DuplicateWired),
+    Some(Command::Copy),
+    Some(Command::CutNodes),
+    Some(Command::Paste),
+    Some(Command::Delete),
+    Some(Command::Heal),
+    None,
+    Some(Command::Mute),
+    Some(Command::SwapInputs),
+    Some(Command::TakeOut),
+    Some(Command::Group),
+    Some(Command::Ungroup),
+    Some(Command::Frame),
+    Some(Command::Rename),
+];
+
+const ARRANGE: &[Option<Command>] = &[
+    Some(Command::FrameAll),
+    Some(Command::FrameSelected),
+    None,
+    Some(Command::SelectAll),
+    Some(Command::SelectUp),
+    Some(Command::SelectDown),
+    None,
+    Some(Command::AlignLeft),
+    Some(Command::AlignRight),
+    Some(Command::AlignTop),
+    Some(Command::AlignBottom),
+    Some(Command::Straighten),
+    Some(Command::LayOut),
+];
+
+const HELP: &[Option<Command>] = &[Some(Command::Help), Some(Command::Keys)];

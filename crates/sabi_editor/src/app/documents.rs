@@ -1,0 +1,229 @@
+//! Graphs, models and textures as files.
+
+use std::path::{Path, PathBuf};
+
+use egui::Ui;
+use sabi_engine::{
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Seams, Session,
+    WorkpieceOptions, bake_graph,
+};
+use sabi_graph::Value;
+
+use super::Editor;
+use crate::action::{Action, New};
+use crate::desk::Desk;
+use crate::files::examples;
+use crate::panels::export::{Running, folder_of};
+
+impl Editor {
+    pub(crate) fn recovery_folder(&self) -> Option<&Path> {
+        self.folders.recovery.as_deref()
+    }
+
+    /// Opens a graph file in the place of what is open.
+    pub(crate) fn open_file(&mut self, path: &Path) {
+        match Session::open(path, self.recovery_folder()) {
+            Ok(session) => {
+                self.settings.remember(path);
+                self.take_session(session);
+            }
+            Err(error) => self.say(error.to_string()),
+        }
+    }
+
+    pub(crate) fn open_example(&mut self, at: usize) {
+        let Some(folder) = self.folders.examples.clone() else {
+            self.say("This system has no folder for examples; open one of the project's graphs instead.");
+            return;
+        };
+        match examples::unpack(&folder, at) {
+            Ok(Some(file)) => self.open_file(&file),
+            Ok(None) => {}
+            Err(error) => self.say(format!("{} cannot be written: {error}", folder.display())),
+        }
+    }
+
+    /// Goes on with what was kept when the program ended.
+    pub(crate) fn recover(&mut self, at: usize) {
+        if at >= self.files.recoveries.len() {
+            return;
+        }
+        let recovery = self.files.recoveries.remove(at);
+        match Session::recover(recovery) {
+            Ok(session) => self.take_session(session),
+            Err(error) => self.say(error.to_string()),
+        }
+    }
+
+    /// Puts another graph on the desk, on the model that it names.
+    pub(crate) fn take_session(&mut self, session: Session) {
+        let named = session
+            .document()
+            .preview
+            .as_ref()
+            .and_then(|preview| preview.mesh.clone());
+        let model = named.map(|mesh| session.graph().folder().join(mesh));
+        let before = std::mem::replace(&mut self.desk, Desk::new(session));
+        before.session.close();
+        self.canvas = Default::default();
+        self.shown = None;
+        self.pinned = None;
+        self.locked = None;
+        self.ports.clear();
+        self.stage.forget(&Default::default());
+        if let Some(model) = model.filter(|model| model != self.stage.model_file()) {
+            self.take_model(&model);
+        }
+    }
+
+    /// Saves to the graph's file, or asks for one.
+    pub(crate) fn save(&mut self) {
+        match self.desk.session.file().map(Path::to_owned) {
+            Some(file) => self.save_to(&file),
+            None => self.files.ask_save(&self.desk),
+        }
+    }
+
+    pub(crate) fn save_to(&mut self, path: &Path) {
+        match self.desk.session.save_as(path) {
+            Ok(()) => {
+                self.settings.remember(path);
+                self.say(format!("Saved to {}", path.display()));
+                if self.settings.exports_on_save {
+                    self.export();
+                }
+            }
+            Err(error) => self.say(error.to_string()),
+        }
+    }
+
+    /// Writes the textures beside the window's work.
+    pub(crate) fn export(&mut self) {
+        if self.panels.export.running.is_some() {
+            self.say("An export is being made already.");
+            return;
+        }
+        let export = &self.panels.export;
+        let Some(folder) = folder_of(&export.folder, self.desk.session.file()) else {
+            self.say("Name the folder for the textures first.");
+            return;
+        };
+        let mut model = ModelOptions::new(self.stage.model_file(), export.size);
+        model.cache_dir = self.stage.cache_dir().map(Path::to_owned);
+        let request = BakeRequest {
+            graph: self.desk.session.graph().path.clone(),
+            workpiece: WorkpieceOptions {
+                model,
+                overrides: Overrides::default(),
+                fit: None,
+                adapter: AdapterChoice::Named(self.stage.gpu().summary().name.clone()),
+                caster: CasterChoice::Auto,
+                budget_bytes: DEFAULT_BUDGET_BYTES,
+            },
+            output: folder,
+            presets: vec![export.preset.clone()],
+            material: None,
+            all_maps: export.all_maps,
+            padding: None,
+            seams: Seams::default(),
+            fuse: true,
+            force: false,
+            model: export.has_model,
+            report: None,
+        };
+        let (open, kinds) = (self.desk.session.graph().clone(), self.desk.kinds().0.clone());
+        let context = self.context.clone();
+        let work = move |progress: &dyn sabi_engine::Progress| bake_graph(&open, &kinds, &request, progress);
+        self.panels.export.running = Some(Running::start(&context, work));
+    }
+
+    /// Puts the selected group into the library.
+    pub(crate) fn shelve_selected(&mut self) {
+        let Some(folder) = self.folders.library.clone() else {
+            self.say("This system has no folder for a library.");
+            return;
+        };
+        if self.desk.shelve(&folder).is_some() {
+            self.panels.library.forget();
+        }
+    }
+
+    /// Takes a file by what it is: a graph is opened, a model shown, an environment lit, a picture becomes a node.
+    pub(super) fn take_dropped_file(&mut self, path: &Path, ui: &Ui) {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        match ending.as_deref() {
+            Some("sabi") => self
+                .files
+                .ask_next(&mut self.desk, crate::files::Next::Open(path.to_owned())),
+            Some("glb" | "gltf" | "obj") => self.take_model(path),
+            Some("hdr") => self.take_environment(path),
+            Some("exr") if self.active != crate::dock::Panel::Canvas => self.take_environment(path),
+            Some("png" | "jpg" | "jpeg" | "exr" | "tga" | "bmp" | "webp") => self.add_picture(path, ui),
+            _ => self.say(format!(
+                "{} is nothing that can be taken; drop graphs, models, pictures and environments",
+                path.display()
+            )),
+        }
+    }
+
+    fn take_environment(&mut self, path: &Path) {
+        let choice = path.display().to_string();
+        self.model_view.choose_environment(&choice);
+        self.settings.environment = choice;
+    }
+
+    fn add_picture(&mut self, path: &Path, ui: &Ui) {
+        let place = self.canvas.place_for_new(ui);
+        self.perform(
+            Action::Add {
+                kind: New::Kind("source/image".to_owned()),
+                place,
+                loose: None,
+                into: None,
+            },
+            ui,
+        );
+        if let Some(id) = self.desk.selected_one().cloned() {
+            let text = self.desk.relative(path);
+            self.desk.set_knob(&id, "file", Some(Value::Text(text)));
+        }
+    }
+}
+
+impl Desk {
+    /// A path as the graph names it: from its own folder on where that is possible.
+    pub(crate) fn relative(&self, path: &Path) -> String {
+        let folder = self.session.file().and_then(Path::parent).map(Path::to_owned);
+        let whole = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let path = whole(path);
+        let Some(folder) = folder else {
+            return path.display().to_string();
+        };
+        let folder = whole(if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            &folder
+        });
+        let common = folder
+            .components()
+            .zip(path.components())
+            .take_while(|(one, other)| one == other)
+            .count();
+        // Nothing in common but the root: the path from there says more.
+        if common <= 1 {
+            return path.display().to_string();
+        }
+        let up = folder.components().skip(common).map(|_| "..".to_owned());
+        let down = path
+            .components()
+            .skip(common)
+            .map(|part| part.as_os_str().to_string_lossy().into_owned());
+        up.chain(down).collect::<Vec<String>>().join("/")
+    }
+}
+
+/// Where a path leads that a graph names.
+pub(crate) fn model_of(session: &Session) -> Option<PathBuf> {
+    let named = session.document().preview.as_ref()?.mesh.clone()?;
+    Some(session.graph().folder().join(named))
+}

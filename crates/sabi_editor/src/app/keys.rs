@@ -1,0 +1,139 @@
+//! Keys: they act on what the pointer is over, or on the panel that was chosen by a key.
+
+use egui::{Context, Event, EventFilter, Key, Modifiers, Ui};
+
+use super::Editor;
+use crate::action::Action;
+use crate::canvas::{Way, focus_id};
+use crate::command::{Command, Scope};
+use crate::dock::Panel;
+
+impl Editor {
+    /// What keys mean that were pressed since the last frame.
+    pub(super) fn keys_pressed(&mut self, ui: &mut Ui) -> Vec<Action> {
+        self.follow_pointer(ui);
+        let context = ui.ctx().clone();
+        if context.text_edit_focused() || self.canvas.holds_keys() || self.question().is_some() || self.files.is_start {
+            return Vec::new();
+        }
+        self.hold_focus(&context);
+        let mut actions = Vec::new();
+        let events = ui.input(|input| input.events.clone());
+        for event in events {
+            match event {
+                Event::Key {
+                    key,
+                    pressed: true,
+                    modifiers,
+                    ..
+                } => self.key(key, modifiers, ui, &mut actions),
+                Event::Copy if self.active == Panel::Canvas => actions.push(Action::Do(Command::Copy)),
+                Event::Cut if self.active == Panel::Canvas => actions.push(Action::Do(Command::CutNodes)),
+                Event::Paste(text) if self.active == Panel::Canvas => {
+                    let place = self.canvas.place_for_new(ui);
+                    actions.push(Action::Paste { text, place });
+                }
+                _ => {}
+            }
+        }
+        actions
+    }
+
+    fn key(&mut self, key: Key, modifiers: Modifiers, ui: &Ui, actions: &mut Vec<Action>) {
+        // A widget that was reached by keys keeps those that turn it.
+        let is_ours = ui
+            .ctx()
+            .memory(|memory| memory.focused())
+            .is_none_or(|id| id == focus_id());
+        let scope = match self.active {
+            Panel::Canvas => Scope::Canvas,
+            Panel::Viewport => Scope::Viewport,
+            Panel::Flat => Scope::Flat,
+            _ => Scope::Window,
+        };
+        if let Some(command) = self.keys.command(scope, modifiers, key)
+            && (is_ours || command.scope() == Scope::Window)
+        {
+            actions.push(Action::Do(command));
+            return;
+        }
+        if self.active != Panel::Canvas || modifiers.any() || !is_ours {
+            return;
+        }
+        let way = match key {
+            Key::ArrowLeft => Way::Left,
+            Key::ArrowRight => Way::Right,
+            Key::ArrowUp => Way::Up,
+            Key::ArrowDown => Way::Down,
+            _ => return,
+        };
+        if let Some(id) = self.canvas.neighbor(&self.desk, way) {
+            actions.push(Action::Select(vec![id.clone()]));
+            actions.push(Action::Show { node: id, port: None });
+        }
+    }
+
+    /// The panel under the pointer is the one that keys are for, as soon as the pointer moves.
+    fn follow_pointer(&mut self, ui: &Ui) {
+        let (at, has_moved) = ui.input(|input| {
+            let is_event = |event: &Event| matches!(event, Event::PointerMoved(_) | Event::PointerButton { .. });
+            (input.pointer.hover_pos(), input.events.iter().any(is_event))
+        });
+        if let Some(at) = at.filter(|_| has_moved)
+            && let Some((panel, _)) = self.rects.iter().find(|(_, rect)| rect.contains(at))
+        {
+            self.active = *panel;
+        }
+    }
+
+    /// While keys are for the canvas, Tab and the arrows are its own and do not lead from widget to widget.
+    fn hold_focus(&self, context: &Context) {
+        let id = focus_id();
+        let is_canvas = self.active == Panel::Canvas;
+        context.memory_mut(|memory| {
+            let focused = memory.focused();
+            if is_canvas && focused.is_none() {
+                memory.request_focus(id);
+            }
+            if is_canvas && memory.has_focus(id) {
+                let filter = EventFilter {
+                    tab: true,
+                    horizontal_arrows: true,
+                    vertical_arrows: true,
+                    escape: true,
+                };
+                memory.set_focus_lock_filter(id, filter);
+            } else if !is_canvas && memory.has_focus(id) {
+                memory.surrender_focus(id);
+            }
+        });
+    }
+
+    /// The next panel is the one that keys are for.
+    pub(super) fn step_panel(&mut self, is_on: bool, context: &Context) {
+        let shown: Vec<Panel> = Panel::ALL
+            .into_iter()
+            .filter(|panel| self.rects.contains_key(panel))
+            .collect();
+        let now = shown.iter().position(|panel| *panel == self.active).unwrap_or(0);
+        let count = shown.len().max(1);
+        let next = if is_on { now + 1 } else { now + count - 1 } % count;
+        if let Some(panel) = shown.get(next) {
+            self.active = *panel;
+            context.memory_mut(|memory| {
+                if let Some(id) = memory.focused() {
+                    memory.surrender_focus(id);
+                }
+            });
+            self.say(format!("Keys are for: {}", panel.title()));
+        }
+    }
+
+    /// Files that were dropped on the window.
+    pub(super) fn take_dropped(&mut self, context: &Context, actions: &mut Vec<Action>) {
+        let dropped = context.input(|input| input.raw.dropped_files.clone());
+        for path in dropped.into_iter().filter_map(|file| file.path) {
+            actions.push(Action::Dropped(path));
+        }
+    }
+}

@@ -1,0 +1,328 @@
+//! What is asked for is done here, and nowhere else.
+
+use std::path::Path;
+
+use egui::Ui;
+use sabi_graph::NodeId;
+
+use super::Editor;
+use crate::action::{Action, New};
+use crate::command::Command;
+use crate::desk::{Align, Desk};
+use crate::dock::{self, Panel};
+use crate::knobs::KnobEvent;
+
+/// How much larger or smaller one step makes the interface.
+const SCALE_STEP: f32 = 1.1;
+
+impl Editor {
+    /// Does what a panel asks for.
+    pub(super) fn perform(&mut self, action: Action, ui: &Ui) {
+        let desk = &mut self.desk;
+        match action {
+            Action::Do(command) => self.command(command, ui),
+            Action::Add {
+                kind,
+                place,
+                loose,
+                into,
+            } => {
+                desk.session.begin("Add");
+                let added = match &kind {
+                    New::Kind(kind) => desk.add(kind, place, loose.as_ref()),
+                    New::Group(group) => desk.add_group_instance(group, place, loose.as_ref()),
+                    New::Library(file) => desk.add_from_library(file, place, loose.as_ref()),
+                };
+                if let Some((id, into)) = added.as_ref().zip(into) {
+                    desk.insert(id, &into);
+                }
+                desk.session.end();
+                if let Some(id) = added {
+                    self.look_at(&id, None);
+                }
+            }
+            Action::Replace { node, kind } => {
+                desk.replace(&node, &kind);
+            }
+            Action::Connect { from, to, off } => {
+                desk.session.begin("Connect");
+                if desk.connect(&from, &to)
+                    && let Some(off) = off
+                {
+                    desk.cut(&[off]);
+                }
+                desk.session.end();
+            }
+            Action::Merge { from, to, how } => {
+                desk.merge(&from, &to, how);
+            }
+            Action::Cut(slots) => {
+                desk.cut(&slots);
+            }
+            Action::Insert { node, into } => {
+                desk.insert(&node, &into);
+            }
+            Action::Reroute { into, place } => {
+                desk.reroute(&into, place);
+            }
+            Action::BeginMove => desk.session.begin("Move"),
+            Action::Move(places) => {
+                desk.move_to("Move", places);
+            }
+            Action::EndMove => desk.session.end(),
+            Action::TakeOut => {
+                desk.take_out();
+            }
+            Action::Select(ids) => desk.select(ids),
+            Action::Toggle(id) => desk.toggle(&id),
+            Action::Show { node, port } => self.look_at(&node, port),
+            Action::Pin { node } => {
+                let reference = self.reference(&node, None);
+                self.pinned = if self.pinned.as_ref() == Some(&reference) {
+                    None
+                } else {
+                    Some(reference)
+                };
+            }
+            Action::Enter(id) => {
+                desk.enter(&id);
+            }
+            Action::LeaveTo(depth) => {
+                desk.leave_to(depth);
+            }
+            Action::Knob { node, event } => self.turn_knob(&node, event),
+            Action::Rename { node, name } => {
+                desk.rename(&node, &name);
+            }
+            Action::RenameFrame { frame, title } => self.change_frame(&frame, |known| known.title = Some(title)),
+            Action::RecolorFrame(frame) => self.change_frame(&frame, |known| {
+                known.color = Some(Desk::next_color(known.color.as_deref()));
+            }),
+            Action::RemoveFrame(frame) => {
+                desk.remove_frame(&frame);
+            }
+            Action::Paste { text, place } => {
+                desk.paste(&text, place);
+            }
+            Action::OpenFile(path) => self.open_file(&path),
+            Action::SaveTo(path) => self.save_to(&path),
+            Action::TakeModel(path) => self.take_model(&path),
+            Action::Dropped(path) => self.take_dropped_file(&path, ui),
+            Action::GoTo(node) => self.go_to(&node),
+            Action::Steps(steps) => {
+                for _ in 0..steps.unsigned_abs() {
+                    if steps < 0 { self.desk.undo() } else { self.desk.redo() }
+                }
+            }
+        }
+    }
+
+    fn change_frame(&mut self, id: &str, change: impl FnOnce(&mut sabi_graph::Frame)) {
+        if let Some(mut frame) = self.desk.graph().frames().get(id).cloned() {
+            change(&mut frame);
+            self.desk.set_frame("Change frame", id, frame);
+        }
+    }
+
+    fn turn_knob(&mut self, node: &NodeId, event: KnobEvent) {
+        let desk = &mut self.desk;
+        match event {
+            KnobEvent::Set { knob, value } => {
+                desk.set_knob_of_alike(node, &knob, Some(value));
+            }
+            KnobEvent::Reset { knob } => {
+                desk.set_knob_of_alike(node, &knob, None);
+            }
+            KnobEvent::Expose { knob } => {
+                desk.expose(node, &knob);
+            }
+            KnobEvent::Unexpose { knob } => {
+                let name = desk.exposed_as(node, &knob).map(str::to_owned);
+                if let Some(name) = name {
+                    desk.unexpose(&name);
+                }
+            }
+            KnobEvent::Began => {
+                desk.session.begin("Turn a knob");
+                self.is_moving = true;
+            }
+            KnobEvent::Ended => {
+                desk.session.end();
+                self.is_moving = false;
+            }
+            KnobEvent::Eyedropper { knob } => {
+                self.panels.parameters.eyedropper = Some((node.clone(), knob));
+                self.say("Click the model where the color is.");
+            }
+            KnobEvent::Browse { knob } => self.files.ask_for_picture(node.clone(), knob),
+            KnobEvent::ShowLength(length) => self.panels.parameters.length = Some(length),
+        }
+    }
+
+    /// Does what a key or a menu entry means.
+    pub(super) fn command(&mut self, command: Command, ui: &Ui) {
+        if let Some(actions) = self.canvas.command(command, ui, &self.desk) {
+            for action in actions {
+                self.perform(action, ui);
+            }
+            return;
+        }
+        let desk = &mut self.desk;
+        match command {
+            Command::Undo => desk.undo(),
+            Command::Redo => desk.redo(),
+            Command::Delete => drop(desk.delete(false)),
+            Command::Heal => drop(desk.delete(true)),
+            Command::TakeOut => drop(desk.take_out()),
+            Command::SwapInputs => drop(desk.swap_inputs()),
+            Command::Mute => drop(desk.mute()),
+            Command::Duplicate => drop(desk.duplicate(false)),
+            Command::DuplicateWired => drop(desk.duplicate(true)),
+            Command::Copy => drop(self.copy(ui)),
+            Command::CutNodes => {
+                if self.copy(ui) {
+                    self.desk.delete(false);
+                }
+            }
+            Command::Paste => ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste),
+            Command::Frame => drop(desk.frame()),
+            Command::AlignLeft => drop(desk.align(Align::Left)),
+            Command::AlignRight => drop(desk.align(Align::Right)),
+            Command::AlignTop => drop(desk.align(Align::Top)),
+            Command::AlignBottom => drop(desk.align(Align::Bottom)),
+            Command::Straighten => drop(desk.straighten()),
+            Command::LayOut => drop(desk.lay_out()),
+            Command::SelectAll => desk.select_all(),
+            Command::SelectUp => desk.select_stream(true),
+            Command::SelectDown => desk.select_stream(false),
+            Command::Group => drop(desk.make_group()),
+            Command::Ungroup => drop(desk.dissolve_groups()),
+            Command::Enter => {
+                if let Some(id) = desk.selected_one().cloned() {
+                    desk.enter(&id);
+                }
+            }
+            Command::Leave => {
+                if !self.canvas.let_go() {
+                    self.desk.leave();
+                }
+            }
+            Command::Preview | Command::Lock | Command::Flat => self.command_of_looks(command),
+            _ => self.command_of_window(command, ui),
+        }
+    }
+
+    fn command_of_looks(&mut self, command: Command) {
+        let selected = self.desk.selected_one().cloned();
+        match command {
+            Command::Flat => self.settings.is_flat = !self.settings.is_flat,
+            Command::Preview => {
+                self.follows = !self.follows;
+                if let Some(id) = selected {
+                    let port = self.ports.get(&self.desk.full_id(&id)).cloned();
+                    self.look_at(&id, port);
+                }
+                let follows = self.follows;
+                self.say(if follows {
+                    "The model shows the node that is clicked"
+                } else {
+                    "The model shows the outputs"
+                });
+            }
+            Command::Lock => {
+                let chosen = selected.map(|id| {
+                    let port = self.ports.get(&self.desk.full_id(&id)).cloned();
+                    self.reference(&id, port)
+                });
+                self.locked = if self.locked == chosen { None } else { chosen };
+            }
+            _ => {}
+        }
+    }
+
+    fn command_of_window(&mut self, command: Command, ui: &Ui) {
+        match command {
+            Command::New => self.files.ask_new(&mut self.desk),
+            Command::Open => self.files.ask_open(&self.desk),
+            Command::Save => self.save(),
+            Command::SaveAs => self.files.ask_save(&self.desk),
+            Command::Export => {
+                dock::bring_up(&mut self.layout, Panel::Export);
+                self.export();
+            }
+            Command::NextPanel => self.step_panel(true, ui.ctx()),
+            Command::PreviousPanel => self.step_panel(false, ui.ctx()),
+            Command::Help => dock::bring_up(&mut self.layout, Panel::Page),
+            Command::Keys => self.files.shows_keys = !self.files.shows_keys,
+            Command::UseView => {
+                self.use_layout = match self.use_layout.take() {
+                    Some(_) => None,
+                    None => Some(dock::use_layout()),
+                };
+            }
+            Command::Larger => self.scale_by(SCALE_STEP, ui),
+            Command::Smaller => self.scale_by(1.0 / SCALE_STEP, ui),
+            Command::FitFlat | Command::TrueSize | Command::TileFlat | Command::UvWires => {
+                self.flat_view.command(command)
+            }
+            _ => {
+                let rect = self.rects.get(&Panel::Viewport).copied();
+                let pointer = ui.input(|input| input.pointer.hover_pos());
+                let seen = self.seen();
+                if let Some(rect) = rect {
+                    self.model_view.command(command, &self.stage, &seen, rect, pointer);
+                }
+            }
+        }
+    }
+
+    fn scale_by(&mut self, factor: f32, ui: &Ui) {
+        self.settings.scale = (self.settings.scale * factor).clamp(0.5, 3.0);
+        ui.ctx().set_zoom_factor(self.settings.scale);
+    }
+
+    fn copy(&mut self, ui: &Ui) -> bool {
+        let Some(text) = self.desk.copied() else {
+            self.say("Select the nodes to copy first");
+            return false;
+        };
+        ui.ctx().copy_text(text);
+        true
+    }
+
+    /// Takes another model, and remembers it on the strip.
+    pub(super) fn take_model(&mut self, path: &Path) {
+        self.stage.take_model(path);
+        self.remember_model();
+    }
+
+    /// Puts the model that is shown on the strip.
+    pub(super) fn remember_model(&mut self) {
+        let model = self.stage.model_file().to_owned();
+        let models = &mut self.settings.models;
+        if !models.contains(&model) {
+            models.push(model);
+        }
+        if models.len() > crate::settings::MOST_MODELS {
+            models.remove(0);
+        }
+    }
+
+    /// Shows a node, in the group that it is in.
+    fn go_to(&mut self, node: &str) {
+        self.desk.leave_to(0);
+        let steps: Vec<NodeId> = node.split('/').filter_map(|step| step.parse().ok()).collect();
+        let Some((last, instances)) = steps.split_last() else {
+            return;
+        };
+        for instance in instances {
+            if !self.desk.enter(instance) {
+                return;
+            }
+        }
+        self.desk.select([last.clone()]);
+        dock::bring_up(&mut self.layout, Panel::Canvas);
+        self.canvas.frame_nodes(&self.desk, [last].into_iter());
+        self.look_at(last, None);
+    }
+}

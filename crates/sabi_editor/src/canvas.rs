@@ -1,0 +1,332 @@
+//! The canvas: it draws a snapshot of the graph and answers with what is asked for. It holds no truth, only how one looks at
+//! it and what is in hand. This module alone names the canvas crate, of which it takes the graph types and the node widget;
+//! zoom, wires, selection and menus are its own.
+
+mod add_menu;
+mod body;
+mod card;
+mod focus;
+mod frames;
+mod gesture;
+mod mini_map;
+mod nodes;
+mod ports;
+mod questions;
+mod snapshot;
+mod view;
+mod wires;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use egui::{Pos2, Rect, Sense, Ui, pos2, vec2};
+use sabi_graph::NodeId;
+
+use crate::action::Action;
+use crate::command::Command;
+use crate::desk::{Desk, NODE_WIDTH};
+use crate::search::Candidate;
+use crate::theme::Theme;
+use add_menu::{AddMenu, Outcome, Purpose};
+use gesture::Gesture;
+use questions::{MergeQuestion, Renaming};
+use snapshot::Snapshot;
+use view::View;
+use wires::Wire;
+
+pub(crate) use body::shown_time;
+pub(crate) use focus::Way;
+pub(crate) use snapshot::NodeState;
+
+/// Below this zoom nodes are cards with a picture and a name, whose ports cannot be taken.
+const CARD_ZOOM: f32 = 0.5;
+/// Between lines of the grid, canvas points.
+const GRID_STEP: f32 = 40.0;
+
+/// How one looks at the graph, and what is in hand.
+#[derive(Default)]
+pub(crate) struct Canvas {
+    view: View,
+    /// Of graphs that were left, by the path to them.
+    views: BTreeMap<Vec<NodeId>, View>,
+    path: Vec<NodeId>,
+    snapshot: Snapshot,
+    /// What the pointer holds.
+    gesture: Gesture,
+    menu: Option<AddMenu>,
+    merge: Option<MergeQuestion>,
+    renaming: Option<Renaming>,
+    /// The port that keys are about.
+    port: Option<focus::PortAt>,
+    /// The same, as a place.
+    focused: Option<ports::Place>,
+    /// Nodes in the order in which they were touched: later ones lie above.
+    touched: Vec<NodeId>,
+    has_map: bool,
+    /// The panel as it was last drawn.
+    panel: Option<Rect>,
+    /// Framed once there is something to frame.
+    was_framed: bool,
+}
+
+/// What the canvas is drawn from.
+pub(crate) struct Around<'a> {
+    pub(crate) desk: &'a Desk,
+    pub(crate) theme: &'a Arc<Theme>,
+    /// What is known of a node's result.
+    pub(crate) state_of: &'a dyn Fn(&NodeId) -> NodeState,
+    /// What may be added.
+    pub(crate) candidates: &'a [Candidate],
+    /// The node that the 2D view shows.
+    pub(crate) previewed: Option<&'a NodeId>,
+}
+
+impl Canvas {
+    /// Draws the graph and says what is asked for.
+    pub(crate) fn show(&mut self, ui: &mut Ui, around: &Around<'_>) -> Vec<Action> {
+        let panel = ui.available_rect_before_wrap();
+        if !panel.is_positive() {
+            return Vec::new();
+        }
+        ui.set_clip_rect(panel.intersect(ui.clip_rect()));
+        ui.advance_cursor_after_rect(panel);
+        let ground = ui.interact(panel, focus_id(), Sense::click_and_drag());
+        ground.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Canvas"));
+        self.panel = Some(panel);
+        self.follow_path(around.desk);
+        if !self.was_framed {
+            self.frame_all(around.desk);
+        }
+        self.snapshot.sync(around.desk);
+        self.zoom_and_pan(ui, panel);
+        draw_grid(ui, panel, &self.view, around.theme);
+        let mut actions = Vec::new();
+        frames::show(self, ui, panel, around, &mut actions);
+        let wires = wires::visible(around.desk, &self.view, panel);
+        self.draw_wires(ui, around, &wires);
+        nodes::show(self, ui, panel, around, &mut actions);
+        gesture::advance(self, ui, &ground, around, &wires, &mut actions);
+        gesture::draw(self, ui, panel, around);
+        if self.has_map {
+            mini_map::show(self, ui, panel, around);
+        }
+        self.show_questions(ui, around, &mut actions);
+        actions
+    }
+
+    /// Does what a command asks of the canvas itself; none where it is for the desk.
+    pub(crate) fn command(&mut self, command: Command, ui: &Ui, desk: &Desk) -> Option<Vec<Action>> {
+        let actions = match command {
+            Command::AddMenu => {
+                self.open_menu(ui, None);
+                Vec::new()
+            }
+            Command::FrameAll => {
+                self.frame_all(desk);
+                Vec::new()
+            }
+            Command::FrameSelected => {
+                self.frame_nodes(desk, desk.selection().iter());
+                Vec::new()
+            }
+            Command::MiniMap => {
+                self.has_map = !self.has_map;
+                Vec::new()
+            }
+            Command::Rename => {
+                self.renaming = desk.selected_one().map(|id| Renaming::node(id.clone(), desk.title(id)));
+                Vec::new()
+            }
+            Command::NextPort | Command::PreviousPort => {
+                self.step_port(desk, command == Command::NextPort);
+                Vec::new()
+            }
+            Command::Wire => self.wire_by_key(desk),
+            _ => return None,
+        };
+        Some(actions)
+    }
+
+    /// Where something new stands: under the pointer, or in the middle of what is seen.
+    pub(crate) fn place_for_new(&self, ui: &Ui) -> [f32; 2] {
+        let panel = self.panel.unwrap_or(Rect::from_min_size(Pos2::ZERO, vec2(1.0, 1.0)));
+        self.view.place(panel, self.screen_for_new(ui))
+    }
+
+    /// The middle of what is seen.
+    pub(crate) fn middle(&self) -> [f32; 2] {
+        self.panel
+            .map_or([0.0; 2], |panel| self.view.place(panel, panel.center()))
+    }
+
+    /// Which place of the canvas is there on the screen; none beside the panel.
+    pub(crate) fn place_at(&self, at: Pos2) -> Option<[f32; 2]> {
+        let panel = self.panel.filter(|panel| panel.contains(at))?;
+        Some(self.view.place(panel, at))
+    }
+
+    fn screen_for_new(&self, ui: &Ui) -> Pos2 {
+        let panel = self.panel.unwrap_or(Rect::from_min_size(Pos2::ZERO, vec2(1.0, 1.0)));
+        let pointer = ui.input(|input| input.pointer.hover_pos());
+        pointer.filter(|at| panel.contains(*at)).unwrap_or(panel.center())
+    }
+
+    /// Opens the menu of nodes, to put one in the place of another where there is one.
+    pub(crate) fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>) {
+        let purpose = Purpose {
+            place: self.place_for_new(ui),
+            instead,
+            ..Purpose::default()
+        };
+        self.menu = Some(AddMenu::new(self.screen_for_new(ui), purpose));
+    }
+
+    /// Whether a menu or a field has the keys.
+    pub(crate) fn holds_keys(&self) -> bool {
+        self.menu.is_some() || self.renaming.is_some() || self.merge.is_some()
+    }
+
+    /// Whether Escape means something here besides leaving a group.
+    pub(crate) fn let_go(&mut self) -> bool {
+        let held = !matches!(self.gesture, Gesture::Idle) || self.port.is_some();
+        self.gesture = Gesture::Idle;
+        self.port = None;
+        held
+    }
+
+    fn follow_path(&mut self, desk: &Desk) {
+        let path: Vec<NodeId> = desk.path().into_iter().map(|(id, _)| id).collect();
+        if path == self.path {
+            return;
+        }
+        let left = std::mem::replace(&mut self.path, path);
+        self.views.insert(left, self.view);
+        match self.views.get(&self.path) {
+            Some(view) => self.view = *view,
+            None => self.was_framed = false,
+        }
+        self.gesture = Gesture::Idle;
+        self.port = None;
+    }
+
+    /// Shows all nodes.
+    pub(crate) fn frame_all(&mut self, desk: &Desk) {
+        self.frame_nodes(desk, desk.graph().ids());
+        self.was_framed = true;
+    }
+
+    /// Shows these nodes.
+    pub(crate) fn frame_nodes<'i>(&mut self, desk: &Desk, ids: impl Iterator<Item = &'i NodeId>) {
+        let rects = ids.filter_map(|id| node_rect(desk, id));
+        let all = rects.fold(Rect::NOTHING, |all, rect| all.union(rect));
+        if let Some(panel) = self.panel {
+            self.view.frame(panel, all);
+        }
+    }
+
+    /// Nodes that are seen, those in the middle first.
+    pub(crate) fn visible(&self, desk: &Desk) -> Vec<NodeId> {
+        let Some(panel) = self.panel else {
+            return Vec::new();
+        };
+        let seen = self.view.seen(panel);
+        let rects = desk.graph().ids().filter_map(|id| Some((node_rect(desk, id)?, id)));
+        let mut visible: Vec<(f32, &NodeId)> = rects
+            .filter(|(rect, _)| rect.intersects(seen))
+            .map(|(rect, id)| (rect.center().distance(seen.center()), id))
+            .collect();
+        visible.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        visible.into_iter().map(|(_, id)| id.clone()).collect()
+    }
+
+    fn zoom_and_pan(&mut self, ui: &Ui, panel: Rect) {
+        let Some(pointer) = ui
+            .input(|input| input.pointer.hover_pos())
+            .filter(|at| panel.contains(*at))
+        else {
+            return;
+        };
+        let is_on_top = ui.ctx().layer_id_at(pointer).is_none_or(|layer| layer == ui.layer_id());
+        if !is_on_top {
+            return;
+        }
+        let (scroll, pinch, modifiers) =
+            ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta(), input.modifiers));
+        if pinch != 1.0 {
+            self.view.zoom_at(panel, pointer, pinch);
+        } else if modifiers.shift {
+            self.view.pan += scroll;
+        } else if scroll != egui::Vec2::ZERO {
+            self.view.pan.x += scroll.x;
+            self.view.zoom_at(panel, pointer, (scroll.y * 0.0025).exp());
+        }
+    }
+
+    fn draw_wires(&self, ui: &Ui, around: &Around<'_>, wires: &[Wire]) {
+        let pointer = ui.input(|input| input.pointer.hover_pos());
+        let hot = self.gesture.hot_wire(self, around.desk, wires, pointer);
+        for wire in wires {
+            let look = if self.gesture.cuts(wire) {
+                wires::Look::Cut
+            } else if hot == Some(&wire.to) {
+                wires::Look::Hot
+            } else if around.desk.is_selected(&wire.to.node) || around.desk.is_selected(&wire.from.node) {
+                wires::Look::Near
+            } else {
+                wires::Look::Usual
+            };
+            wires::draw(ui.painter(), around.theme, wire, self.view.zoom, look);
+        }
+    }
+
+    fn show_questions(&mut self, ui: &mut Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
+        if let Some(menu) = &mut self.menu {
+            match menu.show(ui, around.desk, around.theme, around.candidates) {
+                Outcome::Open => {}
+                Outcome::Closed => self.menu = None,
+                Outcome::Chosen(action) => {
+                    self.menu = None;
+                    actions.push(action);
+                }
+            }
+        }
+        questions::merge(&mut self.merge, ui, actions);
+        questions::rename(self, ui, around, actions);
+    }
+}
+
+/// What has the focus while keys are for the canvas.
+pub(crate) fn focus_id() -> egui::Id {
+    egui::Id::new("keys are for the canvas")
+}
+
+/// The rectangle of a node on the canvas.
+fn node_rect(desk: &Desk, id: &NodeId) -> Option<Rect> {
+    let pos = desk.node(id)?.pos;
+    Some(Rect::from_min_size(
+        pos2(pos[0], pos[1]),
+        vec2(NODE_WIDTH, desk.height(id)),
+    ))
+}
+
+fn draw_grid(ui: &Ui, panel: Rect, view: &View, theme: &Theme) {
+    ui.painter().rect_filled(panel, 0.0, theme.canvas);
+    let step = GRID_STEP * view.zoom;
+    // Lines that lie close are a gray veil and cost most.
+    if step < 14.0 {
+        return;
+    }
+    let first = |origin: f32, low: f32| low + (origin - low).rem_euclid(step);
+    let origin = view.screen(panel, [0.0, 0.0]);
+    let stroke = egui::Stroke::new(1.0, theme.grid);
+    let mut x = first(origin.x, panel.left());
+    while x < panel.right() {
+        ui.painter().vline(x, panel.y_range(), stroke);
+        x += step;
+    }
+    let mut y = first(origin.y, panel.top());
+    while y < panel.bottom() {
+        ui.painter().hline(panel.x_range(), y, stroke);
+        y += step;
+    }
+}

@@ -1,0 +1,217 @@
+//! The menu of nodes at the pointer.
+
+use egui::{Align2, Area, Color32, FontId, Frame, Id, Key, Order, Pos2, Sense, Ui, vec2};
+use egui_phosphor::regular as icon;
+use sabi_graph::{NodeId, SlotRef};
+
+use crate::action::{Action, New};
+use crate::desk::{Desk, Loose};
+use crate::search::{Candidate, ranked};
+use crate::theme::{Theme, space, type_size};
+
+/// Size of the list, points.
+const SIZE: [f32; 2] = [300.0, 360.0];
+const ROW: f32 = 34.0;
+
+/// What becomes of the node that is chosen.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Purpose {
+    /// Where it stands on the canvas.
+    pub(super) place: [f32; 2],
+    /// The wire that is tied to it.
+    pub(super) loose: Option<Loose>,
+    /// The wire into which it is put.
+    pub(super) into: Option<SlotRef>,
+    /// The node in whose place it is put.
+    pub(super) instead: Option<NodeId>,
+}
+
+/// The menu while it is open.
+pub(super) struct AddMenu {
+    at: Pos2,
+    purpose: Purpose,
+    query: String,
+    chosen: usize,
+    /// Shown although the wire does not fit.
+    shows_all: bool,
+    is_new: bool,
+}
+
+/// What came of a frame of the menu.
+pub(super) enum Outcome {
+    Open,
+    Closed,
+    Chosen(Action),
+}
+
+impl AddMenu {
+    pub(super) fn new(at: Pos2, purpose: Purpose) -> AddMenu {
+        AddMenu {
+            at,
+            purpose,
+            query: String::new(),
+            chosen: 0,
+            shows_all: false,
+            is_new: true,
+        }
+    }
+
+    pub(super) fn show(&mut self, ui: &Ui, desk: &Desk, theme: &Theme, candidates: &[Candidate]) -> Outcome {
+        let mut outcome = Outcome::Open;
+        let area = Area::new(Id::new("add_menu"))
+            .order(Order::Foreground)
+            .current_pos(self.at)
+            .constrain(true);
+        let shown = area.show(ui.ctx(), |ui| {
+            let frame = Frame::popup(ui.style()).fill(theme.panel).inner_margin(space::USUAL);
+            frame.show(ui, |ui| {
+                ui.set_width(SIZE[0]);
+                outcome = self.contents(ui, desk, theme, candidates);
+            });
+        });
+        let is_outside = ui.input(|input| {
+            let pressed = input.pointer.any_pressed();
+            pressed
+                && input
+                    .pointer
+                    .interact_pos()
+                    .is_some_and(|at| !shown.response.rect.contains(at))
+        });
+        let is_left = ui.input(|input| input.key_pressed(Key::Escape));
+        let is_over = matches!(outcome, Outcome::Open) && (is_outside && !self.is_new || is_left);
+        self.is_new = false;
+        if is_over { Outcome::Closed } else { outcome }
+    }
+
+    fn contents(&mut self, ui: &mut Ui, desk: &Desk, theme: &Theme, candidates: &[Candidate]) -> Outcome {
+        let edit = egui::TextEdit::singleline(&mut self.query)
+            .hint_text(format!("{} Find a node", icon::MAGNIFYING_GLASS))
+            .desired_width(f32::INFINITY);
+        let field = ui.add(edit);
+        field.request_focus();
+        field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Find a node"));
+        if field.changed() {
+            self.chosen = 0;
+        }
+        let fitting: Vec<Candidate> = candidates
+            .iter()
+            .filter(|it| self.shows_all || self.fits(desk, it))
+            .cloned()
+            .collect();
+        let found = ranked(&fitting, &self.query);
+        self.step(ui, found.len());
+        if self.purpose.loose.is_some() {
+            ui.horizontal(|ui| {
+                ui.colored_label(theme.quiet, "What fits the wire");
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    ui.checkbox(&mut self.shows_all, "All");
+                });
+            });
+        }
+        ui.add_space(space::TIGHT);
+        let mut taken = ui.input(|input| input.key_pressed(Key::Enter)).then_some(self.chosen);
+        if found.is_empty() {
+            ui.colored_label(theme.quiet, "No node is called that; try another word.");
+        }
+        let is_sectioned = self.query.trim().is_empty();
+        let area = egui::ScrollArea::vertical()
+            .max_height(SIZE[1])
+            .auto_shrink([false, true]);
+        area.show(ui, |ui| {
+            let mut section = "";
+            for (at, candidate) in found.iter().enumerate() {
+                if is_sectioned && section != candidate.section {
+                    section = &candidate.section;
+                    ui.add_space(space::TIGHT);
+                    ui.label(
+                        egui::RichText::new(section.to_uppercase())
+                            .size(type_size::SMALL)
+                            .color(theme.quiet),
+                    );
+                }
+                if self.row(ui, theme, candidate, at) {
+                    taken = Some(at);
+                }
+            }
+        });
+        match taken.and_then(|at| found.get(at)) {
+            Some(candidate) => Outcome::Chosen(self.action(&candidate.new)),
+            None => Outcome::Open,
+        }
+    }
+
+    /// Arrow keys move through the list.
+    fn step(&mut self, ui: &Ui, count: usize) {
+        let (down, up) = ui.input(|input| (input.key_pressed(Key::ArrowDown), input.key_pressed(Key::ArrowUp)));
+        if down {
+            self.chosen += 1;
+        }
+        if up {
+            self.chosen = self.chosen.saturating_sub(1);
+        }
+        self.chosen = self.chosen.min(count.saturating_sub(1));
+    }
+
+    fn row(&mut self, ui: &mut Ui, theme: &Theme, candidate: &Candidate, at: usize) -> bool {
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+        let face = &candidate.face;
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, &face.label));
+        let is_chosen = at == self.chosen;
+        if is_chosen && ui.input(|input| input.key_pressed(Key::ArrowDown) || input.key_pressed(Key::ArrowUp)) {
+            response.scroll_to_me(None);
+        }
+        if !ui.is_rect_visible(rect) {
+            return response.clicked();
+        }
+        let fill = match (is_chosen, response.hovered()) {
+            (true, _) => theme.accent.gamma_multiply(0.35),
+            (false, true) => theme.hovered,
+            (false, false) => Color32::TRANSPARENT,
+        };
+        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        painter.rect_filled(rect, space::CORNER, fill);
+        let mark = egui::Rect::from_min_size(rect.min + vec2(4.0, 6.0), vec2(4.0, ROW - 12.0));
+        painter.rect_filled(mark, 2.0, theme.category(face.category()));
+        let text = |at: egui::Pos2, text: &str, size: f32, color: Color32| {
+            painter.text(at, Align2::LEFT_TOP, text, FontId::proportional(size), color);
+        };
+        text(rect.min + vec2(16.0, 2.0), &face.label, type_size::BODY, theme.text);
+        text(
+            rect.min + vec2(16.0, 18.0),
+            &face.summary,
+            type_size::SMALL,
+            theme.quiet,
+        );
+        let outputs = face.outputs.iter().enumerate();
+        for (at, port) in outputs.take(4) {
+            let center = rect.right_top() + vec2(-10.0 - 10.0 * at as f32, 10.0);
+            painter.circle_filled(center, 3.5, theme.port(port.ty));
+        }
+        response.on_hover_text(&face.summary).clicked()
+    }
+
+    fn fits(&self, desk: &Desk, candidate: &Candidate) -> bool {
+        let face = &candidate.face;
+        match &self.purpose.loose {
+            None => true,
+            Some(Loose::From(from)) => face.input_for(desk.faces().carried(&desk.body(), from)).is_some(),
+            Some(Loose::Into(to)) => desk.input(to).is_some_and(|input| face.output_for(input).is_some()),
+        }
+    }
+
+    fn action(&self, new: &New) -> Action {
+        let purpose = self.purpose.clone();
+        match (purpose.instead, new) {
+            (Some(node), New::Kind(kind)) => Action::Replace {
+                node,
+                kind: kind.clone(),
+            },
+            _ => Action::Add {
+                kind: new.clone(),
+                place: purpose.place,
+                loose: purpose.loose,
+                into: purpose.into,
+            },
+        }
+    }
+}

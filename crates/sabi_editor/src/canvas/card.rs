@@ -1,0 +1,43 @@
+//! Nodes from afar: a picture, a color and, as long as it can be read, a name.
+
+use egui::{Align2, CornerRadius, FontId, Rect, Response, Ui};
+
+use super::snapshot::Key;
+use super::{Around, Canvas, body, node_rect, nodes};
+use crate::theme::space;
+
+/// Letters smaller than this are left out, screen points.
+const LEAST_LETTERS: f32 = 8.0;
+/// Letters of names on cards, canvas points.
+const LETTERS: f32 = 26.0;
+
+/// Draws a node from afar.
+pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, key: Key) -> Option<Response> {
+    let shown = &canvas.snapshot.graph[key].user_data;
+    let zoom = canvas.view.zoom;
+    let rect = canvas.view.screen_rect(panel, node_rect(around.desk, &shown.id)?);
+    let response = nodes::sensed(ui, key, rect);
+    let theme = around.theme;
+    let is_selected = around.desk.is_selected(&shown.id);
+    ui.painter().add(body::backdrop(theme, shown, rect, zoom, is_selected));
+    let letters = LETTERS * zoom;
+    let has_name = letters >= LEAST_LETTERS;
+    let mut inside = rect.shrink(4.0 * zoom);
+    if has_name {
+        let strip = Rect::from_min_max(rect.min, egui::pos2(rect.max.x, rect.min.y + letters * 1.5));
+        let corner = CornerRadius::same(space::CORNER);
+        ui.painter()
+            .rect_filled(strip, corner, theme.category(shown.face.category()));
+        let font = FontId::proportional(letters.round());
+        let name = body::elided(ui, &shown.title, font, strip.width() - 8.0 * zoom, theme.text);
+        let at = Align2::LEFT_CENTER.anchor_size(strip.left_center() + egui::vec2(5.0 * zoom, 0.0), name.size());
+        ui.painter().galley(at.min, name, theme.text);
+        inside.min.y = strip.max.y;
+    }
+    let side = inside.width().min(inside.height());
+    if shown.state.picture.is_some() && side > 6.0 {
+        let square = Rect::from_center_size(inside.center(), egui::Vec2::splat(side));
+        body::picture(ui, theme, shown, square, zoom);
+    }
+    Some(response)
+}

@@ -1,0 +1,84 @@
+//! Frames: titled boxes behind nodes.
+
+use std::collections::BTreeMap;
+
+use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
+
+use super::gesture::Gesture;
+use super::questions::Renaming;
+use super::{Around, Canvas, node_rect};
+use crate::action::Action;
+use crate::desk::Desk;
+use crate::theme::type_size;
+
+/// Around the nodes of a frame, canvas points.
+const AROUND: f32 = 20.0;
+/// Height of the strip with a frame's title.
+const STRIP: f32 = 30.0;
+
+/// The rectangle of a frame on the canvas; none where none of its nodes is there.
+pub(super) fn rect_of(desk: &Desk, id: &str) -> Option<Rect> {
+    let frame = desk.graph().frames().get(id)?;
+    let rects = frame.nodes.iter().filter_map(|id| node_rect(desk, id));
+    let all = rects.reduce(|all, rect| all.union(rect))?.expand(AROUND);
+    Some(Rect::from_min_max(all.min - vec2(0.0, STRIP), all.max))
+}
+
+pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, actions: &mut Vec<Action>) {
+    let desk = around.desk;
+    for (id, frame) in desk.graph().frames() {
+        let Some(rect) = rect_of(desk, id).map(|rect| canvas.view.screen_rect(panel, rect)) else {
+            continue;
+        };
+        if !rect.intersects(panel) {
+            continue;
+        }
+        let zoom = canvas.view.zoom;
+        let color = frame.color.as_deref().and_then(|code| Color32::from_hex(code).ok());
+        let color = color.unwrap_or(around.theme.line);
+        ui.painter().rect_filled(rect, 6.0 * zoom, color.gamma_multiply(0.25));
+        let strip = Rect::from_min_max(rect.min, egui::pos2(rect.max.x, rect.min.y + STRIP * zoom));
+        ui.painter().rect_filled(strip, 6.0 * zoom, color.gamma_multiply(0.6));
+        let title = frame.title.as_deref().unwrap_or("");
+        let letters = (type_size::HEADING * zoom).max(9.0);
+        let clipped = ui.painter().with_clip_rect(strip.intersect(ui.clip_rect()));
+        let at = strip.left_center() + vec2(8.0 * zoom, 0.0);
+        clipped.text(
+            at,
+            Align2::LEFT_CENTER,
+            title,
+            FontId::proportional(letters),
+            around.theme.text,
+        );
+        let response = ui.interact(strip, ui.id().with(("frame", id)), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("Frame {title}")));
+        if response.double_clicked() {
+            canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
+        } else if response.clicked() {
+            actions.push(Action::Select(frame.nodes.clone()));
+        }
+        if response.drag_started_by(egui::PointerButton::Primary) {
+            let places = frame
+                .nodes
+                .iter()
+                .filter_map(|id| Some((id.clone(), desk.node(id)?.pos)));
+            let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(strip.center());
+            actions.push(Action::BeginMove);
+            canvas.gesture = Gesture::Move {
+                from: places.collect::<BTreeMap<_, _>>(),
+                grabbed: canvas.view.place(panel, origin),
+            };
+        }
+        response.context_menu(|ui| {
+            if ui.button("Next color").clicked() {
+                actions.push(Action::RecolorFrame(id.clone()));
+            }
+            if ui.button("Rename").clicked() {
+                canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
+            }
+            if ui.button("Remove the frame").clicked() {
+                actions.push(Action::RemoveFrame(id.clone()));
+            }
+        });
+    }
+}

@@ -1,0 +1,215 @@
+//! The nodes that are seen; what lies outside costs nothing.
+
+use egui::layers::ShapeIdx;
+use egui::{Rect, Response, Sense, Shape, Ui, WidgetInfo, WidgetType, vec2};
+use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
+use sabi_graph::NodeId;
+
+use super::snapshot::{Hand, Key};
+use super::{Around, CARD_ZOOM, Canvas, body, card, node_rect, ports};
+use crate::action::Action;
+use crate::knobs::KnobEvent;
+
+/// The shape that a node's backdrop takes among those that its widget begins with: an outline, then what is behind it.
+const BACKDROP: usize = 2;
+
+/// Draws all nodes that are seen, and says what is asked of them.
+pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Around<'_>, actions: &mut Vec<Action>) {
+    let seen = canvas.view.seen(panel);
+    let ids: Vec<NodeId> = in_order(canvas, around, seen);
+    let is_card = canvas.view.zoom < CARD_ZOOM;
+    let usual = ui.style().clone();
+    if !is_card {
+        ui.set_style(zoomed(&usual, canvas.view.zoom));
+    }
+    for id in &ids {
+        let Some(key) = canvas.snapshot.key(id) else { continue };
+        let shown = &mut canvas.snapshot.graph[key].user_data;
+        shown.state = (around.state_of)(id);
+        shown.is_previewed = around.previewed == Some(id);
+        let response = if is_card {
+            card::show(canvas, ui, panel, around, key)
+        } else {
+            widget(canvas, ui, panel, around, key, actions)
+        };
+        let Some(response) = response else { continue };
+        let title = &canvas.snapshot.graph[key].user_data.title;
+        let is_selected = around.desk.is_selected(id);
+        response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, title));
+        touched(canvas, id, &response, around, actions);
+        context_menu(canvas, ui, id, &response, around, actions);
+        if !is_card {
+            ports::show(canvas, ui, panel, around, id, actions);
+        }
+    }
+    ui.set_style(usual);
+}
+
+/// Ids of the nodes that are seen: those that were touched last above the others, and the selected ones above all.
+fn in_order(canvas: &mut Canvas, around: &Around<'_>, seen: Rect) -> Vec<NodeId> {
+    let graph = around.desk.graph();
+    canvas.touched.retain(|id| graph.node(id.as_str()).is_some());
+    let is_seen = |id: &&NodeId| node_rect(around.desk, id).is_some_and(|rect| rect.intersects(seen));
+    let untouched = graph.ids().filter(|id| !canvas.touched.contains(id));
+    let in_turn = untouched.chain(&canvas.touched).filter(is_seen);
+    let (selected, others): (Vec<NodeId>, Vec<NodeId>) = in_turn.cloned().partition(|id| around.desk.is_selected(id));
+    others.into_iter().chain(selected).collect()
+}
+
+/// Draws one node with the canvas crate's widget.
+fn widget(
+    canvas: &mut Canvas,
+    ui: &mut Ui,
+    panel: Rect,
+    around: &Around<'_>,
+    key: Key,
+    actions: &mut Vec<Action>,
+) -> Option<Response> {
+    let zoom = canvas.view.zoom;
+    let id = canvas.snapshot.graph[key].user_data.id.clone();
+    let place = around.desk.node(&id)?.pos;
+    let rect = canvas.view.screen_rect(panel, node_rect(around.desk, &id)?);
+    let mut hand = Hand {
+        theme: around.theme.clone(),
+        zoom,
+        knob_events: Vec::new(),
+    };
+    // The widget lays its own gray behind a node; where it did, ours is put.
+    let before = ui.painter().add(Shape::Noop);
+    let pan_zoom = PanZoom {
+        pan: canvas.view.pan,
+        zoom,
+        ..PanZoom::default()
+    };
+    let widget = GraphNodeWidget {
+        position: &mut (vec2(place[0], place[1]) * zoom).to_pos2(),
+        orientation: &mut NodeOrientation::LeftToRight,
+        graph: &mut canvas.snapshot.graph,
+        port_locations: &mut Default::default(),
+        node_rects: &mut Default::default(),
+        node_id: key,
+        ongoing_drag: None,
+        selected: false,
+        pan: canvas.view.pan + panel.min.to_vec2(),
+    };
+    // What it says of wires and moves is not asked: ports and drags are ours.
+    let _ = widget.show(&pan_zoom, ui, &mut hand);
+    let shown = &canvas.snapshot.graph[key].user_data;
+    let is_selected = around.desk.is_selected(&id);
+    let backdrop = body::backdrop(around.theme, shown, rect, zoom, is_selected);
+    ui.painter().set(ShapeIdx(before.0 + BACKDROP), backdrop);
+    actions.extend(hand.knob_events.into_iter().map(|(node, event)| knob(node, event)));
+    ui.ctx().read_response(window_id(ui, key))
+}
+
+fn knob(node: NodeId, event: KnobEvent) -> Action {
+    Action::Knob { node, event }
+}
+
+/// The id under which the widget senses clicks and drags of the whole node.
+fn window_id(ui: &Ui, key: Key) -> egui::Id {
+    ui.id().with(key).with((key, "window"))
+}
+
+/// What a click or a drag on a node means.
+fn touched(canvas: &mut Canvas, id: &NodeId, response: &Response, around: &Around<'_>, actions: &mut Vec<Action>) {
+    let modifiers = response.ctx.input(|input| input.modifiers);
+    if response.double_clicked() {
+        actions.push(Action::Enter(id.clone()));
+        return;
+    }
+    if response.clicked() {
+        raise(canvas, id);
+        actions.push(match (modifiers.command, modifiers.shift) {
+            (true, true) => Action::Pin { node: id.clone() },
+            (false, false) => Action::Select(vec![id.clone()]),
+            _ => Action::Toggle(id.clone()),
+        });
+        if !modifiers.command && !modifiers.shift {
+            actions.push(Action::Show {
+                node: id.clone(),
+                port: None,
+            });
+        }
+    }
+    if response.drag_started_by(egui::PointerButton::Primary) {
+        raise(canvas, id);
+        canvas.grab(id, response, around, modifiers, actions);
+    }
+}
+
+fn raise(canvas: &mut Canvas, id: &NodeId) {
+    canvas.touched.retain(|known| known != id);
+    canvas.touched.push(id.clone());
+}
+
+fn context_menu(
+    canvas: &mut Canvas,
+    ui: &Ui,
+    id: &NodeId,
+    response: &Response,
+    around: &Around<'_>,
+    actions: &mut Vec<Action>,
+) {
+    use crate::command::Command;
+    if response.secondary_clicked() && !around.desk.is_selected(id) {
+        actions.push(Action::Select(vec![id.clone()]));
+    }
+    let is_group = around.desk.node(id).is_some_and(|node| node.group.is_some());
+    response.context_menu(|ui_menu| {
+        if ui_menu.button("Replace by…").clicked() {
+            canvas.open_menu(ui, Some(id.clone()));
+        }
+        if is_group && ui_menu.button("Go into the group").clicked() {
+            actions.push(Action::Enter(id.clone()));
+        }
+        ui_menu.separator();
+        let commands = [
+            Command::Preview,
+            Command::Lock,
+            Command::Mute,
+            Command::Rename,
+            Command::Duplicate,
+            Command::DuplicateWired,
+            Command::Copy,
+            Command::Group,
+            Command::Ungroup,
+            Command::Frame,
+            Command::TakeOut,
+            Command::Heal,
+            Command::Delete,
+            Command::Help,
+        ];
+        for command in commands
+            .into_iter()
+            .filter(|command| is_group || *command != Command::Ungroup)
+        {
+            if ui_menu.button(command.title()).clicked() {
+                actions.push(Action::Do(command));
+            }
+        }
+    });
+}
+
+/// A style as large as the canvas is drawn.
+fn zoomed(style: &egui::Style, zoom: f32) -> egui::Style {
+    let mut style = style.clone();
+    for font in style.text_styles.values_mut() {
+        // Letters are kept by size, so that as many sizes as there are zooms would fill the memory for them.
+        font.size = (font.size * zoom * 2.0).round() / 2.0;
+    }
+    let spacing = &mut style.spacing;
+    spacing.item_spacing = egui::Vec2::ZERO;
+    spacing.button_padding *= zoom;
+    // Rows are as high as they say, since ports are where rows are.
+    spacing.interact_size = egui::Vec2::ZERO;
+    spacing.icon_width *= zoom;
+    spacing.icon_width_inner *= zoom;
+    spacing.icon_spacing *= zoom;
+    style
+}
+
+/// A node's rectangle on the screen, sensed as a whole: for cards, which have no widgets in them.
+pub(super) fn sensed(ui: &Ui, key: Key, rect: Rect) -> Response {
+    ui.interact(rect, window_id(ui, key), Sense::click_and_drag())
+}

@@ -1,0 +1,220 @@
+//! Ports: their dots, by color and form, and taking a wire at them.
+
+use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use sabi_engine::catalog::Port;
+use sabi_graph::{NodeId, OutputRef, PortType, SlotRef};
+
+use super::gesture::Gesture;
+use super::{Around, Canvas, wires};
+use crate::action::Action;
+use crate::desk::{Desk, Loose};
+use crate::theme::Theme;
+
+/// Half the width of a dot, canvas points.
+const DOT: f32 = 5.0;
+/// How near the pointer has to be to take one, screen points at least.
+const REACH: f32 = 9.0;
+
+/// A port of a node that is seen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Input(SlotRef),
+    Output(OutputRef),
+}
+
+impl Place {
+    /// Where it is on the canvas.
+    pub(super) fn on_canvas(&self, desk: &Desk) -> Option<[f32; 2]> {
+        match self {
+            Place::Input(slot) => wires::end_of(desk, slot),
+            Place::Output(from) => wires::start_of(desk, from),
+        }
+    }
+
+    /// A wire that begins here.
+    pub(super) fn loose(&self) -> Loose {
+        match self {
+            Place::Input(slot) => Loose::Into(slot.clone()),
+            Place::Output(from) => Loose::From(from.clone()),
+        }
+    }
+}
+
+/// All ports of a node, in order.
+pub(super) fn places(desk: &Desk, id: &NodeId) -> Vec<(Place, Port)> {
+    let Some(face) = desk.face(id) else {
+        return Vec::new();
+    };
+    let inputs = face.inputs.iter().map(|port| {
+        let slot = SlotRef {
+            node: id.clone(),
+            name: port.name.clone(),
+        };
+        (Place::Input(slot), port.clone())
+    });
+    let outputs = face.outputs.iter().map(|port| {
+        let from = OutputRef {
+            node: id.clone(),
+            port: Some(port.name.clone()),
+        };
+        (Place::Output(from), port.clone())
+    });
+    inputs.chain(outputs).collect()
+}
+
+/// Draws the ports of a node and takes wires at them.
+pub(super) fn show(
+    canvas: &mut Canvas,
+    ui: &Ui,
+    panel: Rect,
+    around: &Around<'_>,
+    id: &NodeId,
+    actions: &mut Vec<Action>,
+) {
+    let desk = around.desk;
+    let zoom = canvas.view.zoom;
+    let title = desk.title(id);
+    for (place, port) in places(desk, id) {
+        let Some(at) = place.on_canvas(desk) else { continue };
+        let center = canvas.view.screen(panel, at);
+        let reach = (DOT * 1.6 * zoom).max(REACH);
+        let rect = Rect::from_center_size(center, Vec2::splat(2.0 * reach));
+        let is_input = matches!(place, Place::Input(_));
+        let widget = ui.id().with(("port", id, &port.name, is_input));
+        let response = ui.interact(rect, widget, Sense::click_and_drag());
+        let name = accessible(&title, &port, is_input);
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &name));
+        let fits = canvas.gesture.takes(desk, &place);
+        let is_hot = fits != Some(false) && response.contains_pointer() || canvas.is_focused(&place);
+        let mut color = around.theme.port(port.ty);
+        if fits == Some(false) {
+            color = color.gamma_multiply(0.25);
+        }
+        let is_wired = is_wired(desk, &place);
+        let size = DOT * zoom * if is_hot { 1.35 } else { 1.0 };
+        dot(ui.painter(), around.theme, center, size, (port.ty, color), is_wired);
+        if port.is_required && !is_wired && is_input && zoom > 0.6 {
+            ui.painter()
+                .circle_stroke(center, size + 2.5 * zoom, Stroke::new(1.0, around.theme.warning));
+        }
+        if response.drag_started_by(egui::PointerButton::Primary) {
+            canvas.gesture = taken(desk, &place);
+        }
+        if response.clicked() {
+            actions.push(Action::Select(vec![id.clone()]));
+            if let Place::Output(from) = &place {
+                actions.push(Action::Show {
+                    node: from.node.clone(),
+                    port: from.port.clone(),
+                });
+            }
+        }
+        if matches!(canvas.gesture, Gesture::Idle) {
+            response.on_hover_ui(|ui| tooltip(ui, around.theme, &port));
+        }
+    }
+}
+
+/// The name of a port for those who do not see it.
+fn accessible(title: &str, port: &Port, is_input: bool) -> String {
+    let side = if is_input { "input" } else { "output" };
+    let carries = port.ty.map_or("anything".to_owned(), |ty| ty.to_string());
+    format!("{title}, {side} {}, {carries}", port.label)
+}
+
+fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port) {
+    ui.set_max_width(260.0);
+    let carries = port.ty.map_or("anything".to_owned(), |ty| ty.to_string());
+    ui.horizontal(|ui| {
+        ui.strong(&port.label);
+        ui.colored_label(theme.port(port.ty), carries);
+    });
+    if !port.doc.is_empty() {
+        ui.label(&port.doc);
+    }
+    if port.is_required {
+        ui.colored_label(theme.warning, "Has to be connected.");
+    }
+}
+
+pub(super) fn is_wired(desk: &Desk, place: &Place) -> bool {
+    match place {
+        Place::Input(slot) => desk.wire_into(slot).is_some(),
+        Place::Output(from) => {
+            let face = desk.face(&from.node);
+            let first = face.and_then(|face| face.outputs.first()).map(|port| &port.name);
+            let readers = desk.graph().readers(from.node.as_str());
+            readers
+                .iter()
+                .filter_map(|slot| desk.wire_into(slot))
+                .any(|wire| wire.port == from.port || wire.port.is_none() && first == from.port.as_ref())
+        }
+    }
+}
+
+/// What is in hand once a port was taken: a wire from it; or, of an input that has one, that wire, taken off it.
+fn taken(desk: &Desk, place: &Place) -> Gesture {
+    if let Place::Input(slot) = place
+        && let Some(from) = desk.wire_into(slot)
+    {
+        return Gesture::wire(Loose::From(from.clone()), Some(slot.clone()));
+    }
+    Gesture::wire(place.loose(), None)
+}
+
+/// A dot: round for masks, a diamond for colors, a triangle for vectors, a square for materials; hollow where nothing is tied.
+pub(super) fn dot(
+    painter: &Painter,
+    theme: &Theme,
+    center: Pos2,
+    size: f32,
+    (ty, color): (Option<PortType>, Color32),
+    is_wired: bool,
+) {
+    let fill = if is_wired { color } else { theme.canvas };
+    let stroke = Stroke::new((size * 0.35).max(1.0), color);
+    let polygon = |corners: &[(f32, f32)]| {
+        let corners = corners.iter().map(|(x, y)| center + vec2(*x, *y) * size);
+        Shape::convex_polygon(corners.collect(), fill, stroke)
+    };
+    painter.add(match ty {
+        Some(PortType::Mask) | None => Shape::Circle(egui::epaint::CircleShape {
+            center,
+            radius: size,
+            fill,
+            stroke,
+        }),
+        Some(PortType::Color) => polygon(&[(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)]),
+        Some(PortType::Vector) => polygon(&[(-0.9, -1.1), (1.2, 0.0), (-0.9, 1.1)]),
+        Some(PortType::Material) => polygon(&[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]),
+    });
+}
+
+/// The port that a wire would be dropped at: the nearest that takes it, or on a node's body its first one that does.
+pub(super) fn target(canvas: &Canvas, around: &Around<'_>, panel: Rect, pointer: Pos2) -> Option<Place> {
+    let desk = around.desk;
+    let here = canvas.view.place(panel, pointer);
+    let here = pos2(here[0], here[1]);
+    let margin = 24.0;
+    let mut best: Option<(f32, Place)> = None;
+    let mut under = None;
+    for id in desk.graph().ids() {
+        let Some(rect) = super::node_rect(desk, id).filter(|rect| rect.expand(margin).contains(here)) else {
+            continue;
+        };
+        for (place, _) in places(desk, id) {
+            if canvas.gesture.takes(desk, &place) != Some(true) {
+                continue;
+            }
+            let Some(at) = place.on_canvas(desk) else { continue };
+            let distance = here.distance(pos2(at[0], at[1]));
+            if rect.contains(here) && under.is_none() {
+                under = Some(place.clone());
+            }
+            if distance < margin && best.as_ref().is_none_or(|(least, _)| distance < *least) {
+                best = Some((distance, place));
+            }
+        }
+    }
+    best.map(|(_, place)| place).or(under)
+}

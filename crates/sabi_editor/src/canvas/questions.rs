@@ -1,0 +1,141 @@
+//! Small questions on the canvas: how two masks become one, and what something is called.
+
+use egui::{Area, Frame, Id, Key, Order, Pos2, Ui};
+use sabi_graph::{NodeId, OutputRef, SlotRef};
+
+use super::{Around, Canvas};
+use crate::action::Action;
+use crate::desk::Merge;
+
+/// How a second mask is put together with the first one.
+pub(super) struct MergeQuestion {
+    at: Pos2,
+    from: OutputRef,
+    to: SlotRef,
+    is_new: bool,
+}
+
+impl MergeQuestion {
+    pub(super) fn new(at: Pos2, from: OutputRef, to: SlotRef) -> MergeQuestion {
+        MergeQuestion {
+            at,
+            from,
+            to,
+            is_new: true,
+        }
+    }
+}
+
+pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut Vec<Action>) {
+    let Some(asked) = question else { return };
+    let mut chosen = None;
+    let area = Area::new(Id::new("merge_question"))
+        .order(Order::Foreground)
+        .current_pos(asked.at)
+        .constrain(true);
+    let shown = area.show(ui.ctx(), |ui| {
+        Frame::popup(ui.style()).show(ui, |ui| {
+            ui.label("There is a mask already");
+            for (name, how) in Merge::OFFERED {
+                if ui.button(name).clicked() {
+                    chosen = Some(how);
+                }
+            }
+        });
+    });
+    let is_left = ui.input(|input| {
+        let at = input.pointer.interact_pos();
+        let is_outside = at.is_some_and(|at| !shown.response.rect.contains(at));
+        input.key_pressed(Key::Escape) || input.pointer.any_pressed() && is_outside && !asked.is_new
+    });
+    asked.is_new = false;
+    if let Some(how) = chosen {
+        actions.push(Action::Merge {
+            from: asked.from.clone(),
+            to: asked.to.clone(),
+            how,
+        });
+    }
+    if chosen.is_some() || is_left {
+        *question = None;
+    }
+}
+
+/// What is being named.
+pub(super) enum Named {
+    Node(NodeId),
+    Frame(String),
+}
+
+/// A name while it is typed.
+pub(super) struct Renaming {
+    pub(super) what: Named,
+    text: String,
+    is_new: bool,
+}
+
+impl Renaming {
+    pub(super) fn node(id: NodeId, text: String) -> Renaming {
+        Renaming {
+            what: Named::Node(id),
+            text,
+            is_new: true,
+        }
+    }
+
+    pub(super) fn frame(id: String, text: String) -> Renaming {
+        Renaming {
+            what: Named::Frame(id),
+            text,
+            is_new: true,
+        }
+    }
+}
+
+pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
+    let (Some(panel), Some(renaming)) = (canvas.panel, &mut canvas.renaming) else {
+        return;
+    };
+    let corner = match &renaming.what {
+        Named::Node(id) => around.desk.node(id).map(|node| node.pos),
+        Named::Frame(id) => super::frames::rect_of(around.desk, id).map(|rect| [rect.min.x, rect.min.y]),
+    };
+    let Some(corner) = corner else {
+        canvas.renaming = None;
+        return;
+    };
+    let at = canvas.view.screen(panel, corner);
+    let area = Area::new(Id::new("renaming"))
+        .order(Order::Foreground)
+        .current_pos(at)
+        .constrain(true);
+    let shown = area.show(ui.ctx(), |ui| {
+        Frame::popup(ui.style())
+            .show(ui, |ui| {
+                let field = ui.add(egui::TextEdit::singleline(&mut renaming.text).desired_width(180.0));
+                field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Name"));
+                if renaming.is_new {
+                    field.request_focus();
+                    renaming.is_new = false;
+                }
+                field.lost_focus()
+            })
+            .inner
+    });
+    if !shown.inner {
+        return;
+    }
+    let is_left = ui.input(|input| input.key_pressed(Key::Escape));
+    if let Some(renaming) = canvas.renaming.take().filter(|_| !is_left) {
+        actions.push(match renaming.what {
+            Named::Node(node) => Action::Rename {
+                node,
+                name: renaming.text,
+            },
+            Named::Frame(frame) => Action::RenameFrame {
+                frame,
+                title: renaming.text,
+            },
+        });
+    }
+}

@@ -1,0 +1,259 @@
+//! The graph as the canvas crate has it: a snapshot of what is seen, brought up to date and never asked for the truth.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::{Color32, Ui};
+use egui_node_graph::{
+    DataTypeTrait, InputParamKind, NodeDataTrait, NodeResponse, UserResponseTrait, WidgetValueTrait,
+};
+use sabi_engine::catalog::Entry;
+use sabi_graph::{Body, NodeId, PortType, Value};
+
+use super::body;
+use crate::desk::{Desk, own_knobs};
+use crate::knobs::KnobEvent;
+use crate::theme::Theme;
+
+/// The crate's graph of our nodes.
+pub(super) type Graph = egui_node_graph::Graph<Shown, Carries, Row>;
+/// The crate's own name of a node.
+pub(super) type Key = egui_node_graph::NodeId;
+
+/// What is known of a node's result.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct NodeState {
+    /// A picture of it.
+    pub(crate) picture: Option<egui::TextureId>,
+    /// How long it took.
+    pub(crate) time: Option<Duration>,
+    /// What is wrong with it.
+    pub(crate) fault: Option<String>,
+    /// What it waits for.
+    pub(crate) waits: Option<String>,
+}
+
+/// What is drawn of a node.
+pub(super) struct Shown {
+    pub(super) id: NodeId,
+    pub(super) face: Arc<Entry>,
+    pub(super) title: String,
+    pub(super) is_muted: bool,
+    pub(super) state: NodeState,
+    /// Whether the 2D view shows it.
+    pub(super) is_previewed: bool,
+    /// Values of the knobs that are rows of the node, by name; those that are not here have their defaults.
+    pub(super) values: BTreeMap<String, Value>,
+}
+
+/// What a port carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Carries(pub(super) Option<PortType>);
+
+/// A row of a node.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum Row {
+    /// A port, whose dot is drawn by us.
+    #[default]
+    Port,
+    /// A knob, by its place among those of the face.
+    Knob(usize),
+}
+
+/// What the rows of nodes ask for.
+#[derive(Clone, Debug)]
+pub(super) struct Asked;
+
+/// What drawing needs, and what rows asked for.
+pub(super) struct Hand {
+    pub(super) theme: Arc<Theme>,
+    pub(super) zoom: f32,
+    pub(super) knob_events: Vec<(NodeId, KnobEvent)>,
+}
+
+impl UserResponseTrait for Asked {}
+
+impl DataTypeTrait<Hand> for Carries {
+    fn data_type_color(&self, _: &mut Hand) -> Color32 {
+        // Dots are drawn over the widget's, by type and form.
+        Color32::TRANSPARENT
+    }
+
+    fn name(&self) -> Cow<'_, str> {
+        match self.0 {
+            Some(ty) => Cow::Owned(ty.to_string()),
+            None => Cow::Borrowed("anything"),
+        }
+    }
+}
+
+impl WidgetValueTrait for Row {
+    type Response = Asked;
+    type UserState = Hand;
+    type NodeData = Shown;
+
+    fn value_widget(&mut self, name: &str, _: Key, ui: &mut Ui, hand: &mut Hand, shown: &Shown) -> Vec<Asked> {
+        match self {
+            Row::Port => body::port_row(ui, hand, name, true),
+            Row::Knob(at) => body::knob_row(ui, hand, shown, *at),
+        }
+        Vec::new()
+    }
+
+    fn value_widget_connected(
+        &mut self,
+        name: &str,
+        key: Key,
+        ui: &mut Ui,
+        hand: &mut Hand,
+        shown: &Shown,
+    ) -> Vec<Asked> {
+        self.value_widget(name, key, ui, hand, shown)
+    }
+}
+
+impl NodeDataTrait for Shown {
+    type Response = Asked;
+    type UserState = Hand;
+    type DataType = Carries;
+    type ValueType = Row;
+
+    fn top_bar_ui(&self, ui: &mut Ui, _: Key, _: &Graph, hand: &mut Hand) -> Vec<NodeResponse<Asked, Shown>> {
+        body::title_row(ui, hand, self);
+        Vec::new()
+    }
+
+    fn output_ui(
+        &self,
+        ui: &mut Ui,
+        _: Key,
+        _: &Graph,
+        hand: &mut Hand,
+        name: &str,
+    ) -> Vec<NodeResponse<Asked, Shown>> {
+        body::port_row(ui, hand, name, false);
+        Vec::new()
+    }
+
+    fn bottom_ui(&self, ui: &mut Ui, _: Key, _: &Graph, hand: &mut Hand) -> Vec<NodeResponse<Asked, Shown>> {
+        body::picture_row(ui, hand, self);
+        Vec::new()
+    }
+
+    fn can_delete(&self, _: Key, _: &Graph, _: &mut Hand) -> bool {
+        false
+    }
+
+    fn can_flip(&self, _: Key, _: &Graph, _: &mut Hand) -> bool {
+        false
+    }
+}
+
+/// The snapshot, and what it was taken of.
+#[derive(Default)]
+pub(super) struct Snapshot {
+    pub(super) graph: Graph,
+    keys: BTreeMap<NodeId, Key>,
+    of: Option<(Body, u64, u64)>,
+}
+
+impl Snapshot {
+    /// Brings it up to date. Nodes that are the same keep their keys, so that what is being dragged stays in hand.
+    pub(super) fn sync(&mut self, desk: &Desk) {
+        let body = desk.body();
+        let now = (body.clone(), desk.session.revision(), desk.kinds().1);
+        if self.of.as_ref() == Some(&now) {
+            return;
+        }
+        if self.of.as_ref().is_some_and(|(before, ..)| *before != body) {
+            *self = Snapshot::default();
+        }
+        self.of = Some(now);
+        let gone: Vec<NodeId> = self.keys.keys().filter(|id| desk.node(id).is_none()).cloned().collect();
+        for id in gone {
+            self.remove(&id);
+        }
+        for (id, node) in desk.graph().nodes() {
+            let Some(face) = desk.face(id) else { continue };
+            let is_same = |key: &Key| {
+                Arc::ptr_eq(&self.graph[*key].user_data.face, face) || self.graph[*key].user_data.face == *face
+            };
+            if !self.keys.get(id).is_some_and(is_same) {
+                self.remove(id);
+                self.add(id, face.clone());
+            }
+            let Some(key) = self.keys.get(id) else { continue };
+            let shown = &mut self.graph[*key];
+            shown.user_data.title = desk.title(id);
+            shown.user_data.is_muted = node.muted;
+            shown.user_data.values.clone_from(&node.params);
+        }
+        self.tie(desk);
+    }
+
+    pub(super) fn key(&self, id: &NodeId) -> Option<Key> {
+        self.keys.get(id).copied()
+    }
+
+    fn remove(&mut self, id: &NodeId) {
+        if let Some(key) = self.keys.remove(id) {
+            self.graph.remove_node(key);
+        }
+    }
+
+    fn add(&mut self, id: &NodeId, face: Arc<Entry>) {
+        let shown = Shown {
+            id: id.clone(),
+            face: face.clone(),
+            title: String::new(),
+            is_muted: false,
+            state: NodeState::default(),
+            is_previewed: false,
+            values: BTreeMap::new(),
+        };
+        let key = self.graph.add_node(String::new(), shown, |graph, key| {
+            for port in &face.inputs {
+                let carries = Carries(port.ty);
+                let kind = InputParamKind::ConnectionOnly;
+                graph.add_input_param(key, port.label.clone(), carries, Row::Port, kind, true);
+            }
+            for knob in own_knobs(&face) {
+                let at = face.knobs.iter().position(|known| known.name == knob.name);
+                let row = Row::Knob(at.unwrap_or(0));
+                let kind = InputParamKind::ConstantOnly;
+                graph.add_input_param(key, knob.label.clone(), Carries(None), row, kind, true);
+            }
+            for port in &face.outputs {
+                graph.add_output_param(key, port.label.clone(), Carries(port.ty));
+            }
+        });
+        self.keys.insert(id.clone(), key);
+    }
+
+    /// Ties the wires anew.
+    fn tie(&mut self, desk: &Desk) {
+        let tied: Vec<_> = self.graph.iter_connections().map(|(input, _)| input).collect();
+        for input in tied {
+            self.graph.remove_connection(input);
+        }
+        for (id, node) in desk.graph().nodes() {
+            for (name, from) in &node.inputs {
+                let ends = self.keys.get(id).zip(self.keys.get(&from.node));
+                let Some((reader, source)) = ends else { continue };
+                let faces = [reader, source].map(|key| self.graph[*key].user_data.face.clone());
+                let input = faces[0].inputs.iter().position(|port| port.name == *name);
+                let output = match &from.port {
+                    Some(port) => faces[1].outputs.iter().position(|known| known.name == *port),
+                    None => (!faces[1].outputs.is_empty()).then_some(0),
+                };
+                if let Some((input, output)) = input.zip(output) {
+                    let (_, input) = self.graph[*reader].inputs[input];
+                    let (_, output) = self.graph[*source].outputs[output];
+                    self.graph.add_connection(output, input);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! What part of the canvas is seen: where its origin lies on the screen, and how large it is drawn.
+
+use egui::{Pos2, Rect, Vec2, pos2, vec2};
+
+/// Zoom of the whole way out.
+pub(crate) const LEAST_ZOOM: f32 = 0.1;
+/// Zoom of the whole way in.
+pub(crate) const MOST_ZOOM: f32 = 3.0;
+/// Points left free around what is framed.
+const FREE: f32 = 40.0;
+
+/// What part of the canvas is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct View {
+    /// From the corner of the panel to the canvas' origin, screen points.
+    pub(crate) pan: Vec2,
+    /// Screen points in one canvas point.
+    pub(crate) zoom: f32,
+}
+
+impl Default for View {
+    fn default() -> View {
+        View {
+            pan: vec2(FREE, FREE),
+            zoom: 1.0,
+        }
+    }
+}
+
+impl View {
+    /// Where a place of the canvas is on the screen.
+    pub(crate) fn screen(&self, panel: Rect, place: [f32; 2]) -> Pos2 {
+        panel.min + self.pan + vec2(place[0], place[1]) * self.zoom
+    }
+
+    /// Which place of the canvas is there on the screen.
+    pub(crate) fn place(&self, panel: Rect, at: Pos2) -> [f32; 2] {
+        let place = (at - panel.min - self.pan) / self.zoom;
+        [place.x, place.y]
+    }
+
+    /// The part of the canvas that is seen.
+    pub(crate) fn seen(&self, panel: Rect) -> Rect {
+        let [low, high] = [panel.min, panel.max].map(|corner| self.place(panel, corner));
+        Rect::from_min_max(pos2(low[0], low[1]), pos2(high[0], high[1]))
+    }
+
+    /// A rectangle of the canvas on the screen.
+    pub(crate) fn screen_rect(&self, panel: Rect, rect: Rect) -> Rect {
+        let corner = |at: Pos2| self.screen(panel, [at.x, at.y]);
+        Rect::from_min_max(corner(rect.min), corner(rect.max))
+    }
+
+    /// Larger by a factor, with what is under the pointer staying there.
+    pub(crate) fn zoom_at(&mut self, panel: Rect, pointer: Pos2, factor: f32) {
+        if !(factor.is_finite() && factor > 0.0) {
+            return;
+        }
+        let held = self.place(panel, pointer);
+        self.zoom = (self.zoom * factor).clamp(LEAST_ZOOM, MOST_ZOOM);
+        let moved = self.screen(panel, held);
+        self.pan += pointer - moved;
+    }
+
+    /// Shows all of a rectangle of the canvas, at no more than its true size.
+    pub(crate) fn frame(&mut self, panel: Rect, rect: Rect) {
+        if !(rect.is_finite() && panel.is_positive()) {
+            return;
+        }
+        let room = (panel.size() - Vec2::splat(2.0 * FREE)).max(Vec2::splat(1.0));
+        let needed = rect.size().max(Vec2::splat(1.0));
+        self.zoom = (room / needed).min_elem().clamp(LEAST_ZOOM, 1.0);
+        self.pan = panel.size() / 2.0 - rect.center().to_vec2() * self.zoom;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PANEL: Rect = Rect {
+        min: pos2(100.0, 50.0),
+        max: pos2(900.0, 650.0),
+    };
+
+    #[test]
+    fn what_is_under_the_pointer_stays_there_while_zooming() {
+        let mut view = View::default();
+        let pointer = pos2(333.0, 222.0);
+        let held = view.place(PANEL, pointer);
+        for factor in [1.3, 0.2, 9.0, f32::NAN, 0.0] {
+            view.zoom_at(PANEL, pointer, factor);
+            assert!((view.screen(PANEL, held) - pointer).length() < 1e-3, "{factor}");
+            assert!((LEAST_ZOOM..=MOST_ZOOM).contains(&view.zoom));
+        }
+    }
+
+    #[test]
+    fn what_is_framed_is_seen_whole_and_in_the_middle() {
+        for size in [[10.0, 10.0], [4000.0, 200.0], [100.0, 4000.0]] {
+            let rect = Rect::from_min_size(pos2(-300.0, 700.0), vec2(size[0], size[1]));
+            let mut view = View::default();
+            view.frame(PANEL, rect);
+            let shown = view.screen_rect(PANEL, rect);
+            assert!(PANEL.contains_rect(shown), "{shown:?}");
+            assert!((shown.center() - PANEL.center()).length() < 0.1);
+            assert!(view.zoom <= 1.0);
+        }
+    }
+}

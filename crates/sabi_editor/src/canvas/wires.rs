@@ -1,0 +1,232 @@
+//! Wires: their curves, which one is under the pointer, which ones a line crosses.
+
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, epaint::CubicBezierShape, pos2};
+use sabi_graph::{OutputRef, PortType, SlotRef};
+
+use super::view::View;
+use crate::desk::{Desk, NODE_WIDTH, TITLE_HEIGHT, input_row, output_row};
+use crate::theme::Theme;
+
+/// Straight pieces that a curve is taken for where distances are measured.
+const PIECES: usize = 16;
+/// A wire is under the pointer within so many screen points.
+const NEAR: f32 = 7.0;
+
+/// A wire on the screen.
+#[derive(Clone, Debug)]
+pub(super) struct Wire {
+    pub(super) from: OutputRef,
+    pub(super) to: SlotRef,
+    pub(super) carries: Option<PortType>,
+    /// What it ends in takes another type, so that it is converted on the way.
+    pub(super) is_converted: bool,
+    pub(super) curve: [Pos2; 4],
+}
+
+impl Wire {
+    /// The rectangle around it.
+    pub(super) fn bounds(&self) -> Rect {
+        Rect::from_points(&self.curve)
+    }
+
+    /// Points along it.
+    fn points(&self) -> impl Iterator<Item = Pos2> + '_ {
+        (0..=PIECES).map(|at| point(&self.curve, at as f32 / PIECES as f32))
+    }
+
+    /// The distance of a place from it, screen points.
+    pub(super) fn distance(&self, place: Pos2) -> f32 {
+        let points: Vec<Pos2> = self.points().collect();
+        let pieces = points.windows(2);
+        pieces
+            .map(|ends| from_segment(place, ends[0], ends[1]))
+            .fold(f32::INFINITY, f32::min)
+    }
+
+    /// Whether a line crosses it.
+    pub(super) fn is_crossed(&self, line: [Pos2; 2]) -> bool {
+        let points: Vec<Pos2> = self.points().collect();
+        points.windows(2).any(|ends| cross([ends[0], ends[1]], line))
+    }
+
+    /// The middle of it.
+    pub(super) fn middle(&self) -> Pos2 {
+        point(&self.curve, 0.5)
+    }
+}
+
+/// All wires that may be seen.
+pub(super) fn visible(desk: &Desk, view: &View, panel: Rect) -> Vec<Wire> {
+    let mut wires = Vec::new();
+    for (id, node) in desk.graph().nodes() {
+        for (name, from) in &node.inputs {
+            let to = SlotRef {
+                node: id.clone(),
+                name: name.clone(),
+            };
+            let ends = start_of(desk, from).zip(end_of(desk, &to));
+            let Some((start, end)) = ends else { continue };
+            let ends = [start, end].map(|place| view.screen(panel, place));
+            let curve = curve(ends, view.zoom);
+            if !Rect::from_points(&curve).intersects(panel) {
+                continue;
+            }
+            let carries = desk.faces().carried(&desk.body(), from);
+            let takes = desk.input(&to).and_then(|port| port.ty);
+            wires.push(Wire {
+                from: from.clone(),
+                to,
+                carries,
+                is_converted: carries.is_some() && takes.is_some() && carries != takes,
+                curve,
+            });
+        }
+    }
+    wires
+}
+
+/// Where a wire from an output begins, on the canvas; at the title where there is no such output.
+pub(super) fn start_of(desk: &Desk, from: &OutputRef) -> Option<[f32; 2]> {
+    let node = desk.node(&from.node)?;
+    let face = desk.face(&from.node)?;
+    let row = match &from.port {
+        Some(name) => face.outputs.iter().position(|port| port.name == *name),
+        None => (!face.outputs.is_empty()).then_some(0),
+    };
+    let down = row.map_or(TITLE_HEIGHT / 2.0, |row| output_row(face, row));
+    Some([node.pos[0] + NODE_WIDTH, node.pos[1] + down])
+}
+
+/// Where a wire into an input ends, on the canvas; at the title where there is no such input.
+pub(super) fn end_of(desk: &Desk, to: &SlotRef) -> Option<[f32; 2]> {
+    let node = desk.node(&to.node)?;
+    let face = desk.face(&to.node)?;
+    let row = face.inputs.iter().position(|port| port.name == to.name);
+    let down = row.map_or(TITLE_HEIGHT / 2.0, input_row);
+    Some([node.pos[0], node.pos[1] + down])
+}
+
+/// A curve that leaves to the right and arrives from the left.
+pub(super) fn curve([start, end]: [Pos2; 2], zoom: f32) -> [Pos2; 4] {
+    let across = (end.x - start.x).abs() * 0.5;
+    let reach = across
+        .clamp(24.0 * zoom, 160.0 * zoom)
+        .min(24.0 * zoom + start.distance(end));
+    let aside = Vec2::new(reach, 0.0);
+    [start, start + aside, end - aside, end]
+}
+
+fn point([a, b, c, d]: &[Pos2; 4], t: f32) -> Pos2 {
+    let s = 1.0 - t;
+    let at = |axis: fn(&Pos2) -> f32| {
+        s * s * s * axis(a) + 3.0 * s * s * t * axis(b) + 3.0 * s * t * t * axis(c) + t * t * t * axis(d)
+    };
+    pos2(at(|p| p.x), at(|p| p.y))
+}
+
+fn from_segment(place: Pos2, start: Pos2, end: Pos2) -> f32 {
+    let along = end - start;
+    let length = along.length_sq();
+    let share = if length > 0.0 {
+        ((place - start).dot(along) / length).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    place.distance(start + along * share)
+}
+
+fn cross(one: [Pos2; 2], other: [Pos2; 2]) -> bool {
+    let side = |line: [Pos2; 2], place: Pos2| {
+        let (along, to) = (line[1] - line[0], place - line[0]);
+        along.x * to.y - along.y * to.x
+    };
+    let parts = |line: [Pos2; 2], ends: [Pos2; 2]| side(line, ends[0]) * side(line, ends[1]) < 0.0;
+    parts(one, other) && parts(other, one)
+}
+
+/// The wire under the pointer: the nearest one.
+pub(super) fn under(wires: &[Wire], pointer: Pos2) -> Option<&Wire> {
+    let near = wires.iter().filter(|wire| wire.bounds().expand(NEAR).contains(pointer));
+    let near = near.map(|wire| (wire.distance(pointer), wire));
+    let nearest = near.filter(|(distance, _)| *distance < NEAR);
+    nearest
+        .min_by(|(one, _), (other, _)| one.total_cmp(other))
+        .map(|(_, wire)| wire)
+}
+
+/// Draws a curve.
+pub(super) fn draw_curve(painter: &Painter, curve: [Pos2; 4], color: Color32, width: f32) {
+    let stroke = Stroke::new(width, color);
+    let shape = CubicBezierShape::from_points_stroke(curve, false, Color32::TRANSPARENT, stroke);
+    painter.add(Shape::CubicBezier(shape));
+}
+
+/// How a wire looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    Usual,
+    /// It leads from or into a selected node.
+    Near,
+    /// It is under the pointer, or would take what is dropped.
+    Hot,
+    /// It will be cut.
+    Cut,
+}
+
+/// Draws a wire.
+pub(super) fn draw(painter: &Painter, theme: &Theme, wire: &Wire, zoom: f32, look: Look) {
+    let color = theme.port(wire.carries);
+    let width = 1.8 * zoom.clamp(0.55, 1.6);
+    let (color, width) = match look {
+        Look::Usual => (color.gamma_multiply(0.7), width),
+        Look::Near => (color, width * 1.3),
+        Look::Hot => (theme.accent, width * 1.6),
+        Look::Cut => (theme.fault, width * 1.3),
+    };
+    draw_curve(painter, wire.curve, color, width);
+    if wire.is_converted && zoom > 0.3 {
+        painter.circle_filled(wire.middle(), 3.5 * zoom, color);
+        painter.circle_filled(wire.middle(), 1.8 * zoom, theme.canvas);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_graph::NodeId;
+
+    use super::*;
+
+    fn wire(ends: [Pos2; 2]) -> Wire {
+        let id = || "node_a".parse::<NodeId>().expect("an id");
+        Wire {
+            from: OutputRef { node: id(), port: None },
+            to: SlotRef {
+                node: id(),
+                name: "mask".to_owned(),
+            },
+            carries: None,
+            is_converted: false,
+            curve: curve(ends, 1.0),
+        }
+    }
+
+    #[test]
+    fn a_wire_is_under_the_pointer_on_its_curve_and_not_beside_it() {
+        let wires = [
+            wire([pos2(0.0, 0.0), pos2(300.0, 120.0)]),
+            wire([pos2(0.0, 300.0), pos2(300.0, 300.0)]),
+        ];
+        let hit = |at: Pos2| under(&wires, at).map(|wire| wire.curve[0].y);
+        assert_eq!(hit(wires[0].middle()), Some(0.0));
+        assert_eq!(hit(pos2(150.0, 303.0)), Some(300.0));
+        assert_eq!(hit(pos2(150.0, 200.0)), None);
+    }
+
+    #[test]
+    fn a_line_cuts_what_it_crosses_only() {
+        let wire = wire([pos2(0.0, 0.0), pos2(300.0, 0.0)]);
+        assert!(wire.is_crossed([pos2(150.0, -20.0), pos2(160.0, 20.0)]));
+        assert!(!wire.is_crossed([pos2(150.0, 5.0), pos2(160.0, 20.0)]));
+        assert!(!wire.is_crossed([pos2(400.0, -20.0), pos2(400.0, 20.0)]));
+    }
+}

@@ -1,0 +1,270 @@
+//! Files: opening, saving, the questions before work is lost, and the start page. Every path can be typed in the window; the
+//! system's dialog is the convenience.
+
+pub(crate) mod examples;
+mod key_list;
+mod start;
+
+use std::path::{Path, PathBuf};
+
+use egui::{Key, Modal, RichText, Ui};
+use sabi_engine::{Recovery, recoveries};
+use sabi_graph::NodeId;
+
+use crate::action::Action;
+use crate::app::Editor;
+use crate::desk::Desk;
+
+/// What a path is wanted for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum PathFor {
+    Open,
+    Save,
+    Model,
+    /// A knob of a node that names a picture.
+    Picture {
+        node: NodeId,
+        knob: String,
+    },
+}
+
+/// Something that has to be answered before anything else.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Question {
+    /// Which file.
+    Path { what: PathFor, text: String },
+    /// What becomes of changes that are not saved, and what is done next.
+    Unsaved { next: Next },
+}
+
+/// What comes after the work was saved or let go.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Next {
+    New,
+    Open(PathBuf),
+    Example(usize),
+    Recover(usize),
+    Close,
+}
+
+/// What is open of files and questions.
+pub(crate) struct Files {
+    pub(crate) question: Option<Question>,
+    /// Whether the start page is shown.
+    pub(crate) is_start: bool,
+    pub(crate) shows_keys: bool,
+    /// What was kept of graphs when the program ended before they were saved.
+    pub(crate) recoveries: Vec<Recovery>,
+    /// What comes once a save is done.
+    after_save: Option<Next>,
+    /// Whether the window may close without another question.
+    pub(crate) may_close: bool,
+}
+
+impl Files {
+    pub(crate) fn new(is_start: bool, recovery_folder: Option<&Path>) -> Files {
+        let recoveries = recovery_folder.map(recoveries).unwrap_or_default();
+        Files {
+            question: None,
+            is_start: is_start || !recoveries.is_empty(),
+            shows_keys: false,
+            recoveries,
+            after_save: None,
+            may_close: false,
+        }
+    }
+
+    pub(crate) fn ask_new(&mut self, desk: &mut Desk) {
+        self.ask_next(desk, Next::New);
+    }
+
+    pub(crate) fn ask_open(&mut self, desk: &Desk) {
+        let folder = desk.session.file().and_then(Path::parent);
+        self.ask_path(
+            PathFor::Open,
+            folder
+                .map(|folder| format!("{}/", folder.display()))
+                .unwrap_or_default(),
+        );
+    }
+
+    pub(crate) fn ask_save(&mut self, desk: &Desk) {
+        let file = desk.session.file().map(|file| file.display().to_string());
+        self.ask_path(PathFor::Save, file.unwrap_or_else(|| "untitled.sabi".to_owned()));
+    }
+
+    pub(crate) fn ask_for_model(&mut self) {
+        self.ask_path(PathFor::Model, String::new());
+    }
+
+    pub(crate) fn ask_for_picture(&mut self, node: NodeId, knob: String) {
+        self.ask_path(PathFor::Picture { node, knob }, String::new());
+    }
+
+    fn ask_path(&mut self, what: PathFor, text: String) {
+        self.question = Some(Question::Path { what, text });
+    }
+
+    /// Asks first where something would be lost.
+    pub(crate) fn ask_next(&mut self, desk: &mut Desk, next: Next) {
+        let is_dirty = desk.session.is_dirty();
+        self.question = is_dirty.then_some(Question::Unsaved { next: next.clone() });
+        if !is_dirty {
+            self.after_save = Some(next);
+        }
+    }
+
+    /// What is to be done now that nothing is lost by it.
+    pub(crate) fn take_next(&mut self) -> Option<Next> {
+        if self.question.is_some() {
+            None
+        } else {
+            self.after_save.take()
+        }
+    }
+}
+
+impl Editor {
+    /// Shows what is asked, and the start page.
+    pub(crate) fn show_files(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        if ui.input(|input| input.viewport().close_requested()) && !self.files.may_close && self.desk.session.is_dirty()
+        {
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.files.question = Some(Question::Unsaved { next: Next::Close });
+        }
+        start::show(self, ui, actions);
+        key_list::show(self, ui);
+        match self.files.question.take() {
+            Some(Question::Path { what, text }) => self.path_question(ui, what, text, actions),
+            Some(Question::Unsaved { next }) => self.unsaved_question(ui, next),
+            None => {}
+        }
+        if let Some(next) = self.files.take_next() {
+            self.go_on(next, ui);
+        }
+    }
+
+    fn path_question(&mut self, ui: &Ui, what: PathFor, mut text: String, actions: &mut Vec<Action>) {
+        let (title, verb) = match &what {
+            PathFor::Open => ("Open a graph", "Open"),
+            PathFor::Save => ("Save the graph", "Save"),
+            PathFor::Model => ("Add a model", "Add"),
+            PathFor::Picture { .. } => ("Choose a picture", "Choose"),
+        };
+        let mut chosen = false;
+        let modal = Modal::new(egui::Id::new("path question")).show(ui.ctx(), |ui| {
+            ui.set_width(460.0);
+            ui.heading(title);
+            let field = ui.add(
+                egui::TextEdit::singleline(&mut text)
+                    .desired_width(f32::INFINITY)
+                    .hint_text("Path"),
+            );
+            field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Path"));
+            if !field.has_focus() && !field.lost_focus() {
+                field.request_focus();
+            }
+            chosen = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            ui.horizontal(|ui| {
+                chosen |= ui.button(verb).clicked();
+                if ui.button("System dialog…").clicked()
+                    && let Some(path) = system_dialog(&what, &text)
+                {
+                    text = path.display().to_string();
+                    chosen = true;
+                }
+                ui.button("Cancel").clicked()
+            })
+            .inner
+        });
+        let path = PathBuf::from(text.trim());
+        if chosen && !path.as_os_str().is_empty() {
+            match what {
+                PathFor::Open => self.files.ask_next(&mut self.desk, Next::Open(path)),
+                PathFor::Save => actions.push(Action::SaveTo(with_ending(path))),
+                PathFor::Model => actions.push(Action::TakeModel(path)),
+                PathFor::Picture { node, knob } => {
+                    let text = self.desk.relative(&path);
+                    self.desk.set_knob(&node, &knob, Some(sabi_graph::Value::Text(text)));
+                }
+            }
+        } else if !modal.inner && !modal.should_close() {
+            self.files.question = Some(Question::Path { what, text });
+        } else {
+            self.files.after_save = None;
+        }
+    }
+
+    fn unsaved_question(&mut self, ui: &Ui, next: Next) {
+        let mut answer = None;
+        let modal = Modal::new(egui::Id::new("unsaved question")).show(ui.ctx(), |ui| {
+            ui.set_width(420.0);
+            ui.heading("There are changes that are not saved");
+            ui.label("They would be lost.");
+            ui.horizontal(|ui| {
+                let save = egui::Button::new(RichText::new("Save").strong());
+                if ui.add(save).clicked() {
+                    answer = Some(Some(true));
+                }
+                if ui.button("Let them go").clicked() {
+                    answer = Some(Some(false));
+                }
+                if ui.button("Cancel").clicked() {
+                    answer = Some(None);
+                }
+            });
+        });
+        match answer {
+            Some(Some(true)) => {
+                self.files.after_save = Some(next);
+                self.save();
+            }
+            Some(Some(false)) => self.go_on(next, ui),
+            Some(None) => {}
+            None if modal.should_close() => {}
+            None => self.files.question = Some(Question::Unsaved { next }),
+        }
+    }
+
+    /// Does what was waiting for an answer.
+    fn go_on(&mut self, next: Next, ui: &Ui) {
+        match next {
+            Next::New => {
+                let session = sabi_engine::Session::new(self.recovery_folder());
+                self.take_session(session);
+            }
+            Next::Open(path) => self.open_file(&path),
+            Next::Example(at) => self.open_example(at),
+            Next::Recover(at) => self.recover(at),
+            Next::Close => {
+                self.files.may_close = true;
+                ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+        }
+    }
+}
+
+/// A graph file ends in .sabi, whatever was typed.
+fn with_ending(path: PathBuf) -> PathBuf {
+    match path.extension() {
+        Some(_) => path,
+        None => path.with_extension(crate::desk::ENDING),
+    }
+}
+
+fn system_dialog(what: &PathFor, text: &str) -> Option<PathBuf> {
+    let dialog = rfd::FileDialog::new();
+    let dialog = match Path::new(text).parent().filter(|folder| folder.is_dir()) {
+        Some(folder) => dialog.set_directory(folder),
+        None => dialog,
+    };
+    match what {
+        PathFor::Open => dialog.add_filter("Graphs", &["sabi"]).pick_file(),
+        PathFor::Save => dialog.add_filter("Graphs", &["sabi"]).save_file(),
+        PathFor::Model => dialog.add_filter("Models", &["glb", "gltf", "obj"]).pick_file(),
+        PathFor::Picture { .. } => {
+            let endings = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
+            dialog.add_filter("Pictures", &endings).pick_file()
+        }
+    }
+}

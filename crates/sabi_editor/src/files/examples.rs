@@ -1,0 +1,124 @@
+//! Graphs and models that come with the program. They are written to a folder of the artist's before they are opened, so that
+//! nothing that is tried on them can spoil them.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// An example: what it is called, its file, and the model that it is on.
+pub(crate) struct Example {
+    pub(crate) title: &'static str,
+    pub(crate) says: &'static str,
+    name: &'static str,
+    text: &'static str,
+}
+
+macro_rules! graph {
+    ($name:literal) => {
+        include_str!(concat!("../../../../graphs/", $name))
+    };
+}
+
+/// All examples.
+pub(crate) const EXAMPLES: [Example; 6] = [
+    Example {
+        title: "Weathered bench",
+        says: "Paint that peels off a bench, with rust and dirt below",
+        name: "weathered-bench.sabi",
+        text: graph!("weathered-bench.sabi"),
+    },
+    Example {
+        title: "Rusty metal",
+        says: "Bare metal that rusts from its edges and runs down in stains",
+        name: "rusty-metal.sabi",
+        text: graph!("rusty-metal.sabi"),
+    },
+    Example {
+        title: "Weathered paint",
+        says: "Layers of paint that chip and fade",
+        name: "weathered-paint.sabi",
+        text: graph!("weathered-paint.sabi"),
+    },
+    Example {
+        title: "Old stone",
+        says: "Stone with cracks, moss and damp",
+        name: "old-stone.sabi",
+        text: graph!("old-stone.sabi"),
+    },
+    Example {
+        title: "Varnished wood",
+        says: "Wood whose varnish wears off where it is touched",
+        name: "varnished-wood.sabi",
+        text: graph!("varnished-wood.sabi"),
+    },
+    Example {
+        title: "Mossy figure",
+        says: "Moss that grows where it is damp and sheltered",
+        name: "mossy-figure.sabi",
+        text: graph!("mossy-figure.sabi"),
+    },
+];
+
+macro_rules! models {
+    ($($name:literal)*) => {
+        [$(($name, include_bytes!(concat!("../../../../assets/meshes/", $name)).as_slice()),)*]
+    };
+}
+
+/// Models of the examples.
+const MODELS: [(&str, &[u8]); 7] =
+    models!["bench.glb" "chain.glb" "crate.glb" "table.glb" "column.glb" "figure.glb" "sphere.glb"];
+
+/// Where graphs and models stand in the folder of examples, as they do in the project.
+const GRAPHS: &str = "graphs";
+const MESHES: &str = "assets/meshes";
+
+/// Writes an example with all models into a folder, and gives its file. What is there already and the same stays.
+pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
+    let Some(example) = EXAMPLES.get(at) else {
+        return Ok(None);
+    };
+    for (name, bytes) in MODELS {
+        write_where_other(&folder.join(MESHES).join(name), bytes)?;
+    }
+    let file = folder.join(GRAPHS).join(example.name);
+    write_where_other(&file, example.text.as_bytes())?;
+    Ok(Some(file))
+}
+
+/// A model that is there whatever else is: what a new graph is on.
+pub(crate) fn first_model(folder: &Path) -> io::Result<PathBuf> {
+    let [(name, bytes), ..] = MODELS;
+    let file = folder.join(MESHES).join(name);
+    write_where_other(&file, bytes)?;
+    Ok(file)
+}
+
+fn write_where_other(file: &Path, bytes: &[u8]) -> io::Result<()> {
+    if fs::read(file).is_ok_and(|known| known == bytes) {
+        return Ok(());
+    }
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    let partial = file.with_extension("part");
+    fs::write(&partial, bytes)?;
+    fs::rename(&partial, file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_example_finds_its_model_where_it_is_unpacked() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for at in 0..EXAMPLES.len() {
+            let file = unpack(folder.path(), at).expect("written").expect("an example");
+            let open = sabi_engine::OpenGraph::open(&file).expect("a graph");
+            let mesh = open.document.preview.as_ref().and_then(|preview| preview.mesh.clone());
+            let mesh = mesh.unwrap_or_else(|| panic!("{} names a model", EXAMPLES[at].name));
+            assert!(open.folder().join(&mesh).is_file(), "{}: {mesh}", EXAMPLES[at].name);
+        }
+    }
+}

@@ -1,0 +1,271 @@
+//! One result in texture space: exact values, channels, how they are spread.
+
+mod picture;
+
+use std::sync::Arc;
+
+use egui::{
+    Align2, Color32, FontId, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2,
+    WidgetInfo, WidgetType, pos2, vec2,
+};
+use sabi_engine::{Inspected, LiveModel};
+use sabi_graph::NodeRef;
+
+use crate::command::Command;
+use crate::stage::Stage;
+use crate::theme::{Theme, space, type_size};
+use picture::{Histogram, picture_of};
+
+/// Columns of a histogram.
+const BINS: usize = 128;
+
+/// How one looks at a texture.
+pub(crate) struct FlatView {
+    /// From the middle of the panel to the middle of the texture, points.
+    pan: Vec2,
+    /// Points in one texel; none to show all of it.
+    zoom: Option<f32>,
+    /// Which of the planes.
+    plane: usize,
+    /// Which number of it alone; none for all as a color.
+    component: Option<usize>,
+    is_tiled: bool,
+    has_wires: bool,
+    /// The picture of what was last shown, and of what it is.
+    shown: Option<Shown>,
+    /// Edges of triangles in texture space, of a model.
+    wires: Option<(u64, Vec<[Pos2; 2]>)>,
+}
+
+struct Shown {
+    of: (Arc<Inspected>, usize, Option<usize>),
+    texture: TextureHandle,
+    histogram: Histogram,
+}
+
+impl Default for FlatView {
+    fn default() -> FlatView {
+        FlatView {
+            pan: Vec2::ZERO,
+            zoom: None,
+            plane: 0,
+            component: None,
+            is_tiled: false,
+            has_wires: false,
+            shown: None,
+            wires: None,
+        }
+    }
+}
+
+impl FlatView {
+    /// Draws the result of the inspected node.
+    pub(crate) fn show(&mut self, ui: &mut Ui, stage: &Stage, theme: &Theme, wanted: Option<&NodeRef>, title: &str) {
+        let Some((_, values)) = stage.inspected.as_ref().filter(|(node, _)| Some(node) == wanted) else {
+            let sentence = match wanted {
+                Some(_) => "Evaluating…",
+                None => "Click a node to see its result as a texture.",
+            };
+            ui.centered_and_justified(|ui| ui.colored_label(theme.quiet, sentence));
+            return;
+        };
+        let values = values.clone();
+        self.bar(ui, theme, &values, title);
+        let rect = ui.available_rect_before_wrap();
+        if !rect.is_positive() {
+            return;
+        }
+        self.refresh(ui, &values);
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Image, true, format!("Texture of {title}")));
+        let painter = ui.painter().with_clip_rect(rect);
+        painter.rect_filled(rect, 0.0, theme.ground);
+        let Some(shown) = &self.shown else { return };
+        let side = values.size as f32 * self.scale(rect, values.size);
+        let square = Rect::from_center_size(rect.center() + self.pan, Vec2::splat(side));
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let copies: &[i32] = if self.is_tiled { &[-1, 0, 1] } else { &[0] };
+        for row in copies {
+            for column in copies {
+                let tint = if (*row, *column) == (0, 0) {
+                    Color32::WHITE
+                } else {
+                    Color32::from_white_alpha(110)
+                };
+                let copy = square.translate(vec2(*column as f32, *row as f32) * side);
+                painter.image(shown.texture.id(), copy, whole, tint);
+            }
+        }
+        painter.rect_stroke(square, 0.0, Stroke::new(1.0, theme.line), egui::StrokeKind::Outside);
+        if self.has_wires
+            && let Some(model) = &stage.shown_model
+        {
+            self.draw_wires(&painter, model, square, theme);
+        }
+        self.turn(ui, &response, rect, &values);
+        self.probe(ui, &response, square, &values, theme);
+        if let Some(shown) = &self.shown {
+            shown.histogram.draw(&painter, rect, theme);
+        }
+    }
+
+    /// Does what a key means here.
+    pub(crate) fn command(&mut self, command: Command) {
+        match command {
+            Command::FitFlat => (self.pan, self.zoom) = (Vec2::ZERO, None),
+            Command::TrueSize => self.zoom = Some(1.0),
+            Command::TileFlat => self.is_tiled = !self.is_tiled,
+            Command::UvWires => self.has_wires = !self.has_wires,
+            _ => {}
+        }
+    }
+
+    fn bar(&mut self, ui: &mut Ui, theme: &Theme, values: &Inspected, title: &str) {
+        ui.horizontal(|ui| {
+            ui.strong(title);
+            self.plane = self.plane.min(values.planes.len().saturating_sub(1));
+            if values.planes.len() > 1 {
+                let name = |at: usize| match values.planes[at].name.trim_end_matches('.') {
+                    "" => "color",
+                    name => name,
+                };
+                egui::ComboBox::from_id_salt("plane")
+                    .selected_text(name(self.plane))
+                    .show_ui(ui, |ui| {
+                        for at in 0..values.planes.len() {
+                            ui.selectable_value(&mut self.plane, at, name(at));
+                        }
+                    });
+            }
+            let components = values.planes.get(self.plane).map_or(0, |plane| plane.components);
+            if components > 1 {
+                ui.selectable_value(&mut self.component, None, "RGB");
+                for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(components) {
+                    ui.selectable_value(&mut self.component, Some(at), *name);
+                }
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ui.toggle_value(&mut self.has_wires, "UV");
+                ui.toggle_value(&mut self.is_tiled, "Tile");
+                ui.colored_label(theme.quiet, format!("{0} × {0}", values.size));
+            });
+        });
+    }
+
+    /// Makes the picture anew where it is of something else.
+    fn refresh(&mut self, ui: &Ui, values: &Arc<Inspected>) {
+        let Some(plane) = values.planes.get(self.plane) else {
+            self.shown = None;
+            return;
+        };
+        let component = self.component.filter(|at| *at < plane.components);
+        let is_same = self.shown.as_ref().is_some_and(|shown| {
+            Arc::ptr_eq(&shown.of.0, values) && (shown.of.1, shown.of.2) == (self.plane, component)
+        });
+        if is_same {
+            return;
+        }
+        let image = picture_of(values, plane, component);
+        let options = TextureOptions {
+            magnification: egui::TextureFilter::Nearest,
+            ..TextureOptions::LINEAR
+        };
+        let of = (values.clone(), self.plane, component);
+        let histogram = Histogram::of(values, plane, component, BINS);
+        self.shown = Some(match self.shown.take() {
+            Some(mut shown) => {
+                shown.texture.set(image, options);
+                Shown { of, histogram, ..shown }
+            }
+            None => Shown {
+                of,
+                histogram,
+                texture: ui.ctx().load_texture("texture of a result", image, options),
+            },
+        });
+    }
+
+    fn scale(&self, rect: Rect, size: u32) -> f32 {
+        let fitting = (rect.width().min(rect.height()) - 2.0 * space::USUAL).max(8.0) / size.max(1) as f32;
+        self.zoom.unwrap_or(fitting)
+    }
+
+    fn turn(&mut self, ui: &Ui, response: &egui::Response, rect: Rect, values: &Inspected) {
+        let (delta, scroll) = ui.input(|input| (input.pointer.delta(), input.smooth_scroll_delta().y));
+        if response.dragged_by(PointerButton::Middle) || response.dragged_by(PointerButton::Primary) {
+            self.pan += delta;
+        }
+        let Some(pointer) = response.hover_pos().filter(|_| scroll != 0.0) else {
+            return;
+        };
+        let before = self.scale(rect, values.size);
+        let after = (before * (scroll * 0.0025).exp()).clamp(0.02, 64.0);
+        let held = pointer - rect.center() - self.pan;
+        self.pan += held - held * (after / before);
+        self.zoom = Some(after);
+    }
+
+    /// The exact values under the pointer.
+    fn probe(&self, ui: &Ui, response: &egui::Response, square: Rect, values: &Inspected, theme: &Theme) {
+        let Some(at) = response.hover_pos() else { return };
+        let share = (at - square.min) / square.size();
+        let inside = |share: f32| if self.is_tiled { share.rem_euclid(1.0) } else { share };
+        let [x, y] = [inside(share.x), inside(share.y)].map(|share| (share * values.size as f32).floor());
+        let limits = 0.0..values.size as f32;
+        let Some(plane) = values
+            .planes
+            .get(self.plane)
+            .filter(|_| limits.contains(&x) && limits.contains(&y))
+        else {
+            return;
+        };
+        let texel = y as usize * values.size as usize + x as usize;
+        let numbers = &plane.values[texel * plane.components..(texel + 1) * plane.components];
+        let numbers: Vec<String> = numbers.iter().map(|number| format!("{number}")).collect();
+        let where_to = if values.is_on_surface[texel] {
+            ""
+        } else {
+            "  (beside the charts)"
+        };
+        let text = format!("{x}, {y}   {}{where_to}", numbers.join("  "));
+        let font = FontId::monospace(type_size::SMALL);
+        let corner = response.rect.left_bottom() + vec2(space::USUAL, -space::USUAL);
+        let galley = ui.painter().layout_no_wrap(text, font, theme.text);
+        let rect = Align2::LEFT_BOTTOM.anchor_size(corner, galley.size());
+        ui.painter().rect_filled(rect.expand(3.0), space::CORNER, theme.panel);
+        ui.painter().galley(rect.min, galley, theme.text);
+    }
+
+    fn draw_wires(&mut self, painter: &egui::Painter, model: &LiveModel, square: Rect, theme: &Theme) {
+        let key = model.model_revision;
+        if self.wires.as_ref().is_none_or(|(known, _)| *known != key) {
+            self.wires = Some((key, edges_of(model)));
+        }
+        let Some((_, wires)) = &self.wires else { return };
+        let place = |at: Pos2| square.min + at.to_vec2() * square.size();
+        let stroke = Stroke::new(1.0, theme.accent.gamma_multiply(0.5));
+        let clip = painter.clip_rect();
+        for [start, end] in wires {
+            let ends = [place(*start), place(*end)];
+            if clip.intersects(Rect::from_two_pos(ends[0], ends[1])) {
+                painter.line_segment(ends, stroke);
+            }
+        }
+    }
+}
+
+/// Edges of all triangles in texture space, each once.
+fn edges_of(model: &LiveModel) -> Vec<[Pos2; 2]> {
+    let mesh = &model.prepared.model.mesh;
+    let place = |vertex: u32| mesh.uvs.get(vertex as usize).map(|uv| pos2(uv[0], uv[1]));
+    let mut edges = std::collections::BTreeSet::new();
+    for [a, b, c] in &mesh.triangles {
+        for (one, other) in [(*a, *b), (*b, *c), (*c, *a)] {
+            edges.insert((one.min(other), one.max(other)));
+        }
+    }
+    edges
+        .into_iter()
+        .filter_map(|(one, other)| Some([place(one)?, place(other)?]))
+        .collect()
+}

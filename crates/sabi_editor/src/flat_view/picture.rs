@@ -1,0 +1,161 @@
+//! Values as a picture, and how they are spread.
+
+use egui::{Color32, ColorImage, Painter, Rect, Stroke, ecolor::gamma_u8_from_linear_f32, pos2, vec2};
+use sabi_engine::{Inspected, SheetPlane};
+use sabi_graph::PortType;
+
+use crate::theme::{Theme, space};
+
+/// Beside the charts everything is this much darker.
+const BESIDE: f32 = 0.45;
+
+/// A plane of values, or one number of it, as it is looked at: masks and single numbers gray as they are, colors encoded,
+/// vectors from −1..1.
+pub(super) fn picture_of(values: &Inspected, plane: &SheetPlane, component: Option<usize>) -> ColorImage {
+    let side = values.size as usize;
+    let is_color = matches!(values.ty, PortType::Color | PortType::Material) && matches!(plane.name, "" | "emission.");
+    let is_vector = values.ty == PortType::Vector || plane.name == "slope.";
+    let code = |number: f32| match (is_color && component != Some(3), is_vector) {
+        (true, _) => gamma_u8_from_linear_f32(number.clamp(0.0, 1.0)),
+        (_, true) => quantized(number * 0.5 + 0.5),
+        _ => quantized(number),
+    };
+    let texels = plane.values.chunks_exact(plane.components.max(1));
+    let pixels = texels.zip(&values.is_on_surface).map(|(texel, is_on_surface)| {
+        let color = match (component, texel) {
+            (Some(at), texel) => Color32::from_gray(code(texel[at])),
+            (None, [red, green, blue, ..]) => Color32::from_rgb(code(*red), code(*green), code(*blue)),
+            (None, texel) => Color32::from_gray(code(texel[0])),
+        };
+        if *is_on_surface {
+            color
+        } else {
+            color.gamma_multiply(BESIDE).to_opaque()
+        }
+    });
+    ColorImage::new([side, side], pixels.collect())
+}
+
+fn quantized(number: f32) -> u8 {
+    (number.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// How many texels of the surface have which value.
+pub(super) struct Histogram {
+    /// For each number, its columns.
+    columns: Vec<Vec<u32>>,
+    /// The values at both ends.
+    range: [f32; 2],
+}
+
+impl Histogram {
+    /// Counts the texels of the surface; values beside 0 and 1 widen the range.
+    pub(super) fn of(values: &Inspected, plane: &SheetPlane, component: Option<usize>, bins: usize) -> Histogram {
+        let components: Vec<usize> = match component {
+            Some(at) => vec![at],
+            None => (0..plane.components.min(3)).collect(),
+        };
+        let texels = || {
+            let texels = plane
+                .values
+                .chunks_exact(plane.components.max(1))
+                .zip(&values.is_on_surface);
+            texels
+                .filter(|(_, is_on_surface)| **is_on_surface)
+                .map(|(texel, _)| texel)
+        };
+        let mut range = [0.0_f32, 1.0];
+        for texel in texels() {
+            for at in &components {
+                range = [range[0].min(texel[*at]), range[1].max(texel[*at])];
+            }
+        }
+        let mut columns = vec![vec![0; bins]; components.len()];
+        for texel in texels() {
+            for (columns, at) in columns.iter_mut().zip(&components) {
+                let share = (texel[*at] - range[0]) / (range[1] - range[0]);
+                columns[((share * bins as f32) as usize).min(bins - 1)] += 1;
+            }
+        }
+        Histogram { columns, range }
+    }
+
+    /// Draws it in the lower right corner.
+    pub(super) fn draw(&self, painter: &Painter, panel: Rect, theme: &Theme) {
+        let size = vec2(150.0, 56.0);
+        if panel.width() < 2.0 * size.x || panel.height() < 2.0 * size.y {
+            return;
+        }
+        let rect = Rect::from_min_size(panel.max - size - vec2(space::USUAL, space::USUAL), size);
+        painter.rect_filled(rect, space::CORNER, theme.panel.gamma_multiply(0.9));
+        // The largest column of all is often a flat one that says nothing about the others.
+        let mut counts: Vec<u32> = self.columns.iter().flatten().copied().collect();
+        counts.sort_unstable();
+        let tall = counts
+            .get(counts.len().saturating_sub(1 + self.columns.len() * 2))
+            .copied()
+            .unwrap_or(1)
+            .max(1);
+        let colors = match self.columns.len() {
+            1 => vec![theme.text],
+            _ => vec![
+                Color32::from_rgb(230, 90, 90),
+                Color32::from_rgb(90, 200, 110),
+                Color32::from_rgb(90, 140, 240),
+            ],
+        };
+        for (columns, color) in self.columns.iter().zip(colors) {
+            let width = rect.width() / columns.len() as f32;
+            for (at, count) in columns.iter().enumerate().filter(|(_, count)| **count > 0) {
+                let height = (*count as f32 / tall as f32).min(1.0) * (rect.height() - 6.0);
+                let x = rect.left() + (at as f32 + 0.5) * width;
+                let stroke = Stroke::new(width.max(1.0), color.gamma_multiply(0.6));
+                painter.line_segment([pos2(x, rect.bottom()), pos2(x, rect.bottom() - height)], stroke);
+            }
+        }
+        let font = egui::FontId::monospace(9.0);
+        let ends = [
+            (rect.left_top(), egui::Align2::LEFT_TOP),
+            (rect.right_top(), egui::Align2::RIGHT_TOP),
+        ];
+        for ((at, align), number) in ends.into_iter().zip(self.range) {
+            painter.text(at, align, format!("{number:.2}"), font.clone(), theme.quiet);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mask(numbers: &[f32]) -> Inspected {
+        Inspected {
+            ty: PortType::Mask,
+            size: 2,
+            set: "set".to_owned(),
+            planes: vec![SheetPlane {
+                name: "",
+                components: 1,
+                values: numbers.to_vec(),
+            }],
+            is_on_surface: vec![true, true, true, false],
+        }
+    }
+
+    #[test]
+    fn a_mask_is_gray_as_it_is_and_darker_beside_the_charts() {
+        let values = mask(&[0.0, 0.5, 2.0, 1.0]);
+        let picture = picture_of(&values, &values.planes[0], None);
+        let gray: Vec<u8> = picture.pixels.iter().map(|pixel| pixel.r()).collect();
+        assert_eq!(&gray[..3], [0, 128, 255]);
+        assert!(gray[3] < 200);
+    }
+
+    #[test]
+    fn only_the_surface_is_counted_and_the_range_holds_all_of_it() {
+        let values = mask(&[-1.0, 0.5, 0.5, 7.0]);
+        let histogram = Histogram::of(&values, &values.planes[0], None, 4);
+        assert_eq!(histogram.range, [-1.0, 1.0]);
+        assert_eq!(histogram.columns, [vec![1, 0, 0, 2]]);
+    }
+}

@@ -1,0 +1,353 @@
+//! A number as a bar that is filled to its value: dragged, stepped or typed.
+
+use egui::{
+    Align2, CursorIcon, Event, EventFilter, Id, Key, Modifiers, MouseWheelUnit, Rect, Response, Sense, Ui, WidgetInfo,
+    accesskit,
+};
+
+use super::KnobRow;
+use super::asking::{Asking, Grip};
+use super::buttons::focus_ring;
+use super::length::Measure;
+use super::lettering::write;
+use super::typing::{Field, Typed};
+use super::values::{rounded, step_of, text_of};
+use crate::theme::{space, type_size};
+
+/// Shift is held for a tenth of each step.
+const FINE: f64 = 0.1;
+/// Page up and page down go so many steps.
+const PAGE: f64 = 10.0;
+/// A wheel that turns smoothly goes a step every so many points.
+const POINTS_OF_A_NOTCH: f32 = 24.0;
+/// Bars that are narrower are dragged as if they were as wide.
+const LEAST_WAY: f64 = 120.0;
+
+/// One number.
+pub(super) struct Bar<'a> {
+    pub(super) id: Id,
+    /// The row under which mistakes are told.
+    pub(super) row_id: Id,
+    pub(super) row: &'a KnobRow<'a>,
+    pub(super) rect: Rect,
+    /// What it is called.
+    pub(super) name: &'a str,
+    /// What is written in it.
+    pub(super) inside: &'a str,
+    pub(super) value: f64,
+    /// Where it is empty and where it is full.
+    pub(super) ends: [f64; 2],
+    /// Values outside are not taken.
+    pub(super) range: Option<[f64; 2]>,
+    pub(super) is_whole: bool,
+    pub(super) measure: Measure,
+    /// Whether it shows how much of it is filled.
+    pub(super) is_filled: bool,
+}
+
+/// What was done with a bar in this frame.
+#[derive(Debug, Default)]
+pub(super) struct Answer {
+    pub(super) asked: Option<f64>,
+    /// Whether the pointer is on it or drags it.
+    pub(super) is_held: bool,
+}
+
+impl Bar<'_> {
+    pub(super) fn show(&self, ui: &mut Ui, ask: &mut Asking<'_>) -> Answer {
+        if ask.is_typing(self.id) {
+            let asked = self.typed(ui, ask);
+            return Answer { asked, is_held: true };
+        }
+        let response = ui
+            .interact(self.rect, self.id, Sense::click_and_drag())
+            .on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+        self.describe(ui, &response);
+        if ui.is_rect_visible(self.rect) {
+            self.paint(ui, ask, &response);
+        }
+        let asked = self.dragged(ui, ask, &response);
+        let asked = asked.or_else(|| self.keyed(ui, ask, &response));
+        let asked = asked.or_else(|| self.wheeled(ui, ask, &response));
+        self.open(ui, ask, &response);
+        Answer {
+            asked,
+            is_held: response.hovered() || ask.is_dragged(self.id),
+        }
+    }
+
+    fn step(&self) -> f64 {
+        step_of(self.ends, self.is_whole)
+    }
+
+    /// A number as it may be set, with no more digits than `step` asks for.
+    fn settled(&self, number: f64, step: f64) -> f64 {
+        let near = if self.is_whole {
+            number.round()
+        } else {
+            rounded(number, step)
+        };
+        self.clamped(near)
+    }
+
+    fn clamped(&self, number: f64) -> f64 {
+        let [low, high] = self.range.unwrap_or([f64::MIN, f64::MAX]);
+        number.max(low).min(high)
+    }
+
+    fn dragged(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) -> Option<f64> {
+        let is_fine = ui.input(|input| input.modifiers.shift);
+        let speed = if is_fine { FINE } else { 1.0 };
+        let (way, drag) = ask.pull(response, self.row, |_| Some(Grip::of([self.value, 0.0, 0.0])))?;
+        let points = f64::from(self.rect.width()).max(LEAST_WAY);
+        let exact = drag.grip.exact[0] + f64::from(way.x) / points * (self.ends[1] - self.ends[0]) * speed;
+        drag.grip.exact[0] = self.clamped(exact);
+        Some(self.settled(drag.grip.exact[0], self.step() * FINE * speed))
+    }
+
+    /// Steps and jumps by keys, and what is asked by those who do not see it.
+    fn keyed(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) -> Option<f64> {
+        let mut steps = ui.input(|input| {
+            let asked = |action| input.num_accesskit_action_requests(self.id, action) as f64;
+            asked(accesskit::Action::Increment) - asked(accesskit::Action::Decrement)
+        });
+        let mut jump = ui.input(|input| {
+            let mut requests = input.accesskit_action_requests(self.id, accesskit::Action::SetValue);
+            requests.find_map(|request| match &request.data {
+                Some(accesskit::ActionData::NumericValue(number)) => Some(*number),
+                Some(accesskit::ActionData::Value(text)) => self.measure.evaluate(text, Some(self.value)).ok(),
+                _ => None,
+            })
+        });
+        if response.has_focus() {
+            let arrows = EventFilter {
+                horizontal_arrows: true,
+                vertical_arrows: true,
+                ..EventFilter::default()
+            };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(self.id, arrows));
+            ui.input_mut(|input| {
+                for (key, step) in [
+                    (Key::ArrowRight, 1.0),
+                    (Key::ArrowUp, 1.0),
+                    (Key::ArrowLeft, -1.0),
+                    (Key::ArrowDown, -1.0),
+                    (Key::PageUp, PAGE),
+                    (Key::PageDown, -PAGE),
+                ] {
+                    steps += step * FINE * input.count_and_consume_key(Modifiers::SHIFT, key) as f64;
+                    steps += step * input.count_and_consume_key(Modifiers::NONE, key) as f64;
+                }
+                for (key, end) in [(Key::Home, self.ends[0]), (Key::End, self.ends[1])] {
+                    jump = input.consume_key(Modifiers::NONE, key).then_some(end).or(jump);
+                }
+            });
+            let is_erased = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+            if is_erased(Key::Backspace) || is_erased(Key::Delete) {
+                ask.reset(self.row);
+            }
+        }
+        jump.map(|number| self.settled(number, self.step() * FINE))
+            .or_else(|| self.stepped(steps))
+    }
+
+    /// Steps while the wheel is turned with Ctrl over it.
+    fn wheeled(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) -> Option<f64> {
+        if !response.hovered() {
+            return None;
+        }
+        let turn: f32 = ui.input(|input| {
+            let turns = input.events.iter().map(|event| match event {
+                Event::MouseWheel {
+                    unit, delta, modifiers, ..
+                } if modifiers.command || modifiers.ctrl => match unit {
+                    MouseWheelUnit::Point => delta.y / POINTS_OF_A_NOTCH,
+                    MouseWheelUnit::Line | MouseWheelUnit::Page => delta.y,
+                },
+                _ => 0.0,
+            });
+            turns.sum()
+        });
+        let whole = (ask.memory.wheel + turn).trunc();
+        ask.memory.wheel += turn - whole;
+        let is_fine = ui.input(|input| input.modifiers.shift);
+        self.stepped(f64::from(whole) * if is_fine { FINE } else { 1.0 })
+    }
+
+    fn stepped(&self, steps: f64) -> Option<f64> {
+        // A whole number has no tenths to go by.
+        let steps = if self.is_whole && steps != 0.0 {
+            steps.signum() * steps.abs().ceil()
+        } else {
+            steps
+        };
+        (steps != 0.0).then(|| self.settled(self.value + steps * self.step(), self.step() * FINE * FINE))
+    }
+
+    /// Opens the field, or takes the keyboard.
+    fn open(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) {
+        let [has_command, is_entered] = ui.input(|input| {
+            [
+                input.modifiers.command || input.modifiers.ctrl,
+                input.key_pressed(Key::Enter),
+            ]
+        });
+        let is_opened = response.double_clicked() || response.clicked() && has_command;
+        if is_opened || response.has_focus() && is_entered {
+            let text = if self.row.differs {
+                String::new()
+            } else {
+                self.precise()
+            };
+            ask.open_field(self.id, text, true);
+        } else if response.clicked() {
+            response.request_focus();
+        } else if response.has_focus() {
+            // A digit begins another number.
+            let typed = ui.input(|input| {
+                input.events.iter().find_map(|event| match event {
+                    Event::Text(text) if text.starts_with(|first: char| "0123456789.-+*/=(".contains(first)) => {
+                        Some(text.clone())
+                    }
+                    _ => None,
+                })
+            });
+            if let Some(text) = typed {
+                ask.open_field(self.id, text, false);
+            }
+        }
+    }
+
+    /// The number with all of its digits.
+    fn precise(&self) -> String {
+        format!("{}{}", self.value, self.measure.sign())
+    }
+
+    fn typed(&self, ui: &mut Ui, ask: &mut Asking<'_>) -> Option<f64> {
+        let shown = if self.row.differs {
+            String::new()
+        } else {
+            self.precise()
+        };
+        let typed = ask.field(
+            ui,
+            &Field {
+                // It is the same widget to the keyboard, which stays with it.
+                id: self.id,
+                rect: self.rect,
+                name: self.name,
+                shown: &shown,
+                hint: "",
+            },
+        );
+        let [is_entered, is_left] = ui.input(|input| [input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)]);
+        let asked = match typed {
+            Typed::Nothing => return None,
+            Typed::Left => None,
+            Typed::Taken(text) => {
+                let present = (!self.row.differs).then_some(self.value);
+                match self.measure.evaluate(&text, present).and_then(kept) {
+                    Ok(number) => Some(self.clamped(if self.is_whole { number.round() } else { number })),
+                    Err(sentence) => {
+                        ask.fault(self.row_id, sentence);
+                        if is_entered {
+                            ask.open_field(self.id, text, false);
+                            return None;
+                        }
+                        None
+                    }
+                }
+            }
+        };
+        if is_entered || is_left {
+            ui.memory_mut(|memory| memory.request_focus(self.id));
+        }
+        asked
+    }
+
+    fn shown(&self) -> String {
+        match self.row.differs {
+            true => "several".to_owned(),
+            false => format!("{}{}", text_of(self.value, self.step()), self.measure.sign()),
+        }
+    }
+
+    fn describe(&self, ui: &Ui, response: &Response) {
+        response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), self.value, self.name));
+        ui.ctx().accesskit_node_builder(self.id, |node| {
+            let note = self.measure.note(self.value).filter(|_| !self.row.differs);
+            node.set_value(match note {
+                Some(note) => format!("{} = {note} here", self.shown()),
+                None => self.shown(),
+            });
+            if let Some([low, high]) = self.range {
+                node.set_min_numeric_value(low);
+                node.set_max_numeric_value(high);
+            }
+            node.set_numeric_value_step(self.step());
+            node.add_action(accesskit::Action::SetValue);
+            node.add_action(accesskit::Action::Increment);
+            node.add_action(accesskit::Action::Decrement);
+        });
+    }
+
+    fn paint(&self, ui: &Ui, ask: &Asking<'_>, response: &Response) {
+        let theme = ask.theme;
+        let painter = ui.painter();
+        let is_held = response.hovered() || ask.is_dragged(self.id);
+        let ground = if is_held { theme.hovered } else { theme.raised };
+        painter.rect_filled(self.rect, space::CORNER, ground);
+        if self.is_filled && !self.row.differs {
+            let (mix, share) = if self.row.is_changed() {
+                (theme.accent, 0.42)
+            } else {
+                (theme.quiet, 0.24)
+            };
+            let [begin, end] = self.filled().map(|share| egui::lerp(self.rect.x_range(), share));
+            let within = Rect::from_x_y_ranges(begin.min(end)..=begin.max(end), self.rect.y_range());
+            let fill = ground.lerp_to_gamma(mix, share);
+            painter
+                .with_clip_rect(within.intersect(ui.clip_rect()))
+                .rect_filled(self.rect, space::CORNER, fill);
+            // The end of it is what one looks at.
+            let x = end.clamp(self.rect.left() + 1.0, self.rect.right() - 1.0);
+            let edge = ground.lerp_to_gamma(mix, 0.9);
+            painter.vline(x, self.rect.shrink(3.0).y_range(), (1.5, edge));
+        }
+        focus_ring(ui, ask, response);
+        let within = self.rect.shrink2(egui::vec2(6.0 * ask.zoom, 0.0));
+        let size = type_size::BODY * ask.zoom;
+        let color = if self.row.differs { theme.quiet } else { theme.text };
+        let taken = write(painter, within, Align2::RIGHT_CENTER, &self.shown(), size, color);
+        let rest = within.with_max_x(within.right() - taken - space::TIGHT);
+        if !self.inside.is_empty() {
+            write(painter, rest, Align2::LEFT_CENTER, self.inside, size, theme.quiet);
+        } else if let Some(note) = self.measure.note(self.value).filter(|_| !self.row.differs) {
+            let small = type_size::SMALL * ask.zoom;
+            write(painter, rest, Align2::LEFT_CENTER, &note, small, theme.quiet);
+        }
+    }
+
+    /// From where to where it is filled, 0 to 1: from zero on where values go to both sides of it.
+    fn filled(&self) -> [f32; 2] {
+        let [low, high] = self.ends;
+        let share = |number: f64| {
+            let share = (number - low) / (high - low);
+            if share.is_finite() {
+                share.clamp(0.0, 1.0) as f32
+            } else {
+                0.0
+            }
+        };
+        [
+            if low < 0.0 && high > 0.0 { share(0.0) } else { 0.0 },
+            share(self.value),
+        ]
+    }
+}
+
+/// A number as a file keeps it.
+fn kept(number: f64) -> Result<f64, String> {
+    let kept = sabi_graph::canonical_number(number);
+    kept.ok_or_else(|| format!("{number:e} is larger than a graph file can hold."))
+}

@@ -1,0 +1,82 @@
+//! Buttons that are small enough to stand beside values.
+
+use egui::{Align2, Id, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo, WidgetType};
+
+use super::KnobRow;
+use super::asking::Asking;
+use super::lettering::write;
+use crate::theme::{space, type_size};
+
+/// A button with a sign on it; `name` says what it does, to those who point at it or hear it.
+pub(super) fn sign_button(ui: &Ui, ask: &Asking<'_>, id: Id, rect: Rect, sign: &str, name: &str) -> Response {
+    let response = ui.interact(rect, id, Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), name));
+    if ui.is_rect_visible(rect) {
+        let color = if response.hovered() {
+            ask.theme.text
+        } else {
+            ask.theme.quiet
+        };
+        if response.hovered() {
+            ui.painter().rect_filled(rect, space::CORNER, ask.theme.hovered);
+        }
+        focus_ring(ui, ask, &response);
+        write(
+            ui.painter(),
+            rect,
+            Align2::CENTER_CENTER,
+            sign,
+            type_size::HEADING * ask.zoom,
+            color,
+        );
+    }
+    response.on_hover_text(name)
+}
+
+/// How a word among several stands out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Chosen {
+    No,
+    /// It is the default.
+    AtFirst,
+    /// It was chosen instead.
+    Instead,
+}
+
+impl Chosen {
+    pub(super) fn of(row: &KnobRow<'_>, is_held: bool) -> Chosen {
+        match (is_held && !row.differs, row.is_changed()) {
+            (false, _) => Chosen::No,
+            (true, false) => Chosen::AtFirst,
+            (true, true) => Chosen::Instead,
+        }
+    }
+}
+
+/// A button with a word on it, one of several of which one or none is chosen.
+pub(super) fn word_button(ui: &Ui, ask: &Asking<'_>, id: Id, rect: Rect, word: &str, chosen: Chosen) -> Response {
+    let response = ui.interact(rect, id, Sense::click());
+    if ui.is_rect_visible(rect) {
+        let theme = ask.theme;
+        let (fill, color) = match chosen {
+            Chosen::Instead => (theme.raised.lerp_to_gamma(theme.accent, 0.42), theme.text),
+            Chosen::AtFirst => (theme.raised.lerp_to_gamma(theme.quiet, 0.32), theme.text),
+            Chosen::No if response.hovered() => (theme.hovered, theme.text),
+            Chosen::No => (theme.raised, theme.quiet),
+        };
+        ui.painter().rect_filled(rect, space::CORNER, fill);
+        focus_ring(ui, ask, &response);
+        let size = type_size::BODY * ask.zoom;
+        write(ui.painter(), rect.shrink(2.0), Align2::CENTER_CENTER, word, size, color);
+    }
+    response
+}
+
+/// Shows which widget the keyboard speaks to.
+pub(super) fn focus_ring(ui: &Ui, ask: &Asking<'_>, response: &Response) {
+    if response.has_focus() {
+        let line = (1.0, ask.theme.accent);
+        ui.painter()
+            .rect_stroke(response.rect, space::CORNER, line, StrokeKind::Inside);
+    }
+}

@@ -1,0 +1,202 @@
+//! What is chosen: switches, a few words side by side, or a list that opens.
+
+use egui::{
+    Align2, EventFilter, Id, Key, Modifiers, Popup, Rect, Response, ScrollArea, Sense, Ui, Vec2, WidgetInfo, WidgetType,
+};
+use egui_phosphor::regular as icon;
+use sabi_engine::catalog::readable;
+use sabi_graph::Value;
+
+use super::KnobRow;
+use super::asking::Asking;
+use super::buttons::{Chosen, focus_ring, word_button};
+use super::lettering::{width, write};
+use super::numbers::share_of;
+use crate::theme::{space, type_size};
+
+/// More words than this do not stand side by side.
+const MOST_BESIDE: usize = 3;
+/// Size of a switch.
+const SWITCH: Vec2 = Vec2::new(28.0, 15.0);
+/// A list that opens is not higher.
+const HIGHEST_LIST: f32 = 320.0;
+
+/// A switch.
+pub(super) fn toggle(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, is_on: bool) {
+    let place = Rect::from_center_size(
+        egui::pos2(rect.left() + SWITCH.x * ask.zoom / 2.0, rect.center().y),
+        SWITCH * ask.zoom,
+    );
+    switch(ui, ask, row, id, place, is_on);
+}
+
+/// A switch of that size.
+pub(super) fn switch(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, place: Rect, is_on: bool) {
+    let response = ui.interact(place, id.with("switch"), Sense::click());
+    response.widget_info(|| match row.differs {
+        // A box without a state is one between both.
+        true => WidgetInfo::labeled(WidgetType::Checkbox, ui.is_enabled(), &row.knob.label),
+        false => WidgetInfo::selected(WidgetType::Checkbox, ui.is_enabled(), is_on, &row.knob.label),
+    });
+    if ui.is_rect_visible(place) {
+        let theme = ask.theme;
+        let at = match row.differs {
+            true => 0.5,
+            false => ui.ctx().animate_bool_responsive(response.id, is_on),
+        };
+        let radius = place.height() / 2.0;
+        let off = if response.hovered() {
+            theme.hovered
+        } else {
+            theme.raised
+        };
+        let fill = if row.differs {
+            off
+        } else {
+            off.lerp_to_gamma(theme.accent, at)
+        };
+        let line = theme.line.lerp_to_gamma(theme.accent, at);
+        let painter = ui.painter();
+        painter.rect(place, radius, fill, (1.0, line), egui::StrokeKind::Inside);
+        let x = egui::lerp(place.left() + radius..=place.right() - radius, at);
+        let knob = theme.quiet.lerp_to_gamma(theme.on_accent, at);
+        painter.circle_filled(egui::pos2(x, place.center().y), radius - 3.0 * ask.zoom, knob);
+        if response.has_focus() {
+            painter.rect_stroke(place.expand(2.0), radius, (1.0, theme.accent), egui::StrokeKind::Inside);
+        }
+    }
+    if response.clicked() {
+        // Where nodes differ all of them are switched on first.
+        ask.set(row, Value::Bool(row.differs || !is_on));
+    }
+}
+
+/// One of several words.
+pub(super) fn choice(
+    ui: &mut Ui,
+    ask: &mut Asking<'_>,
+    row: &KnobRow<'_>,
+    id: Id,
+    rect: Rect,
+    words: &[String],
+    chosen: &str,
+) {
+    let room = rect.width() / words.len().max(1) as f32 - space::USUAL - 2.0;
+    let fits = |word: &String| width(ui.painter(), &readable(word), type_size::BODY) < room;
+    if words.len() <= MOST_BESIDE && words.iter().all(fits) {
+        beside(ui, ask, row, id, rect, words, chosen);
+    } else {
+        list(ui, ask, row, id, rect, words, chosen);
+    }
+}
+
+fn beside(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
+    let group = ui.interact(rect, id.with("words"), Sense::hover());
+    group.widget_info(|| WidgetInfo::labeled(WidgetType::RadioGroup, ui.is_enabled(), &row.knob.label));
+    ui.ctx()
+        .accesskit_node_builder(group.id, |node| node.set_value(said(row, chosen)));
+    for (at, word) in words.iter().enumerate() {
+        let is_chosen = !row.differs && word == chosen;
+        let name = readable(word);
+        let place = share_of(rect, at, words.len());
+        let response = word_button(ui, ask, id.with(word), place, &name, Chosen::of(row, is_chosen));
+        response.widget_info(|| WidgetInfo::selected(WidgetType::RadioButton, ui.is_enabled(), is_chosen, &name));
+        if response.clicked() {
+            ask.set(row, Value::Text(word.clone()));
+        }
+    }
+}
+
+fn said(row: &KnobRow<'_>, chosen: &str) -> String {
+    match row.differs {
+        true => "several".to_owned(),
+        false => readable(chosen),
+    }
+}
+
+fn list(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
+    let response = ui.interact(rect, id.with("list"), Sense::click());
+    if ui.is_rect_visible(rect) {
+        let theme = ask.theme;
+        let fill = if response.hovered() {
+            theme.hovered
+        } else {
+            theme.raised
+        };
+        ui.painter().rect_filled(rect, space::CORNER, fill);
+        focus_ring(ui, ask, &response);
+        let within = rect.shrink2(Vec2::new(space::USUAL, 0.0));
+        let body = type_size::BODY;
+        let caret = write(
+            ui.painter(),
+            within,
+            Align2::RIGHT_CENTER,
+            icon::CARET_DOWN,
+            body,
+            theme.quiet,
+        );
+        let rest = within.with_max_x(within.right() - caret - space::TIGHT);
+        let color = if row.differs { theme.quiet } else { theme.text };
+        write(ui.painter(), rest, Align2::LEFT_CENTER, &said(row, chosen), body, color);
+    }
+    open_list(ui, ask, row, &response, words, chosen);
+}
+
+/// The list that a widget opens, and the steps through it by keys while it is closed.
+pub(super) fn open_list(
+    ui: &Ui,
+    ask: &mut Asking<'_>,
+    row: &KnobRow<'_>,
+    response: &Response,
+    words: &[String],
+    chosen: &str,
+) {
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::ComboBox, ui.is_enabled(), &row.knob.label));
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_value(said(row, chosen)));
+    let popup = Popup::menu(response).width(response.rect.width());
+    let mut asked = match popup.is_open() {
+        true => None,
+        false => stepped(ui, response, words, chosen),
+    };
+    popup.show(|ui| {
+        ui.set_min_width(response.rect.width().max(80.0));
+        ScrollArea::vertical().max_height(HIGHEST_LIST).show(ui, |ui| {
+            for word in words {
+                let is_chosen = !row.differs && word == chosen;
+                let item = ui.selectable_label(is_chosen, readable(word));
+                if response.clicked() && word == chosen {
+                    // From here on the keyboard goes through the list.
+                    item.request_focus();
+                }
+                if item.clicked() {
+                    asked = Some(word.clone());
+                    response.request_focus();
+                }
+            }
+        });
+    });
+    if let Some(word) = asked {
+        ask.set(row, Value::Text(word));
+    }
+}
+
+/// The word before or behind the chosen one, as the arrow keys ask for it.
+fn stepped(ui: &Ui, response: &Response, words: &[String], chosen: &str) -> Option<String> {
+    if !response.has_focus() {
+        return None;
+    }
+    let arrows = EventFilter {
+        vertical_arrows: true,
+        ..EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    let steps = ui.input_mut(|input| {
+        input.count_and_consume_key(Modifiers::NONE, Key::ArrowDown) as isize
+            - input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp) as isize
+    });
+    let at = words.iter().position(|word| word == chosen)?;
+    let last = words.len().checked_sub(1)?;
+    let next = at.saturating_add_signed(steps).min(last);
+    (next != at).then(|| words[next].clone())
+}

@@ -1,0 +1,129 @@
+//! Colors: a swatch that opens a picker, the code, and an eyedropper.
+
+use egui::color_picker::{Alpha, color_picker_hsva_2d};
+use egui::epaint::Hsva;
+use egui::{Color32, Id, Key, Popup, PopupCloseBehavior, Rect, Sense, StrokeKind, Ui, WidgetInfo, WidgetType};
+use egui_phosphor::regular as icon;
+use sabi_graph::Value;
+
+use super::asking::{Asking, Grip};
+use super::buttons::{focus_ring, sign_button};
+use super::numbers::cut_square;
+use super::typing::{Field, Typed};
+use super::values::{code_of, color_of};
+use super::{KnobEvent, KnobRow};
+use crate::theme::space;
+
+/// Width of the picker.
+const PICKER: f32 = 190.0;
+/// Width of the swatch beside the code.
+const SWATCH: f32 = 44.0;
+
+pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, color: Color32) {
+    let label = &row.knob.label;
+    let drop = cut_square(&mut rect);
+    let asked = swatch_and_code(ui, ask, row, id, rect, label, color);
+    if let Some(color) = asked {
+        ask.set(row, Value::Text(code_of(color)));
+    }
+    let name = format!("{label}: take from the screen");
+    if sign_button(ui, ask, id.with("dropper"), drop, icon::EYEDROPPER, &name).clicked() {
+        let knob = row.knob.name.clone();
+        ask.events.push(KnobEvent::Eyedropper { knob });
+    }
+}
+
+/// A swatch and the code of its color beside it.
+pub(super) fn swatch_and_code(
+    ui: &mut Ui,
+    ask: &mut Asking<'_>,
+    row: &KnobRow<'_>,
+    id: Id,
+    rect: Rect,
+    name: &str,
+    color: Color32,
+) -> Option<Color32> {
+    let left = rect.with_max_x(rect.left() + SWATCH.min(rect.width() / 3.0));
+    let picked = swatch(ui, ask, row, id.with("swatch"), left, name, color);
+    let shown = if row.differs { String::new() } else { code_of(color) };
+    let typed = ask.field(
+        ui,
+        &Field {
+            id: id.with("code"),
+            rect: rect.with_min_x(left.right() + space::TIGHT / 2.0),
+            name: &format!("{name}: code"),
+            shown: &shown,
+            hint: "several",
+        },
+    );
+    match typed {
+        Typed::Taken(text) => match color_of(&text) {
+            Some(color) => Some(color),
+            None => {
+                let sentence =
+                    format!("\"{text}\" is no color: write six digits of 0 to 9 and a to f, such as #6b3a1e.");
+                ask.fault(id, sentence);
+                picked
+            }
+        },
+        Typed::Nothing | Typed::Left => picked,
+    }
+}
+
+/// A color that opens a picker.
+pub(super) fn swatch(
+    ui: &Ui,
+    ask: &mut Asking<'_>,
+    row: &KnobRow<'_>,
+    id: Id,
+    rect: Rect,
+    name: &str,
+    color: Color32,
+) -> Option<Color32> {
+    let response = ui.interact(rect, id, Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::ColorButton, ui.is_enabled(), name));
+    ui.ctx().accesskit_node_builder(id, |node| {
+        node.set_value(if row.differs { "several".into() } else { code_of(color) })
+    });
+    if ui.is_rect_visible(rect) {
+        let painter = ui.painter();
+        let line = if response.hovered() {
+            ask.theme.quiet
+        } else {
+            ask.theme.line
+        };
+        painter.rect(rect, space::CORNER, color, (1.0, line), StrokeKind::Inside);
+        if row.differs {
+            // Half of it says that there is more than this one.
+            let half = rect.with_min_x(rect.center().x);
+            painter.rect_filled(half.shrink(1.0), space::CORNER, ask.theme.raised);
+        }
+        focus_ring(ui, ask, &response);
+    }
+    let popup = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    popup.show(|ui| pick(ui, ask, row, id, color))?.inner
+}
+
+fn pick(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, color: Color32) -> Option<Color32> {
+    ui.spacing_mut().slider_width = PICKER;
+    // A gray has no hue of its own, so the picker's is kept as long as it stands for this color.
+    let kept = ask.memory.picked.filter(|(of, kept)| *of == id && rgb(kept) == color);
+    let mut picked = kept.map_or_else(|| Hsva::from_srgb([color.r(), color.g(), color.b()]), |(_, kept)| kept);
+    let has_changed = color_picker_hsva_2d(ui, &mut picked, Alpha::Opaque);
+    ask.keep(ui.ctx(), id);
+    let [is_down, is_given_up] = ui.input(|input| [input.pointer.primary_down(), input.key_pressed(Key::Escape)]);
+    if !has_changed || is_given_up {
+        return None;
+    }
+    ask.memory.picked = Some((id, picked));
+    if is_down && ask.memory.drag.is_none() {
+        let origin = ui.input(|input| input.pointer.interact_pos()).unwrap_or_default();
+        ask.begin(ui.ctx(), id, row, Grip::default(), origin);
+    }
+    Some(rgb(&picked))
+}
+
+fn rgb(picked: &Hsva) -> Color32 {
+    let [r, g, b] = picked.to_srgb();
+    Color32::from_rgb(r, g, b)
+}

@@ -1,0 +1,55 @@
+//! What is said of a knob to those who point at its name.
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{FontFamily, FontId, Ui};
+use sabi_engine::catalog::{Knob, KnobRole};
+
+use super::KnobRow;
+use crate::theme::{Theme, type_size};
+
+/// Widest line of an explanation.
+const WIDEST: f32 = 300.0;
+
+/// Everything that is known of a knob.
+pub(super) fn show(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>) {
+    ui.set_max_width(WIDEST);
+    if !row.knob.doc.is_empty() {
+        ui.label(formatted(&row.knob.doc, theme));
+    }
+    let name = format!("`{}`{}", row.knob.name, limits(row.knob));
+    ui.label(formatted_as(&name, theme.quiet, type_size::SMALL));
+    if let Some(published) = row.exposed {
+        let sentence = format!("On the panel as `{published}`.");
+        ui.label(formatted_as(&sentence, theme.quiet, type_size::SMALL));
+    }
+}
+
+fn formatted(text: &str, theme: &Theme) -> LayoutJob {
+    formatted_as(text, theme.text, type_size::BODY)
+}
+
+/// Markdown as far as doc comments go: what is between backticks is code.
+fn formatted_as(text: &str, color: egui::Color32, size: f32) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    for (at, part) in text.split('`').enumerate() {
+        let family = if at % 2 == 1 {
+            FontFamily::Monospace
+        } else {
+            FontFamily::Proportional
+        };
+        job.append(part, 0.0, TextFormat::simple(FontId::new(size, family), color));
+    }
+    job
+}
+
+/// What a knob takes and holds at first.
+fn limits(knob: &Knob) -> String {
+    let range = knob
+        .range
+        .map_or(String::new(), |[low, high]| format!(", {low} to {high}"));
+    let is_short = !matches!(knob.role, KnobRole::Stops | KnobRole::Curve | KnobRole::Seed);
+    match is_short {
+        true => format!("{range}, default {}", knob.default.to_json()),
+        false => range,
+    }
+}

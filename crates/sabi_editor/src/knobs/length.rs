@@ -1,0 +1,133 @@
+//! What lengths of a graph are on the model that is open.
+
+use super::expression::Units;
+use super::values::text_of;
+
+/// How long things are: lengths of a graph are working units, which the fit makes of the model's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lengths {
+    /// Factor from lengths as they are written to those of the model's file.
+    pub(crate) model_units_per_working: f64,
+    /// Factor from those of the model's file to the real ones.
+    pub(crate) metres_per_model_unit: f64,
+}
+
+/// Names of units, how long they are in metres, and from where on they are used.
+const UNITS: [(&str, f64, f64); 4] = [
+    ("km", 1000.0, 1000.0),
+    ("m", 1.0, 1.0),
+    ("cm", 0.01, 0.01),
+    ("mm", 0.001, 0.0),
+];
+
+impl Lengths {
+    fn metres(&self) -> Option<f64> {
+        let metres = self.model_units_per_working * self.metres_per_model_unit;
+        (metres.is_normal() && metres > 0.0).then_some(metres)
+    }
+
+    /// A length on the model, such as `3.4 cm`; nothing where it is not known how large the model is.
+    pub(super) fn text(&self, working: f64) -> Option<String> {
+        let metres = working * self.metres()?;
+        let (name, unit, _) = UNITS.iter().find(|(_, _, least)| metres.abs() >= *least)?;
+        let number = metres / unit;
+        // Three digits that count.
+        let step = 10.0_f64.powf(number.abs().max(1e-9).log10().floor());
+        Some(format!("{} {name}", text_of(number, step)))
+    }
+
+    /// What may stand behind a number that is typed, with its length in working units.
+    pub(super) fn units(&self) -> [(&'static str, f64); 4] {
+        // Where the size of the model is not known a metre is what its file says.
+        let metres = self.metres().unwrap_or(1.0);
+        UNITS.map(|(name, unit, _)| (name, unit / metres))
+    }
+}
+
+/// What a number measures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Measure {
+    Plain,
+    Degrees,
+    Length(Lengths),
+}
+
+impl Measure {
+    /// The sign that stands behind each number.
+    pub(super) fn sign(&self) -> &'static str {
+        match self {
+            Measure::Degrees => "°",
+            Measure::Plain | Measure::Length(_) => "",
+        }
+    }
+
+    /// What else a number can be said to be.
+    pub(super) fn note(&self, number: f64) -> Option<String> {
+        match self {
+            Measure::Length(lengths) => lengths.text(number),
+            Measure::Plain | Measure::Degrees => None,
+        }
+    }
+
+    /// Reads a sum that was typed.
+    pub(super) fn evaluate(&self, text: &str, present: Option<f64>) -> Result<f64, String> {
+        let named;
+        let units = match self {
+            Measure::Plain => Units::NONE,
+            Measure::Degrees => Units::DEGREES,
+            Measure::Length(lengths) => {
+                named = lengths.units();
+                Units {
+                    named: &named,
+                    ..Units::NONE
+                }
+            }
+        };
+        super::expression::evaluate(text, present, units)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_length_is_said_in_the_unit_that_suits_its_size() {
+        let lengths = Lengths {
+            model_units_per_working: 1.7,
+            metres_per_model_unit: 1.0,
+        };
+        for (working, expected) in [
+            (0.02, "3.4 cm"),
+            (0.001, "1.7 mm"),
+            (1.0, "1.7 m"),
+            (1000.0, "1.7 km"),
+            (0.0, "0 mm"),
+            (-0.02, "-3.4 cm"),
+            (0.0123456, "2.1 cm"),
+        ] {
+            assert_eq!(lengths.text(working).as_deref(), Some(expected), "{working}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_said_where_the_size_of_the_model_is_not_known() {
+        for metres_per_model_unit in [0.0, f64::NAN, f64::INFINITY, -1.0] {
+            let lengths = Lengths {
+                model_units_per_working: 1.0,
+                metres_per_model_unit,
+            };
+            assert_eq!(lengths.text(0.1), None);
+            assert!(lengths.units().iter().all(|(_, factor)| factor.is_finite()));
+        }
+    }
+
+    #[test]
+    fn a_length_can_be_typed_as_it_is_on_the_model() {
+        let lengths = Lengths {
+            model_units_per_working: 2.0,
+            metres_per_model_unit: 1.0,
+        };
+        assert_eq!(Measure::Length(lengths).evaluate("10 cm", None), Ok(0.05));
+    }
+}

@@ -1,0 +1,271 @@
+//! One row of the panel: the name on the left, what it holds on the right, and what else can be done with it.
+
+use egui::{
+    Align2, Color32, Event, FontId, Id, Key, Layout, Modifiers, Popup, PopupKind, Pos2, Rect, Sense, Ui, Vec2,
+    ViewportCommand, WidgetInfo, WidgetType,
+};
+use egui_phosphor::regular as icon;
+use sabi_engine::catalog::KnobRole;
+use sabi_graph::Value;
+
+use super::asking::Asking;
+use super::lettering::write;
+use super::values::{Held, fits, read, takes};
+use super::{KnobEvent, KnobRow, choice, color, curve, doc, numbers, stops, text};
+use crate::theme::{space, type_size};
+
+/// Width of the column of dots, which is the left margin too.
+const DOTS: f32 = 12.0;
+/// The column of names takes this share of a row, within limits.
+const NAMES: f32 = 0.36;
+const NARROWEST_NAMES: f32 = 70.0;
+const WIDEST_NAMES: f32 = 150.0;
+/// A clipboard that has not answered after so many passes has nothing.
+const PATIENCE: u64 = 3;
+
+pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>) {
+    let id = ui.make_persistent_id(&row.knob.name);
+    let (_, head) = ui.allocate_space(Vec2::new(ui.available_width(), space::ROW));
+    let names = (head.width() * NAMES).clamp(NARROWEST_NAMES, WIDEST_NAMES);
+    let column = head.with_min_x(head.left() + DOTS + names);
+    dot(ui, ask, row, id, head.with_max_x(head.left() + DOTS));
+    name(
+        ui,
+        ask,
+        row,
+        id,
+        Rect::from_x_y_ranges(head.left() + DOTS..=column.left() - space::TIGHT, head.y_range()),
+    );
+    match row.wired {
+        Some(from) => wired(ui, ask, row, id, column, from),
+        None => widget(ui, ask, row, id, column),
+    }
+    let told = ask.memory.fault.as_ref().filter(|(of, _)| *of == id);
+    if let Some((_, told)) = told {
+        sentence(ui, id.with("fault"), column.left(), told, ask.theme.fault);
+    }
+    let bottom = ui.cursor().top().max(head.bottom());
+    menu(ui, ask, row, id, head.with_max_y(bottom));
+    paste(ui, ask, row, id);
+}
+
+fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+    let mut held = read(row.knob, row.held());
+    if held.is_none() {
+        let there = shortened(&row.held().to_json());
+        let told = format!(
+            "This holds {there}, but takes {}: set it anew, or reset it.",
+            takes(row.knob)
+        );
+        sentence(ui, id.with("unreadable"), rect.left(), &told, ask.theme.fault);
+        held = read(row.knob, &row.knob.default);
+    }
+    match (held, &row.knob.role) {
+        (Some(Held::Numbers(held)), _) => numbers::show(ui, ask, row, id, rect, held),
+        (Some(Held::On(is_on)), _) => choice::toggle(ui, ask, row, id, rect, is_on),
+        (Some(Held::Text(word)), KnobRole::Choice(words)) => choice::choice(ui, ask, row, id, rect, words, word),
+        (Some(Held::Text(path)), KnobRole::File) => text::file(ui, ask, row, id, rect, path),
+        (Some(Held::Text(held)), _) => text::text(ui, ask, row, id, rect, held),
+        (Some(Held::Color(held)), _) => color::show(ui, ask, row, id, rect, held),
+        (Some(Held::Stops(held)), _) => stops::show(ui, ask, row, id, rect, held),
+        (Some(Held::Points(held)), _) => curve::show(ui, ask, row, id, rect, held),
+        // What is measured on the model is nobody's to set.
+        (None, _) => {}
+    }
+}
+
+/// Values may be long.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+/// A box over the whole width under a row.
+pub(super) fn strip(ui: &mut Ui, height: f32) -> Rect {
+    let (_, rect) = ui.allocate_space(Vec2::new(ui.available_width(), height));
+    rect.with_min_x(rect.left() + DOTS)
+}
+
+/// A sentence under a row.
+pub(super) fn sentence(ui: &mut Ui, id: Id, left: f32, text: &str, color: Color32) {
+    let right = ui.max_rect().right();
+    let font = FontId::proportional(type_size::SMALL);
+    let galley = ui
+        .painter()
+        .layout(text.to_owned(), font, color, (right - left).max(40.0));
+    let (_, rect) = ui.allocate_space(Vec2::new(ui.available_width(), galley.size().y));
+    let place = Pos2::new(left, rect.top());
+    let response = ui.interact(Rect::from_min_size(place, galley.size()), id, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, text));
+    ui.painter().galley(place, galley, color);
+}
+
+/// Says that a knob is not what it was at first; a click makes it so again.
+fn dot(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+    if !row.is_changed() {
+        return;
+    }
+    // The keyboard resets by the menu and by Backspace, without a stop at every dot.
+    let response = ui.interact(rect, id.with("dot"), Sense::CLICK);
+    response.widget_info(|| {
+        let name = format!("Reset {}", row.knob.label);
+        WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), name)
+    });
+    let radius = if response.hovered() { 3.5 } else { 2.5 };
+    let middle = Pos2::new(rect.left() + 4.0, rect.center().y);
+    ui.painter().circle_filled(middle, radius, ask.theme.accent);
+    if response.on_hover_text("Changed: click to reset").clicked() {
+        ask.reset(row);
+    }
+}
+
+fn name(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+    let theme = ask.theme;
+    let response = ui.interact(rect, id.with("name"), Sense::hover());
+    let mut room = rect;
+    if row.exposed.is_some() {
+        let sign = write(
+            ui.painter(),
+            rect,
+            Align2::RIGHT_CENTER,
+            icon::SLIDERS_HORIZONTAL,
+            type_size::BODY,
+            theme.accent,
+        );
+        room.max.x -= sign + space::TIGHT;
+    }
+    let color = if response.hovered() || row.is_changed() {
+        theme.text
+    } else {
+        theme.quiet
+    };
+    write(
+        ui.painter(),
+        room,
+        Align2::LEFT_CENTER,
+        &row.knob.label,
+        type_size::BODY,
+        color,
+    );
+    response.on_hover_ui(|ui| doc::show(ui, theme, row));
+}
+
+/// An input that something is connected to has no value of its own.
+fn wired(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, from: &str) {
+    let response = ui.interact(rect, id.with("wired"), Sense::hover());
+    let text = format!("from {from}");
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, ui.is_enabled(), &row.knob.label));
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_value(text.as_str()));
+    let theme = ask.theme;
+    let sign = write(
+        ui.painter(),
+        rect,
+        Align2::LEFT_CENTER,
+        icon::PLUGS_CONNECTED,
+        type_size::BODY,
+        theme.quiet,
+    );
+    let rest = rect.with_min_x(rect.left() + sign + space::TIGHT);
+    write(
+        ui.painter(),
+        rest,
+        Align2::LEFT_CENTER,
+        &text,
+        type_size::BODY,
+        theme.quiet,
+    );
+}
+
+/// What else can be done with a knob, by the other mouse button or Shift+F10.
+fn menu(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+    let pointed = ui.rect_contains_pointer(rect) && ui.input(|input| input.pointer.secondary_clicked());
+    if pointed && let Some(place) = ui.input(|input| input.pointer.interact_pos()) {
+        ask.memory.menu = Some((id, place));
+    }
+    let is_focused = || {
+        let focused = ui.memory(|memory| memory.focused());
+        let response = focused.and_then(|focused| ui.ctx().read_response(focused));
+        response.is_some_and(|response| rect.contains(response.rect.center()))
+    };
+    let is_keyed = ui.input(|input| input.key_pressed(Key::F10) && input.modifiers.shift);
+    if is_keyed && is_focused() && ui.input_mut(|input| input.consume_key(Modifiers::SHIFT, Key::F10)) {
+        ask.memory.menu = Some((id, rect.left_top() + Vec2::splat(space::ROW)));
+    }
+    let Some((_, place)) = ask.memory.menu.filter(|(of, _)| *of == id) else {
+        return;
+    };
+    let mut is_open = true;
+    let popup = Popup::new(id.with("menu"), ui.ctx().clone(), place, ui.layer_id())
+        .kind(PopupKind::Menu)
+        .layout(Layout::top_down_justified(egui::Align::Min))
+        .style(egui::containers::menu::menu_style)
+        .open_bool(&mut is_open);
+    popup.show(|ui| items(ui, ask, row, id));
+    if !is_open {
+        ask.memory.menu = None;
+    }
+}
+
+fn items(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) {
+    let knob = || row.knob.name.clone();
+    let can_reset = row.differs || row.value.is_some();
+    if ui.add_enabled(can_reset, egui::Button::new("Reset")).clicked() {
+        ask.reset(row);
+    }
+    ui.separator();
+    match row.exposed {
+        None if ui.button("Put on the panel").clicked() => ask.events.push(KnobEvent::Expose { knob: knob() }),
+        Some(_) if ui.button("Take off the panel").clicked() => ask.events.push(KnobEvent::Unexpose { knob: knob() }),
+        _ => {}
+    }
+    ui.separator();
+    if ui.add_enabled(!row.differs, egui::Button::new("Copy value")).clicked() {
+        ui.copy_text(row.held().to_json());
+    }
+    if ui
+        .add_enabled(row.wired.is_none(), egui::Button::new("Paste value"))
+        .clicked()
+    {
+        ask.memory.pasting = Some((id, ui.ctx().cumulative_pass_nr()));
+        ui.ctx().send_viewport_cmd(ViewportCommand::RequestPaste);
+    }
+}
+
+/// Takes what the clipboard answers to a row that has asked it.
+fn paste(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) {
+    let Some((_, since)) = ask.memory.pasting.filter(|(of, _)| *of == id) else {
+        return;
+    };
+    if ui.ctx().cumulative_pass_nr() > since + PATIENCE {
+        ask.memory.pasting = None;
+        return;
+    }
+    let answer = ui.input_mut(|input| {
+        let at = input.events.iter().position(|event| matches!(event, Event::Paste(_)))?;
+        match input.events.remove(at) {
+            Event::Paste(text) => Some(text),
+            _ => None,
+        }
+    });
+    let Some(answer) = answer else { return };
+    ask.memory.pasting = None;
+    let answer = answer.trim();
+    // A word or a code without quotes is meant as the text that it is.
+    let values = [Value::from_json(answer), Some(Value::Text(answer.to_owned()))];
+    match values.into_iter().flatten().find(|value| fits(row.knob, value)) {
+        Some(value) => ask.set(row, value),
+        None => {
+            let there = shortened(answer);
+            let told = format!(
+                "The clipboard holds \"{there}\", but {} takes {}.",
+                row.knob.label,
+                takes(row.knob)
+            );
+            ask.fault(id, told);
+        }
+    }
+}

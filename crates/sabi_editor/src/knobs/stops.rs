@@ -1,0 +1,331 @@
+//! Gradients: a ramp with stops that are dragged along it, and the one that is worked on in numbers.
+
+use egui::{
+    Align2, Color32, Id, Key, Mesh, Modifiers, Painter, Pos2, Rect, Response, Rgba, Sense, Shape, StrokeKind, Ui, Vec2,
+    WidgetInfo,
+};
+use egui_phosphor::regular as icon;
+
+use super::KnobRow;
+use super::asking::{Asking, Drag, Grip};
+use super::bar::Bar;
+use super::buttons::{focus_ring, sign_button};
+use super::color::swatch_and_code;
+use super::direction::arrows;
+use super::lettering::write;
+use super::numbers::{bar_of, cut_square};
+use super::row::strip;
+use super::values::{Held, Stop, of_stops, read, rounded, sort_keeping};
+use crate::theme::{space, type_size};
+
+const RAMP: f32 = 20.0;
+const HANDLES: f32 = 13.0;
+/// The pointer takes a stop that is no farther than this.
+const NEAR: f32 = 7.0;
+/// A stop that is dragged so far from the ramp is taken out.
+const AWAY: f32 = 28.0;
+/// Digits of positions, and what an arrow key moves a stop by.
+const DIGITS: f64 = 0.001;
+const STEP: f64 = 0.01;
+
+pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: Vec<Stop>) {
+    let mut gradient = Gradient {
+        selected: ask.selected(id, stops.len()),
+        room: row.knob.components,
+        stops,
+    };
+    let mut has_changed = gradient.buttons(ui, ask, row, id, rect);
+    let area = strip(ui, RAMP + HANDLES);
+    let ramp = Ramp(
+        area.with_max_y(area.top() + RAMP)
+            .shrink2(Vec2::new(HANDLES / 2.0, 0.0)),
+    );
+    let response = ui.interact(area, id.with("ramp"), Sense::click_and_drag());
+    has_changed |= gradient.dragged(ask, row, &response, &ramp);
+    has_changed |= gradient.clicked(ask, id, &response, &ramp);
+    has_changed |= gradient.keyed(ui, &response);
+    gradient.describe(ui, row, &response);
+    if ui.is_rect_visible(area) {
+        gradient.paint(ui, ask, &response, &ramp);
+    }
+    has_changed |= gradient.numbers(ui, ask, row, id);
+    ask.memory.selected = Some((id, gradient.selected));
+    if has_changed {
+        ask.set(row, of_stops(&gradient.stops));
+    }
+}
+
+impl Asking<'_> {
+    /// Which of so many stops or points is worked on.
+    pub(super) fn selected(&self, id: Id, count: usize) -> usize {
+        let selected = self.memory.selected.filter(|(of, _)| *of == id);
+        selected.map_or(0, |(_, at)| at.min(count.saturating_sub(1)))
+    }
+}
+
+/// The box in which colors stand by their position.
+struct Ramp(Rect);
+
+impl Ramp {
+    fn x(&self, at: f64) -> f32 {
+        egui::lerp(self.0.x_range(), at as f32)
+    }
+
+    fn at(&self, x: f32) -> f64 {
+        rounded(f64::from((x - self.0.left()) / self.0.width()), DIGITS).clamp(0.0, 1.0)
+    }
+}
+
+struct Gradient {
+    stops: Vec<Stop>,
+    selected: usize,
+    room: usize,
+}
+
+impl Gradient {
+    fn near(&self, ramp: &Ramp, place: Pos2) -> Option<usize> {
+        let far = |at: &usize| (ramp.x(self.stops[*at].at) - place.x).abs();
+        let nearest = (0..self.stops.len()).min_by(|left, right| far(left).total_cmp(&far(right)))?;
+        (far(&nearest) <= NEAR).then_some(nearest)
+    }
+
+    fn add(&mut self, at: f64) -> bool {
+        if self.stops.len() >= self.room {
+            return false;
+        }
+        let color = color_at(&self.stops, at);
+        self.selected = self.stops.partition_point(|stop| stop.at <= at);
+        self.stops.insert(self.selected, Stop { at, color });
+        true
+    }
+
+    /// The last one stays.
+    fn remove(&mut self) -> bool {
+        if self.stops.len() < 2 {
+            return false;
+        }
+        self.stops.remove(self.selected);
+        self.selected = self.selected.saturating_sub(1);
+        true
+    }
+
+    fn move_to(&mut self, at: f64) {
+        self.stops[self.selected].at = at.clamp(0.0, 1.0);
+        self.selected = sort_keeping(&mut self.stops, self.selected, |stop| stop.at);
+    }
+
+    fn full(&self) -> String {
+        let room = self.room;
+        format!("A gradient holds no more than {room} stops: take one out before you add another.")
+    }
+
+    fn dragged(&mut self, ask: &mut Asking<'_>, row: &KnobRow<'_>, response: &Response, ramp: &Ramp) -> bool {
+        let grip = |origin: Pos2| {
+            self.selected = match self.near(ramp, origin) {
+                Some(near) => near,
+                None if self.add(ramp.at(origin.x)) => self.selected,
+                None => return None,
+            };
+            Some(Grip {
+                exact: [self.stops[self.selected].at, 0.0, 0.0],
+                index: self.selected,
+                all: Some(of_stops(&self.stops)),
+            })
+        };
+        let Some((way, drag)) = ask.pull(response, row, grip) else {
+            return false;
+        };
+        drag.grip.exact[0] += f64::from(way.x / ramp.0.width());
+        self.take(row, drag, response.rect)
+    }
+
+    /// Does to the stops that were there at first what the drag has done since.
+    fn take(&mut self, row: &KnobRow<'_>, drag: &Drag, area: Rect) -> bool {
+        let all = drag.grip.all.as_ref();
+        let Some(Held::Stops(stops)) = all.and_then(|all| read(row.knob, all)) else {
+            return false;
+        };
+        self.stops = stops;
+        self.selected = drag.grip.index.min(self.stops.len() - 1);
+        let y = drag.place().y;
+        let is_away = y < area.top() - AWAY || y > area.bottom() + AWAY;
+        if !(is_away && self.remove()) {
+            self.move_to(rounded(drag.grip.exact[0], DIGITS));
+        }
+        true
+    }
+
+    fn clicked(&mut self, ask: &mut Asking<'_>, id: Id, response: &Response, ramp: &Ramp) -> bool {
+        let Some(place) = response.interact_pointer_pos().filter(|_| response.clicked()) else {
+            return false;
+        };
+        response.request_focus();
+        if let Some(near) = self.near(ramp, place) {
+            self.selected = near;
+            return false;
+        }
+        let is_added = self.add(ramp.at(place.x));
+        if !is_added {
+            ask.fault(id, self.full());
+        }
+        is_added
+    }
+
+    fn keyed(&mut self, ui: &Ui, response: &Response) -> bool {
+        let [right, down] = arrows(ui, response);
+        if !response.has_focus() {
+            return false;
+        }
+        let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        if pressed(Key::PageDown) {
+            self.selected = (self.selected + 1).min(self.stops.len() - 1);
+        }
+        if pressed(Key::PageUp) {
+            self.selected = self.selected.saturating_sub(1);
+        }
+        if pressed(Key::Delete) || pressed(Key::Backspace) {
+            return self.remove();
+        }
+        if pressed(Key::Insert) {
+            return self.add_behind();
+        }
+        let steps = right - down;
+        if steps != 0.0 {
+            let at = self.stops[self.selected].at;
+            self.move_to(rounded(at + steps * STEP, DIGITS));
+        }
+        steps != 0.0
+    }
+
+    /// Adds one halfway to the next one.
+    fn add_behind(&mut self) -> bool {
+        let at = self.stops[self.selected].at;
+        let next = self.stops.get(self.selected + 1).map_or(1.0, |stop| stop.at);
+        self.add(rounded((at + next) / 2.0, DIGITS))
+    }
+
+    fn describe(&self, ui: &Ui, row: &KnobRow<'_>, response: &Response) {
+        let stop = self.stops[self.selected];
+        response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), stop.at, &row.knob.label));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            let count = self.stops.len();
+            let number = self.selected + 1;
+            node.set_value(format!("stop {number} of {count} at {}", stop.at));
+        });
+    }
+
+    fn buttons(&mut self, ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect) -> bool {
+        let label = &row.knob.label;
+        let [remove, add, turn] = std::array::from_fn(|_| cut_square(&mut rect));
+        let button = |salt: &str, place, sign, what: &str| {
+            sign_button(ui, ask, id.with(salt), place, sign, &format!("{label}: {what}")).clicked()
+        };
+        let is_turned = button("turn", turn, icon::ARROWS_LEFT_RIGHT, "turn around");
+        let is_added = button("add", add, icon::PLUS, "add a stop");
+        let is_removed = button("remove", remove, icon::MINUS, "take the stop out");
+        let count = format!("{} stops", self.stops.len());
+        let text = if row.differs { "several" } else { &count };
+        write(
+            ui.painter(),
+            rect,
+            Align2::LEFT_CENTER,
+            text,
+            type_size::BODY,
+            ask.theme.quiet,
+        );
+        if is_turned {
+            self.stops.reverse();
+            for stop in &mut self.stops {
+                stop.at = rounded(1.0 - stop.at, DIGITS / 10.0);
+            }
+            self.selected = self.stops.len() - 1 - self.selected;
+        }
+        let has_room = !is_added || self.add_behind();
+        if !has_room {
+            ask.fault(id, self.full());
+        }
+        is_turned || is_added && has_room || is_removed && self.remove()
+    }
+
+    /// The stop that is worked on: its color and where it stands.
+    fn numbers(&mut self, ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) -> bool {
+        let label = &row.knob.label;
+        let rect = strip(ui, space::ROW);
+        let middle = rect.left() + rect.width() * 0.58;
+        let stop = self.stops[self.selected];
+        let left = rect.with_max_x(middle - space::TIGHT);
+        let color = swatch_and_code(ui, ask, row, id, left, &format!("{label}: color"), stop.color);
+        if let Some(color) = color {
+            self.stops[self.selected].color = color;
+        }
+        let name = format!("{label}: position");
+        let whole = bar_of(ask, row, id, rect.with_min_x(middle), stop.at);
+        let bar = Bar {
+            name: &name,
+            inside: "At",
+            ends: [0.0, 1.0],
+            range: Some([0.0, 1.0]),
+            ..whole
+        };
+        let moved = bar.show(ui, ask).asked;
+        if let Some(at) = moved {
+            self.move_to(at);
+        }
+        color.is_some() || moved.is_some()
+    }
+
+    fn paint(&self, ui: &Ui, ask: &Asking<'_>, response: &Response, ramp: &Ramp) {
+        let theme = ask.theme;
+        let painter = ui.painter();
+        let whole = ramp.0.expand2(Vec2::new(HANDLES / 2.0, 0.0));
+        let [first, last] = [0.0, 1.0].map(|at| color_at(&self.stops, at));
+        painter.rect_filled(whole.with_max_x(whole.center().x), space::CORNER, first);
+        painter.rect_filled(whole.with_min_x(whole.center().x), space::CORNER, last);
+        paint_ramp(painter, ramp.0.shrink2(Vec2::new(0.0, 1.0)), &self.stops);
+        painter.rect_stroke(whole, space::CORNER, (1.0, theme.line), StrokeKind::Inside);
+        for (at, stop) in self.stops.iter().enumerate() {
+            let is_selected = at == self.selected;
+            let line = if is_selected { theme.accent } else { theme.quiet };
+            let tip = Pos2::new(ramp.x(stop.at), ramp.0.bottom() - 3.0);
+            let [half, height] = [HANDLES / 2.0 - 1.0, HANDLES + 2.0];
+            let house = [[0.0, 0.0], [half, 5.0], [half, height], [-half, height], [-half, 5.0]];
+            let house = house.map(|[x, y]| tip + Vec2::new(x, y)).to_vec();
+            let width = if is_selected { 2.0 } else { 1.0 };
+            painter.add(Shape::convex_polygon(house, stop.color, (width, line)));
+        }
+        focus_ring(ui, ask, response);
+    }
+}
+
+/// The color at a position, mixed in linear light as nodes do.
+fn color_at(stops: &[Stop], at: f64) -> Color32 {
+    let after = stops.partition_point(|stop| stop.at <= at);
+    let (Some(left), Some(right)) = (stops.get(after.saturating_sub(1)), stops.get(after).or(stops.last())) else {
+        return Color32::TRANSPARENT;
+    };
+    let share = ((at - left.at) / (right.at - left.at).max(1e-6)).clamp(0.0, 1.0) as f32;
+    Color32::from(egui::lerp(Rgba::from(left.color)..=Rgba::from(right.color), share))
+}
+
+/// Fills a box with the colors of a gradient, in pieces short enough to look like linear light.
+pub(super) fn paint_ramp(painter: &Painter, rect: Rect, stops: &[Stop]) {
+    const PARTS: u32 = 48;
+    let even = (0..=PARTS).map(|part| f64::from(part) / f64::from(PARTS));
+    // Two stops at one place are a border, with a color on either side.
+    let own = stops.iter().flat_map(|stop| [stop.at - 1e-6, stop.at]);
+    let mut places: Vec<f64> = even.chain(own).collect();
+    places.sort_by(f64::total_cmp);
+    let mut mesh = Mesh::default();
+    for (at, place) in places.iter().enumerate() {
+        let x = egui::lerp(rect.x_range(), *place as f32);
+        for y in [rect.top(), rect.bottom()] {
+            mesh.colored_vertex(Pos2::new(x, y), color_at(stops, *place));
+        }
+        if at > 0 {
+            let corner = 2 * at as u32;
+            mesh.add_triangle(corner - 2, corner - 1, corner);
+            mesh.add_triangle(corner - 1, corner, corner + 1);
+        }
+    }
+    painter.add(mesh);
+}

@@ -1,0 +1,157 @@
+use super::*;
+
+fn type_code(board: &mut Board, name: &str, code: &str) {
+    click(board, name);
+    board.event(Event::Text(code.to_owned()));
+    board.run();
+    key(board, Key::Enter);
+}
+
+#[test]
+fn a_color_is_typed_as_people_write_it_and_asked_for_as_files_hold_it() {
+    let mut board = board([knob("effect/layer.color")]);
+    for (written, expected) in [("#6B3A1E", "#6b3a1e"), ("fff", "#ffffff"), ("102030", "#102030")] {
+        type_code(&mut board, "Color: code", written);
+        assert_eq!(taken(&mut board), [set("color", expected)]);
+    }
+}
+
+#[test]
+fn what_is_no_color_changes_nothing_and_is_told() {
+    let mut board = board([knob("effect/layer.color")]);
+    for written in ["rust", "#12345", "#gggggg", "é€"] {
+        type_code(&mut board, "Color: code", written);
+        assert_eq!(taken(&mut board), []);
+        assert!(says(&board, "is no color: write six digits"), "{written}");
+    }
+}
+
+#[test]
+fn a_color_can_be_taken_from_the_screen() {
+    let mut board = board([knob("effect/layer.color")]);
+    click(&mut board, "Color: take from the screen");
+    let knob = "color".to_owned();
+    assert_eq!(taken(&mut board), [KnobEvent::Eyedropper { knob }]);
+}
+
+#[test]
+fn a_drag_in_the_picker_is_one_step() {
+    let mut board = board([knob("effect/layer.color")]);
+    let swatch = board.get_by_label("Color").rect();
+    click(&mut board, "Color");
+    // The field of colors lies below the numbers and the sample.
+    let field = swatch.left_bottom() + Vec2::new(90.0, 150.0);
+    drag(&mut board, field, Vec2::new(30.0, 20.0));
+    let log = taken(&mut board);
+    assert_eq!(
+        (log.first(), log.last()),
+        (Some(&KnobEvent::Began), Some(&KnobEvent::Ended)),
+        "{log:?}"
+    );
+    assert!(log.len() > 2 && held(&board) != Value::from("#808080"));
+}
+
+fn gradient(stops: &str) -> Board {
+    let mut gradient = knob("color/gradient.stops");
+    gradient.value = Some(json(stops));
+    board([gradient])
+}
+
+/// Where a stop of the gradient is held.
+fn handle(board: &Board, at: f32) -> Pos2 {
+    let area = board.get_by_label("Stops").rect().shrink2(Vec2::new(6.5, 0.0));
+    Pos2::new(egui::lerp(area.x_range(), at), area.bottom() - 4.0)
+}
+
+#[test]
+fn a_stop_is_dragged_past_another_one() {
+    let mut board = gradient(r##"[[0, "#000000"], [0.25, "#ff0000"], [1, "#ffffff"]]"##);
+    let [from, to] = [0.25, 0.75].map(|at| handle(&board, at));
+    drag(&mut board, from, to - from);
+    assert_eq!(
+        held(&board),
+        json(r##"[[0, "#000000"], [0.75, "#ff0000"], [1, "#ffffff"]]"##)
+    );
+    let [from, to] = [0.0, 0.9].map(|at| handle(&board, at));
+    drag(&mut board, from, to - from);
+    assert_eq!(
+        held(&board),
+        json(r##"[[0.75, "#ff0000"], [0.9, "#000000"], [1, "#ffffff"]]"##)
+    );
+    assert_eq!(
+        board.get_by_label("Stops").value().as_deref(),
+        Some("stop 2 of 3 at 0.9")
+    );
+}
+
+#[test]
+fn a_click_on_the_ramp_adds_a_stop_of_the_color_that_is_there() {
+    let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
+    let at = handle(&board, 0.5);
+    press(&mut board, at);
+    release(&mut board, at);
+    // Half of the light is 188 of 255 in sRGB.
+    assert_eq!(
+        held(&board),
+        json(r##"[[0, "#000000"], [0.5, "#bcbcbc"], [1, "#ffffff"]]"##)
+    );
+}
+
+#[test]
+fn a_stop_that_is_dragged_away_is_taken_out_but_not_the_last_one() {
+    let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
+    let at = handle(&board, 1.0);
+    press(&mut board, at);
+    pull(&mut board, at + Vec2::new(0.0, 90.0));
+    assert_eq!(held(&board), json(r##"[[0, "#000000"]]"##));
+    pull(&mut board, at + Vec2::new(-2.0, 10.0));
+    assert_eq!(
+        held(&board).as_list().map(<[Value]>::len),
+        Some(2),
+        "it comes back with the pointer"
+    );
+    pull(&mut board, at + Vec2::new(0.0, 90.0));
+    release(&mut board, at + Vec2::new(0.0, 90.0));
+    let at = handle(&board, 0.0);
+    drag(&mut board, at, Vec2::new(0.0, 90.0));
+    assert_eq!(held(&board), json(r##"[[0, "#000000"]]"##));
+}
+
+#[test]
+fn escape_brings_a_dragged_stop_back() {
+    let stops = r##"[[0, "#000000"], [1, "#ffffff"]]"##;
+    let mut board = gradient(stops);
+    let at = handle(&board, 1.0);
+    press(&mut board, at);
+    pull(&mut board, at + Vec2::new(-50.0, 90.0));
+    key(&mut board, Key::Escape);
+    assert_eq!(held(&board), json(stops));
+    assert_eq!(taken(&mut board).last(), Some(&KnobEvent::Ended));
+}
+
+#[test]
+fn a_full_gradient_says_so_instead_of_taking_another_stop() {
+    let stops: Vec<Value> = (0..8)
+        .map(|at| json(&format!(r##"[{}, "#808080"]"##, f64::from(at) / 10.0)))
+        .collect();
+    let mut board = gradient(&Value::List(stops).to_json());
+    let at = handle(&board, 0.95);
+    press(&mut board, at);
+    release(&mut board, at);
+    assert_eq!(taken(&mut board), []);
+    assert!(says(&board, "no more than 8 stops"));
+}
+
+#[test]
+fn a_stop_has_its_color_and_place_in_numbers() {
+    let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
+    type_into(&mut board, "Stops: position", "1/4");
+    type_code(&mut board, "Stops: color: code", "#102030");
+    assert_eq!(held(&board), json(r##"[[0.25, "#102030"], [1, "#ffffff"]]"##));
+    click(&mut board, "Stops: turn around");
+    assert_eq!(held(&board), json(r##"[[0, "#ffffff"], [0.75, "#102030"]]"##));
+    click(&mut board, "Stops: take the stop out");
+    assert_eq!(held(&board), json(r##"[[0, "#ffffff"]]"##));
+    click(&mut board, "Stops: add a stop");
+    assert_eq!(held(&board), json(r##"[[0, "#ffffff"], [0.5, "#ffffff"]]"##));
+}

@@ -1,0 +1,192 @@
+use super::*;
+
+fn changed() -> Board {
+    let mut opacity = knob("blend/mask.opacity");
+    opacity.value = Some(Value::Number(0.5));
+    board([opacity])
+}
+
+fn open_menu(board: &mut Board, name: &str) {
+    board.get_by_label(name).click_secondary();
+    board.run();
+}
+
+#[test]
+fn only_what_is_not_the_default_has_a_dot_which_resets_it() {
+    let mut board = changed();
+    click(&mut board, "Reset Opacity");
+    let knob = "opacity".to_owned();
+    assert_eq!(taken(&mut board), [KnobEvent::Reset { knob }]);
+    assert!(board.query_by_label("Reset Opacity").is_none());
+    board.state_mut().rows[0].value = Some(Value::Number(1.0));
+    board.run();
+    assert!(
+        board.query_by_label("Reset Opacity").is_none(),
+        "what is set to the default is the default"
+    );
+}
+
+#[test]
+fn the_menu_resets_publishes_and_takes_back() {
+    let mut board = changed();
+    open_menu(&mut board, "Opacity");
+    click(&mut board, "Put on the panel");
+    board.state_mut().rows[0].exposed = Some("amount");
+    open_menu(&mut board, "Opacity");
+    assert!(board.query_by_label("Put on the panel").is_none());
+    click(&mut board, "Take off the panel");
+    open_menu(&mut board, "Opacity");
+    click(&mut board, "Reset");
+    let knob = || "opacity".to_owned();
+    let expected = [
+        KnobEvent::Expose { knob: knob() },
+        KnobEvent::Unexpose { knob: knob() },
+        KnobEvent::Reset { knob: knob() },
+    ];
+    assert_eq!(taken(&mut board), expected);
+}
+
+#[test]
+fn the_menu_opens_by_keyboard_too() {
+    let mut board = changed();
+    focus(&mut board, "Opacity");
+    board.key_press_modifiers(Modifiers::SHIFT, Key::F10);
+    board.run();
+    assert!(board.query_by_label("Put on the panel").is_some());
+    key(&mut board, Key::Escape);
+    assert!(board.query_by_label("Put on the panel").is_none());
+}
+
+#[test]
+fn a_value_is_copied_as_a_file_would_have_it() {
+    let mut board = board([knob("effect/layer.color")]);
+    open_menu(&mut board, "Color");
+    board.get_by_label("Copy value").click();
+    board.step();
+    let copied = board
+        .output()
+        .platform_output
+        .commands
+        .iter()
+        .find_map(|command| match command {
+            egui::OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        });
+    assert_eq!(copied.as_deref(), Some("\"#808080\""));
+}
+
+/// Asks for the clipboard's text by the menu, which then holds `text`.
+fn paste(board: &mut Board, name: &str, text: &str) {
+    open_menu(board, name);
+    board.get_by_label("Paste value").click();
+    board.step();
+    board.event(Event::Paste(text.to_owned()));
+    board.run();
+}
+
+#[test]
+fn what_fits_can_be_pasted_and_what_does_not_is_told() {
+    let mut board = board([knob("effect/layer.color"), knob("blend/mask.opacity")]);
+    for text in ["\"#102030\"", " #102030\n"] {
+        board.state_mut().rows[0].value = None;
+        paste(&mut board, "Color", text);
+        assert_eq!(taken(&mut board), [set("color", "#102030")], "{text}");
+    }
+    for text in ["0.5", "[", "blue", ""] {
+        paste(&mut board, "Color", text);
+        assert_eq!(taken(&mut board), [], "{text}");
+        assert!(says(&board, "but Color takes a color"), "{text}");
+    }
+    paste(&mut board, "Opacity", "7");
+    assert_eq!(taken(&mut board), []);
+    assert!(says(&board, "but Opacity takes a number from 0 to 1"));
+}
+
+#[test]
+fn what_is_pasted_later_is_not_for_the_knob() {
+    let mut board = board([knob("blend/mask.opacity")]);
+    open_menu(&mut board, "Opacity");
+    click(&mut board, "Paste value");
+    board.run_steps(5);
+    board.event(Event::Paste("0.5".to_owned()));
+    board.run();
+    assert_eq!(taken(&mut board), []);
+}
+
+#[test]
+fn a_wired_input_says_where_its_value_comes_from() {
+    let mut wired = knob("blend/mask.below");
+    wired.wired = Some("Edges");
+    let board = board([wired]);
+    assert_eq!(board.get_by_label("Below").value().as_deref(), Some("from Edges"));
+}
+
+#[test]
+fn nodes_that_differ_show_no_value_and_take_one_together() {
+    let mut differing = knob("blend/mask.opacity");
+    differing.value = Some(Value::Number(0.5));
+    differing.differs = true;
+    let mut board = board([differing]);
+    assert_eq!(board.get_by_label("Opacity").value().as_deref(), Some("several"));
+    type_into(&mut board, "Opacity", "*=2");
+    assert_eq!(taken(&mut board), []);
+    assert!(says(&board, "The selected nodes differ here"));
+    key(&mut board, Key::Escape);
+    type_into(&mut board, "Opacity", "0.5");
+    assert_eq!(
+        taken(&mut board),
+        [set("opacity", 0.5)],
+        "also where one of them has it"
+    );
+}
+
+#[test]
+fn what_cannot_be_read_is_told_and_can_be_set_anew() {
+    for (name, label, value) in [
+        ("blend/mask.opacity", "Opacity", "\"much\""),
+        ("noise/simplex.octaves", "Detail", "2.5"),
+        ("noise/simplex.stretch", "Stretch X", "[1, 1]"),
+        ("noise/simplex.mode", "Mode", "\"spiral\""),
+        ("effect/layer.color", "Color", "\"red\""),
+        ("effect/layer.color_on", "Color on", "1"),
+        ("color/gradient.stops", "Stops", "[[2, \"#000000\"]]"),
+        ("adjust/curve.points", "Points", "[]"),
+        ("output/mask.name", "Name", "null"),
+    ] {
+        let mut broken = knob(name);
+        broken.value = Some(json(value));
+        let board = board([broken]);
+        assert!(says(&board, &format!("This holds {value}, but takes ")), "{name}");
+        assert!(board.query_by_label(label).is_some(), "{name}");
+    }
+}
+
+#[test]
+fn a_doc_is_told_to_those_who_point_at_the_name() {
+    let mut board = changed();
+    board.state_mut().rows[0].knob.doc = "How much of `above` is seen.".to_owned();
+    let bar = board.get_by_label("Opacity").rect();
+    board.hover_at(Pos2::new(40.0, bar.center().y));
+    board.run_steps(60);
+    assert!(says(&board, "How much of above is seen."));
+    assert!(says(&board, "opacity, 0 to 1, default 1"));
+}
+
+#[test]
+fn every_knob_of_every_kind_is_shown_under_its_name() {
+    for entry in CATALOG.entries().filter(|entry| !entry.knobs.is_empty()) {
+        let rows = entry.knobs.iter().map(shown);
+        let board = board_of(rows, Shade::Light, None, Vec2::new(320.0, 4000.0));
+        for knob in &entry.knobs {
+            let is_vector = matches!(knob.default, Value::List(_)) && (2..=4).contains(&knob.components);
+            let name = if is_vector {
+                format!("{} X", knob.label)
+            } else {
+                knob.label.clone()
+            };
+            let found = board.query_all_by_label(&name).count();
+            assert!(found >= 1, "{} has no widget called {name}", entry.id);
+            assert!(!says(&board, "but takes"), "{}", entry.id);
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Texts and the paths of files.
+
+use egui::{Id, Rect, Ui};
+use egui_phosphor::regular as icon;
+use sabi_graph::Value;
+
+use super::asking::Asking;
+use super::buttons::sign_button;
+use super::numbers::cut_square;
+use super::typing::{Field, Typed};
+use super::{KnobEvent, KnobRow, row};
+
+pub(super) fn text(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str) {
+    let typed = ask.field(
+        ui,
+        &Field {
+            id: id.with("text"),
+            rect,
+            name: &row.knob.label,
+            shown: if row.differs { "" } else { text },
+            hint: if row.differs { "several" } else { "" },
+        },
+    );
+    if let Typed::Taken(text) = typed {
+        ask.set(row, Value::Text(text));
+    }
+}
+
+pub(super) fn file(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, path: &str) {
+    let browse = cut_square(&mut rect);
+    text(ui, ask, row, id, rect, path);
+    let name = format!("{}: choose a file", row.knob.label);
+    if sign_button(ui, ask, id.with("browse"), browse, icon::FOLDER_OPEN, &name).clicked() {
+        let knob = row.knob.name.clone();
+        ask.events.push(KnobEvent::Browse { knob });
+    }
+    if path.is_empty() && !row.differs {
+        let sentence = "No file yet: choose one, or type its path from the folder of the graph.";
+        row::sentence(ui, id.with("empty"), rect.left(), sentence, ask.theme.warning);
+    }
+}

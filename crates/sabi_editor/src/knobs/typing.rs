@@ -1,0 +1,125 @@
+//! Fields for one line of text.
+
+use egui::text::{CCursor, CCursorRange};
+use egui::{Align, Frame, Id, Key, Margin, Rect, Response, StrokeKind, TextEdit, Ui};
+
+use super::asking::Asking;
+use crate::theme::{space, type_size};
+
+/// The field that is typed into.
+#[derive(Clone, Debug)]
+pub(super) struct Typing {
+    id: Id,
+    text: String,
+    /// It has to be given the keyboard yet.
+    is_new: bool,
+    /// All of its text is to be selected then.
+    is_selected: bool,
+}
+
+/// What became of a field in this frame.
+#[derive(Debug, PartialEq)]
+pub(super) enum Typed {
+    /// Nothing yet.
+    Nothing,
+    /// It was left with the text that was there.
+    Left,
+    /// This was typed.
+    Taken(String),
+}
+
+/// A field for one line of text.
+pub(super) struct Field<'f> {
+    pub(super) id: Id,
+    pub(super) rect: Rect,
+    /// What it is called.
+    pub(super) name: &'f str,
+    /// Its text while nothing is typed.
+    pub(super) shown: &'f str,
+    /// What is shown where there is no text.
+    pub(super) hint: &'f str,
+}
+
+impl Asking<'_> {
+    /// Opens a field that is shown only while something is typed.
+    pub(super) fn open_field(&mut self, id: Id, text: String, is_selected: bool) {
+        self.memory.typing = Some(Typing {
+            id,
+            text,
+            is_new: true,
+            is_selected,
+        });
+    }
+
+    pub(super) fn is_typing(&self, id: Id) -> bool {
+        self.memory.typing.as_ref().is_some_and(|typing| typing.id == id)
+    }
+
+    /// Shows a field.
+    pub(super) fn field(&mut self, ui: &mut Ui, field: &Field<'_>) -> Typed {
+        let mut typing = self.memory.typing.take_if(|typing| typing.id == field.id);
+        let mut text = match &mut typing {
+            Some(typing) => std::mem::take(&mut typing.text),
+            None => field.shown.to_owned(),
+        };
+        let response = self.edit(ui, field, &mut text);
+        let Some(mut typing) = typing else {
+            if response.gained_focus() {
+                select_all(&response, &text);
+                self.open_field(field.id, text, true);
+            }
+            return Typed::Nothing;
+        };
+        if typing.is_new {
+            response.request_focus();
+            if typing.is_selected {
+                select_all(&response, &text);
+            }
+            typing.is_new = false;
+        }
+        if response.changed() {
+            self.memory.fault = None;
+        }
+        if response.has_focus() {
+            self.memory.typing = Some(Typing { text, ..typing });
+            return Typed::Nothing;
+        }
+        // Where the focus was lost unseen, nobody has taken what was typed.
+        let is_taken = response.lost_focus() && !ui.input(|input| input.key_pressed(Key::Escape));
+        match is_taken && text != field.shown {
+            true => Typed::Taken(text),
+            false => Typed::Left,
+        }
+    }
+
+    fn edit(&self, ui: &mut Ui, field: &Field<'_>, text: &mut String) -> Response {
+        let theme = self.theme;
+        let painter = ui.painter();
+        let has_focus = ui.memory(|memory| memory.has_focus(field.id));
+        painter.rect_filled(field.rect, space::CORNER, theme.raised);
+        let line = if has_focus { theme.accent } else { theme.line };
+        painter.rect_stroke(field.rect, space::CORNER, (1.0, line), StrokeKind::Inside);
+        let hint = egui::RichText::new(field.hint).color(theme.quiet);
+        let edit = TextEdit::singleline(text)
+            .id(field.id)
+            .frame(Frame::NONE.inner_margin(Margin::symmetric(6, 0)))
+            .font(egui::FontId::proportional(type_size::BODY * self.zoom))
+            .text_color(theme.text)
+            .hint_text(hint)
+            .vertical_align(Align::Center)
+            .desired_width(field.rect.width())
+            .min_size(field.rect.size());
+        let response = ui.place(field.rect, edit);
+        ui.ctx()
+            .accesskit_node_builder(field.id, |node| node.set_label(field.name));
+        response
+    }
+}
+
+/// Typing then replaces all that is there.
+fn select_all(response: &Response, text: &str) {
+    let mut state = TextEdit::load_state(&response.ctx, response.id).unwrap_or_default();
+    let all = CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()));
+    state.cursor.set_char_range(Some(all));
+    state.store(&response.ctx, response.id);
+}

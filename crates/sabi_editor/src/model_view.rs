@@ -1,0 +1,429 @@
+//! The model in the light, as one turns it about.
+
+mod environment;
+mod menu;
+
+use std::time::{Duration, Instant};
+
+use eframe::egui_wgpu::RenderState;
+use egui::{Align2, Color32, FontId, PointerButton, Rect, Sense, Stroke, TextureId, Ui, WidgetInfo, WidgetType, pos2};
+use glam::Vec2;
+use sabi_engine::view::{
+    Background, Camera, Lens, Lines, Mode, Picked, Scene, Shot, Viewpoint, Viewport, aspect_of, pick,
+};
+use sabi_engine::{EngineError, LiveModel, Seen};
+
+use crate::command::Command;
+use crate::stage::{Picture, Stage};
+use crate::theme::{Theme, type_size};
+use environment::Surroundings;
+
+/// After the last movement the picture rests.
+const REST: Duration = Duration::from_millis(180);
+/// Samples of a picture at rest.
+const SAMPLES: u32 = 8;
+
+/// One picture on the screen: what draws it, and by which name the window knows it.
+struct Screen {
+    viewport: Viewport,
+    texture: Option<(TextureId, wgpu::Texture)>,
+}
+
+/// The model in the light.
+pub(crate) struct ModelView {
+    /// What the knobs or the graph show, and what is locked for comparison.
+    screens: [Option<Screen>; 2],
+    pub(crate) camera: Camera,
+    /// The model that the camera was set up for.
+    framed: Option<(u64, std::path::PathBuf)>,
+    surroundings: Surroundings,
+    pub(crate) shot: Shot,
+    /// Where the picture of the locked node begins, as a share of the width; none without comparison.
+    pub(crate) wipe: Option<f32>,
+    moved: Option<Instant>,
+    /// Why there is no picture.
+    fault: Option<String>,
+    /// A length that is shown as a bar, working units.
+    pub(crate) length: Option<f64>,
+    /// Pictures that were drawn, for counting.
+    pub(crate) drawn: u64,
+}
+
+/// What is shown.
+pub(crate) struct Subject<'a> {
+    pub(crate) seen: &'a Seen,
+    /// What it is compared with.
+    pub(crate) locked: Option<&'a Seen>,
+    /// Whether a knob is being moved.
+    pub(crate) is_moving: bool,
+    pub(crate) theme: &'a Theme,
+}
+
+/// What was done in the view.
+#[derive(Default)]
+pub(crate) struct Done {
+    /// The surface that was clicked.
+    pub(crate) picked: Option<Picked>,
+    /// The environment that was chosen.
+    pub(crate) environment: Option<String>,
+}
+
+impl ModelView {
+    pub(crate) fn new(environment: &str) -> ModelView {
+        let camera = Camera::seen_from(
+            Viewpoint::THREE_QUARTER,
+            [glam::Vec3::splat(-0.5), glam::Vec3::splat(0.5)],
+            1.0,
+        );
+        ModelView {
+            screens: [None, None],
+            shot: Shot {
+                samples: SAMPLES,
+                ..Shot::new(camera)
+            },
+            camera,
+            framed: None,
+            surroundings: Surroundings::new(environment),
+            wipe: None,
+            moved: None,
+            fault: None,
+            length: None,
+            drawn: 0,
+        }
+    }
+
+    /// Takes another environment: a built-in name, or a file.
+    pub(crate) fn choose_environment(&mut self, choice: &str) {
+        self.surroundings.choose(choice);
+    }
+
+    /// Draws the model and lets it be turned.
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut Ui,
+        stage: &Stage,
+        render: Option<&RenderState>,
+        subject: &Subject<'_>,
+    ) -> Done {
+        let mut done = Done::default();
+        self.surroundings.poll(stage, ui.ctx());
+        let rect = ui.available_rect_before_wrap();
+        if !rect.is_positive() {
+            return done;
+        }
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Model"));
+        ui.painter().rect_filled(rect, 0.0, subject.theme.ground);
+        let picture = stage.picture(subject.seen).cloned();
+        if let Some(picture) = &picture {
+            self.frame_new(&picture.model, rect);
+            self.turn(ui, &response, rect, &picture.model, &mut done);
+        }
+        match (render, &picture) {
+            (Some(render), Some(picture)) => self.paint(ui, rect, stage, render, picture, subject),
+            (None, _) => self.say(
+                ui,
+                rect,
+                subject.theme,
+                "This window has no graphics device to draw the model with.",
+            ),
+            (_, None) => {
+                let why = stage.model_failure.as_deref().unwrap_or("Reading the model…");
+                self.say(ui, rect, subject.theme, why);
+            }
+        }
+        if let Some(fault) = &self.fault {
+            self.say(ui, rect, subject.theme, fault);
+        }
+        self.draw_length(ui, rect, stage, subject.theme);
+        done.environment = menu::show(self, ui, rect, stage, subject);
+        done
+    }
+
+    fn say(&self, ui: &Ui, rect: Rect, theme: &Theme, sentence: &str) {
+        let font = FontId::proportional(type_size::BODY);
+        let text = ui
+            .painter()
+            .layout(sentence.to_owned(), font, theme.quiet, rect.width() * 0.8);
+        let at = Align2::CENTER_CENTER.anchor_size(rect.center(), text.size());
+        ui.painter().galley(at.min, text, theme.quiet);
+    }
+
+    /// Looks at a model that is new from the usual side.
+    fn frame_new(&mut self, model: &LiveModel, rect: Rect) {
+        let file = model.prepared.model.files.first().cloned().unwrap_or_default();
+        let now = (model.model_revision, file);
+        let is_same = self.framed.as_ref().is_some_and(|(_, known)| *known == now.1);
+        if !is_same {
+            let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+            self.camera = Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, aspect(rect));
+        }
+        self.framed = Some(now);
+    }
+
+    /// Turns, moves and zooms as the pointer wants.
+    fn turn(&mut self, ui: &Ui, response: &egui::Response, rect: Rect, model: &LiveModel, done: &mut Done) {
+        let (delta, modifiers, scroll) =
+            ui.input(|input| (input.pointer.delta(), input.modifiers, input.smooth_scroll_delta().y));
+        let size = Vec2::new(rect.width(), rect.height());
+        let drag = Vec2::new(delta.x, delta.y);
+        let by = |button| response.dragged_by(button) && delta != egui::Vec2::ZERO;
+        let before = (self.camera, self.shot.environment_turn_degrees);
+        if by(PointerButton::Primary) && self.is_on_wipe(response, rect) {
+            let at = ui.input(|input| input.pointer.latest_pos()).unwrap_or(rect.center());
+            self.wipe = Some(((at.x - rect.left()) / rect.width()).clamp(0.02, 0.98));
+        } else if by(PointerButton::Primary) && !modifiers.shift {
+            self.camera.orbit(drag, size);
+        } else if by(PointerButton::Middle) && modifiers.alt | !modifiers.any() || by(PointerButton::Primary) {
+            self.camera.pan(drag, size);
+        } else if by(PointerButton::Middle) {
+            self.camera.orbit(drag, size);
+        } else if by(PointerButton::Secondary) && modifiers.shift {
+            self.shot.environment_turn_degrees += delta.x / rect.width().max(1.0) * 360.0;
+        } else if by(PointerButton::Secondary) {
+            self.camera.zoom((-delta.y * 0.01).exp());
+        }
+        let pointer = response.hover_pos();
+        if let Some(at) = pointer.filter(|_| scroll != 0.0 && response.contains_pointer()) {
+            self.camera
+                .zoom_at(share(rect, at), aspect(rect), (-scroll * 0.0025).exp());
+        }
+        if before != (self.camera, self.shot.environment_turn_degrees) {
+            self.moved = Some(Instant::now());
+        }
+        if response.clicked()
+            && let Some(at) = response.interact_pointer_pos()
+        {
+            done.picked = self.picked(model, rect, at);
+        }
+    }
+
+    fn is_on_wipe(&self, response: &egui::Response, rect: Rect) -> bool {
+        let origin = response.ctx.input(|input| input.pointer.press_origin());
+        let at = self.wipe.map(|wipe| rect.left() + wipe * rect.width());
+        at.zip(origin).is_some_and(|(at, origin)| {
+            let grabbed = response
+                .ctx
+                .input(|input| input.pointer.latest_pos())
+                .map_or(f32::INFINITY, |now| (now.x - at).abs());
+            (origin.x - at).abs() < 8.0 || grabbed < 8.0
+        })
+    }
+
+    /// What is under a place of the screen.
+    fn picked(&self, model: &LiveModel, rect: Rect, at: egui::Pos2) -> Option<Picked> {
+        let prepared = &model.prepared;
+        let bvh = prepared.bvh.get()?;
+        let ray = self.camera.ray(share(rect, at), aspect(rect));
+        pick(bvh, &prepared.model.mesh, &prepared.atlas, ray, &model.placement)
+    }
+
+    /// Does what a key means here.
+    pub(crate) fn command(
+        &mut self,
+        command: Command,
+        stage: &Stage,
+        seen: &Seen,
+        rect: Rect,
+        pointer: Option<egui::Pos2>,
+    ) {
+        let Some(model) = stage.picture(seen).map(|picture| picture.model.clone()) else {
+            return;
+        };
+        let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+        let from = |viewpoint| Camera::seen_from(viewpoint, bounds, aspect(rect));
+        match command {
+            Command::FrameModel => self.camera.frame_box(bounds[0], bounds[1], aspect(rect)),
+            Command::FocusModel => {
+                if let Some(picked) = pointer.and_then(|at| self.picked(&model, rect, at)) {
+                    self.camera.focus(picked.position_view, None);
+                }
+            }
+            Command::Front => self.camera = from(Viewpoint::FRONT),
+            Command::Right => self.camera = from(Viewpoint::at(90.0, 0.0)),
+            Command::Top => self.camera = from(Viewpoint::at(0.0, 90.0)),
+            Command::Lens => {
+                self.camera.lens = match self.camera.lens {
+                    Lens::Perspective => Lens::Orthographic,
+                    Lens::Orthographic => Lens::Perspective,
+                }
+            }
+            Command::Wires => self.toggle_lines(Lines::Wires),
+            Command::Seams => self.toggle_lines(Lines::Seams),
+            Command::Wipe => self.wipe = if self.wipe.is_some() { None } else { Some(0.5) },
+            _ => return,
+        }
+        self.moved = Some(Instant::now());
+    }
+
+    fn toggle_lines(&mut self, lines: Lines) {
+        match self.shot.lines.iter().position(|known| *known == lines) {
+            Some(at) => {
+                self.shot.lines.remove(at);
+            }
+            None => self.shot.lines.push(lines),
+        }
+    }
+
+    fn paint(
+        &mut self,
+        ui: &Ui,
+        rect: Rect,
+        stage: &Stage,
+        render: &RenderState,
+        picture: &Picture,
+        subject: &Subject<'_>,
+    ) {
+        let is_turning = self.moved.is_some_and(|moved| moved.elapsed() < REST);
+        if is_turning {
+            ui.ctx().request_repaint_after(REST);
+        }
+        let is_moving = is_turning || subject.is_moving;
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let locked = subject.locked.and_then(|seen| stage.picture(seen)).cloned();
+        let wipe = self.wipe.zip(locked);
+        let first = self.refreshed(0, ui, rect, stage, render, picture, is_moving);
+        let Some(first) = first else { return };
+        ui.painter().image(first, rect, whole, Color32::WHITE);
+        let Some((share, locked)) = wipe else { return };
+        let Some(other) = self.refreshed(1, ui, rect, stage, render, &locked, is_moving) else {
+            return;
+        };
+        let at = rect.left() + share * rect.width();
+        let right = Rect::from_min_max(pos2(at, rect.top()), rect.max);
+        let uv = Rect::from_min_max(pos2(share, 0.0), pos2(1.0, 1.0));
+        ui.painter().image(other, right, uv, Color32::WHITE);
+        ui.painter()
+            .vline(at, rect.y_range(), Stroke::new(1.5, subject.theme.accent));
+    }
+
+    /// One picture, drawn as far as it has to be; none where that failed, which is then said.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "what is drawn where, with what, of what, and how well"
+    )]
+    fn refreshed(
+        &mut self,
+        at: usize,
+        ui: &Ui,
+        rect: Rect,
+        stage: &Stage,
+        render: &RenderState,
+        picture: &Picture,
+        is_moving: bool,
+    ) -> Option<TextureId> {
+        let scale = ui.ctx().pixels_per_point();
+        let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
+        let drawn = self.draw(at, stage, picture, size, is_moving);
+        match drawn {
+            Ok(has_drawn) => {
+                self.fault = None;
+                if has_drawn {
+                    self.drawn += 1;
+                    ui.ctx().request_repaint();
+                }
+            }
+            Err(error) => {
+                self.fault = Some(error.to_string());
+                return None;
+            }
+        }
+        let screen = self.screens[at].as_mut()?;
+        let shown = screen.viewport.picture()?.texture().clone();
+        if let Some((id, known)) = &screen.texture
+            && *known == shown
+        {
+            return Some(*id);
+        }
+        let view = shown.create_view(&wgpu::TextureViewDescriptor::default());
+        let mut renderer = render.renderer.write();
+        let filter = wgpu::FilterMode::Linear;
+        let id = match &screen.texture {
+            Some((id, _)) => {
+                renderer.update_egui_texture_from_wgpu_texture(&render.device, &view, filter, *id);
+                *id
+            }
+            None => renderer.register_native_texture(&render.device, &view, filter),
+        };
+        screen.texture = Some((id, shown));
+        Some(id)
+    }
+
+    fn draw(
+        &mut self,
+        at: usize,
+        stage: &Stage,
+        picture: &Picture,
+        size: [u32; 2],
+        is_moving: bool,
+    ) -> Result<bool, EngineError> {
+        let Some(environment) = self.surroundings.environment() else {
+            return Ok(false);
+        };
+        let gpu = stage.gpu();
+        if self.screens[at].is_none() {
+            self.screens[at] = Some(Screen {
+                viewport: Viewport::new(gpu)?,
+                texture: None,
+            });
+        }
+        let Some(screen) = &mut self.screens[at] else {
+            return Ok(false);
+        };
+        let scene = Scene {
+            model: &picture.model.view,
+            looks: &picture.shown.looks,
+            look_of_material: &picture.shown.look_of_material,
+            environment,
+            lights: &[],
+        };
+        let shot = Shot {
+            camera: self.camera,
+            mode: if picture.shown.is_lit {
+                self.shot.mode
+            } else {
+                Mode::Node
+            },
+            height_range: picture.shown.height_range,
+            ..self.shot.clone()
+        };
+        // An environment that was changed is another picture too.
+        let revision = picture.number ^ (self.surroundings.number() << 48);
+        Ok(screen.viewport.show(gpu, &scene, revision, &shot, size, is_moving)?)
+    }
+
+    /// A bar as long as a length on the model, at the distance that is looked at.
+    fn draw_length(&self, ui: &Ui, rect: Rect, stage: &Stage, theme: &Theme) {
+        let (Some(length), Some(model)) = (self.length, &stage.shown_model) else {
+            return;
+        };
+        let view_from_working = model.placement.scale / model.prepared.working_from_model(&model.fit);
+        let points = (length * view_from_working) as f32 / self.camera.height_at_target() * rect.height();
+        let width = points.clamp(1.0, rect.width() - 40.0);
+        let start = pos2(rect.left() + 20.0, rect.bottom() - 24.0);
+        let end = start + egui::vec2(width, 0.0);
+        let stroke = Stroke::new(2.0, theme.accent);
+        ui.painter().line_segment([start, end], stroke);
+        for at in [start, end] {
+            ui.painter()
+                .line_segment([at - egui::vec2(0.0, 5.0), at + egui::vec2(0.0, 5.0)], stroke);
+        }
+    }
+}
+
+/// How a background is called.
+pub(crate) const BACKGROUNDS: [(&str, Background); 3] = [
+    ("Out of focus", Background::Blurred),
+    ("Sharp", Background::Environment),
+    ("Plain", Background::Plain([0.028, 0.029, 0.032])),
+];
+
+fn aspect(rect: Rect) -> f32 {
+    aspect_of(Vec2::new(rect.width(), rect.height()))
+}
+
+/// A place of the screen as a share of the picture.
+fn share(rect: Rect, at: egui::Pos2) -> Vec2 {
+    let share = (at - rect.min) / rect.size();
+    Vec2::new(share.x, share.y)
+}

@@ -1,0 +1,111 @@
+//! What stands in the corner of the view: how the model is shown, and in which light.
+
+use egui::{Rect, Ui, UiBuilder, vec2};
+use egui_phosphor::regular as icon;
+use sabi_engine::built_in_environments;
+use sabi_engine::view::{Lines, Mode, ViewTransform};
+
+use super::{BACKGROUNDS, ModelView, Subject};
+use crate::stage::Stage;
+
+/// What the model can be shown as, with what it is called.
+const MODES: [(&str, Mode); 14] = [
+    ("Material", Mode::Material),
+    ("Base color", Mode::BaseColor),
+    ("Opacity", Mode::Opacity),
+    ("Roughness", Mode::Roughness),
+    ("Metallic", Mode::Metallic),
+    ("Occlusion", Mode::Occlusion),
+    ("Height", Mode::Height),
+    ("Normal", Mode::Normal),
+    ("Normal on the model", Mode::ModelNormal),
+    ("Emission", Mode::Emission),
+    ("Checker", Mode::Checker),
+    ("Density of texels", Mode::Density),
+    ("Facing", Mode::Facing),
+    ("Clay", Mode::Clay),
+];
+
+/// Draws the menus; answers with an environment that was chosen.
+pub(super) fn show(
+    view: &mut ModelView,
+    ui: &mut Ui,
+    rect: Rect,
+    stage: &Stage,
+    subject: &Subject<'_>,
+) -> Option<String> {
+    let strip = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(rect.width() - 12.0, 24.0));
+    let mut chosen = None;
+    ui.scope_builder(UiBuilder::new().max_rect(strip), |ui| {
+        ui.horizontal(|ui| {
+            let mode = MODES
+                .iter()
+                .find(|(_, mode)| *mode == view.shot.mode)
+                .map_or("Material", |(name, _)| name);
+            ui.menu_button(format!("{} {mode}", icon::SPHERE), |ui| {
+                for (name, mode) in MODES {
+                    ui.selectable_value(&mut view.shot.mode, mode, name);
+                }
+            });
+            ui.menu_button(format!("{} Light", icon::SUN), |ui| chosen = light(view, ui));
+            ui.menu_button(format!("{} Show", icon::EYE), |ui| more(view, ui, stage));
+            if view.wipe.is_some() && subject.locked.is_none() {
+                ui.colored_label(subject.theme.warning, "Lock a node (P) to compare with it");
+            }
+        });
+    });
+    if let Some(choice) = &chosen {
+        view.surroundings.choose(choice);
+    }
+    chosen
+}
+
+fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
+    let mut chosen = None;
+    for name in built_in_environments() {
+        let label = name.replace('_', " ");
+        if ui.selectable_label(view.surroundings.choice() == name, label).clicked() {
+            chosen = Some(name.to_owned());
+        }
+    }
+    if let Some(fault) = &view.surroundings.fault {
+        ui.label(fault);
+    }
+    ui.separator();
+    ui.add(
+        egui::Slider::new(&mut view.shot.environment_turn_degrees, -180.0..=180.0)
+            .text("Turn")
+            .suffix("°"),
+    );
+    ui.add(egui::Slider::new(&mut view.shot.environment_strength, 0.0..=4.0).text("Strength"));
+    ui.add(egui::Slider::new(&mut view.shot.exposure_stops, -6.0..=6.0).text("Exposure"));
+    ui.separator();
+    for (name, transform) in [
+        ("AgX", ViewTransform::AgX),
+        ("ACES", ViewTransform::Aces),
+        ("Standard", ViewTransform::Standard),
+    ] {
+        ui.selectable_value(&mut view.shot.transform, transform, name);
+    }
+    chosen
+}
+
+fn more(view: &mut ModelView, ui: &mut Ui, stage: &Stage) {
+    for (name, lines) in [("Triangles", Lines::Wires), ("Seams", Lines::Seams)] {
+        let mut is_shown = view.shot.lines.contains(&lines);
+        if ui.checkbox(&mut is_shown, name).changed() {
+            view.toggle_lines(lines);
+        }
+    }
+    ui.checkbox(&mut view.shot.has_relief, "Relief");
+    ui.separator();
+    for (name, background) in BACKGROUNDS {
+        ui.selectable_value(&mut view.shot.background, background, name);
+    }
+    let quality = sabi_engine::view::Quality::of(stage.gpu().summary().kind);
+    if let Some(remark) = quality.remark() {
+        ui.separator();
+        ui.set_max_width(260.0);
+        ui.weak(remark);
+    }
+}

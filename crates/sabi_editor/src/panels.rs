@@ -1,0 +1,19 @@
+//! The panels beside canvas, model and texture.
+
+pub(crate) mod export;
+pub(crate) mod history;
+pub(crate) mod library;
+pub(crate) mod page;
+pub(crate) mod parameters;
+pub(crate) mod performance;
+pub(crate) mod problems;
+pub(crate) mod stack;
+
+/// What panels hold from frame to frame.
+#[derive(Default)]
+pub(crate) struct Panels {
+    pub(crate) parameters: parameters::Parameters,
+    pub(crate) library: library::Library,
+    pub(crate) export: export::Export,
+    pub(crate) page: page::Page,
+}

@@ -1,0 +1,159 @@
+//! Finding a node by what somebody calls it: fuzzy over names, other tools' names and descriptions.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
+use nucleo_matcher::{Config, Matcher, Utf32Str};
+use sabi_engine::catalog::{Catalog, Entry, Faces};
+
+use crate::action::New;
+
+/// What may be added.
+#[derive(Clone, Debug)]
+pub(crate) struct Candidate {
+    pub(crate) new: New,
+    pub(crate) face: Arc<Entry>,
+    /// Where it stands in a menu: a category, or where a group comes from.
+    pub(crate) section: String,
+}
+
+/// A group in a library folder.
+#[derive(Clone, Debug)]
+pub(crate) struct Shelved {
+    pub(crate) file: PathBuf,
+    pub(crate) face: Arc<Entry>,
+}
+
+/// Everything that may be added, by section.
+pub(crate) fn candidates(catalog: &Catalog, faces: &Faces, groups: &[String], shelf: &[Shelved]) -> Vec<Candidate> {
+    let kinds = catalog.entries().map(|entry| Candidate {
+        new: New::Kind(entry.id.clone()),
+        section: entry.category().to_owned(),
+        face: entry.clone(),
+    });
+    let own = groups.iter().filter_map(|name| {
+        Some(Candidate {
+            new: New::Group(name.clone()),
+            face: faces.of_group(name)?.clone(),
+            section: "groups here".to_owned(),
+        })
+    });
+    let shelved = shelf.iter().map(|shelved| Candidate {
+        new: New::Library(shelved.file.clone()),
+        face: shelved.face.clone(),
+        section: "library".to_owned(),
+    });
+    kinds.chain(own).chain(shelved).collect()
+}
+
+/// How much a match counts by where it is: what a thing is called before what is said of it.
+const LABEL: u32 = 8;
+const ALIAS: u32 = 6;
+const ID: u32 = 5;
+const SUMMARY: u32 = 1;
+/// A description is only found by words as they stand there: fuzzily, any text has any few letters.
+const SUMMARY_SCORE: u32 = 40;
+
+/// Those that match every word of a query, the best first; all of them in order for an empty one.
+pub(crate) fn ranked<'c>(candidates: &'c [Candidate], query: &str) -> Vec<&'c Candidate> {
+    let words: Vec<&str> = query.split_whitespace().collect();
+    if words.is_empty() {
+        return candidates.iter().collect();
+    }
+    let mut matcher = Matcher::new(Config::DEFAULT);
+    let patterns: Vec<(Pattern, String)> = words
+        .iter()
+        .map(|word| {
+            let pattern = Pattern::parse(word, CaseMatching::Ignore, Normalization::Smart);
+            (pattern, word.to_lowercase())
+        })
+        .collect();
+    let mut scored: Vec<(u32, &Candidate)> = candidates
+        .iter()
+        .filter_map(|candidate| Some((score(&mut matcher, &patterns, candidate)?, candidate)))
+        .collect();
+    scored.sort_by(|(one, a), (other, b)| other.cmp(one).then_with(|| a.face.label.cmp(&b.face.label)));
+    scored.into_iter().map(|(_, candidate)| candidate).collect()
+}
+
+/// The sum of the best matches of all words; none where one does not match at all.
+fn score(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Candidate) -> Option<u32> {
+    let face = &candidate.face;
+    let mut sum = 0;
+    for (pattern, word) in patterns {
+        let mut best = 0;
+        let mut letters = Vec::new();
+        let mut try_text = |text: &str, weight: u32, best: &mut u32| {
+            letters.clear();
+            let found = pattern.score(Utf32Str::new(text, &mut letters), matcher);
+            // Shorter names are meant before longer ones that begin alike.
+            let found = found.map_or(0, |found| found * weight * 100 / (100 + text.chars().count() as u32));
+            *best = (*best).max(found);
+        };
+        try_text(&face.label, LABEL, &mut best);
+        try_text(&face.id, ID, &mut best);
+        for alias in &face.aliases {
+            try_text(alias, ALIAS, &mut best);
+        }
+        if face.summary.to_lowercase().contains(word.as_str()) {
+            best = best.max(SUMMARY * SUMMARY_SCORE);
+        }
+        if best == 0 {
+            return None;
+        }
+        sum += best;
+    }
+    Some(sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_engine::Kinds;
+
+    use super::*;
+
+    fn found(query: &str) -> Vec<String> {
+        let catalog = Catalog::new(&Kinds::builtin());
+        let candidates = candidates(&catalog, &Faces::default(), &[], &[]);
+        ranked(&candidates, query)
+            .iter()
+            .map(|candidate| candidate.face.id.clone())
+            .collect()
+    }
+
+    #[test]
+    fn a_node_is_found_by_its_name_its_id_and_other_tools_names() {
+        let first = [
+            ("simplex", "noise/simplex"),
+            ("smplx", "noise/simplex"),
+            ("blur", "filter/blur"),
+            ("levels", "adjust/levels"),
+            ("voronoi", "noise/cells"),
+            ("worley", "noise/cells"),
+            ("fbm", "noise/simplex"),
+            ("invert", "adjust/invert"),
+            ("output material", "output/material"),
+            ("curvature", "surface/curvature"),
+        ];
+        for (query, id) in first {
+            let found = found(query);
+            assert!(
+                found.iter().take(3).any(|known| known == id),
+                "{query}: {:?}",
+                &found[..found.len().min(5)]
+            );
+        }
+    }
+
+    #[test]
+    fn every_word_has_to_match() {
+        assert!(found("blend mask").contains(&"blend/mask".to_owned()));
+        assert!(!found("blend zzzz").contains(&"blend/mask".to_owned()));
+    }
+
+    #[test]
+    fn nothing_typed_shows_everything() {
+        assert!(found("").len() > 40);
+    }
+}

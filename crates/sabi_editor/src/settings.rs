@@ -1,0 +1,155 @@
+//! What is kept between runs: looks, keys, layout, and files that were open.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::command::Habit;
+use crate::dock::Layout;
+use crate::theme::Shade;
+
+const FILE: &str = "settings.json";
+/// Files that are remembered.
+const MOST_RECENT: usize = 12;
+/// Models on the strip.
+pub(crate) const MOST_MODELS: usize = 6;
+
+/// What is kept between runs.
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct Settings {
+    pub(crate) shade: Shade,
+    /// Everything is so many times as large.
+    pub(crate) scale: f32,
+    pub(crate) habit: Habit,
+    /// Commands bound to other keys, by name.
+    pub(crate) keys: BTreeMap<String, Vec<String>>,
+    /// Files that were open, the last one first.
+    pub(crate) recent: Vec<PathBuf>,
+    /// Models that graphs are tried on.
+    pub(crate) models: Vec<PathBuf>,
+    /// Whether pictures on nodes show texture space.
+    pub(crate) is_flat: bool,
+    /// Whether textures are exported again at every save.
+    pub(crate) exports_on_save: bool,
+    /// Environment of the viewport: a built-in name, or a file.
+    pub(crate) environment: String,
+    pub(crate) layout: Option<Layout>,
+    /// Node kinds and library files that are shown first.
+    pub(crate) favorites: Vec<String>,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            shade: Shade::Dark,
+            scale: 1.0,
+            habit: Habit::Default,
+            keys: BTreeMap::new(),
+            recent: Vec::new(),
+            models: Vec::new(),
+            is_flat: false,
+            exports_on_save: false,
+            environment: "studio".to_owned(),
+            layout: None,
+            favorites: Vec::new(),
+        }
+    }
+}
+
+impl Settings {
+    /// What was kept in a folder; says what could not be read, and begins anew then.
+    pub(crate) fn load(folder: Option<&Path>) -> (Settings, Option<String>) {
+        let Some(text) = folder.and_then(|folder| fs::read_to_string(folder.join(FILE)).ok()) else {
+            return (Settings::default(), None);
+        };
+        match serde_json::from_str::<Settings>(&text) {
+            Ok(settings) => (settings.sound(), None),
+            Err(error) => {
+                let why =
+                    format!("The settings could not be read ({error}), so that those of a new installation are used.");
+                (Settings::default(), Some(why))
+            }
+        }
+    }
+
+    /// Keeps them: whole, or as they were before.
+    pub(crate) fn save(&self, folder: &Path) -> Result<(), String> {
+        let told =
+            |error: &dyn std::fmt::Display| format!("the settings cannot be kept in {}: {error}", folder.display());
+        let text = serde_json::to_string_pretty(self).map_err(|error| told(&error))?;
+        fs::create_dir_all(folder).map_err(|error| told(&error))?;
+        let partial = folder.join(format!("{FILE}.part"));
+        fs::write(&partial, text).map_err(|error| told(&error))?;
+        fs::rename(&partial, folder.join(FILE)).map_err(|error| told(&error))
+    }
+
+    /// Remembers a file as the last one that was open.
+    pub(crate) fn remember(&mut self, file: &Path) {
+        let whole = fs::canonicalize(file).unwrap_or_else(|_| file.to_owned());
+        self.recent.retain(|known| *known != whole);
+        self.recent.insert(0, whole);
+        self.recent.truncate(MOST_RECENT);
+    }
+
+    fn sound(mut self) -> Settings {
+        self.scale = if self.scale.is_finite() {
+            self.scale.clamp(0.5, 3.0)
+        } else {
+            1.0
+        };
+        self.models.truncate(MOST_MODELS);
+        self.recent.truncate(MOST_RECENT);
+        self
+    }
+}
+
+/// Where settings are kept.
+pub(crate) fn default_folder() -> Option<PathBuf> {
+    let set = |name: &str| {
+        std::env::var_os(name)
+            .map(PathBuf::from)
+            .filter(|path| path.is_absolute())
+    };
+    let home = || set("HOME");
+    let base = if cfg!(windows) {
+        set("APPDATA")
+    } else if cfg!(target_os = "macos") {
+        home().map(|home| home.join("Library/Application Support"))
+    } else {
+        set("XDG_CONFIG_HOME").or_else(|| home().map(|home| home.join(".config")))
+    };
+    base.map(|base| base.join("sabi"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_comes_back() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut kept = Settings {
+            scale: 1.5,
+            habit: Habit::Blender,
+            ..Settings::default()
+        };
+        kept.remember(Path::new("one.sabi"));
+        kept.remember(Path::new("two.sabi"));
+        kept.remember(Path::new("one.sabi"));
+        kept.save(folder.path()).expect("saved");
+        let (read, fault) = Settings::load(Some(folder.path()));
+        assert_eq!(fault, None);
+        assert_eq!((read.scale, read.habit), (1.5, Habit::Blender));
+        assert_eq!(read.recent, [PathBuf::from("one.sabi"), PathBuf::from("two.sabi")]);
+    }
+
+    #[test]
+    fn settings_that_cannot_be_read_are_said_and_begun_anew() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join(FILE), "{ \"scale\": \"huge\" }").expect("written");
+        let (read, fault) = Settings::load(Some(folder.path()));
+        assert_eq!(read.scale, 1.0);
+        assert!(fault.expect("a sentence").starts_with("The settings could not be read"));
+    }
+}

@@ -1,0 +1,295 @@
+//! The evaluation as the window sees it: what is wished for, and what has come of it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use sabi_engine::view::Pixels;
+use sabi_engine::{
+    EngineError, Faults, Gpu, Inspected, Live, LiveModel, LiveOptions, LiveTimes, ModelOptions, News, OpenGraph, Seen,
+    Shown, Wish,
+};
+use sabi_graph::NodeRef;
+
+use crate::desk::Desk;
+
+/// Texels for one unit of UV of a first picture.
+const COARSE: u32 = 256;
+/// Texels of full pictures where the graph names no size: what software drivers do in a blink, and what graphics cards do.
+const FULL: [u32; 2] = [512, 1024];
+
+/// What a viewport shows of one thing.
+#[derive(Clone)]
+pub(crate) struct Picture {
+    pub(crate) model: Arc<LiveModel>,
+    pub(crate) shown: Arc<Shown>,
+    /// Another number for every picture.
+    pub(crate) number: u64,
+}
+
+/// What the window wishes to see besides the graph itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Wanted {
+    pub(crate) seen: Vec<Seen>,
+    pub(crate) inspected: Option<NodeRef>,
+    pub(crate) thumbnails: Vec<NodeRef>,
+    pub(crate) is_flat: bool,
+    pub(crate) is_moving: bool,
+}
+
+/// The evaluation as the window sees it.
+pub(crate) struct Stage {
+    gpu: Arc<Gpu>,
+    live: Live,
+    cache_dir: Option<PathBuf>,
+    model: Arc<ModelOptions>,
+    model_revision: u64,
+    asked: Option<(Asked, Wanted)>,
+    graph: Arc<OpenGraph>,
+    wishes: u64,
+    pictures: BTreeMap<Seen, Picture>,
+    thumbnails: BTreeMap<NodeRef, TextureHandle>,
+    pub(crate) inspected: Option<(NodeRef, Arc<Inspected>)>,
+    /// The finest model that came.
+    pub(crate) shown_model: Option<Arc<LiveModel>>,
+    pub(crate) faults: Faults,
+    by_node: BTreeMap<String, String>,
+    waiting: BTreeMap<String, String>,
+    times: BTreeMap<String, Duration>,
+    pub(crate) last: LiveTimes,
+    /// Why the last evaluation, or the model, failed.
+    pub(crate) failure: Option<String>,
+    pub(crate) model_failure: Option<String>,
+    pub(crate) lost: Option<EngineError>,
+    numbers: u64,
+}
+
+/// What the graph and the model were when something was asked for.
+#[derive(Clone, Debug, PartialEq)]
+struct Asked {
+    document: u64,
+    kinds: u64,
+    model: u64,
+    files: u64,
+}
+
+impl Stage {
+    /// An evaluation on a device; `context` is woken when something comes.
+    pub(crate) fn new(gpu: Arc<Gpu>, model: &Path, cache_dir: Option<PathBuf>, context: &Context) -> Stage {
+        let woken = context.clone();
+        let options = LiveOptions {
+            cache_dir: cache_dir.clone(),
+            ..LiveOptions::default()
+        };
+        let live = Live::start(gpu.clone(), options, move || woken.request_repaint());
+        Stage {
+            live,
+            model: Arc::new(model_options(model, FULL[0], cache_dir.as_deref())),
+            cache_dir,
+            gpu,
+            model_revision: 0,
+            asked: None,
+            graph: Arc::new(sabi_engine::Session::new(None).graph().clone()),
+            wishes: 0,
+            pictures: BTreeMap::new(),
+            thumbnails: BTreeMap::new(),
+            inspected: None,
+            shown_model: None,
+            faults: Faults::default(),
+            by_node: BTreeMap::new(),
+            waiting: BTreeMap::new(),
+            times: BTreeMap::new(),
+            last: LiveTimes::default(),
+            failure: None,
+            model_failure: None,
+            lost: None,
+            numbers: 0,
+        }
+    }
+
+    /// Where what takes long is kept between runs.
+    pub(crate) fn cache_dir(&self) -> Option<&Path> {
+        self.cache_dir.as_deref()
+    }
+
+    pub(crate) fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// The file of the model.
+    pub(crate) fn model_file(&self) -> &Path {
+        &self.model.path
+    }
+
+    /// Texels along a side that full pictures have.
+    pub(crate) fn size(&self) -> u32 {
+        self.model.size
+    }
+
+    /// Whether more is to come.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.live.is_busy()
+    }
+
+    /// Takes another model, or the same one anew since its file changed.
+    pub(crate) fn take_model(&mut self, file: &Path) {
+        self.model = Arc::new(model_options(file, self.model.size, self.cache_dir.as_deref()));
+        self.model_revision += 1;
+        self.model_failure = None;
+    }
+
+    /// Asks for what is wanted of the graph, if it is anything new.
+    pub(crate) fn ask(&mut self, desk: &Desk, wanted: Wanted) {
+        let size = self.wanted_size(desk);
+        if size != self.model.size {
+            self.model = Arc::new(model_options(&self.model.path, size, self.cache_dir.as_deref()));
+            self.model_revision += 1;
+        }
+        let (kinds, kinds_revision) = desk.kinds();
+        let asked = Asked {
+            document: desk.session.revision(),
+            kinds: kinds_revision,
+            model: self.model_revision,
+            files: desk.files_revision(),
+        };
+        if self
+            .asked
+            .as_ref()
+            .is_some_and(|(before, looks)| *before == asked && *looks == wanted)
+        {
+            return;
+        }
+        let is_same_graph = self
+            .asked
+            .as_ref()
+            .is_some_and(|(before, _)| (before.document, before.files) == (asked.document, asked.files));
+        if !is_same_graph {
+            self.graph = Arc::new(desk.session.graph().clone());
+        }
+        self.wishes += 1;
+        self.live.ask(Wish {
+            revision: self.wishes,
+            graph: self.graph.clone(),
+            kinds: kinds.clone(),
+            kinds_revision,
+            model: self.model.clone(),
+            model_revision: self.model_revision,
+            coarse_size: COARSE,
+            seen: wanted.seen.clone(),
+            inspected: wanted.inspected.clone(),
+            thumbnails: wanted.thumbnails.clone(),
+            is_flat: wanted.is_flat,
+            is_moving: wanted.is_moving,
+        });
+        self.asked = Some((asked, wanted));
+    }
+
+    fn wanted_size(&self, desk: &Desk) -> u32 {
+        let usual = match self.gpu.summary().kind {
+            sabi_engine::AdapterKind::Cpu => FULL[0],
+            _ => FULL[1],
+        };
+        let named = desk.document().preview.as_ref().and_then(|preview| preview.size);
+        named.unwrap_or(usual).clamp(64, 4096)
+    }
+
+    /// Takes what has come.
+    pub(crate) fn take_news(&mut self, context: &Context) {
+        for news in self.live.news() {
+            match news {
+                News::Model {
+                    model, model_revision, ..
+                } if model_revision == self.model_revision => {
+                    self.model_failure = None;
+                    self.shown_model = Some(model);
+                }
+                News::ModelFailed { error, model_revision } if model_revision == self.model_revision => {
+                    self.model_failure = Some(error.to_string());
+                }
+                News::Shown { seen, model, shown, .. } => {
+                    self.numbers += 1;
+                    self.failure = None;
+                    let number = self.numbers;
+                    self.pictures.insert(seen, Picture { model, shown, number });
+                }
+                News::Inspected { node, values, .. } => self.inspected = Some((node, values)),
+                News::Thumbnail { node, picture, .. } => self.take_thumbnail(context, node, &picture),
+                News::Faults { faults, .. } => self.take_faults(faults),
+                News::Times { times, .. } => {
+                    self.times.extend(times.nodes.iter().cloned());
+                    self.last = times;
+                }
+                News::Failed { error, .. } => self.failure = Some(error.to_string()),
+                News::Lost(error) => self.lost = Some(error),
+                News::Done { .. } | News::Model { .. } | News::ModelFailed { .. } => {}
+            }
+        }
+    }
+
+    fn take_thumbnail(&mut self, context: &Context, node: NodeRef, picture: &Pixels) {
+        let size = picture.size.map(|side| side as usize);
+        let image = ColorImage::from_rgba_unmultiplied(size, &picture.rgba);
+        match self.thumbnails.get_mut(&node) {
+            Some(handle) => handle.set(image, TextureOptions::LINEAR),
+            None => {
+                let handle = context.load_texture(format!("result of {}", node.node), image, TextureOptions::LINEAR);
+                self.thumbnails.insert(node, handle);
+            }
+        }
+    }
+
+    fn take_faults(&mut self, faults: Faults) {
+        self.by_node.clear();
+        for fault in &faults.faults {
+            self.by_node
+                .entry(fault.node.clone())
+                .or_insert_with(|| fault.sentence.clone());
+        }
+        let waiting = faults.waiting.iter();
+        self.waiting = waiting
+            .map(|waiting| (waiting.node.clone(), format!("waiting for {}", waiting.on)))
+            .collect();
+        self.faults = faults;
+    }
+
+    /// Lets go of pictures of nodes that are no more.
+    pub(crate) fn forget(&mut self, known: &BTreeSet<String>) {
+        self.thumbnails.retain(|node, _| known.contains(&node.node));
+        self.times.retain(|node, _| known.contains(node));
+    }
+
+    /// What a viewport shows; while nothing came of it yet, nothing.
+    pub(crate) fn picture(&self, seen: &Seen) -> Option<&Picture> {
+        self.pictures.get(seen)
+    }
+
+    pub(crate) fn thumbnail(&self, node: &NodeRef) -> Option<&TextureHandle> {
+        self.thumbnails.get(node)
+    }
+
+    pub(crate) fn fault(&self, node: &str) -> Option<&String> {
+        self.by_node.get(node)
+    }
+
+    pub(crate) fn waits(&self, node: &str) -> Option<&String> {
+        self.waiting.get(node)
+    }
+
+    pub(crate) fn time(&self, node: &str) -> Option<Duration> {
+        self.times.get(node).copied()
+    }
+
+    /// How long each node took when it was last evaluated.
+    pub(crate) fn times(&self) -> &BTreeMap<String, Duration> {
+        &self.times
+    }
+}
+
+fn model_options(file: &Path, size: u32, cache_dir: Option<&Path>) -> ModelOptions {
+    ModelOptions {
+        cache_dir: cache_dir.map(Path::to_owned),
+        ..ModelOptions::new(file, size)
+    }
+}

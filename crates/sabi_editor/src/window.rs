@@ -1,0 +1,141 @@
+//! Opening the window on a device that can run Sabi, and again on another one when that is lost.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use sabi_engine::{
+    AdapterChoice, EngineError, ErrorKind, Gpu, Session, choose_adapter, default_cache_dir, device_descriptor,
+};
+
+use crate::app::{Beginning, Editor, Folders, Handover};
+use crate::files::examples;
+use crate::settings::default_folder;
+
+/// How often a window is opened anew for a lost device before it is given up.
+const MOST_DEVICES: usize = 3;
+
+/// What the window is opened with.
+#[derive(Clone, Debug, Default)]
+pub struct EditRequest {
+    /// The graph; an empty one if none.
+    pub graph: Option<PathBuf>,
+    /// The model, in place of the one that the graph names.
+    pub mesh: Option<PathBuf>,
+    /// Which adapter.
+    pub adapter: AdapterChoice,
+}
+
+/// Opens the window and comes back when it is closed.
+///
+/// # Errors
+/// A graph that cannot be read, no display, or no adapter that can run Sabi.
+pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
+    let folders = folders();
+    let handover: Handover = Arc::new(Mutex::new(None));
+    let mut session = Some(match &request.graph {
+        Some(graph) => Session::open(graph, folders.recovery.as_deref())?,
+        None => Session::new(folders.recovery.as_deref()),
+    });
+    for _ in 0..MOST_DEVICES {
+        // After a loss the work itself is in the handover.
+        let session = session.take().unwrap_or_else(|| Session::new(None));
+        let beginning = Beginning {
+            model: first_model(request, &session, &folders)?,
+            session,
+            folders: folders.clone(),
+            is_start: request.graph.is_none(),
+        };
+        run(request, beginning, &handover)?;
+        let is_lost = handover.lock().is_ok_and(|kept| kept.is_some());
+        if !is_lost {
+            return Ok(());
+        }
+    }
+    let why = "the graphics device was lost again and again; what is not saved is offered at the next start. Update the \
+               driver, or choose --adapter cpu";
+    Err(EngineError::new(ErrorKind::NoAdapter, why))
+}
+
+fn run(request: &EditRequest, beginning: Beginning, handover: &Handover) -> Result<(), EngineError> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Sabi")
+            .with_app_id("sabi")
+            .with_inner_size([1600.0, 900.0])
+            .with_min_inner_size([640.0, 400.0])
+            .with_drag_and_drop(true),
+        renderer: eframe::Renderer::Wgpu,
+        run_and_return: true,
+        wgpu_options: configuration(&request.adapter),
+        ..eframe::NativeOptions::default()
+    };
+    let handover = handover.clone();
+    let created = move |context: &eframe::CreationContext<'_>| {
+        let render = context
+            .wgpu_render_state
+            .clone()
+            .ok_or("the window has no graphics device")?;
+        let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone())?;
+        let editor = Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover);
+        Ok(Box::new(editor) as Box<dyn eframe::App>)
+    };
+    eframe::run_native("sabi", options, Box::new(created)).map_err(|error| {
+        let why = format!("the window cannot be opened: {error}. Without a display, use sabi bake, preview and render");
+        EngineError::new(ErrorKind::NoAdapter, why)
+    })
+}
+
+/// A device with what Sabi needs, of the adapter of choice.
+pub(crate) fn configuration(choice: &AdapterChoice) -> WgpuConfiguration {
+    let choice = choice.clone();
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = wgpu::Backends::PRIMARY;
+    setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
+        choose_adapter(&choice, adapters, surface).map_err(|error| error.to_string())
+    }));
+    setup.device_descriptor = Arc::new(|adapter| {
+        // One that is not fit was not chosen.
+        device_descriptor(adapter).unwrap_or_default()
+    });
+    WgpuConfiguration {
+        wgpu_setup: WgpuSetup::CreateNew(setup),
+        ..WgpuConfiguration::default()
+    }
+}
+
+fn folders() -> Folders {
+    let settings = default_folder();
+    Folders {
+        recovery: settings.as_ref().map(|folder| folder.join("unsaved")),
+        library: settings.as_ref().map(|folder| folder.join("library")),
+        examples: settings.as_ref().map(|folder| folder.join("examples")),
+        cache: default_cache_dir(),
+        settings,
+    }
+}
+
+/// The model to begin with: the one that was named, the one that the graph names, or one that comes with the program.
+fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> Result<PathBuf, EngineError> {
+    if let Some(mesh) = &request.mesh {
+        return Ok(mesh.clone());
+    }
+    if let Some(model) = crate::app::model_of(session) {
+        return Ok(model);
+    }
+    let folder = folders
+        .examples
+        .clone()
+        .unwrap_or_else(|| std::env::temp_dir().join("sabi"));
+    unpacked(&folder)
+}
+
+fn unpacked(folder: &Path) -> Result<PathBuf, EngineError> {
+    examples::first_model(folder).map_err(|error| {
+        let why = format!(
+            "{} cannot be written: {error}; name a model with --mesh",
+            folder.display()
+        );
+        EngineError::new(ErrorKind::CannotWrite, why)
+    })
+}
