@@ -3,6 +3,7 @@
 
 mod arrange;
 mod bringing;
+mod broken;
 mod clipboard;
 mod copies;
 mod frames;
@@ -194,6 +195,9 @@ impl Desk {
             return false;
         }
         let edits = instances::followed(self.document(), edits);
+        if let Some(why) = self.why_nothing_would_be_left(&edits) {
+            return self.refuse(why);
+        }
         let edit = match <[Edit; 1]>::try_from(edits) {
             Ok([one]) => one,
             Err(several) => Edit::Batch(several),

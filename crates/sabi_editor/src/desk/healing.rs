@@ -6,6 +6,9 @@ use sabi_graph::{Body, Edit, GROUP_KIND, GroupInput, NodeId, OutputRef, REROUTE_
 
 use super::{Desk, instances};
 
+/// Groups inside groups beyond this pass nothing on; no evaluation takes them.
+const DEEPEST: usize = 256;
+
 /// What a reader gets when nodes before it are gone.
 #[derive(Clone, Debug, Default)]
 struct Passed {
@@ -76,6 +79,8 @@ struct Behind<'d> {
     /// Inputs that come out of groups all of whose nodes are wires, by group and output. One that is being looked at passes
     /// nothing on: a group that holds itself is evaluated by nobody.
     inside: BTreeMap<(String, Option<String>), Vec<String>>,
+    /// How many of them are being looked at.
+    depth: usize,
 }
 
 impl<'d> Behind<'d> {
@@ -84,6 +89,7 @@ impl<'d> Behind<'d> {
             desk,
             gone,
             inside: BTreeMap::new(),
+            depth: 0,
         }
     }
 
@@ -107,16 +113,22 @@ impl<'d> Behind<'d> {
                 silent = silent.or(Some(at));
             } else if asked.insert(at.node.clone()) {
                 let inputs = self.passing(&self.desk.seen, &at);
-                ways.extend(inputs.into_iter().rev().map(|input| self.sources(&at.node, input)));
+                ways.extend(
+                    inputs
+                        .into_iter()
+                        .rev()
+                        .map(|input| self.sources(&self.desk.seen, &at.node, input)),
+                );
             }
         }
         Passed { wire: silent, fed }
     }
 
-    fn sources(&self, id: &NodeId, name: String) -> Sources {
-        let wire = self.desk.node(id).and_then(|node| node.inputs.get(&name).cloned());
+    fn sources(&self, body: &Body, id: &NodeId, name: String) -> Sources {
+        let node = self.desk.graph_of(body).and_then(|graph| graph.node(id.as_str()));
+        let wire = node.and_then(|node| node.inputs.get(&name).cloned());
         let slot = SlotRef { node: id.clone(), name };
-        (self.desk.feeder(&self.desk.seen, &slot).map(str::to_owned), wire)
+        (self.desk.feeder(body, &slot).map(str::to_owned), wire)
     }
 
     /// Whether something comes out of a wire: it does not begin at a reroute or a muted node with nothing behind it.
@@ -133,7 +145,7 @@ impl<'d> Behind<'d> {
                 continue;
             }
             for input in self.passing(&self.desk.seen, &at) {
-                let (fed, wire) = self.sources(&at.node, input);
+                let (fed, wire) = self.sources(&self.desk.seen, &at.node, input);
                 if fed.is_some() {
                     return true;
                 }
@@ -167,6 +179,10 @@ impl<'d> Behind<'d> {
         if let Some(known) = self.inside.get(&key) {
             return known.clone();
         }
+        if self.depth == DEEPEST {
+            return Vec::new();
+        }
+        self.depth += 1;
         self.inside.insert(key.clone(), Vec::new());
         let body = Body::Group(group.to_owned());
         let (_, outputs) = instances::ports(self.desk.document(), &body);
@@ -174,27 +190,20 @@ impl<'d> Behind<'d> {
             Some(port) => outputs.get(port),
             None => outputs.values().next(),
         };
-        let mut ways: Vec<OutputRef> = given.cloned().into_iter().collect();
+        // Those not asked yet, the next one last.
+        let mut ways: Vec<Sources> = vec![(None, given.cloned())];
         let mut found: Vec<String> = Vec::new();
         let mut asked = BTreeSet::new();
-        while let Some(at) = ways.pop() {
-            if !asked.insert(at.node.clone()) {
+        while let Some((feeder, wire)) = ways.pop() {
+            found.extend(feeder.filter(|input| !found.contains(input)));
+            let Some(at) = wire.filter(|at| asked.insert(at.node.clone())) else {
                 continue;
-            }
-            let mut behind = Vec::new();
-            for name in self.passing(&body, &at) {
-                let node = self.desk.graph_of(&body).and_then(|graph| graph.node(at.node.as_str()));
-                behind.extend(node.and_then(|node| node.inputs.get(&name).cloned()));
-                let slot = SlotRef {
-                    node: at.node.clone(),
-                    name,
-                };
-                let feeder = self.desk.feeder(&body, &slot).map(str::to_owned);
-                found.extend(feeder.filter(|input| !found.contains(input)));
-            }
-            ways.extend(behind.into_iter().rev());
+            };
+            let inputs = self.passing(&body, &at).into_iter().rev();
+            ways.extend(inputs.map(|input| self.sources(&body, &at.node, input)));
         }
         self.inside.insert(key, found.clone());
+        self.depth -= 1;
         found
     }
 }

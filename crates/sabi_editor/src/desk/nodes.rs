@@ -186,9 +186,6 @@ impl Desk {
         let mut edits = Vec::new();
         for node in ids {
             let value = value.clone().filter(|value| !self.means_no_variant(&node, knob, value));
-            if let Some(why) = value.as_ref().and_then(|value| self.why_not_set(&node, knob, value)) {
-                return self.refuse(why);
-            }
             edits.extend(self.published_default(&node, knob, value.as_ref()));
             edits.push(Edit::SetParam {
                 body: self.body(),

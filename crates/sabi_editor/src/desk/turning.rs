@@ -1,6 +1,6 @@
 //! What published knobs hold, and what they may hold.
 
-use sabi_graph::{Edit, Exposed, GROUP_KIND, INSTANCE_KNOBS, NodeId, SlotRef, Value, canonical_number};
+use sabi_graph::{Edit, Exposed, NodeId, SlotRef, Value, canonical_number};
 
 use super::Desk;
 
@@ -21,33 +21,6 @@ impl Desk {
             return Some(format!("there is no knob '{name}' on the panel"));
         };
         left_out(exposed.range, value).map(|why| format!("'{name}' {why}"))
-    }
-
-    /// Why an instance of a group cannot have a knob set like that. Of any other node, such a value is a fault that its
-    /// readers wait for; of an instance it would take the whole graph.
-    pub(super) fn why_not_set(&self, id: &NodeId, knob: &str, value: &Value) -> Option<String> {
-        let node = self.node(id).filter(|node| node.kind == GROUP_KIND)?;
-        let group = self.document().groups.get(node.group.as_ref()?);
-        let exposed = group.and_then(|group| group.graph.exposed().get(knob));
-        match (knob, exposed, group) {
-            (_, Some(exposed), _) => left_out(exposed.range, value).map(|why| format!("'{knob}' {why}")),
-            ("seed", ..) if value.as_u32().is_none() => {
-                Some("a Seed is a whole number from 0 to 4294967295".to_owned())
-            }
-            ("scale", ..) if !value.as_number().is_some_and(|scale| scale > 0.0) => {
-                Some("a Scale is a number above zero".to_owned())
-            }
-            ("variant", _, Some(group)) => {
-                let is_known = value
-                    .as_text()
-                    .is_some_and(|name| group.graph.variants().contains_key(name));
-                (!is_known).then(|| "the group has no such variant".to_owned())
-            }
-            (knob, None, Some(_)) if !INSTANCE_KNOBS.contains(&knob) => {
-                Some(format!("'{}' has no knob '{knob}'", self.title(id)))
-            }
-            _ => None,
-        }
     }
 
     /// The edits that turn a knob of the panel.

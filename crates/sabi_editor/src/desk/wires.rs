@@ -210,7 +210,7 @@ impl Desk {
         let is_free = |port: &Port| own.is_none_or(|inputs| !inputs.contains_key(&port.name));
         match loose {
             Loose::From(from) => {
-                let carried = self.carried(from);
+                let carried = self.face(&from.node)?.output(from.port.as_deref())?.ty;
                 let exact = face.inputs.iter().find(|port| port.ty == carried && is_free(port));
                 let input = exact.or_else(|| face.inputs.iter().find(|port| port.accepts(carried) && is_free(port)))?;
                 let to = SlotRef {

@@ -14,6 +14,8 @@ use super::{Catalog, Entry, Knob, Port, placeholder, readable};
 
 /// Group files inside group files beyond this are shown as if they were not there.
 const DEEPEST_FILE: usize = 16;
+/// Groups inside groups beyond this are, too; no evaluation takes them.
+const DEEPEST_GROUP: usize = 256;
 
 /// Reads a group file by its path relative to the document that names it.
 pub type ReadGroup<'a> = &'a mut dyn FnMut(&str) -> Option<Document>;
@@ -140,7 +142,7 @@ impl Making<'_, '_> {
         if let Some(known) = self.faces.of_groups.get(name) {
             return Some(known.clone());
         }
-        if !self.open.insert(name.to_owned()) {
+        if self.open.len() == DEEPEST_GROUP || !self.open.insert(name.to_owned()) {
             return None;
         }
         let made = match self.document.groups.get(name) {

@@ -1,0 +1,129 @@
+//! Where nodes stand.
+
+use super::super::Align;
+use super::super::arrange::{GRID, NODE_WIDTH, input_row, output_row};
+use super::*;
+
+const NODES: &str = r#"
+    "n": { "kind": "noise/simplex", "pos": [10, 400] }, "w": { "kind": "noise/cells", "pos": [-30, 90] },
+    "m": { "kind": "blend/mask", "inputs": { "above": "w.id", "below": "n" }, "pos": [250, 0] },
+    "base": { "kind": "source/material", "pos": [500, 0] },
+    "layer": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "m" }, "pos": [500, 10] },
+    "out": { "kind": "output/material", "inputs": { "material": "layer" }, "pos": [0, 0] }"#;
+
+fn pos(desk: &Desk, id: &str) -> [f32; 2] {
+    desk.graph().node(id).expect("a node").pos
+}
+
+#[test]
+fn nodes_are_brought_in_line() {
+    let mut desk = opened("", NODES);
+    select(&mut desk, &["n", "w", "m"]);
+    let all = |desk: &Desk| ["n", "w", "m"].map(|id| pos(desk, id));
+    step(&mut desk, |desk| desk.align(Align::Left));
+    assert_eq!(all(&desk), [[-30.0, 400.0], [-30.0, 90.0], [-30.0, 0.0]]);
+    desk.undo();
+    step(&mut desk, |desk| desk.align(Align::Right));
+    assert_eq!(all(&desk).map(|pos| pos[0]), [250.0; 3]);
+    desk.undo();
+    step(&mut desk, |desk| desk.align(Align::Top));
+    assert_eq!(all(&desk).map(|pos| pos[1]), [0.0; 3]);
+    desk.undo();
+    step(&mut desk, |desk| desk.align(Align::Bottom));
+    let ends = ["n", "w", "m"].map(|name| pos(&desk, name)[1] + desk.height(&id(name)));
+    assert!(ends.iter().all(|end| (end - ends[0]).abs() < 1e-3), "{ends:?}");
+    assert_eq!(pos(&desk, "out"), [0.0, 0.0], "what is not selected stays");
+}
+
+/// How far the ends of a wire are from each other, up and down.
+fn slant(desk: &Desk, input: &str) -> f32 {
+    let input = to(input);
+    let wire = desk.wire_into(&input).expect("a wire");
+    let [reader, source] = [&input.node, &wire.node].map(|id| desk.face(id).expect("a face"));
+    let row = reader
+        .inputs
+        .iter()
+        .position(|port| port.name == input.name)
+        .expect("an input");
+    let output = source.output(wire.port.as_deref()).expect("a result");
+    let out = source
+        .outputs
+        .iter()
+        .position(|port| port.name == output.name)
+        .expect("a result");
+    let [end, begin] = [&input.node, &wire.node].map(|id| pos(desk, id.as_str())[1]);
+    (end + input_row(row)) - (begin + output_row(source, out))
+}
+
+#[test]
+fn wires_among_straightened_nodes_run_level() {
+    let mut desk = opened("", NODES);
+    desk.select_all();
+    step(&mut desk, Desk::straighten);
+    // Each node is level with the first that it reads.
+    for input in ["m.below", "layer.base", "out.material"] {
+        assert!(slant(&desk, input).abs() < 1e-3, "{input}: {}", slant(&desk, input));
+    }
+    assert_eq!(["n", "w", "base"].map(|id| pos(&desk, id)[1]), [400.0, 90.0, 0.0]);
+    let before = pos(&desk, "m");
+    select(&mut desk, &["m"]);
+    refused(&mut desk, Desk::straighten);
+    assert_eq!(pos(&desk, "m"), before, "alone it is level with nothing");
+}
+
+#[test]
+fn a_layout_reads_from_left_to_right_without_overlaps_and_is_the_same_again() {
+    let mut desk = opened("", NODES);
+    step(&mut desk, Desk::lay_out);
+    let ids: Vec<NodeId> = desk.graph().ids().cloned().collect();
+    for one in &ids {
+        let node = desk.node(one).expect("a node");
+        for from in node.inputs.values() {
+            let [reader, source] = [one, &from.node].map(|id| pos(&desk, id.as_str())[0]);
+            assert!(source + NODE_WIDTH < reader, "{one} reads {}", from.node);
+        }
+        for other in ids.iter().filter(|other| *other != one) {
+            let [[x, y], [other_x, other_y]] = [one, other].map(|id| pos(&desk, id.as_str()));
+            let is_apart = (x - other_x).abs() >= NODE_WIDTH
+                || y + desk.height(one) <= other_y
+                || other_y + desk.height(other) <= y;
+            assert!(is_apart, "{one} and {other}");
+        }
+        assert!(pos(&desk, one.as_str()).iter().all(|at| at % GRID == 0.0));
+    }
+    refused(&mut desk, Desk::lay_out);
+    assert!(!super::desk().lay_out(), "nothing is laid out");
+}
+
+#[test]
+fn only_what_is_selected_is_laid_out() {
+    let mut desk = opened("", NODES);
+    select(&mut desk, &["base", "layer"]);
+    step(&mut desk, Desk::lay_out);
+    assert_eq!(pos(&desk, "n"), [10.0, 400.0]);
+    assert!(pos(&desk, "base")[0] + NODE_WIDTH < pos(&desk, "layer")[0]);
+}
+
+#[test]
+fn a_drag_is_one_step_and_only_of_what_moves() {
+    let mut desk = opened("", NODES);
+    select(&mut desk, &["n", "w"]);
+    let begin = desk.places();
+    step(&mut desk, |desk| {
+        desk.session.begin("Move");
+        for way in 1..20u8 {
+            let shifted = begin
+                .iter()
+                .map(|(id, pos)| (id.clone(), [pos[0] + f32::from(way), pos[1]]));
+            let shifted = shifted.collect();
+            desk.move_to("Move", shifted);
+        }
+        desk.session.end();
+    });
+    assert_eq!(pos(&desk, "n"), [29.0, 400.0]);
+    let places = desk.places();
+    refused(&mut desk, |desk| desk.move_to("Move", places));
+    let nowhere = [(id("n"), [f32::INFINITY, 0.0])].into();
+    let said = refused(&mut desk, |desk| desk.move_to("Move", nowhere));
+    assert_eq!(said, "a node can only stand at a finite place on the canvas");
+}

@@ -1,0 +1,198 @@
+//! Duplicates, and nodes as text.
+
+use super::*;
+
+const NODES: &str = r#"
+    "n": { "kind": "noise/simplex", "params": { "seed": 7 }, "pos": [0, 0] },
+    "l": { "kind": "adjust/levels", "inputs": { "source": "n" }, "pos": [300, 0] },
+    "i": { "kind": "adjust/invert", "inputs": { "source": "l" }, "pos": [600, 50] }"#;
+
+#[test]
+fn a_duplicate_keeps_seeds_and_wires_among_the_copies() {
+    let mut desk = opened(r#""frames": { "f": { "title": "Both", "nodes": ["l", "n"] } },"#, NODES);
+    select(&mut desk, &["n", "l"]);
+    step(&mut desk, |desk| desk.duplicate(false));
+    let copies: Vec<NodeId> = desk.selection().iter().cloned().collect();
+    let [levels, noise] = copies.as_slice() else {
+        panic!("{copies:?}")
+    };
+    assert_eq!(param(&desk, noise.as_str(), "seed"), number(7.0));
+    assert_eq!(wire(&desk, &format!("{levels}.source")), noise.as_str());
+    assert_eq!(desk.node(levels).map(|node| node.pos), Some([340.0, 40.0]));
+    let frames: Vec<_> = desk
+        .graph()
+        .frames()
+        .values()
+        .map(|frame| frame.nodes.clone())
+        .collect();
+    assert!(frames.contains(&vec![levels.clone(), noise.clone()]), "{frames:?}");
+}
+
+#[test]
+fn a_duplicate_reads_what_was_read_only_if_it_is_asked_to() {
+    let mut desk = opened("", NODES);
+    select(&mut desk, &["l"]);
+    step(&mut desk, |desk| desk.duplicate(true));
+    let copy = desk.selected_one().cloned().expect("one copy");
+    assert_eq!(wire(&desk, &format!("{copy}.source")), "n");
+    select(&mut desk, &["l"]);
+    step(&mut desk, |desk| desk.duplicate(false));
+    let copy = desk.selected_one().cloned().expect("one copy");
+    assert_eq!(wire(&desk, &format!("{copy}.source")), "");
+}
+
+#[test]
+fn a_copy_is_the_text_of_a_graph_file() {
+    let mut desk = opened(
+        r#""frames": { "f": { "nodes": ["n"] }, "all": { "nodes": ["n", "i"] } },"#,
+        NODES,
+    );
+    select(&mut desk, &["n", "l"]);
+    let text = desk.copied().expect("two nodes");
+    let copy = Document::from_json(&text).expect("a graph file");
+    assert_eq!(copy.to_json(), text);
+    assert_eq!(copy.graph.ids().map(NodeId::as_str).collect::<Vec<_>>(), ["l", "n"]);
+    assert_eq!(copy.graph.frames().keys().collect::<Vec<_>>(), ["f"]);
+    let mut other = self::desk();
+    step(&mut other, |desk| desk.paste(&text, [100.0, 50.0]));
+    assert_eq!(other.selection().len(), 2);
+    let mut places: Vec<[f32; 2]> = other.graph().nodes().map(|(_, node)| node.pos).collect();
+    places.sort_by(|one, two| one[0].total_cmp(&two[0]));
+    assert_eq!(places, [[100.0, 50.0], [400.0, 50.0]]);
+    assert_eq!(other.graph().frames().len(), 1);
+    // Once more, beside the first.
+    step(&mut other, |desk| desk.paste(&text, [0.0; 2]));
+    assert_eq!((other.graph().len(), other.graph().frames().len()), (4, 2));
+}
+
+#[test]
+fn cutting_copies_and_deletes() {
+    let mut desk = opened("", NODES);
+    select(&mut desk, &["l"]);
+    let text = step(&mut desk, Desk::cut_out).expect("a node");
+    assert!(text.contains("adjust/levels") && desk.node(&id("l")).is_none());
+}
+
+#[test]
+fn what_is_no_graph_is_not_pasted() {
+    let mut desk = opened("", NODES);
+    for text in [
+        "",
+        "hello",
+        "{}",
+        "[1, 2",
+        r#"{ "format": "sabi", "version": 99, "nodes": {} }"#,
+    ] {
+        let said = refused(&mut desk, |desk| desk.paste(text, [0.0; 2]));
+        assert_eq!(said, "the clipboard holds no nodes; copy some first", "{text}");
+    }
+    let empty = Document::new("").to_json();
+    let said = refused(&mut desk, |desk| desk.paste(&empty, [0.0; 2]));
+    assert_eq!(said, "the clipboard holds a graph without nodes");
+    select(&mut desk, &["n"]);
+    let text = desk.copied().expect("a node");
+    let said = refused(&mut desk, |desk| desk.paste(&text, [f32::NAN, 0.0]));
+    assert_eq!(said, "a node can only stand at a finite place on the canvas");
+}
+
+/// A group that holds another one; `gain` tells versions of the inner one apart.
+fn nested(gain: f64) -> Desk {
+    let groups = format!(
+        r#""groups": {{
+             "inner": {{ "outputs": {{ "mask": "n" }}, "exposed": {{ "gain": {{ "to": ["n.gain"], "order": 1 }} }},
+               "variants": {{ "much": {{ "gain": 0.75 }} }}, "frames": {{ "f": {{ "nodes": ["n"] }} }},
+               "nodes": {{ "n": {{ "kind": "noise/simplex", "params": {{ "gain": {gain} }} }} }} }},
+             "outer": {{ "name": "Outside", "fit": "metres", "outputs": {{ "mask": "i.mask" }},
+               "nodes": {{ "i": {{ "kind": "graph/group", "group": "inner", "params": {{ "variant": "much" }} }} }} }},
+             "unused": {{ "nodes": {{}} }} }},"#
+    );
+    let nodes = r#""g": { "kind": "graph/group", "group": "outer", "params": { "seed": 3 } },
+        "out": { "kind": "output/mask", "inputs": { "source": "g.mask" } }"#;
+    opened(&groups, nodes)
+}
+
+fn group_names(desk: &Desk) -> Vec<&str> {
+    desk.document().groups.keys().map(String::as_str).collect()
+}
+
+#[test]
+fn groups_come_along_and_are_used_where_they_are_the_same() {
+    let mut source = nested(0.5);
+    source.select_all();
+    let text = source.copied().expect("nodes");
+    assert!(!text.contains("unused"), "only what is needed");
+    let mut target = desk();
+    step(&mut target, |desk| desk.paste(&text, [0.0; 2]));
+    assert_eq!(group_names(&target), ["inner", "outer"]);
+    for name in ["inner", "outer"] {
+        assert_eq!(target.document().groups[name], source.document().groups[name]);
+    }
+    assert_eq!(evaluated(&target), evaluated(&source));
+    step(&mut target, |desk| desk.paste(&text, [0.0; 2]));
+    assert_eq!(group_names(&target), ["inner", "outer"], "used once more");
+}
+
+#[test]
+fn a_group_that_only_has_the_same_name_comes_under_another_once() {
+    let mut source = nested(0.5);
+    source.select_all();
+    let text = source.copied().expect("nodes");
+    let mut target = nested(0.25);
+    step(&mut target, |desk| desk.paste(&text, [0.0; 2]));
+    let names = ["inner", "inner 2", "outer", "outer 2", "unused"];
+    assert_eq!(group_names(&target), names, "the outer one holds another inner one");
+    let mut both = [evaluated(&source), evaluated(&nested(0.25))].concat();
+    both.sort_unstable();
+    assert_eq!(evaluated(&target), both);
+    step(&mut target, |desk| desk.paste(&text, [0.0; 2]));
+    assert_eq!(group_names(&target), names, "what was brought is there now");
+}
+
+#[test]
+fn names_that_two_groups_of_the_clipboard_would_take_stay_apart() {
+    let groups = |gain: f64| {
+        let group = |gain: f64| {
+            let node = format!(r#"{{ "kind": "noise/simplex", "params": {{ "gain": {gain} }} }}"#);
+            format!(r#"{{ "outputs": {{ "mask": "n" }}, "nodes": {{ "n": {node} }} }}"#)
+        };
+        format!(
+            r#""groups": {{ "a": {}, "a 2": {} }},"#,
+            group(gain),
+            group(gain + 0.125)
+        )
+    };
+    let nodes = r#""one": { "kind": "graph/group", "group": "a" }, "two": { "kind": "graph/group", "group": "a 2" }"#;
+    let mut source = opened(&groups(0.5), nodes);
+    source.select_all();
+    let text = source.copied().expect("nodes");
+    let only_first = groups(0.25).replace("a 2", "b");
+    let mut target = opened(&only_first, r#""x": { "kind": "graph/group", "group": "a" }"#);
+    step(&mut target, |desk| desk.paste(&text, [0.0; 2]));
+    assert_eq!(group_names(&target), ["a", "a 2", "a 2 2", "b"]);
+}
+
+#[test]
+fn a_group_is_not_put_inside_itself() {
+    let mut desk = nested(0.5);
+    select(&mut desk, &["g"]);
+    let text = desk.copied().expect("an instance");
+    desk.enter(&id("g"));
+    let said = refused(&mut desk, |desk| desk.paste(&text, [0.0; 2]));
+    assert_eq!(
+        said,
+        "'outer' holds 'outer', which is open here; a group cannot be inside itself"
+    );
+    desk.enter(&id("i"));
+    let said = refused(&mut desk, |desk| desk.paste(&text, [0.0; 2]));
+    assert_eq!(
+        said,
+        "'outer' holds 'inner', which is open here; a group cannot be inside itself"
+    );
+    let said = refused(&mut desk, |desk| desk.add_group_instance("outer", [0.0; 2], None));
+    assert_eq!(
+        said,
+        "'outer' holds 'inner', which is open here; a group cannot be inside itself"
+    );
+    step(&mut desk, |desk| desk.add_group_instance("unused", [0.0; 2], None));
+    flat(&desk);
+}

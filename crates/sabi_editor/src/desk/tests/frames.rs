@@ -1,0 +1,58 @@
+//! Titled boxes around nodes.
+
+use super::*;
+
+#[test]
+fn a_frame_stands_around_the_selected_nodes_and_goes_without_them() {
+    let mut desk = opened("", r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#);
+    desk.select_all();
+    step(&mut desk, Desk::frame);
+    select(&mut desk, &["b"]);
+    step(&mut desk, Desk::frame);
+    let frames: Vec<String> = desk.graph().frames().keys().cloned().collect();
+    let colors: Vec<_> = desk
+        .graph()
+        .frames()
+        .values()
+        .map(|frame| frame.color.clone())
+        .collect();
+    assert!(frames.len() == 2 && colors[0] != colors[1]);
+    desk.select([]);
+    let both = desk.graph().frames().iter().find(|(_, frame)| frame.nodes.len() == 2);
+    let both = both.map(|(name, _)| name.clone()).expect("the first frame");
+    desk.select_frame(&both);
+    assert_eq!(desk.selection().len(), 2);
+    step(&mut desk, |desk| desk.remove_frame(&both));
+    assert_eq!(desk.graph().len(), 2);
+    let said = refused(&mut desk, |desk| desk.remove_frame(&both));
+    assert!(said.starts_with("there is no frame"), "{said}");
+    assert_eq!(
+        Desk::next_color(Some("#123456")),
+        Desk::next_color(None),
+        "a color of one's own begins the row"
+    );
+}
+
+#[test]
+fn a_node_is_in_one_frame_at_a_time_where_it_is_put_into_one() {
+    let mut desk = opened(
+        r#""frames": { "f": { "nodes": ["a", "gone"] }, "g": { "nodes": ["b"] } },"#,
+        r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#,
+    );
+    let nodes = |desk: &Desk, name: &str| -> Vec<String> {
+        desk.graph().frames()[name]
+            .nodes
+            .iter()
+            .map(NodeId::to_string)
+            .collect()
+    };
+    let a = [id("a")].into();
+    step(&mut desk, |desk| desk.put_into_frame(&a, Some("g")));
+    assert_eq!(
+        (nodes(&desk, "f"), nodes(&desk, "g")),
+        (vec!["gone".to_owned()], vec!["b".to_owned(), "a".to_owned()])
+    );
+    refused(&mut desk, |desk| desk.put_into_frame(&a, Some("g")));
+    step(&mut desk, |desk| desk.put_into_frame(&a, None));
+    assert_eq!(nodes(&desk, "g"), ["b"]);
+}

@@ -1,0 +1,192 @@
+//! Connecting, cutting, inserting, merging.
+
+use super::super::Merge;
+use super::*;
+
+fn two_masks() -> Desk {
+    opened(
+        r#""groups": { "two": { "outputs": { "mask": "n", "other": "n.id" }, "nodes": { "n": { "kind": "noise/cells" } } } },"#,
+        r#""a": { "kind": "noise/cells" }, "b": { "kind": "noise/white" },
+           "g": { "kind": "graph/group", "group": "two" },
+           "levels": { "kind": "adjust/levels", "inputs": { "source": "a" } },
+           "base": { "kind": "source/material" },
+           "layer": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "levels" } },
+           "out": { "kind": "output/material", "inputs": { "material": "layer" } }"#,
+    )
+}
+
+#[test]
+fn a_wire_takes_the_place_of_the_one_that_was_there() {
+    let mut desk = two_masks();
+    step(&mut desk, |desk| desk.connect(&from("b"), &to("levels.source")));
+    assert_eq!(wire(&desk, "levels.source"), "b");
+    step(&mut desk, |desk| {
+        desk.cut(&[to("levels.source"), to("layer.mask"), to("layer.color_map")])
+    });
+    assert_eq!([wire(&desk, "levels.source"), wire(&desk, "layer.mask")], ["", ""]);
+}
+
+#[test]
+fn a_wire_from_the_first_result_names_the_node_alone_unless_it_is_a_group() {
+    let mut desk = two_masks();
+    desk.connect(&from("a.mask"), &to("levels.source"));
+    assert_eq!(wire(&desk, "levels.source"), "a");
+    desk.connect(&from("a.id"), &to("levels.source"));
+    assert_eq!(wire(&desk, "levels.source"), "a.id");
+    for port in ["g", "g.mask"] {
+        desk.connect(&from(port), &to("levels.source"));
+        // A group of two outputs is asked which one; so is one that gets a second one later.
+        assert_eq!(wire(&desk, "levels.source"), "g.mask");
+    }
+    flat(&desk);
+}
+
+#[test]
+fn a_wire_that_does_not_fit_is_refused_and_says_why() {
+    let mut desk = two_masks();
+    let mut said = |from_: &str, to_: &str| refused(&mut desk, |desk| desk.connect(&from(from_), &to(to_)));
+    assert_eq!(
+        said("a", "layer.base"),
+        "'Base' takes a material, and this wire carries a mask; only masks and colors turn into each other"
+    );
+    assert_eq!(said("layer", "layer.base"), "'Layer' cannot read its own result");
+    assert_eq!(said("levels", "levels.source"), "'Levels' cannot read its own result");
+    assert_eq!(said("out", "layer.base"), "'Material output' gives no result");
+    assert_eq!(said("a.nothing", "levels.source"), "'Cells' gives no result 'nothing'");
+    assert_eq!(said("a", "levels.nothing"), "'Levels' has no input 'nothing'");
+    assert_eq!(
+        said("levels", "a.position"),
+        "'Position' takes a vector, and this wire carries a mask; only masks and colors turn into each other"
+    );
+    let invert = add(&mut desk, "adjust/invert");
+    desk.connect(&from("levels"), &slot(&invert, "source"));
+    let said = refused(&mut desk, |desk| desk.connect(&out(&invert), &to("levels.source")));
+    assert_eq!(said, "'Invert' is made from 'Levels'; this wire would lead in a circle");
+}
+
+#[test]
+fn a_bend_takes_what_those_take_who_read_it() {
+    let mut desk = two_masks();
+    step(&mut desk, |desk| desk.reroute(&to("layer.base"), [0.0; 2]));
+    let bend = wire(&desk, "layer.base");
+    assert_eq!(wire(&desk, &format!("{bend}.source")), "base");
+    let said = refused(&mut desk, |desk| {
+        desk.connect(&from("a"), &to(&format!("{bend}.source")))
+    });
+    assert!(said.starts_with("'Base' takes a material"), "{said}");
+    // One that nobody reads takes anything, whatever comes in now.
+    desk.cut(&[to("layer.base")]);
+    assert!(desk.connect(&from("a"), &to(&format!("{bend}.source"))));
+    let said = refused(&mut desk, |desk| desk.connect(&from(&bend), &to("layer.base")));
+    assert!(said.starts_with("'Base' takes a material"), "{said}");
+}
+
+#[test]
+fn a_node_is_put_into_a_wire() {
+    let mut desk = two_masks();
+    let invert = add(&mut desk, "adjust/invert");
+    assert!(desk.may_insert(&invert, &to("layer.mask")));
+    step(&mut desk, |desk| desk.insert(&invert, &to("layer.mask")));
+    assert_eq!(wire(&desk, &format!("{invert}.source")), "levels");
+    assert_eq!(wire(&desk, "layer.mask"), invert.as_str());
+}
+
+#[test]
+fn a_node_is_put_into_a_wire_by_an_input_that_is_free() {
+    let mut desk = two_masks();
+    let blend = add(&mut desk, "blend/mask");
+    desk.connect(&from("b"), &slot(&blend, "below"));
+    step(&mut desk, |desk| desk.insert(&blend, &to("layer.mask")));
+    assert_eq!(wire(&desk, &format!("{blend}.above")), "levels");
+    assert_eq!(wire(&desk, &format!("{blend}.below")), "b");
+}
+
+#[test]
+fn a_node_that_does_not_fit_is_not_put_into_a_wire() {
+    let mut desk = two_masks();
+    let relief = add(&mut desk, "effect/relief");
+    let why = "only a node that nobody reads yet, with a free input and a result that fit, can be put into a wire";
+    for (node, input) in [
+        (relief.clone(), "layer.mask"),
+        (id("levels"), "layer.mask"),
+        (id("layer"), "out.material"),
+        (id("out"), "layer.mask"),
+        (id("base"), "out.material"),
+        (id("lost"), "layer.mask"),
+        (relief, "layer.color_map"),
+    ] {
+        assert!(!desk.may_insert(&node, &to(input)), "{node} into {input}");
+        assert_eq!(refused(&mut desk, |desk| desk.insert(&node, &to(input))), why);
+    }
+}
+
+#[test]
+fn a_node_made_from_a_reader_is_not_put_before_it() {
+    let mut desk = opened(
+        "",
+        r#""a": { "kind": "noise/cells" }, "levels": { "kind": "adjust/levels", "inputs": { "source": "a" } },
+           "blend": { "kind": "blend/mask", "inputs": { "mask": "levels" } }"#,
+    );
+    assert!(!desk.may_insert(&id("blend"), &to("levels.source")));
+    let said = refused(&mut desk, |desk| desk.insert(&id("blend"), &to("levels.source")));
+    assert!(said.starts_with("only a node"), "{said}");
+}
+
+#[test]
+fn a_second_mask_is_blended_with_the_first_one() {
+    let mut desk = two_masks();
+    assert!(desk.may_merge(&from("b"), &to("layer.mask")));
+    assert!(
+        !desk.may_merge(&from("levels"), &to("layer.mask")),
+        "it is there already"
+    );
+    assert!(!desk.may_merge(&from("b"), &to("layer.base")) && !desk.may_merge(&from("b"), &to("layer.height_map")));
+    for (_, how) in Merge::OFFERED {
+        let Merge::Blend(mode) = how else { continue };
+        step(&mut desk, |desk| desk.merge(&from("b"), &to("layer.mask"), how));
+        let blend = wire(&desk, "layer.mask");
+        assert_eq!(wire(&desk, &format!("{blend}.below")), "levels");
+        assert_eq!(wire(&desk, &format!("{blend}.above")), "b");
+        assert_eq!(param(&desk, &blend, "mode"), Some(Value::from(mode)));
+        let face = desk.face(&id(&blend)).expect("a face").clone();
+        let sabi_engine::catalog::KnobRole::Choice(words) = &face.knob("mode").expect("a mode").role else {
+            panic!("a mode is a choice");
+        };
+        assert!(words.iter().any(|word| word == mode), "{mode}");
+        desk.undo();
+    }
+    step(&mut desk, |desk| {
+        desk.merge(&from("b"), &to("layer.mask"), Merge::Replace)
+    });
+    assert_eq!(wire(&desk, "layer.mask"), "b");
+}
+
+#[test]
+fn a_mask_is_not_merged_into_what_it_is_made_from() {
+    let mut desk = two_masks();
+    let invert = add(&mut desk, "adjust/invert");
+    desk.connect(&from("levels"), &slot(&invert, "source"));
+    let said = refused(&mut desk, |desk| {
+        desk.merge(&out(&invert), &to("levels.source"), Merge::Blend("add"))
+    });
+    assert_eq!(said, "'Invert' is made from 'Levels'; this wire would lead in a circle");
+}
+
+#[test]
+fn swapping_takes_along_the_knob_of_an_input_that_nothing_leads_to() {
+    let mut desk = opened(
+        "",
+        r#""a": { "kind": "noise/cells" },
+           "m": { "kind": "blend/mask", "inputs": { "above": "a" }, "params": { "below": 0.25 } },
+           "alone": { "kind": "blend/mask" }"#,
+    );
+    select(&mut desk, &["m", "alone"]);
+    step(&mut desk, Desk::swap_inputs);
+    assert_eq!([wire(&desk, "m.below"), wire(&desk, "m.above")], ["a", ""]);
+    assert_eq!(
+        [param(&desk, "m", "below"), param(&desk, "m", "above")],
+        [None, number(0.25)]
+    );
+    step(&mut desk, Desk::swap_inputs);
+    assert_eq!([wire(&desk, "m.below"), wire(&desk, "m.above")], ["", "a"]);
+}
