@@ -1,0 +1,265 @@
+//! `cargo bench --bench live`: how soon a window shows what a slider does, and what thumbnails take. Medians of some moves;
+//! nothing here asserts.
+
+#![allow(clippy::print_stdout, reason = "a bench's table is its output")]
+#![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use sabi_engine::view::{
+    Background, Camera, Environment, MaterialLook, Mode, Renderer, Scene, Shot, Target, Viewpoint,
+};
+use sabi_engine::{
+    AdapterChoice, Gpu, Kinds, Live, LiveModel, LiveOptions, ModelOptions, News, NodeRef, OpenGraph, Seen, Shown, Wish,
+    default_cache_dir, load_environment,
+};
+
+const MOVES: usize = 15;
+/// Of a window of 900 × 700 while something moves.
+const VIEWPORT: [u32; 2] = [450, 350];
+const THUMBNAIL: [u32; 2] = [128, 128];
+
+/// Five point nodes in a row, the first of which has the slider, and what they come out of.
+fn graph(folder: &Path, at: f32) -> OpenGraph {
+    let text = format!(
+        r##"{{ "format": "sabi", "version": 1, "name": "bench", "nodes": {{
+            "clouds": {{ "kind": "noise/simplex" }},
+            "cut": {{ "kind": "adjust/threshold", "inputs": {{ "source": "clouds" }}, "params": {{ "at": {at} }} }},
+            "levels": {{ "kind": "adjust/levels", "inputs": {{ "source": "cut" }} }},
+            "turned": {{ "kind": "adjust/invert", "inputs": {{ "source": "levels" }} }},
+            "both": {{ "kind": "blend/mask", "inputs": {{ "below": "turned", "above": "clouds" }} }},
+            "base": {{ "kind": "source/material" }},
+            "rust": {{ "kind": "effect/layer", "inputs": {{ "base": "base", "mask": "both", "height_map": "clouds" }},
+              "params": {{ "color": "#6b3a1e", "height": 0.01 }} }},
+            "out": {{ "kind": "output/material", "inputs": {{ "material": "rust" }} }} }} }}"##
+    );
+    let path = folder.join("live.sabi");
+    std::fs::write(&path, text).unwrap();
+    OpenGraph::open(&path).unwrap()
+}
+
+fn peer_model() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let shared = root.join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
+    let own = root.join("assets/meshes/figure.glb");
+    if shared.is_file() { shared } else { own }
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times.get(times.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+fn ms(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1000.0
+}
+
+fn row(what: &str, ms: f64, aim: &str) {
+    println!("| {what} | {ms:.1} ms | {aim} |");
+}
+
+/// What was shown, with its model and when.
+type Pictured = (Arc<LiveModel>, Arc<Shown>);
+
+/// A window that draws what it is shown.
+struct Window {
+    gpu: Arc<Gpu>,
+    live: Live,
+    woken: Receiver<()>,
+    renderer: Renderer,
+    environment: Environment,
+    target: Target,
+}
+
+/// Milliseconds of one move, from the wish: coarse and full as they were told, and as they were drawn.
+#[derive(Default)]
+struct Move {
+    told: [f64; 2],
+    drawn: [f64; 2],
+    last: Option<Pictured>,
+    nodes: Vec<(String, Duration)>,
+}
+
+impl Window {
+    fn new(gpu: &Arc<Gpu>, options: LiveOptions) -> Window {
+        let (wake, woken) = channel();
+        Window {
+            live: Live::start(gpu.clone(), options.clone(), move || {
+                // Nobody listens once the window is closed.
+                let _ = wake.send(());
+            }),
+            woken,
+            renderer: Renderer::new(gpu).unwrap(),
+            environment: load_environment(gpu, "studio", options.cache_dir.as_deref()).unwrap().0,
+            target: Target::new(gpu, VIEWPORT).unwrap(),
+            gpu: gpu.clone(),
+        }
+    }
+
+    fn draw(&mut self, (model, shown): &Pictured) {
+        let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+        let aspect = VIEWPORT[0] as f32 / VIEWPORT[1] as f32;
+        let scene = Scene {
+            model: &model.view,
+            looks: &shown.looks,
+            look_of_material: &shown.look_of_material,
+            environment: &self.environment,
+            lights: &[],
+        };
+        let shot = Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, aspect));
+        self.renderer.draw(&self.gpu, &mut self.target, &scene, &shot).unwrap();
+        self.gpu.wait().unwrap();
+    }
+
+    /// Wishes and draws what comes, until all has come.
+    fn answer(&mut self, wish: Wish) -> Move {
+        let asked = Instant::now();
+        let mut made = Move::default();
+        self.live.ask(wish);
+        loop {
+            self.woken.recv().unwrap();
+            for news in self.live.news() {
+                match news {
+                    News::Shown {
+                        is_coarse,
+                        model,
+                        shown,
+                        ..
+                    } => {
+                        let at = usize::from(!is_coarse);
+                        made.told[at] = ms(asked);
+                        let pictured = (model, shown);
+                        self.draw(&pictured);
+                        made.drawn[at] = ms(asked);
+                        made.last = Some(pictured);
+                    }
+                    News::Times { times, .. } => made.nodes = times.nodes,
+                    News::Failed { error, .. } | News::ModelFailed { error, .. } | News::Lost(error) => {
+                        panic!("{error}")
+                    }
+                    News::Done { .. } => return made,
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+/// A thumbnail of a look drawn on its own, and as one of many of a pose: milliseconds.
+fn pictures(window: &Window, (model, shown): &Pictured) -> [f64; 2] {
+    let (gpu, renderer, environment) = (&window.gpu, &window.renderer, &window.environment);
+    let look: &MaterialLook = shown.looks.last().unwrap();
+    let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+    let shot = Shot {
+        background: Background::Clear,
+        mode: Mode::Material,
+        samples: 4,
+        ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, 1.0))
+    };
+    let scene = Scene {
+        model: &model.view,
+        looks: std::slice::from_ref(look),
+        look_of_material: &vec![0; shown.look_of_material.len()],
+        environment,
+        lights: &[],
+    };
+    let mut target = Target::new(gpu, THUMBNAIL).unwrap();
+    let mut pose = renderer.pose(gpu, THUMBNAIL, &model.view, environment, &shot).unwrap();
+    let alone = |_| {
+        let started = Instant::now();
+        renderer.draw(gpu, &mut target, &scene, &shot).unwrap();
+        target.read(gpu).unwrap();
+        ms(started)
+    };
+    let alone = median((0..MOVES).map(alone).collect());
+    let posed = |_| {
+        let started = Instant::now();
+        let drawn = renderer
+            .draw_look(gpu, &mut pose, &model.view, environment, look)
+            .unwrap();
+        drawn.read(gpu).unwrap();
+        ms(started)
+    };
+    [alone, median((0..MOVES).map(posed).collect())]
+}
+
+fn main() {
+    let adapter = match std::env::var("SABI_ADAPTER") {
+        Ok(name) => name.parse().unwrap(),
+        Err(_) => AdapterChoice::Auto,
+    };
+    let gpu = Arc::new(Gpu::open(&adapter).unwrap());
+    println!(
+        "{}\n\n| what | measured | aim on a software driver |\n|---|---|---|",
+        gpu.summary().name
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let options = LiveOptions {
+        cache_dir: default_cache_dir(),
+        coarse_after: Duration::ZERO,
+        ..LiveOptions::default()
+    };
+    let kinds = Arc::new(Kinds::builtin());
+    let model = Arc::new(ModelOptions::new(&peer_model(), 512));
+    let wish = |revision: u64, thumbnails: &[&str]| Wish {
+        revision,
+        graph: Arc::new(graph(folder.path(), 0.2 + 0.02 * revision as f32)),
+        kinds: kinds.clone(),
+        kinds_revision: 0,
+        model: model.clone(),
+        model_revision: 0,
+        coarse_size: 256,
+        seen: vec![Seen::Outputs],
+        inspected: None,
+        thumbnails: thumbnails
+            .iter()
+            .map(|id| NodeRef {
+                node: (*id).to_owned(),
+                port: None,
+            })
+            .collect(),
+        is_flat: false,
+        is_moving: true,
+    };
+    let mut window = Window::new(&gpu, options);
+    let first = window.answer(wish(0, &[]));
+    row("the first time: coarse", first.told[0], "");
+    row("the first time: full", first.told[1], "");
+    window.answer(wish(1, &[]));
+    let moves: Vec<Move> = (2..2 + MOVES as u64)
+        .map(|revision| window.answer(wish(revision, &[])))
+        .collect();
+    let of = |number: &dyn Fn(&Move) -> f64| median(moves.iter().map(number).collect());
+    row("a slider moves: coarse is told", of(&|made| made.told[0]), "≤ 60 ms");
+    row("… and drawn at 450 × 350", of(&|made| made.drawn[0]), "");
+    row("a slider moves: full is told", of(&|made| made.told[1]), "");
+    row("… and drawn at 450 × 350", of(&|made| made.drawn[1]), "≤ 150 ms");
+    let last = moves.last().unwrap();
+    for (node, time) in &last.nodes {
+        row(
+            &format!("… in which {node} at both sizes"),
+            time.as_secs_f64() * 1000.0,
+            "",
+        );
+    }
+    let [alone, posed] = pictures(&window, last.last.as_ref().unwrap());
+    row("a thumbnail drawn on its own", alone, "");
+    row("a thumbnail as one of many", posed, "");
+    let all = ["clouds", "cut", "levels", "turned", "both", "base", "rust", "out"];
+    let still = |revision: u64| Wish {
+        seen: Vec::new(),
+        is_moving: false,
+        ..wish(revision, &all)
+    };
+    window.answer(still(100));
+    let thumbnails = |revision: u64| {
+        let started = Instant::now();
+        window.answer(still(revision));
+        ms(started)
+    };
+    let six = median((101..101 + MOVES as u64).map(thumbnails).collect());
+    row("a slider moves: its six thumbnails alone", six, "");
+}
