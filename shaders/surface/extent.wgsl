@@ -19,24 +19,31 @@ fn key_of(bits: u32) -> u32 {
     return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
 }
 
-@compute @workgroup_size(8, 8)
-fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
-    let texel = texel_of(group, local);
-    let owner = owner_of(texel);
-    if owner == EMPTY || (owner & GHOST_BIT) != 0u {
-        return;
-    }
-    let bits = bitcast<u32>(textureLoad(source, texel.xy, texel.z, 0)[asked.component]);
-    if (bits & 0x7fffffffu) > INFINITY_BITS {
-        atomicAdd(&found[asked.place + 2u], 1u);
-        return;
+// A row of a tile for each invocation, so that few of them want the same places at once.
+@compute @workgroup_size(8)
+fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) row: u32) {
+    var lowest = 0xffffffffu;
+    var highest = 0u;
+    var not_numbers = 0u;
+    for (var column = 0u; column < 8u; column++) {
+        let texel = texel_of(group, vec3u(column, row, 0u));
+        let owner = owner_of(texel);
+        let is_on_surface = owner != EMPTY && (owner & GHOST_BIT) == 0u;
+        let bits = bitcast<u32>(textureLoad(source, texel.xy, texel.z, 0)[asked.component]);
+        let is_number = (bits & 0x7fffffffu) <= INFINITY_BITS;
+        let key = key_of(bits);
+        lowest = select(lowest, min(lowest, key), is_on_surface && is_number);
+        highest = select(highest, max(highest, key), is_on_surface && is_number);
+        not_numbers += select(0u, 1u, is_on_surface && !is_number);
     }
     // Looking first spares nearly all writes to the two places that everybody wants.
-    let key = key_of(bits);
-    if key < atomicLoad(&found[asked.place]) {
-        atomicMin(&found[asked.place], key);
+    if lowest < atomicLoad(&found[asked.place]) {
+        atomicMin(&found[asked.place], lowest);
     }
-    if key > atomicLoad(&found[asked.place + 1u]) {
-        atomicMax(&found[asked.place + 1u], key);
+    if highest > atomicLoad(&found[asked.place + 1u]) {
+        atomicMax(&found[asked.place + 1u], highest);
+    }
+    if not_numbers > 0u {
+        atomicAdd(&found[asked.place + 2u], not_numbers);
     }
 }
