@@ -3,6 +3,7 @@
 
 mod asking;
 mod bar;
+mod boxes;
 mod buttons;
 mod choice;
 mod color;
@@ -11,6 +12,7 @@ mod direction;
 mod doc;
 mod expression;
 mod inline;
+mod keys;
 mod length;
 mod lettering;
 mod numbers;
@@ -86,7 +88,8 @@ pub(crate) enum KnobEvent {
 
 /// Shows rows of knobs and says what is asked for, in order.
 ///
-/// To be called in every frame, without rows where there are none: a drag ends here too when its row has gone.
+/// To be called in every frame, without rows where there are none: a drag ends here too when its row has gone. The `ui` of
+/// other nodes needs another id, so that what was begun on one node is not taken by another.
 pub(crate) fn knobs_ui(
     ui: &mut Ui,
     theme: &Theme,

@@ -1,6 +1,6 @@
 //! What the widgets of one frame share: what was asked so far, and what is remembered from frame to frame.
 
-use egui::{Context, Id, Key, PointerButton, Pos2, Response, Vec2};
+use egui::{Color32, Context, Id, Key, PointerButton, Pos2, Response, Vec2};
 use sabi_graph::Value;
 
 use super::typing::Typing;
@@ -12,8 +12,7 @@ use crate::theme::Theme;
 pub(crate) struct KnobMemory {
     pub(super) drag: Option<Drag>,
     pub(super) typing: Option<Typing>,
-    /// What is wrong with what was typed last, and into which row.
-    pub(super) fault: Option<(Id, String)>,
+    fault: Option<Fault>,
     /// The stop or point that is worked on, and in which row.
     pub(super) selected: Option<(Id, usize)>,
     /// The color that is picked, with the hue that a gray has not, and by which swatch.
@@ -24,6 +23,18 @@ pub(crate) struct KnobMemory {
     pub(super) pasting: Option<(Id, u64)>,
     /// What of a wheel's turn was too little for a step.
     pub(super) wheel: f32,
+}
+
+/// What is wrong with what was typed last.
+#[derive(Clone, Debug)]
+struct Fault {
+    /// The row into which it was typed.
+    row_id: Id,
+    sentence: String,
+    /// Something else was pressed since.
+    is_leaving: bool,
+    /// That was released: the sentence goes now, and not before, or what is clicked would move away under the pointer.
+    is_over: bool,
 }
 
 /// Something that is being dragged.
@@ -86,7 +97,7 @@ impl Asking<'_> {
     pub(super) fn set(&mut self, row: &KnobRow<'_>, value: Value) {
         // Numbers that no file can hold were refused where they were typed; a drag just stops there.
         let Some(value) = value.canonical() else { return };
-        self.memory.fault = None;
+        self.forget_fault();
         if row.differs || *row.held() != value {
             if let Some(drag) = &mut self.memory.drag {
                 drag.has_changed = true;
@@ -98,7 +109,7 @@ impl Asking<'_> {
 
     /// Asks for the default.
     pub(super) fn reset(&mut self, row: &KnobRow<'_>) {
-        self.memory.fault = None;
+        self.forget_fault();
         if row.differs || row.value.is_some() {
             let knob = row.knob.name.clone();
             self.events.push(KnobEvent::Reset { knob });
@@ -137,7 +148,7 @@ impl Asking<'_> {
 
     /// Begins a drag by hand, where the widget that is dragged is another's.
     pub(super) fn begin(&mut self, context: &Context, id: Id, row: &KnobRow<'_>, grip: Grip, origin: Pos2) {
-        self.memory.fault = None;
+        self.forget_fault();
         self.events.push(KnobEvent::Began);
         self.memory.drag = Some(Drag {
             id,
@@ -187,9 +198,44 @@ impl Asking<'_> {
         self.memory.drag = None;
     }
 
-    /// Keeps a sentence to be shown under a row.
+    /// The color of what stands beside a value, on a filled bar too.
+    pub(super) fn beside(&self) -> Color32 {
+        self.theme.quiet.lerp_to_gamma(self.theme.text, 0.45)
+    }
+
+    /// Keeps a sentence to be shown under a row until something else is clicked or asked for.
     pub(super) fn fault(&mut self, row_id: Id, sentence: impl Into<String>) {
-        self.memory.fault = Some((row_id, sentence.into()));
+        self.memory.fault = Some(Fault {
+            row_id,
+            sentence: sentence.into(),
+            is_leaving: false,
+            is_over: false,
+        });
+    }
+
+    /// The sentence that stands under a row.
+    pub(super) fn fault_of(&self, row_id: Id) -> Option<String> {
+        let fault = self.memory.fault.as_ref().filter(|fault| fault.row_id == row_id)?;
+        Some(fault.sentence.clone())
+    }
+
+    pub(super) fn forget_fault(&mut self) {
+        self.memory.fault = None;
+    }
+
+    /// Lets the sentence under a row go when something else is clicked.
+    pub(super) fn age_fault(&mut self, context: &Context, row_id: Id) {
+        let Some(fault) = self.memory.fault.as_mut().filter(|fault| fault.row_id == row_id) else {
+            return;
+        };
+        if fault.is_over {
+            self.forget_fault();
+            return;
+        }
+        let [is_pressed, is_released] =
+            context.input(|input| [input.pointer.any_pressed(), input.pointer.any_released()]);
+        fault.is_leaving |= is_pressed;
+        fault.is_over = fault.is_leaving && is_released;
     }
 }
 

@@ -1,23 +1,28 @@
 //! A number as a bar that is filled to its value: dragged, stepped or typed.
 
 use egui::{
-    Align2, CursorIcon, Event, EventFilter, Id, Key, Modifiers, MouseWheelUnit, Rect, Response, Sense, Ui, WidgetInfo,
-    accesskit,
+    Align2, CursorIcon, Event, Id, Key, Modifiers, MouseWheelUnit, Rect, Response, Sense, Ui, WidgetInfo, accesskit,
 };
 
-use super::KnobRow;
 use super::asking::{Asking, Grip};
 use super::buttons::focus_ring;
+use super::keys::{FINE, hold_arrows};
 use super::length::Measure;
 use super::lettering::write;
 use super::typing::{Field, Typed};
 use super::values::{rounded, step_of, text_of};
+use super::{KnobRow, keys};
 use crate::theme::{space, type_size};
 
-/// Shift is held for a tenth of each step.
-const FINE: f64 = 0.1;
-/// Page up and page down go so many steps.
-const PAGE: f64 = 10.0;
+/// Keys, and how many steps they go.
+const STEPS: [(Key, f64); 6] = [
+    (Key::ArrowRight, 1.0),
+    (Key::ArrowUp, 1.0),
+    (Key::ArrowLeft, -1.0),
+    (Key::ArrowDown, -1.0),
+    (Key::PageUp, 10.0),
+    (Key::PageDown, -10.0),
+];
 /// A wheel that turns smoothly goes a step every so many points.
 const POINTS_OF_A_NOTCH: f32 = 24.0;
 /// Bars that are narrower are dragged as if they were as wide.
@@ -120,23 +125,10 @@ impl Bar<'_> {
             })
         });
         if response.has_focus() {
-            let arrows = EventFilter {
-                horizontal_arrows: true,
-                vertical_arrows: true,
-                ..EventFilter::default()
-            };
-            ui.memory_mut(|memory| memory.set_focus_lock_filter(self.id, arrows));
+            hold_arrows(ui, response);
             ui.input_mut(|input| {
-                for (key, step) in [
-                    (Key::ArrowRight, 1.0),
-                    (Key::ArrowUp, 1.0),
-                    (Key::ArrowLeft, -1.0),
-                    (Key::ArrowDown, -1.0),
-                    (Key::PageUp, PAGE),
-                    (Key::PageDown, -PAGE),
-                ] {
-                    steps += step * FINE * input.count_and_consume_key(Modifiers::SHIFT, key) as f64;
-                    steps += step * input.count_and_consume_key(Modifiers::NONE, key) as f64;
+                for (key, step) in STEPS {
+                    steps += step * keys::steps(input, key);
                 }
                 for (key, end) in [(Key::Home, self.ends[0]), (Key::End, self.ends[1])] {
                     jump = input.consume_key(Modifiers::NONE, key).then_some(end).or(jump);
@@ -321,10 +313,10 @@ impl Bar<'_> {
         let taken = write(painter, within, Align2::RIGHT_CENTER, &self.shown(), size, color);
         let rest = within.with_max_x(within.right() - taken - space::TIGHT);
         if !self.inside.is_empty() {
-            write(painter, rest, Align2::LEFT_CENTER, self.inside, size, theme.quiet);
+            write(painter, rest, Align2::LEFT_CENTER, self.inside, size, ask.beside());
         } else if let Some(note) = self.measure.note(self.value).filter(|_| !self.row.differs) {
             let small = type_size::SMALL * ask.zoom;
-            write(painter, rest, Align2::LEFT_CENTER, &note, small, theme.quiet);
+            write(painter, rest, Align2::LEFT_CENTER, &note, small, ask.beside());
         }
     }
 

@@ -1,17 +1,16 @@
 //! What is chosen: switches, a few words side by side, or a list that opens.
 
-use egui::{
-    Align2, EventFilter, Id, Key, Modifiers, Popup, Rect, Response, ScrollArea, Sense, Ui, Vec2, WidgetInfo, WidgetType,
-};
+use egui::{Align2, Id, Key, Modifiers, Popup, Rect, Response, ScrollArea, Sense, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_engine::catalog::readable;
 use sabi_graph::Value;
 
 use super::KnobRow;
 use super::asking::Asking;
+use super::boxes::share_of;
 use super::buttons::{Chosen, focus_ring, word_button};
+use super::keys::hold_arrows;
 use super::lettering::{width, write};
-use super::numbers::share_of;
 use crate::theme::{space, type_size};
 
 /// More words than this do not stand side by side.
@@ -186,11 +185,7 @@ fn stepped(ui: &Ui, response: &Response, words: &[String], chosen: &str) -> Opti
     if !response.has_focus() {
         return None;
     }
-    let arrows = EventFilter {
-        vertical_arrows: true,
-        ..EventFilter::default()
-    };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    hold_arrows(ui, response);
     let steps = ui.input_mut(|input| {
         input.count_and_consume_key(Modifiers::NONE, Key::ArrowDown) as isize
             - input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp) as isize

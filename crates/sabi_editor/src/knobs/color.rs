@@ -7,8 +7,8 @@ use egui_phosphor::regular as icon;
 use sabi_graph::Value;
 
 use super::asking::{Asking, Grip};
+use super::boxes::cut_square;
 use super::buttons::{focus_ring, sign_button};
-use super::numbers::cut_square;
 use super::typing::{Field, Typed};
 use super::values::{code_of, color_of};
 use super::{KnobEvent, KnobRow};

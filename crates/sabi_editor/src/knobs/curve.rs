@@ -10,10 +10,10 @@ use self::shape::height_at;
 use super::KnobRow;
 use super::asking::{Asking, Drag, Grip};
 use super::bar::Bar;
+use super::boxes::{cut_square, share_of, strip};
 use super::buttons::{focus_ring, sign_button};
-use super::direction::arrows;
-use super::numbers::{bar_of, cut_square, share_of};
-use super::row::strip;
+use super::keys::arrows;
+use super::numbers::bar_of;
 use super::values::{Held, of_points, read, rounded, sort_keeping};
 use crate::theme::space;
 

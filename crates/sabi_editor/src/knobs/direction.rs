@@ -1,14 +1,15 @@
 //! A direction as a ball with a hand on it that is turned by dragging, and the six ways along axes.
 
-use egui::{Id, Key, Modifiers, Pos2, Rect, Response, Sense, Shape, Ui, Vec2, WidgetInfo, WidgetType, accesskit};
+use egui::{Id, Pos2, Rect, Response, Sense, Shape, Ui, Vec2, WidgetInfo, WidgetType, accesskit};
 use glam::{DQuat, DVec3};
 use sabi_engine::catalog::{Knob, KnobRole};
 
 use super::KnobRow;
 use super::asking::{Asking, Grip};
+use super::boxes::share_of;
 use super::buttons::{Chosen, focus_ring, word_button};
+use super::keys::arrows;
 use super::lettering::write;
-use super::numbers::share_of;
 use super::values::{of_numbers, rounded};
 use crate::theme::{Theme, space, type_size};
 
@@ -132,29 +133,6 @@ fn turn(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, ball: Rect, di
     let [right, down] = arrows(ui, &response);
     let [right, down] = [right, down].map(|steps| (steps * STEP).to_radians());
     (right != 0.0 || down != 0.0).then(|| sight.turned(direction, right, down))
-}
-
-/// Steps to the right and down that the keyboard asks a widget for; Shift makes them tenths.
-pub(super) fn arrows(ui: &Ui, response: &Response) -> [f64; 2] {
-    if !response.has_focus() {
-        return [0.0, 0.0];
-    }
-    let filter = egui::EventFilter {
-        horizontal_arrows: true,
-        vertical_arrows: true,
-        ..egui::EventFilter::default()
-    };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
-    ui.input_mut(|input| {
-        let mut steps = |key| {
-            let fine = input.count_and_consume_key(Modifiers::SHIFT, key) as f64;
-            fine * 0.1 + input.count_and_consume_key(Modifiers::NONE, key) as f64
-        };
-        [
-            steps(Key::ArrowRight) - steps(Key::ArrowLeft),
-            steps(Key::ArrowDown) - steps(Key::ArrowUp),
-        ]
-    })
 }
 
 fn paint(ui: &Ui, ask: &Asking<'_>, response: &Response, sight: &Sight, direction: DVec3) {

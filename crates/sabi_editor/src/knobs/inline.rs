@@ -1,7 +1,8 @@
 //! One small row on a node itself: the name and the value in one bar.
 
-use egui::{Align2, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
-use sabi_engine::catalog::KnobRole;
+use egui::{Align2, Color32, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
+use sabi_engine::catalog::{KnobRole, readable};
+use sabi_graph::Value;
 
 use super::asking::{Asking, KnobMemory};
 use super::bar::Bar;
@@ -14,8 +15,10 @@ use crate::theme::{Theme, space, type_size};
 /// Below this zoom nobody reads, and a row is a plain block.
 const LEGIBLE: f32 = 0.45;
 
-/// Shows a knob on a node, as wide as that is. What is dragged and typed is remembered in the context, for all nodes
-/// together: one hand does one thing.
+/// Shows a knob on a node, as wide as that is, and says what is asked for. The `ui` of each node needs an id of its own.
+///
+/// What is dragged and typed is remembered in the context, for all nodes together: one hand does one thing. Where the node
+/// of a drag has gone, the next knob that is shown says that it ended.
 pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: f32, zoom: f32) -> Vec<KnobEvent> {
     let id = ui.make_persistent_id(("inline", &row.knob.name));
     let kept = Id::new("what knobs on nodes remember");
@@ -34,23 +37,24 @@ pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: 
         zoom,
         events: Vec::new(),
     };
+    ask.age_fault(ui.ctx(), id);
     let (_, rect) = ui.allocate_space(Vec2::new(width, space::ROW * zoom));
     if zoom < LEGIBLE {
         ui.painter()
             .rect_filled(rect, f32::from(space::CORNER) * zoom, theme.raised);
     } else if let Some(from) = row.wired {
-        named(ui, &ask, row, id, rect, &format!("from {from}"));
+        named(ui, &ask, row, id, rect, &format!("from {from}"), theme.quiet);
     } else {
         widget(ui, &mut ask, row, id, rect);
     }
     ask.finish(ui.ctx(), |dragged| {
         dragged == id.with("bar") || dragged == id.with("swatch")
     });
-    let events = ask.events;
-    if let Some((_, sentence)) = memory.fault.as_ref().filter(|(of, _)| *of == id) {
+    if let Some(sentence) = ask.fault_of(id) {
         let below = ui.interact(rect, id.with("fault"), Sense::hover());
         below.show_tooltip_text(egui::RichText::new(sentence).color(theme.fault));
     }
+    let events = ask.events;
     ui.data_mut(|data| data.insert_temp(kept, memory));
     events
 }
@@ -77,7 +81,7 @@ fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Re
             let step = step_of(row.knob.slider(), row.knob.is_whole);
             let held = held.iter().take(row.knob.components);
             let texts: Vec<String> = held.map(|number| text_of(*number, step)).collect();
-            named(ui, ask, row, id, rect, &texts.join("  "));
+            named(ui, ask, row, id, rect, &texts.join("  "), ask.theme.text);
         }
         (Some(Held::On(is_on)), _) => {
             let size = Vec2::new(24.0, 13.0) * ask.zoom;
@@ -94,7 +98,7 @@ fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Re
                 ask.theme.raised
             };
             ui.painter().rect_filled(rect, space::CORNER, fill);
-            value(ui, ask, row, rect, &sabi_engine::catalog::readable(word));
+            value(ui, ask, row, rect, &readable(word), ask.theme.text);
             choice::open_list(ui, ask, row, &response, words, word);
         }
         (Some(Held::Color(held)), _) => {
@@ -104,13 +108,13 @@ fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Re
             label(ui, ask, row, inside.with_max_x(place.left()));
             let asked = color::swatch(ui, ask, row, id.with("swatch"), place, &row.knob.label, held);
             if let Some(color) = asked {
-                ask.set(row, sabi_graph::Value::Text(code_of(color)));
+                ask.set(row, Value::Text(code_of(color)));
             }
         }
         (Some(Held::Stops(stops)), _) => ramp(ui, ask, row, id, rect, &stops),
         (Some(Held::Points(points)), _) => line(ui, ask, row, id, rect, &points),
-        (Some(Held::Text(text)), _) => named(ui, ask, row, id, rect, text),
-        (None, _) => named(ui, ask, row, id, rect, "cannot be read"),
+        (Some(Held::Text(text)), _) => named(ui, ask, row, id, rect, text, ask.theme.text),
+        (None, _) => named(ui, ask, row, id, rect, "cannot be read", ask.theme.fault),
     }
 }
 
@@ -126,33 +130,33 @@ fn label(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, rect: Rect) {
         Align2::LEFT_CENTER,
         &row.knob.label,
         size,
-        ask.theme.quiet,
+        ask.beside(),
     );
 }
 
 /// The name on the left and a value on the right.
-fn value(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, rect: Rect, text: &str) {
+fn value(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, rect: Rect, text: &str, color: Color32) {
     let inside = within(rect, ask.zoom);
     let size = type_size::BODY * ask.zoom;
     let text = if row.differs { "several" } else { text };
     // The value says more than the name where there is little room.
     let right = inside.with_min_x(inside.left() + inside.width() * 0.3);
-    let taken = write(ui.painter(), right, Align2::RIGHT_CENTER, text, size, ask.theme.text);
+    let taken = write(ui.painter(), right, Align2::RIGHT_CENTER, text, size, color);
     label(ui, ask, row, inside.with_max_x(inside.right() - taken - space::TIGHT));
 }
 
 /// A knob that is only shown here; the panel has room to edit it.
-fn named(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str) {
+fn named(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str, color: Color32) {
     let response = ui.interact(rect, id.with("shown"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, ui.is_enabled(), &row.knob.label));
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_value(text));
-    value(ui, ask, row, rect, text);
+    value(ui, ask, row, rect, text, color);
 }
 
 /// The right half of a row, for a picture of its value.
 fn picture(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) -> Rect {
-    named(ui, ask, row, id, rect, "");
+    named(ui, ask, row, id, rect, "", ask.theme.quiet);
     let inside = within(rect, ask.zoom);
     inside
         .with_min_x(inside.center().x)

@@ -3,17 +3,17 @@
 use std::f64::consts::TAU;
 use std::hash::{BuildHasher, RandomState};
 
-use egui::{Id, Pos2, Rect, Sense, Ui, Vec2};
+use egui::{Id, Rect, Sense, Ui, Vec2};
 use egui_phosphor::regular as icon;
 use sabi_engine::catalog::{Knob, KnobRole};
 
 use super::asking::{Asking, Grip};
 use super::bar::Bar;
+use super::boxes::{cut_square, share_of};
 use super::buttons::sign_button;
 use super::length::Measure;
 use super::values::{of_numbers, rounded};
 use super::{KnobEvent, KnobRow, direction};
-use crate::theme::space;
 
 /// What the numbers of a vector are called.
 const AXES: [&str; 4] = ["X", "Y", "Z", "W"];
@@ -108,21 +108,6 @@ fn several(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: R
     if direction::is_one(row.knob) {
         direction::show(ui, ask, row, id, rect, [numbers[0], numbers[1], numbers[2]]);
     }
-}
-
-/// One of several equal parts of a box, side by side.
-pub(super) fn share_of(rect: Rect, at: usize, count: usize) -> Rect {
-    let gap = space::TIGHT / 2.0;
-    let width = (rect.width() + gap) / count as f32;
-    let left = rect.left() + width * at as f32;
-    Rect::from_min_size(Pos2::new(left, rect.top()), Vec2::new(width - gap, rect.height()))
-}
-
-/// Cuts a square off the right end of a box.
-pub(super) fn cut_square(rect: &mut Rect) -> Rect {
-    let square = rect.with_min_x(rect.right() - rect.height());
-    rect.max.x = square.left() - space::TIGHT / 2.0;
-    square
 }
 
 fn angle(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, degrees: f64) {

@@ -9,13 +9,12 @@ use sabi_engine::catalog::KnobRole;
 use sabi_graph::Value;
 
 use super::asking::Asking;
+use super::boxes::DOTS;
 use super::lettering::write;
 use super::values::{Held, fits, read, takes};
 use super::{KnobEvent, KnobRow, choice, color, curve, doc, numbers, stops, text};
 use crate::theme::{space, type_size};
 
-/// Width of the column of dots, which is the left margin too.
-const DOTS: f32 = 12.0;
 /// The column of names takes this share of a row, within limits.
 const NAMES: f32 = 0.36;
 const NARROWEST_NAMES: f32 = 70.0;
@@ -28,6 +27,7 @@ pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>) {
     let (_, head) = ui.allocate_space(Vec2::new(ui.available_width(), space::ROW));
     let names = (head.width() * NAMES).clamp(NARROWEST_NAMES, WIDEST_NAMES);
     let column = head.with_min_x(head.left() + DOTS + names);
+    ask.age_fault(ui.ctx(), id);
     dot(ui, ask, row, id, head.with_max_x(head.left() + DOTS));
     name(
         ui,
@@ -40,9 +40,8 @@ pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>) {
         Some(from) => wired(ui, ask, row, id, column, from),
         None => widget(ui, ask, row, id, column),
     }
-    let told = ask.memory.fault.as_ref().filter(|(of, _)| *of == id);
-    if let Some((_, told)) = told {
-        sentence(ui, id.with("fault"), column.left(), told, ask.theme.fault);
+    if let Some(told) = ask.fault_of(id) {
+        sentence(ui, id.with("fault"), column.left(), &told, ask.theme.fault);
     }
     let bottom = ui.cursor().top().max(head.bottom());
     menu(ui, ask, row, id, head.with_max_y(bottom));
@@ -81,12 +80,6 @@ fn shortened(text: &str) -> String {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }
-}
-
-/// A box over the whole width under a row.
-pub(super) fn strip(ui: &mut Ui, height: f32) -> Rect {
-    let (_, rect) = ui.allocate_space(Vec2::new(ui.available_width(), height));
-    rect.with_min_x(rect.left() + DOTS)
 }
 
 /// A sentence under a row.

@@ -9,12 +9,12 @@ use egui_phosphor::regular as icon;
 use super::KnobRow;
 use super::asking::{Asking, Drag, Grip};
 use super::bar::Bar;
+use super::boxes::{cut_square, strip};
 use super::buttons::{focus_ring, sign_button};
 use super::color::swatch_and_code;
-use super::direction::arrows;
+use super::keys::arrows;
 use super::lettering::write;
-use super::numbers::{bar_of, cut_square};
-use super::row::strip;
+use super::numbers::bar_of;
 use super::values::{Held, Stop, of_stops, read, rounded, sort_keeping};
 use crate::theme::{space, type_size};
 

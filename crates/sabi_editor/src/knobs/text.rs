@@ -5,8 +5,8 @@ use egui_phosphor::regular as icon;
 use sabi_graph::Value;
 
 use super::asking::Asking;
+use super::boxes::cut_square;
 use super::buttons::sign_button;
-use super::numbers::cut_square;
 use super::typing::{Field, Typed};
 use super::{KnobEvent, KnobRow, row};
 

@@ -78,7 +78,7 @@ impl Asking<'_> {
             typing.is_new = false;
         }
         if response.changed() {
-            self.memory.fault = None;
+            self.forget_fault();
         }
         if response.has_focus() {
             self.memory.typing = Some(Typing { text, ..typing });
@@ -86,10 +86,11 @@ impl Asking<'_> {
         }
         // Where the focus was lost unseen, nobody has taken what was typed.
         let is_taken = response.lost_focus() && !ui.input(|input| input.key_pressed(Key::Escape));
-        match is_taken && text != field.shown {
-            true => Typed::Taken(text),
-            false => Typed::Left,
+        if is_taken && text != field.shown {
+            return Typed::Taken(text);
         }
+        self.forget_fault();
+        Typed::Left
     }
 
     fn edit(&self, ui: &mut Ui, field: &Field<'_>, text: &mut String) -> Response {

@@ -78,3 +78,17 @@ fn what_is_edited_in_the_panel_is_shown_on_nodes() {
         assert!(board.query_by_label(name).is_some(), "{name}");
     }
 }
+
+#[test]
+fn a_mistake_on_a_node_is_told_beside_it_until_something_else_is_pressed() {
+    let mut board = node([knob("blend/mask.opacity")], 1.0);
+    type_into(&mut board, "Opacity", "1+");
+    assert!(says(&board, "A number is missing"));
+    let elsewhere = Pos2::new(300.0, 500.0);
+    press(&mut board, elsewhere);
+    release(&mut board, elsewhere);
+    press(&mut board, elsewhere);
+    release(&mut board, elsewhere);
+    assert!(!says(&board, "A number is missing"));
+    assert_eq!(taken(&mut board), []);
+}
