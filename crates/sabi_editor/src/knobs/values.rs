@@ -215,3 +215,59 @@ pub(super) fn text_of(number: f64, step: f64) -> String {
         text => text.to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_a_power_of_ten_of_which_a_hundred_or_more_fit() {
+        for (ends, expected) in [
+            ([0.0, 1.0], 0.01),
+            ([0.0, 180.0], 1.0),
+            ([-1.0, 1.0], 0.01),
+            ([0.001, 0.05], 0.0001),
+            ([1.0, 1.0], 0.01),
+        ] {
+            let found = step_of(ends, false);
+            assert!((found / expected - 1.0).abs() < 1e-9, "{ends:?} has {found}");
+        }
+        assert_eq!(step_of([0.0, 10_000.0], true), 1.0);
+    }
+
+    #[test]
+    fn a_number_is_shown_with_the_digits_that_count() {
+        for (number, step, expected) in [
+            (0.5, 0.01, "0.5"),
+            (1.0 / 3.0, 0.01, "0.3333"),
+            (100.0, 1.0, "100"),
+            (-0.0, 0.01, "0"),
+            (0.000_001, 0.01, "1.0e-6"),
+            (-0.000_04, 0.01, "-4.0e-5"),
+        ] {
+            assert_eq!(text_of(number, step), expected);
+        }
+    }
+
+    #[test]
+    fn what_is_sorted_is_found_again() {
+        let mut items = [2.5, 1.0, 2.0, 4.0];
+        assert_eq!(sort_keeping(&mut items, 0, |item| *item), 2);
+        assert_eq!(items, [1.0, 2.0, 2.5, 4.0]);
+        items[3] = 1.5;
+        assert_eq!(sort_keeping(&mut items, 3, |item| *item), 1);
+        assert_eq!(items, [1.0, 1.5, 2.0, 2.5]);
+    }
+
+    #[test]
+    fn a_color_is_read_as_people_write_it() {
+        let rust = Some(Color32::from_rgb(0x6b, 0x3a, 0x1e));
+        for text in ["#6b3a1e", "6B3A1E", " #6b3a1e "] {
+            assert_eq!(color_of(text), rust);
+        }
+        assert_eq!(color_of("#18f"), Some(Color32::from_rgb(0x11, 0x88, 0xff)));
+        for text in ["", "#", "#12345", "#1234567", "rust", "#+12345", "ééé"] {
+            assert_eq!(color_of(text), None, "{text}");
+        }
+    }
+}
