@@ -5,6 +5,8 @@ mod bars;
 mod documents;
 mod keys;
 mod perform;
+#[cfg(test)]
+mod tests;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;

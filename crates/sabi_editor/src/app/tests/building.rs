@@ -1,0 +1,34 @@
+use egui::{Key, Modifiers};
+
+use super::Window;
+
+#[test]
+fn a_graph_is_built_from_nothing_by_clicks_and_keys_and_taken_back_to_nothing() {
+    let mut window = Window::empty();
+    window.settle();
+    let empty = window.text();
+    let paint = window.add([0.05, 0.1], "source material");
+    let noise = window.add([0.05, 0.55], "clouds");
+    let layer = window.add([0.4, 0.1], "effect layer");
+    window.wire((&paint, "material"), (&layer, "base"));
+    window.wire((&noise, "mask"), (&layer, "mask"));
+    assert_eq!(window.wire_into(&layer, "base").map(|from| from.node), Some(paint));
+    assert_eq!(window.wire_into(&layer, "mask").map(|from| from.node), Some(noise));
+    let built = window.text();
+    for _ in 0..5 {
+        window.keys(Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(window.text(), empty, "five steps lead back to nothing");
+    for _ in 0..5 {
+        window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    }
+    assert_eq!(window.text(), built, "and forth to the same bytes");
+}
+
+#[test]
+fn every_node_that_is_seen_gets_a_picture_and_the_model_is_lit() {
+    let mut window = Window::empty();
+    let noise = window.add([0.3, 0.3], "clouds");
+    window.until("a picture of the noise", |editor| editor.thumbnail_of(&noise).is_some());
+    window.until("a picture of the model", |editor| editor.model_view.drawn > 0);
+}
