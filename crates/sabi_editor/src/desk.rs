@@ -15,6 +15,7 @@ mod heirs;
 mod instances;
 mod layered;
 mod layers;
+mod layout;
 mod library;
 mod names;
 mod nodes;
@@ -45,6 +46,11 @@ pub(crate) use library::ENDING;
 pub(crate) use panel::PanelKnob;
 pub(crate) use stack::{Layer, Stack, StackEnd};
 pub(crate) use wires::Merge;
+
+/// Around the nodes of a frame, canvas points.
+pub(crate) const FRAME_AROUND: f32 = 20.0;
+/// Height of the strip with a frame's title.
+pub(crate) const FRAME_STRIP: f32 = 30.0;
 
 /// What a wire that is being dragged is tied to.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use egui::{Align2, Color32, CornerRadius, FontId, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Color32, CornerRadius, FontId, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
 use egui_phosphor::regular as icon;
 
 use super::snapshot::{Hand, Shown};
@@ -95,23 +95,21 @@ pub(super) fn port_row(ui: &mut Ui, hand: &Hand, name: &str, is_input: bool) {
 /// A knob that is turned on the node itself.
 pub(super) fn knob_row(ui: &mut Ui, hand: &mut Hand, shown: &Shown, at: usize) {
     let zoom = hand.zoom;
-    let size = vec2(INNER, ROW_HEIGHT) * zoom;
-    let layout = egui::Layout::left_to_right(egui::Align::Center);
+    // Taken first: rows are as high as they say, whatever is in them, since ports are where rows are.
+    let (rect, _) = ui.allocate_exact_size(vec2(INNER, ROW_HEIGHT) * zoom, Sense::hover());
+    let Some(knob) = shown.face.knobs.get(at) else { return };
     let theme = hand.theme.clone();
-    ui.allocate_ui_with_layout(size, layout, |ui| {
-        ui.set_min_size(size);
-        let Some(knob) = shown.face.knobs.get(at) else { return };
-        let row = KnobRow {
-            knob,
-            value: shown.values.get(&knob.name),
-            wired: None,
-            exposed: None,
-            differs: false,
-        };
-        let events = knob_inline(ui, &theme, &row, INNER * zoom, zoom);
-        hand.knob_events
-            .extend(events.into_iter().map(|event| (shown.id.clone(), event)));
-    });
+    let row = KnobRow {
+        knob,
+        value: shown.values.get(&knob.name),
+        wired: None,
+        exposed: None,
+        differs: false,
+    };
+    let inside = UiBuilder::new().id_salt((&shown.id, &knob.name)).max_rect(rect);
+    let events = knob_inline(&mut ui.new_child(inside), &theme, &row, rect.width(), zoom);
+    let events = events.into_iter().map(|event| (shown.id.clone(), event));
+    hand.knob_events.extend(events);
 }
 
 /// The picture of the result, or what is wrong.

@@ -8,20 +8,15 @@ use super::gesture::Gesture;
 use super::questions::Renaming;
 use super::{Around, Canvas, node_rect};
 use crate::action::Action;
-use crate::desk::Desk;
+use crate::desk::{Desk, FRAME_AROUND, FRAME_STRIP};
 use crate::theme::type_size;
-
-/// Around the nodes of a frame, canvas points.
-const AROUND: f32 = 20.0;
-/// Height of the strip with a frame's title.
-const STRIP: f32 = 30.0;
 
 /// The rectangle of a frame on the canvas; none where none of its nodes is there.
 pub(super) fn rect_of(desk: &Desk, id: &str) -> Option<Rect> {
     let frame = desk.graph().frames().get(id)?;
     let rects = frame.nodes.iter().filter_map(|id| node_rect(desk, id));
-    let all = rects.reduce(|all, rect| all.union(rect))?.expand(AROUND);
-    Some(Rect::from_min_max(all.min - vec2(0.0, STRIP), all.max))
+    let all = rects.reduce(|all, rect| all.union(rect))?.expand(FRAME_AROUND);
+    Some(Rect::from_min_max(all.min - vec2(0.0, FRAME_STRIP), all.max))
 }
 
 pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, actions: &mut Vec<Action>) {
@@ -37,7 +32,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
         let color = frame.color.as_deref().and_then(|code| Color32::from_hex(code).ok());
         let color = color.unwrap_or(around.theme.line);
         ui.painter().rect_filled(rect, 6.0 * zoom, color.gamma_multiply(0.25));
-        let strip = Rect::from_min_max(rect.min, egui::pos2(rect.max.x, rect.min.y + STRIP * zoom));
+        let strip = Rect::from_min_max(rect.min, egui::pos2(rect.max.x, rect.min.y + FRAME_STRIP * zoom));
         ui.painter().rect_filled(strip, 6.0 * zoom, color.gamma_multiply(0.6));
         let title = frame.title.as_deref().unwrap_or("");
         let letters = (type_size::HEADING * zoom).max(9.0);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_engine::catalog::{Entry, Knob, KnobRole};
 use sabi_graph::{Edit, NodeId};
 
-use super::{Desk, layered};
+use super::Desk;
 
 /// Width of a node, canvas points.
 pub(crate) const NODE_WIDTH: f32 = 200.0;
@@ -136,37 +136,6 @@ impl Desk {
             }
         }
         self.move_to("Straighten", places)
-    }
-
-    /// Lays the selected nodes out from left to right, or all where none are selected.
-    pub(crate) fn lay_out(&mut self) -> bool {
-        let ids: Vec<NodeId> = match self.selection.is_empty() {
-            true => self.graph().ids().cloned().collect(),
-            false => self.selection.iter().cloned().collect(),
-        };
-        let boxes: Vec<layered::Boxed> = ids
-            .iter()
-            .map(|id| layered::Boxed {
-                height: self.height(id),
-                reads: self
-                    .neighbors(id, true)
-                    .iter()
-                    .filter_map(|from| ids.binary_search(from).ok())
-                    .collect(),
-            })
-            .collect();
-        let corner = ids
-            .iter()
-            .filter_map(|id| self.node(id))
-            .fold([f32::INFINITY; 2], |corner, node| {
-                [corner[0].min(node.pos[0]), corner[1].min(node.pos[1])]
-            });
-        let places = layered::lay_out(&boxes, NODE_WIDTH);
-        let snapped = |at: f32| (at / GRID).round() * GRID;
-        let places = ids.into_iter().zip(places);
-        let places = places.map(|(id, [x, y])| (id, [snapped(corner[0] + x), snapped(corner[1] + y)]));
-        let places = places.collect();
-        self.move_to("Lay out", places)
     }
 }
 

@@ -11,13 +11,14 @@ const SWEEPS: usize = 8;
 /// A box to be placed.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Boxed {
+    pub(super) width: f32,
     pub(super) height: f32,
     /// Boxes whose results it reads, by index; they never lead in a circle.
     pub(super) reads: Vec<usize>,
 }
 
 /// Upper left corners, from the upper left corner of all.
-pub(super) fn lay_out(boxes: &[Boxed], width: f32) -> Vec<[f32; 2]> {
+pub(super) fn lay_out(boxes: &[Boxed]) -> Vec<[f32; 2]> {
     let readers = readers_of(boxes);
     let columns = columns_of(boxes, &readers);
     let last = columns.iter().copied().max().unwrap_or(0);
@@ -53,11 +54,20 @@ pub(super) fn lay_out(boxes: &[Boxed], width: f32) -> Vec<[f32; 2]> {
     let top = (0..boxes.len())
         .map(|at| middles[at] - boxes[at].height / 2.0)
         .fold(f32::INFINITY, f32::min);
-    let place = |at: usize| {
-        let x = columns[at] as f32 * (width + COLUMN_GAP);
-        [x, middles[at] - boxes[at].height / 2.0 - top]
-    };
+    let lefts = lefts_of(&ranks, boxes);
+    let place = |at: usize| [lefts[columns[at]], middles[at] - boxes[at].height / 2.0 - top];
     (0..boxes.len()).map(place).collect()
+}
+
+/// Where each column begins: as wide as its widest box.
+fn lefts_of(ranks: &[Vec<usize>], boxes: &[Boxed]) -> Vec<f32> {
+    let widest = |rank: &Vec<usize>| rank.iter().map(|at| boxes[*at].width).fold(0.0, f32::max);
+    let begin = |left: &mut f32, rank: &Vec<usize>| {
+        let begins = *left;
+        *left += widest(rank) + COLUMN_GAP;
+        Some(begins)
+    };
+    ranks.iter().scan(0.0, begin).collect()
 }
 
 fn readers_of(boxes: &[Boxed]) -> Vec<Vec<usize>> {
@@ -157,6 +167,7 @@ mod tests {
 
     fn boxed(height: f32, reads: &[usize]) -> Boxed {
         Boxed {
+            width: 200.0,
             height,
             reads: reads.to_vec(),
         }
@@ -165,7 +176,7 @@ mod tests {
     #[test]
     fn a_reader_stands_right_of_all_it_reads_and_level_with_a_single_one() {
         let boxes = [boxed(100.0, &[]), boxed(100.0, &[0]), boxed(60.0, &[1, 0])];
-        let places = lay_out(&boxes, 200.0);
+        let places = lay_out(&boxes);
         assert!(places[0][0] < places[1][0] && places[1][0] < places[2][0], "{places:?}");
     }
 
@@ -175,7 +186,7 @@ mod tests {
             .map(|at| boxed(50.0 + 20.0 * at as f32, &[]))
             .chain([boxed(400.0, &[0, 1, 2, 3]), boxed(80.0, &[4, 5, 6, 7, 8, 0])])
             .collect();
-        let places = lay_out(&boxes, 200.0);
+        let places = lay_out(&boxes);
         for one in 0..boxes.len() {
             for other in one + 1..boxes.len() {
                 let is_apart = places[one][0] != places[other][0]
@@ -188,6 +199,6 @@ mod tests {
 
     #[test]
     fn nothing_is_laid_out_as_nothing() {
-        assert!(lay_out(&[], 200.0).is_empty());
+        assert!(lay_out(&[]).is_empty());
     }
 }

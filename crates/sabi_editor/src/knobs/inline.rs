@@ -10,10 +10,14 @@ use super::curve::View;
 use super::lettering::write;
 use super::values::{Held, Stop, code_of, read, step_of, text_of};
 use super::{KnobEvent, KnobRow, Lengths, choice, color, numbers};
+use crate::desk::ROW_HEIGHT;
 use crate::theme::{Theme, space, type_size};
 
 /// Below this zoom nobody reads, and a row is a plain block.
 const LEGIBLE: f32 = 0.45;
+
+/// Height of a row, a little less than the room that a node has for it.
+const HEIGHT: f32 = ROW_HEIGHT - 2.0;
 
 /// Shows a knob on a node, as wide as that is, and says what is asked for. The `ui` of each node needs an id of its own.
 ///
@@ -38,7 +42,7 @@ pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: 
         events: Vec::new(),
     };
     ask.age_fault(ui.ctx(), id);
-    let (_, rect) = ui.allocate_space(Vec2::new(width, space::ROW * zoom));
+    let (_, rect) = ui.allocate_space(Vec2::new(width, HEIGHT * zoom));
     if zoom < LEGIBLE {
         ui.painter()
             .rect_filled(rect, f32::from(space::CORNER) * zoom, theme.raised);
