@@ -12,71 +12,33 @@ struct Relief {
 @group(1) @binding(0) var<uniform> relief: Relief;
 @group(1) @binding(1) var heights: texture_2d_array<f32>;
 @group(1) @binding(2) var slopes: texture_2d_array<f32>;
-@group(1) @binding(3) var normals: texture_storage_2d_array<rgba32float, write>;
+@group(1) @binding(3) var stencils: texture_2d_array<u32>;
+@group(1) @binding(4) var normals: texture_storage_2d_array<rgba32float, write>;
 
 fn height_at(texel: vec3i) -> f32 {
     return textureLoad(heights, texel.xy, texel.z, 0).x;
 }
 
-// Cosine of the angle between shading normals from which on an edge counts as hard.
-const HARD_EDGE: f32 = 0.766;
-
-// The shading normal of a triangle at texel coordinates of its chart.
-fn normal_at(triangle: u32, point: vec2f) -> vec3f {
-    let g = triangle * GEOMETRY_ROWS;
-    let step = point - vec2f(geometry_row(g).w, geometry_row(g + 1u).w);
-    return unit_or(
-        geometry_row(g + 3u).xyz + geometry_row(g + 4u).xyz * step.x + geometry_row(g + 5u).xyz * step.y,
-        vec3f(0.0, 1.0, 0.0),
-    );
-}
-
-// Whether a ghost lies over a hard edge from the triangle that reads it. Heights on both sides of such an edge rise in
-// different directions, so a step between them is no slope of either side.
-fn is_over_edge(near: vec3i, triangle: u32) -> bool {
-    let owner = owner_of(near);
-    if owner == EMPTY || (owner & GHOST_BIT) == 0u {
-        return false;
-    }
-    let spot = spot_of(near, owner);
-    let own = normal_at(triangle, vec2f(near.xy) + 0.5);
-    return dot(own, normal_at(spot.triangle, spot.point)) < HARD_EDGE;
-}
-
-// The height next to a texel; over a hard edge what the own side would be, straight on.
-fn height_near(center: vec3i, step: vec2i, middle: f32, triangle: u32) -> f32 {
-    let near = center + vec3i(step, 0);
-    if !is_over_edge(near, triangle) {
-        return height_at(near);
-    }
-    let opposite = center - vec3i(step, 0);
-    if is_over_edge(opposite, triangle) {
-        return middle;
-    }
-    return 2.0 * middle - height_at(opposite);
-}
-
-// Change of the height a texel along u and v; Scharr's weights, exact for planes.
-fn height_steps(center: vec3i, triangle: u32) -> vec2f {
-    var steps = vec2f(0.0);
-    var ghosts_left = 0u;
-    let middle = height_at(center);
+// Change of the height a texel along u and v; Scharr's weights, exact for planes. Over a hard edge a height is what the own
+// side's would be, straight on.
+fn height_steps(center: vec3i, marks: u32) -> vec2f {
+    var around: array<f32, 9>;
     for (var index = 0; index < 9; index++) {
-        let near = center + vec3i(step_of(index), 0);
-        let owner = owner_of(near);
-        let is_ghost = owner != EMPTY && (owner & GHOST_BIT) != 0u;
-        ghosts_left |= select(0u, 1u << u32(index), is_ghost);
-        steps += select(weight_of(index) * (height_at(near) - middle), vec2f(0.0), is_ghost);
+        around[index] = height_at(center + vec3i(step_of(index), 0));
     }
-    // Few texels are next to ghosts, and software adapters go through both sides of an `if`, but not through rounds of a
-    // loop that no texel at hand takes.
-    for (var n = 0; n < 9; n++) {
-        if ghosts_left == 0u {
-            break;
-        }
-        let index = i32(firstTrailingBit(ghosts_left));
-        ghosts_left &= ghosts_left - 1u;
-        steps += weight_of(index) * (height_near(center, step_of(index), middle, triangle) - middle);
+    let middle = around[4];
+    var steps = vec2f(0.0);
+    for (var index = 0; index < 9; index++) {
+        let is_ghost = (marks & (FIRST_GHOST << u32(index))) != 0u;
+        steps += select(weight_of(index) * (around[index] - middle), vec2f(0.0), is_ghost);
+    }
+    for (var index = 0; index < 9; index++) {
+        let is_ghost = (marks & (FIRST_GHOST << u32(index))) != 0u;
+        let is_over = (marks & (FIRST_OVER_EDGE << u32(index))) != 0u;
+        let is_opposite_over = (marks & (FIRST_OVER_EDGE << u32(8 - index))) != 0u;
+        let straight_on = select(2.0 * middle - around[8 - index], middle, is_opposite_over);
+        let height = select(around[index], straight_on, is_over);
+        steps += select(vec2f(0.0), weight_of(index) * (height - middle), is_ghost);
     }
     return steps;
 }
@@ -90,39 +52,18 @@ fn weight_of(index: i32) -> vec2f {
     return vec2f(step) * select(vec2f(3.0), vec2f(10.0), step.yx == vec2i(0)) / 32.0;
 }
 
-// The nearest owned texel within two steps; the texel itself if it is owned. w is 0 if there is none.
-fn anchor_of(texel: vec3i) -> vec4i {
-    if (owner_of(texel) & GHOST_BIT) == 0u {
-        return vec4i(texel, 1);
-    }
-    let size = vec2i(textureDimensions(owners));
-    var best = 1000;
-    var anchor = vec4i(texel, 0);
-    for (var index = 0; index < 25; index++) {
-        let step = vec2i(index % 5 - 2, index / 5 - 2);
-        let near = texel + vec3i(step, 0);
-        let distance = dot(step, step);
-        let is_inside = all(near.xy >= vec2i(0)) && all(near.xy < size);
-        if is_inside && distance < best && (owner_of(near) & GHOST_BIT) == 0u {
-            best = distance;
-            anchor = vec4i(near, 1);
-        }
-    }
-    return anchor;
+fn unpacked_step(marks: u32) -> vec3i {
+    return vec3i(vec2i(vec2u(marks, marks >> 3u) & vec2u(7u)) - 2, 0);
 }
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
     let texel = texel_of(group, local);
-    if owner_of(texel) == EMPTY {
+    let marks = textureLoad(stencils, texel.xy, texel.z, 0).x;
+    if texel.x < 0 || (marks & HAS_STENCIL) == 0u {
         return;
     }
-    let anchor = anchor_of(texel);
-    if anchor.w == 0 {
-        return;
-    }
-    // A ghost continues its own chart's triangle: a smooth edge stays smooth, and a hard one hard.
-    let triangle = owner_of(anchor.xyz);
+    let triangle = owner_of(texel + unpacked_step(marks));
     let g = triangle * GEOMETRY_ROWS;
     let f = triangle * FRAME_ROWS;
     let step = vec2f(texel.xy) + 0.5 - vec2f(geometry_row(g).w, geometry_row(g + 1u).w);
@@ -139,13 +80,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         slope = stored - up * dot(up, stored);
     }
     if relief.has_height != 0u {
-        // In the outer ring the stencil would leave the ghosts, so it is taken one texel further in.
-        let inward = anchor.xy - texel.xy;
-        var center = texel + vec3i(select(vec2i(0), sign(inward), max(abs(inward.x), abs(inward.y)) > 1), 0);
-        if is_over_edge(center, triangle) {
-            center = anchor.xyz;
-        }
-        let change = height_steps(center, triangle);
+        let change = height_steps(texel + unpacked_step(marks >> 6u), marks);
         let r1 = cross(along_v, up);
         let r2 = cross(up, along_u);
         let determinant = dot(along_u, r1);

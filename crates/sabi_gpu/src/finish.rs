@@ -6,7 +6,7 @@ use sabi_plan::SlotRef;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::pipelines::{storage_entry, texture_entry, uniform_entry};
+use crate::pipelines::{marks_entry, owners_entry, storage_entry, texture_entry, uniform_entry};
 use crate::pool::{array_view, texture};
 use crate::readback::PlaneData;
 use crate::run::{Run, RunOptions};
@@ -48,17 +48,19 @@ impl Gpu {
         slope: Option<SlotRef>,
         options: &RunOptions<'_>,
     ) -> Result<wgpu::Texture, GpuError> {
-        let kernel = self.fixed_kernel(
-            "normal",
-            None,
+        let stencils = self.stencils(surface, run, options)?;
+        let text = concat!(
             include_str!("../../../shaders/surface/normal.wgsl"),
-            &[
-                uniform_entry(0),
-                texture_entry(1),
-                texture_entry(2),
-                storage_entry(3, Format::Rgba32Float),
-            ],
-        )?;
+            include_str!("../../../shaders/surface/stencil_marks.wgsl")
+        );
+        let entries = [
+            uniform_entry(0),
+            texture_entry(1),
+            texture_entry(2),
+            owners_entry(3),
+            storage_entry(4, Format::Rgba32Float),
+        ];
+        let kernel = self.fixed_kernel("normal", None, text, &entries)?;
         let open = texture(self, [1, 1, 1], Format::R32Float)?;
         let bound = |slot: Option<SlotRef>| {
             let stored = slot.and_then(|slot| run.textures[slot].as_ref());
@@ -79,10 +81,50 @@ impl Gpu {
                 relief.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&heights),
                 wgpu::BindingResource::TextureView(&slopes),
+                wgpu::BindingResource::TextureView(&stencils),
                 wgpu::BindingResource::TextureView(&view),
             ],
         );
         Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
         Ok(normals)
+    }
+
+    /// Where slopes are taken on a surface; found when they are first asked for.
+    fn stencils(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        options: &RunOptions<'_>,
+    ) -> Result<wgpu::TextureView, GpuError> {
+        if let Some(stencils) = surface.stencils.get() {
+            return Ok(stencils.clone());
+        }
+        run.pool.count(surface.stencil_bytes())?;
+        let [width, height, pages] = surface.extent;
+        let made = self.guarded("the map of stencils", |device| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("stencils"),
+                size: wgpu::Extent3d {
+                    width,
+                    height,
+                    depth_or_array_layers: pages,
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::R32Uint,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::STORAGE_BINDING,
+                view_formats: &[],
+            })
+        })?;
+        let view = array_view(&made);
+        let text = concat!(
+            include_str!("../../../shaders/surface/stencil.wgsl"),
+            include_str!("../../../shaders/surface/stencil_marks.wgsl")
+        );
+        let kernel = self.fixed_kernel("stencil", None, text, &[marks_entry(0)])?;
+        let group = self.bind(&kernel.layout, [wgpu::BindingResource::TextureView(&view)]);
+        Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
+        Ok(surface.stencils.get_or_init(|| view).clone())
     }
 }

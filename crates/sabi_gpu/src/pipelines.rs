@@ -105,9 +105,26 @@ pub(crate) fn update_entry(binding: u32, format: Format) -> wgpu::BindGroupLayou
     storage_texture_entry(binding, format, wgpu::StorageTextureAccess::ReadWrite)
 }
 
+/// A texture of whole numbers that is written.
+pub(crate) fn marks_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    storage_of(
+        binding,
+        wgpu::TextureFormat::R32Uint,
+        wgpu::StorageTextureAccess::WriteOnly,
+    )
+}
+
 fn storage_texture_entry(
     binding: u32,
     format: Format,
+    access: wgpu::StorageTextureAccess,
+) -> wgpu::BindGroupLayoutEntry {
+    storage_of(binding, wgpu_format(format), access)
+}
+
+fn storage_of(
+    binding: u32,
+    format: wgpu::TextureFormat,
     access: wgpu::StorageTextureAccess,
 ) -> wgpu::BindGroupLayoutEntry {
     let view_dimension = wgpu::TextureViewDimension::D2Array;
@@ -115,7 +132,7 @@ fn storage_texture_entry(
         binding,
         wgpu::BindingType::StorageTexture {
             access,
-            format: wgpu_format(format),
+            format,
             view_dimension,
         },
     )

@@ -58,6 +58,22 @@ impl TexturePool {
             // Textures of other formats that nobody uses make room first.
             self.drop_free();
         }
+        let needed = self.within_budget(bytes)?;
+        let texture = texture(gpu, extent, format)?;
+        self.report.bytes = needed;
+        self.report.peak_bytes = self.report.peak_bytes.max(needed);
+        Ok(texture)
+    }
+
+    /// Counts bytes of a texture that somebody else holds from now on.
+    pub(crate) fn count(&mut self, bytes: u64) -> Result<(), GpuError> {
+        self.report.bytes = self.within_budget(bytes)?;
+        self.report.peak_bytes = self.report.peak_bytes.max(self.report.bytes);
+        Ok(())
+    }
+
+    /// Bytes held with so many more.
+    fn within_budget(&self, bytes: u64) -> Result<u64, GpuError> {
         let needed = self.report.bytes + bytes;
         if needed > self.budget_bytes {
             return Err(GpuError::OverBudget {
@@ -65,10 +81,7 @@ impl TexturePool {
                 budget_mib: self.budget_bytes >> 20,
             });
         }
-        let texture = texture(gpu, extent, format)?;
-        self.report.bytes = needed;
-        self.report.peak_bytes = self.report.peak_bytes.max(needed);
-        Ok(texture)
+        Ok(needed)
     }
 
     /// Gives a texture back.

@@ -1,5 +1,7 @@
 //! The linked atlas on the device, in working units.
 
+use std::sync::OnceLock;
+
 use rayon::prelude::*;
 use sabi_surface::atlas::{Atlas, GHOST_BIT, TILE};
 
@@ -48,6 +50,8 @@ pub struct GpuSurface {
     pub(crate) pieces: wgpu::Buffer,
     /// Where ghosts lead.
     pub(crate) ghosts: GhostLinks,
+    /// Where slopes are taken, as `stencil_marks.wgsl` says; made when they first are.
+    pub(crate) stencils: OnceLock<wgpu::TextureView>,
     /// Texels for one unit of UV.
     pub(crate) size: u32,
     pub(crate) measures: Measures,
@@ -98,6 +102,7 @@ impl GpuSurface {
             frames: table_texture(gpu, "the tangent frames", bytemuck::cast_slice(&tables.frames))?,
             pieces: buffer("the pieces", bytemuck::cast_slice(&tables.pieces))?,
             ghosts: GhostLinks::of(gpu, atlas)?,
+            stencils: OnceLock::new(),
             size: atlas.size,
             measures,
             area: covered_area(atlas, tables),
@@ -109,7 +114,12 @@ impl GpuSurface {
 
     /// Bytes of textures that the surface itself takes; every run counts them in its budget and its peak.
     pub fn texture_bytes(&self) -> u64 {
-        self.bytes
+        self.bytes + self.stencils.get().map_or(0, |_| self.stencil_bytes())
+    }
+
+    /// Bytes of the map of stencils.
+    pub(crate) fn stencil_bytes(&self) -> u64 {
+        4 * self.texels()
     }
 
     /// Texels of all pages.
