@@ -92,7 +92,7 @@ fn a_group_that_is_missing_is_told_and_the_model_is_loaded() {
 
 /// A picture whose header is whole and whose pixels are not.
 fn torn_picture() -> Vec<u8> {
-    let codes: Vec<u8> = (0..64 * 64 * 3).map(|at: u32| (at * at >> 3) as u8).collect();
+    let codes: Vec<u8> = (0..64 * 64 * 3).map(|at: u32| ((at * at) >> 3) as u8).collect();
     let options = PngOptions {
         channels: 3,
         bits: 8,

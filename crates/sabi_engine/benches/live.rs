@@ -186,6 +186,59 @@ fn pictures(window: &Window, (model, shown): &Pictured) -> [f64; 2] {
     [alone, median((0..MOVES).map(posed).collect())]
 }
 
+/// Wishes with the slider at one place after the other.
+struct Slider {
+    folder: tempfile::TempDir,
+    kinds: Arc<Kinds>,
+    model: Arc<ModelOptions>,
+}
+
+impl Slider {
+    fn wish(&self, revision: u64) -> Wish {
+        Wish {
+            revision,
+            graph: Arc::new(graph(self.folder.path(), 0.2 + 0.02 * revision as f32)),
+            kinds: self.kinds.clone(),
+            kinds_revision: 0,
+            model: self.model.clone(),
+            model_revision: 0,
+            coarse_size: 256,
+            seen: vec![Seen::Outputs],
+            inspected: None,
+            thumbnails: Vec::new(),
+            is_flat: false,
+            is_moving: true,
+        }
+    }
+
+    /// Thumbnails alone, of all nodes.
+    fn still(&self, revision: u64) -> Wish {
+        let all = ["clouds", "cut", "levels", "turned", "both", "base", "rust", "out"];
+        let node = |id: &str| NodeRef {
+            node: id.to_owned(),
+            port: None,
+        };
+        Wish {
+            seen: Vec::new(),
+            thumbnails: all.map(node).to_vec(),
+            is_moving: false,
+            ..self.wish(revision)
+        }
+    }
+}
+
+fn report(moves: &[Move]) {
+    let of = |number: &dyn Fn(&Move) -> f64| median(moves.iter().map(number).collect());
+    row("a slider moves: coarse is told", of(&|made| made.told[0]), "≤ 60 ms");
+    row("… and drawn at 450 × 350", of(&|made| made.drawn[0]), "");
+    row("a slider moves: full is told", of(&|made| made.told[1]), "");
+    row("… and drawn at 450 × 350", of(&|made| made.drawn[1]), "≤ 150 ms");
+    for (node, time) in moves.iter().flat_map(|made| &made.nodes).take(moves[0].nodes.len()) {
+        let ms = time.as_secs_f64() * 1000.0;
+        row(&format!("… in which {node} at both sizes"), ms, "");
+    }
+}
+
 fn main() {
     let adapter = match std::env::var("SABI_ADAPTER") {
         Ok(name) => name.parse().unwrap(),
@@ -196,70 +249,35 @@ fn main() {
         "{}\n\n| what | measured | aim on a software driver |\n|---|---|---|",
         gpu.summary().name
     );
-    let folder = tempfile::tempdir().unwrap();
     let options = LiveOptions {
         cache_dir: default_cache_dir(),
         coarse_after: Duration::ZERO,
         ..LiveOptions::default()
     };
-    let kinds = Arc::new(Kinds::builtin());
-    let model = Arc::new(ModelOptions::new(&peer_model(), 512));
-    let wish = |revision: u64, thumbnails: &[&str]| Wish {
-        revision,
-        graph: Arc::new(graph(folder.path(), 0.2 + 0.02 * revision as f32)),
-        kinds: kinds.clone(),
-        kinds_revision: 0,
-        model: model.clone(),
-        model_revision: 0,
-        coarse_size: 256,
-        seen: vec![Seen::Outputs],
-        inspected: None,
-        thumbnails: thumbnails
-            .iter()
-            .map(|id| NodeRef {
-                node: (*id).to_owned(),
-                port: None,
-            })
-            .collect(),
-        is_flat: false,
-        is_moving: true,
+    let slider = Slider {
+        folder: tempfile::tempdir().unwrap(),
+        kinds: Arc::new(Kinds::builtin()),
+        model: Arc::new(ModelOptions::new(&peer_model(), 512)),
     };
     let mut window = Window::new(&gpu, options);
-    let first = window.answer(wish(0, &[]));
+    let first = window.answer(slider.wish(0));
     row("the first time: coarse", first.told[0], "");
     row("the first time: full", first.told[1], "");
-    window.answer(wish(1, &[]));
-    let moves: Vec<Move> = (2..2 + MOVES as u64)
-        .map(|revision| window.answer(wish(revision, &[])))
+    window.answer(slider.wish(1));
+    let moves: Vec<Move> = (2..)
+        .take(MOVES)
+        .map(|revision| window.answer(slider.wish(revision)))
         .collect();
-    let of = |number: &dyn Fn(&Move) -> f64| median(moves.iter().map(number).collect());
-    row("a slider moves: coarse is told", of(&|made| made.told[0]), "≤ 60 ms");
-    row("… and drawn at 450 × 350", of(&|made| made.drawn[0]), "");
-    row("a slider moves: full is told", of(&|made| made.told[1]), "");
-    row("… and drawn at 450 × 350", of(&|made| made.drawn[1]), "≤ 150 ms");
-    let last = moves.last().unwrap();
-    for (node, time) in &last.nodes {
-        row(
-            &format!("… in which {node} at both sizes"),
-            time.as_secs_f64() * 1000.0,
-            "",
-        );
-    }
-    let [alone, posed] = pictures(&window, last.last.as_ref().unwrap());
+    report(&moves);
+    let [alone, posed] = pictures(&window, moves.iter().find_map(|made| made.last.as_ref()).unwrap());
     row("a thumbnail drawn on its own", alone, "");
     row("a thumbnail as one of many", posed, "");
-    let all = ["clouds", "cut", "levels", "turned", "both", "base", "rust", "out"];
-    let still = |revision: u64| Wish {
-        seen: Vec::new(),
-        is_moving: false,
-        ..wish(revision, &all)
-    };
-    window.answer(still(100));
+    window.answer(slider.still(100));
     let thumbnails = |revision: u64| {
         let started = Instant::now();
-        window.answer(still(revision));
+        window.answer(slider.still(revision));
         ms(started)
     };
-    let six = median((101..101 + MOVES as u64).map(thumbnails).collect());
+    let six = median((101..).take(MOVES).map(thumbnails).collect());
     row("a slider moves: its six thumbnails alone", six, "");
 }

@@ -156,9 +156,12 @@ impl Laid {
 
     /// Those of some targets that need no broken node.
     pub(super) fn sound(&self, targets: &[Target], broken: &BTreeMap<String, Broken>) -> Vec<Target> {
+        if broken.is_empty() {
+            return targets.to_vec();
+        }
         let broken: Vec<usize> = broken.keys().filter_map(|id| self.graph.find(id)).collect();
         let is_sound = |target: &&Target| {
-            // The model's own looks stand after all nodes of the graph and need none of them.
+            // The model's own looks, which stand after all nodes of the graph, need none of them.
             let needed = self.graph.upstream(&[target.node]);
             !broken.iter().any(|broken| needed.contains(broken))
         };

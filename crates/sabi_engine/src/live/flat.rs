@@ -4,8 +4,9 @@ use sabi_gpu::Run;
 use sabi_plan::{Plan, PlannedResult};
 use sabi_view::Pixels;
 
+use super::inspect::no_sheet;
 use super::stage::Stage;
-use crate::error::{EngineError, ErrorKind};
+use crate::error::EngineError;
 use crate::sheet::rgb_codes;
 
 impl Stage {
@@ -18,10 +19,9 @@ impl Stage {
         side: u32,
     ) -> Result<Pixels, EngineError> {
         self.lay_sheet()?;
-        let nothing = || EngineError::new(ErrorKind::BadInput, "the model has no texture space to be shown");
-        let (sheet, _) = self.sheet.as_ref().ok_or_else(nothing)?;
+        let (sheet, _) = self.sheet.as_ref().ok_or_else(no_sheet)?;
         let planes = sheet.planes(&self.workpiece, plan, run, result)?;
-        let plane = planes.first().ok_or_else(nothing)?;
+        let plane = planes.first().ok_or_else(no_sheet)?;
         let code = |pixel: usize| {
             let values = &plane.values[pixel * plane.components..][..plane.components];
             rgb_codes(result.stored.ty, values)

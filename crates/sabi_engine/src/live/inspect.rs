@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use sabi_gpu::Run;
 use sabi_graph::NodeRef;
-use sabi_plan::Target;
+use sabi_plan::{Plan, PlannedResult, Target};
 
 use super::faults::Laid;
 use super::mailbox::Watch;
@@ -13,7 +14,7 @@ use super::show::evaluate;
 use super::stage::Stage;
 use super::trouble::Trouble;
 use super::worker::{Job, Worker};
-use crate::error::EngineError;
+use crate::error::{EngineError, ErrorKind};
 use crate::sets::texture_sets;
 use crate::sheet::Sheet;
 
@@ -73,23 +74,9 @@ impl Worker {
         let Some(result) = plan.results.first() else {
             return Ok(());
         };
-        let trouble = |error: EngineError| Trouble::of(gpu, error);
-        stage.lay_sheet().map_err(trouble)?;
-        let Stage {
-            sheet: Some((sheet, set)),
-            workpiece,
-            ..
-        } = stage
-        else {
-            return Ok(());
-        };
-        let values = Inspected {
-            ty: result.stored.ty,
-            size: sheet.layout.size,
-            set: set.clone(),
-            planes: sheet.planes(workpiece, &plan, &run, result).map_err(trouble)?,
-            is_on_surface: sheet.is_owned(),
-        };
+        let size = stage.model.size;
+        let values = stage.inspected(&plan, &run, result);
+        let values = values.map_err(|error| Trouble::of_results(gpu, size, error))?;
         sent.inspected = now;
         self.tell(News::Inspected {
             revision: job.wish.revision,
@@ -101,14 +88,30 @@ impl Worker {
 }
 
 impl Stage {
+    fn inspected(&mut self, plan: &Plan, run: &Run, result: &PlannedResult) -> Result<Inspected, EngineError> {
+        self.lay_sheet()?;
+        let (sheet, set) = self.sheet.as_ref().ok_or_else(no_sheet)?;
+        Ok(Inspected {
+            ty: result.stored.ty,
+            size: sheet.layout.size,
+            set: set.clone(),
+            planes: sheet.planes(&self.workpiece, plan, run, result)?,
+            is_on_surface: sheet.is_owned(),
+        })
+    }
+
     /// Lays out the model's first texture set, once.
     pub(super) fn lay_sheet(&mut self) -> Result<(), EngineError> {
         if self.sheet.is_none() {
             let prepared = &self.workpiece.prepared;
-            // There is at least one where there is no error.
             let first = texture_sets(&prepared.model, &prepared.atlas, None)?.into_iter().next();
             self.sheet = first.map(|set| (Sheet::new(prepared, set.key), set.name));
         }
         Ok(())
     }
+}
+
+/// There is no texture space to show anything in.
+pub(super) fn no_sheet() -> EngineError {
+    EngineError::new(ErrorKind::BadInput, "the model has no texture space to be shown")
 }

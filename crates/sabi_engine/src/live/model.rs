@@ -30,6 +30,14 @@ impl Loaded {
         self.coarse.as_mut().or(self.full.as_mut())
     }
 
+    /// Where coarse or full pictures are made.
+    pub(super) fn at(&mut self, is_coarse: bool) -> Option<&mut Stage> {
+        match is_coarse {
+            true => self.coarse.as_mut(),
+            false => self.full.as_mut(),
+        }
+    }
+
     /// Where pictures are as good as they get.
     pub(super) fn best(&mut self) -> Option<&mut Stage> {
         self.full.as_mut().or(self.coarse.as_mut())

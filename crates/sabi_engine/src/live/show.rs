@@ -15,9 +15,8 @@ use super::trouble::Trouble;
 use super::wish::Seen;
 use super::worker::{Job, Key, SentShown, Worker};
 use crate::error::{EngineError, ErrorKind};
-use crate::looks::{Shows, shown};
+use crate::looks::Shows;
 use crate::modelless::targets;
-use crate::stages::Progress;
 
 impl Worker {
     /// Shows everything coarse, or in full where there is nothing coarser or that would only flicker.
@@ -96,14 +95,9 @@ impl Worker {
             mailbox,
             ..
         } = self;
-        let found = loaded.as_mut().and_then(|loaded| {
-            if is_coarse {
-                loaded.coarse.as_mut()
-            } else {
-                loaded.full.as_mut()
-            }
-        });
-        let Some(stage) = found else { return Ok(()) };
+        let Some(stage) = loaded.as_mut().and_then(|loaded| loaded.at(is_coarse)) else {
+            return Ok(());
+        };
         let Some((wanted, shows)) = wanted(stage, laid, seen) else {
             return Ok(());
         };
@@ -125,21 +119,11 @@ impl Worker {
         if is_worse(&plan) {
             return Ok(());
         }
-        let is_canceled = || watch.is_canceled();
-        let options = stage.run_options(&is_canceled);
-        let looks = shown(&stage.workpiece, &plan, &mut run, &shows, &options);
-        let looks = looks.map_err(|error| Trouble::of(&stage.workpiece.gpu, error))?;
-        let now = match is_coarse {
-            true => SentShown {
-                coarse: Some(key),
-                full: None,
-                is_whole: is_whole(&plan),
-            },
-            false => SentShown {
-                coarse: job.coarse_keys.get(seen).copied(),
-                full: Some(key),
-                is_whole: is_whole(&plan),
-            },
+        let looks = stage.looks(&plan, &mut run, &shows, &watch)?;
+        let now = SentShown {
+            coarse: job.coarse_keys.get(seen).copied(),
+            full: (!is_coarse).then_some(key),
+            is_whole: is_whole(&plan),
         };
         sent.shown.insert(seen.clone(), now);
         let news = News::Shown {

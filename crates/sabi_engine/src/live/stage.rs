@@ -14,7 +14,7 @@ use super::trouble::Trouble;
 use super::wish::{LiveOptions, Wish};
 use crate::AdapterChoice;
 use crate::error::EngineError;
-use crate::looks::models_own;
+use crate::looks::{Shown, Shows, models_own, shown};
 use crate::prepare::{ModelOptions, Prepared};
 use crate::sets::shown_by;
 use crate::sheet::Sheet;
@@ -205,12 +205,20 @@ impl Stage {
         Ok(run)
     }
 
-    /// How further work on results is done.
-    pub(super) fn run_options<'o>(&self, is_canceled: &'o dyn Fn() -> bool) -> RunOptions<'o> {
-        RunOptions {
-            is_canceled,
+    /// What the results of a run look like.
+    pub(super) fn looks(
+        &self,
+        plan: &Plan,
+        run: &mut Run,
+        shows: &Shows,
+        progress: &dyn Progress,
+    ) -> Result<Shown, Trouble> {
+        let options = RunOptions {
+            is_canceled: &|| progress.is_canceled(),
             ..RunOptions::new(self.submission, self.workpiece.budget_bytes)
-        }
+        };
+        let looks = shown(&self.workpiece, plan, run, shows, &options);
+        looks.map_err(|error| Trouble::of_results(&self.workpiece.gpu, self.model.size, error))
     }
 }
 

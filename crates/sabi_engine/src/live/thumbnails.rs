@@ -16,8 +16,7 @@ use super::studio::Studio;
 use super::trouble::Trouble;
 use super::worker::{Job, Key, Worker};
 use crate::error::EngineError;
-use crate::looks::{Shows, shown};
-use crate::stages::Progress;
+use crate::looks::Shows;
 
 impl Worker {
     /// Takes pictures of the nodes that give something else than on their last one.
@@ -87,15 +86,14 @@ impl Worker {
         let Some(result) = plan.results.first() else {
             return Ok(None);
         };
-        let trouble = |error: EngineError| Trouble::of(gpu, error);
+        let size = stage.model.size;
+        let trouble = |error: EngineError| Trouble::of_results(gpu, size, error);
         let side = options.thumbnail_px;
         if job.wish.is_flat {
             let picture = stage.flat_picture(&plan, &run, result, side);
             return picture.map(Some).map_err(trouble);
         }
-        let is_canceled = || watch.is_canceled();
-        let run_options = stage.run_options(&is_canceled);
-        let looks = shown(&stage.workpiece, &plan, &mut run, &Shows::One, &run_options).map_err(trouble)?;
+        let looks = stage.looks(&plan, &mut run, &Shows::One, &watch)?;
         let Some(look) = looks.looks.last() else {
             return Ok(None);
         };

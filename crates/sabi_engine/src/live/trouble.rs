@@ -29,6 +29,15 @@ impl Trouble {
         }
     }
 
+    /// The same of what is made of results on a surface of so many texels for one unit of UV.
+    pub(super) fn of_results(gpu: &Gpu, size: u32, error: EngineError) -> Trouble {
+        if error.kind != ErrorKind::OutOfMemory {
+            return Trouble::of(gpu, error);
+        }
+        let room = format!("what is shown of the graph does not fit into memory at a size of {size}");
+        Trouble::of(gpu, no_room(&room))
+    }
+
     /// The same of a run on a surface of so many texels for one unit of UV.
     pub(super) fn of_run(gpu: &Gpu, size: u32, error: GpuError) -> Trouble {
         let room = match error {
@@ -42,10 +51,12 @@ impl Trouble {
             }
             other => return Trouble::of(gpu, other),
         };
-        let advice = "work at a smaller size, or close other programs that use the graphics card";
-        Trouble::of(
-            gpu,
-            EngineError::new(ErrorKind::OutOfMemory, format!("{room}; {advice}")),
-        )
+        Trouble::of(gpu, no_room(&room))
     }
+}
+
+/// Memory is short: what is too large, and what helps in a window.
+fn no_room(what: &str) -> EngineError {
+    let advice = "work at a smaller size, or close other programs that use the graphics card";
+    EngineError::new(ErrorKind::OutOfMemory, format!("{what}; {advice}"))
 }

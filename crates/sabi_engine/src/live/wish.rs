@@ -44,7 +44,8 @@ impl Default for LiveOptions {
     }
 }
 
-/// What a window wants to know of a graph on a model. A newer wish takes the place of an older one.
+/// What a window wants to know of a graph on a model. A newer wish takes the place of an older one. Nodes and ports that are not
+/// there are left out of the answer.
 #[derive(Clone, Debug)]
 pub struct Wish {
     /// Stands in all news about it; rises with every edit.
@@ -57,7 +58,7 @@ pub struct Wish {
     pub kinds_revision: u64,
     /// The model; its size is that of full pictures.
     pub model: Arc<ModelOptions>,
-    /// Rises when another model is wanted, or its file changed.
+    /// Rises when another model is wanted, another size of it, or its file changed: it is loaded then and not otherwise.
     pub model_revision: u64,
     /// Texels for one unit of UV of pictures that come at once; not used where the full size is not larger.
     pub coarse_size: u32,
