@@ -3,10 +3,11 @@
 use std::fs;
 use std::sync::Arc;
 
-use sabi_engine::{Faults, NodeFault, OpenGraph, Waiting, Wish};
+use sabi_engine::{Faults, ModelOptions, NodeFault, OpenGraph, Waiting, Wish};
 use sabi_image::{PngData, PngOptions, encode_png};
+use sabi_tests::{MeshFile, Quad};
 
-use crate::window::{Window, document, graph, node, wish};
+use crate::window::{FULL, Window, document, graph, node, wish};
 
 fn fault(node: &str, sentence: &str) -> NodeFault {
     NodeFault {
@@ -137,4 +138,37 @@ fn a_picture_that_cannot_be_decoded_is_the_fault_of_its_node() {
     let gone = window.answer(beside(3));
     let sentence = &gone.faults().expect("faults").faults[0].sentence;
     assert!(sentence.contains("there is no file"), "{sentence}");
+}
+
+#[test]
+fn warnings_stay_as_long_as_what_they_are_about() {
+    let sheet = MeshFile::new(vec![Quad {
+        corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        uvs: [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
+    }]);
+    let sheet = sheet.write();
+    let window = Window::new();
+    let warnings = |revision: u64, nodes: &str| {
+        let wished = Wish {
+            model: Arc::new(ModelOptions::new(sheet.path(), FULL)),
+            thumbnails: vec![node("buried")],
+            ..wish(revision, graph(nodes))
+        };
+        let told = window.answer(wished);
+        told.faults().map(|faults| faults.warnings.clone())
+    };
+    let rays = r#""buried": { "kind": "surface/occlusion", "params": { "rays": 2, "odd": 1 } }"#;
+    let told = warnings(1, rays).expect("warnings");
+    assert!(
+        told.iter()
+            .any(|sentence| sentence.starts_with("The model is open at 4 edges")),
+        "{told:?}"
+    );
+    assert!(
+        told.iter().any(|sentence| sentence.contains("no parameter 'odd'")),
+        "{told:?}"
+    );
+    assert_eq!(warnings(2, rays), None, "nothing is told twice");
+    let told = warnings(3, "").expect("other warnings");
+    assert!(!told.iter().any(|sentence| sentence.contains("open")), "{told:?}");
 }

@@ -156,8 +156,11 @@ impl Worker {
             return self.load_full(job);
         };
         self.take_graph(job, &laid)?;
+        let broken = self.broken.len();
         self.show_first(job, &laid)?;
-        self.tell_faults(job, &laid);
+        if self.broken.len() != broken {
+            self.tell_faults(job, &laid);
+        }
         if job.wish.is_moving {
             self.show_full(job, &laid)?;
             self.show_thumbnails(job, &laid)?;
@@ -206,9 +209,7 @@ impl Drop for LastWords {
         if std::thread::panicking() {
             let why = "the evaluation of the graph broke off; this is a mistake in Sabi";
             self.0.mailbox.close();
-            self.0
-                .mailbox
-                .tell(News::Lost(EngineError::new(ErrorKind::BadInput, why)));
+            self.0.tell(News::Lost(EngineError::new(ErrorKind::BadInput, why)));
         }
     }
 }
