@@ -96,6 +96,28 @@ fn a_layout_reads_from_left_to_right_without_overlaps_and_is_the_same_again() {
 }
 
 #[test]
+fn frames_are_laid_out_whole_and_apart_unless_they_read_each_other_in_turn() {
+    let framed = |frames: [[&str; 2]; 2]| {
+        let mut desk = opened("", NODES);
+        for ids in frames {
+            select(&mut desk, &ids);
+            step(&mut desk, Desk::frame);
+        }
+        desk.select([]);
+        step(&mut desk, Desk::lay_out);
+        let ends = |ids: [&str; 2]| {
+            let lefts = ids.map(|id| pos(&desk, id)[0]);
+            [lefts[0].min(lefts[1]), lefts[0].max(lefts[1]) + NODE_WIDTH]
+        };
+        frames.map(ends)
+    };
+    let [first, second] = framed([["n", "m"], ["layer", "out"]]);
+    assert!(first[1] < second[0], "{first:?} {second:?}");
+    let [outer, inner] = framed([["n", "layer"], ["m", "w"]]);
+    assert!(outer[0] < inner[1] && inner[0] < outer[1], "{outer:?} {inner:?}");
+}
+
+#[test]
 fn only_what_is_selected_is_laid_out() {
     let mut desk = opened("", NODES);
     select(&mut desk, &["base", "layer"]);
