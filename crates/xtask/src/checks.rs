@@ -2,6 +2,7 @@
 
 use std::process::Stdio;
 
+use crate::display;
 use crate::place::{Place, Stop, finish};
 use crate::vulkan::{self, Driver};
 
@@ -50,6 +51,7 @@ pub(crate) fn run(place: &Place) -> Result<(), Stop> {
         }
     }
     vulkan::ensure(place, Driver::Software)?;
+    display::ensure(place)?;
     let checks = checks(answers(place, "nextest")?);
     for (number, (name, arguments)) in checks.iter().enumerate() {
         eprintln!(

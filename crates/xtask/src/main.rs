@@ -5,6 +5,8 @@ mod assets;
 mod bless;
 mod checks;
 mod demo;
+mod display;
+mod packages;
 mod pictures;
 mod place;
 mod reference;

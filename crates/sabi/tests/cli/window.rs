@@ -1,0 +1,126 @@
+//! `sabi edit`: a real window, a real mouse and real keys.
+
+use std::process::{Child, Command};
+use std::thread::sleep;
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::display::Display;
+use crate::place::{Place, software_adapter};
+
+const EMPTY: &str = r#"{ "format": "sabi", "version": 1, "name": "", "nodes": {} }"#;
+/// Where the panels of a new installation are on a screen of 1600 × 900.
+const MODEL: [usize; 4] = [10, 120, 530, 560];
+const GRAPH: [usize; 4] = [560, 80, 1250, 860];
+/// From the corner of a node to the dot of its only output: below its title, one input and three knobs.
+const OUTPUT_OF_CLOUDS: [i32; 2] = [200, 28 + 4 * 19 + 9];
+/// To the dot of its first input.
+const FIRST_INPUT: [i32; 2] = [0, 28 + 9];
+/// To the middle of the first knob below one input.
+const FIRST_KNOB: [i32; 2] = [100, 28 + 19 + 9];
+
+/// The program in a window.
+struct Window {
+    child: Child,
+}
+
+impl Window {
+    fn open(place: &Place, display: &Display, arguments: &[&str]) -> Window {
+        software_adapter();
+        let mut command: Command = place.command(&[&["edit", "--adapter", "cpu"], arguments].concat());
+        display.on(&mut command);
+        command.env("XDG_CONFIG_HOME", place.path(".config"));
+        let window = Window {
+            child: command.spawn().unwrap(),
+        };
+        display.take_window();
+        display.until("a model in the light", || display.screen().colors(MODEL) > 500);
+        window
+    }
+
+    /// Ends it as a crash would.
+    fn kill(mut self) {
+        self.child.kill().unwrap();
+        self.child.wait().unwrap();
+    }
+}
+
+impl Drop for Window {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn plus(one: [i32; 2], other: [i32; 2]) -> [i32; 2] {
+    [one[0] + other[0], one[1] + other[1]]
+}
+
+/// Adds a node by the menu, with its corner there.
+fn add(display: &Display, at: [i32; 2], name: &str) {
+    display.point(at);
+    display.key("Tab");
+    display.hands(&["type", "--delay", "40", name]);
+    display.key("Return");
+    sleep(Duration::from_millis(300));
+}
+
+fn saved(place: &Place, name: &str) -> Value {
+    serde_json::from_slice(&place.read(name)).unwrap()
+}
+
+#[test]
+fn a_window_takes_mouse_and_keys_saves_what_was_made_and_opens_it_again() {
+    let (place, display) = (Place::new(), Display::new());
+    place.write("new.sabi", EMPTY);
+    let window = Window::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
+    let [clouds, levels] = [[580, 120], [900, 200]];
+    add(&display, clouds, "clouds");
+    add(&display, levels, "levels");
+    display.drag(plus(clouds, OUTPUT_OF_CLOUDS), plus(levels, FIRST_INPUT));
+    let knob = plus(levels, FIRST_KNOB);
+    display.drag(knob, plus(knob, [40, 0]));
+    display.until("pictures on the nodes", || display.screen().colors(GRAPH) > 60);
+    display.key("ctrl+s");
+    display.until("a saved graph", || {
+        saved(&place, "new.sabi")["nodes"]
+            .as_object()
+            .is_some_and(|nodes| nodes.len() == 2)
+    });
+    let text = place.read("new.sabi");
+    let graph = saved(&place, "new.sabi");
+    let nodes = graph["nodes"].as_object().unwrap();
+    let (id, _) = nodes.iter().find(|(_, node)| node["kind"] == "noise/simplex").unwrap();
+    let (_, node) = nodes.iter().find(|(_, node)| node["kind"] == "adjust/levels").unwrap();
+    assert_eq!(node["inputs"]["source"], id.as_str(), "{graph:#}");
+    let black = node["params"]["black"].as_f64();
+    assert!(black.is_some_and(|black| black > 0.05), "{graph:#}");
+    drop(window);
+    let _again = Window::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
+    display.until("pictures on the nodes", || display.screen().colors(GRAPH) > 60);
+    display.key("ctrl+s");
+    assert_eq!(place.read("new.sabi"), text, "what is opened and saved is the same");
+}
+
+#[test]
+fn what_was_not_saved_when_the_program_was_killed_is_offered_and_comes_back() {
+    let (place, display) = (Place::new(), Display::new());
+    place.write("new.sabi", EMPTY);
+    let window = Window::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
+    add(&display, [700, 300], "clouds");
+    let kept = place.path(".config/sabi/unsaved");
+    let is_kept = || std::fs::read_dir(&kept).is_ok_and(|mut files| files.next().is_some());
+    display.until("a copy of what is not saved", is_kept);
+    window.kill();
+    let left = sabi_engine::recoveries(&kept);
+    assert_eq!(left.len(), 1);
+    let session = sabi_engine::Session::recover(left.into_iter().next().unwrap()).unwrap();
+    let kinds: Vec<&str> = session
+        .document()
+        .graph
+        .nodes()
+        .map(|(_, node)| node.kind.as_str())
+        .collect();
+    assert_eq!(kinds, ["noise/simplex"]);
+}

@@ -1,0 +1,152 @@
+//! Programs and libraries: found where the system keeps them, or installed.
+
+use std::env;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::place::{Place, Stop, finish};
+
+/// A shared library, in the linker's cache or where it usually lies.
+pub(crate) fn find_library(name: &str) -> Option<PathBuf> {
+    let architecture = format!("/usr/lib/{}-linux-gnu", env::consts::ARCH);
+    let mut folders: Vec<PathBuf> = env::var_os("LD_LIBRARY_PATH")
+        .iter()
+        .flat_map(env::split_paths)
+        .collect();
+    folders.extend(
+        [
+            architecture.as_str(),
+            "/usr/lib64",
+            "/usr/lib",
+            "/lib",
+            "/usr/local/lib",
+        ]
+        .map(PathBuf::from),
+    );
+    folders
+        .into_iter()
+        .map(|folder| folder.join(name))
+        .find(|path| path.exists())
+        .or_else(|| in_linker_cache(name))
+}
+
+fn in_linker_cache(name: &str) -> Option<PathBuf> {
+    let ldconfig = program("ldconfig").unwrap_or_else(|| "/sbin/ldconfig".into());
+    let output = Command::new(ldconfig).arg("-p").output().ok()?;
+    library_in_listing(&String::from_utf8_lossy(&output.stdout), name).filter(|path| path.exists())
+}
+
+/// Reads `ldconfig -p`: `<tab>name (kind) => path`.
+fn library_in_listing(listing: &str, name: &str) -> Option<PathBuf> {
+    let line = listing
+        .lines()
+        .find(|line| line.split_whitespace().next() == Some(name))?;
+    Some(line.split_once("=> ")?.1.trim().into())
+}
+
+/// Installs packages of Debian's names where that can be done, and says what to do where it cannot. `missing` is a sentence
+/// without its end, `by_hand` what to do on systems that have no apt.
+pub(crate) fn install(place: &Place, missing: &str, packages: &[&str], what: &str, by_hand: &str) -> Result<(), Stop> {
+    let commands = install_commands(
+        packages,
+        is_root(),
+        program("sudo").is_some(),
+        program("apt-get").is_some(),
+    )
+    .map_err(|advice| {
+        Stop::new(
+            1,
+            format!("{missing}. {}", advice.unwrap_or_else(|| by_hand.to_owned())),
+        )
+    })?;
+    eprintln!("{missing}. Installing {}.", packages.join(", "));
+    for words in commands {
+        eprintln!("$ {}", words.join(" "));
+        let mut command = place.command(Path::new(&words[0]))?;
+        command.args(&words[1..]).env("DEBIAN_FRONTEND", "noninteractive");
+        finish(command, &format!("Installing {what}"))?;
+    }
+    Ok(())
+}
+
+/// The commands that install packages; or what to do by hand, which nobody knows here where there is no apt.
+fn install_commands(
+    packages: &[&str],
+    is_root: bool,
+    has_sudo: bool,
+    has_apt: bool,
+) -> Result<Vec<Vec<String>>, Option<String>> {
+    if !has_apt {
+        return Err(None);
+    }
+    if !is_root && !has_sudo {
+        let install = format!("apt-get update && apt-get install -y {}", packages.join(" "));
+        return Err(Some(format!("Run `{install}` as root, then this again.")));
+    }
+    // sudo drops the environment, so the variable is set on its far side.
+    let front: &[&str] = if is_root {
+        &[]
+    } else {
+        &["sudo", "env", "DEBIAN_FRONTEND=noninteractive"]
+    };
+    let words = |tail: &[&str], more: &[&str]| {
+        let all = front.iter().chain(tail).chain(more);
+        all.map(|word| (*word).to_owned()).collect::<Vec<String>>()
+    };
+    Ok(vec![
+        words(&["apt-get", "update"], &[]),
+        words(&["apt-get", "install", "-y"], packages),
+    ])
+}
+
+fn is_root() -> bool {
+    let output = Command::new("id").arg("-u").output();
+    output.is_ok_and(|output| output.stdout.trim_ascii() == b"0")
+}
+
+pub(crate) fn program(name: &str) -> Option<PathBuf> {
+    let path: OsString = env::var_os("PATH")?;
+    env::split_paths(&path)
+        .map(|folder| folder.join(name))
+        .find(|file| file.is_file())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PACKAGES: [&str; 2] = ["one", "two"];
+
+    #[test]
+    fn apt_is_asked_directly_by_root_and_through_sudo_by_others() {
+        let root = install_commands(&PACKAGES, true, false, true).unwrap();
+        assert_eq!(root[0], ["apt-get", "update"]);
+        assert_eq!(root[1], ["apt-get", "install", "-y", "one", "two"]);
+        let user = install_commands(&PACKAGES, false, true, true).unwrap();
+        assert_eq!(
+            user[0],
+            ["sudo", "env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "update"]
+        );
+    }
+
+    #[test]
+    fn without_root_or_apt_the_exact_command_is_said() {
+        let told = "Run `apt-get update && apt-get install -y one two` as root, then this again.";
+        assert_eq!(
+            install_commands(&PACKAGES, false, false, true).unwrap_err().as_deref(),
+            Some(told)
+        );
+        assert_eq!(install_commands(&PACKAGES, true, true, false).unwrap_err(), None);
+    }
+
+    #[test]
+    fn a_library_is_read_from_the_linkers_listing() {
+        let listing = "2 libs found\n\tlibvulkan_lvp.so (libc6,x86-64) => /lib/a/libvulkan_lvp.so\n\tlibvulkan.so.1 (libc6,x86-64) => /lib/a/libvulkan.so.1\n";
+        assert_eq!(
+            library_in_listing(listing, "libvulkan.so.1"),
+            Some("/lib/a/libvulkan.so.1".into())
+        );
+        assert_eq!(library_in_listing(listing, "libvulkan.so"), None);
+    }
+}
