@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use sabi_graph::{NodeId, OutputRef, SlotRef};
+use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
 
 use crate::command::Command;
 use crate::desk::{Loose, Merge};
@@ -60,6 +60,10 @@ pub(crate) enum Action {
     LeaveTo(usize),
     /// A knob of a node is turned; with the others of its kind that are selected.
     Knob { node: NodeId, event: KnobEvent },
+    /// Change or turn what is published.
+    Panel(PanelAsk),
+    /// Save, apply or change a variant of the panel.
+    Variant(VariantAsk),
     /// Name a node.
     Rename { node: NodeId, name: String },
     /// Name a frame.
@@ -82,6 +86,40 @@ pub(crate) enum Action {
     GoTo(String),
     /// Take back or do again so many steps; negative is back.
     Steps(i32),
+}
+
+/// Something that is asked of the panel of published knobs; knobs go by their name on it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PanelAsk {
+    /// Turn one.
+    Turn(KnobEvent),
+    /// The name that artists see.
+    Label { name: String, label: String },
+    /// The name in files and on command lines.
+    Rename { name: String, to: String },
+    /// The part of the panel that it stands in.
+    Section { name: String, section: String },
+    /// What it may hold.
+    Range { name: String, range: Option<[f64; 2]> },
+    /// What it holds while nobody sets it, whatever its nodes hold.
+    Default { name: String, default: Option<Value> },
+    /// Stand before another one, or at the end.
+    Move { name: String, before: Option<String> },
+    /// Take it off.
+    TakeOff(String),
+}
+
+/// Something that is asked of the variants of the panel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum VariantAsk {
+    /// Keep what the panel holds now under a name.
+    Save(String),
+    /// Turn the panel as one has it.
+    Apply(String),
+    /// Give one another name.
+    Rename { name: String, to: String },
+    /// Remove one.
+    Remove(String),
 }
 
 /// What is added.

@@ -5,6 +5,8 @@ mod bars;
 mod documents;
 mod keys;
 mod perform;
+mod publishing;
+mod rooms;
 #[cfg(test)]
 mod tests;
 
@@ -20,16 +22,16 @@ use sabi_graph::NodeRef;
 
 pub(crate) use documents::model_of;
 
-use crate::action::Action;
-use crate::canvas::{Around, Canvas, NodeState};
+use crate::canvas::Canvas;
 use crate::command::{Command, KeyMap};
 use crate::desk::Desk;
-use crate::dock::{self, Docked, Layout, Panel};
+use crate::dock::{self, Layout, Panel};
 use crate::files::{Files, Question};
 use crate::flat_view::FlatView;
 use crate::knobs::KnobMemory;
-use crate::model_view::{ModelView, Subject};
+use crate::model_view::ModelView;
 use crate::panels;
+use crate::panels::keepsakes::Keepsakes;
 use crate::search::{Candidate, candidates};
 use crate::settings::Settings;
 use crate::stage::Stage;
@@ -137,6 +139,10 @@ impl Editor {
             Some(kept) => (kept.desk, kept.canvas, kept.model),
             None => (Desk::new(beginning.session), Canvas::default(), beginning.model),
         };
+        let panels = panels::Panels {
+            keepsakes: Keepsakes::new(beginning.folders.cache.clone()),
+            ..panels::Panels::default()
+        };
         let stage = Stage::new(gpu, &model, beginning.folders.cache.clone(), context);
         let mut editor = Editor {
             model_view: ModelView::new(&settings.environment),
@@ -159,7 +165,7 @@ impl Editor {
             ports: BTreeMap::new(),
             is_moving: false,
             knob_memory: KnobMemory::default(),
-            panels: panels::Panels::default(),
+            panels,
             notices: VecDeque::new(),
             kept_at: Instant::now(),
             desk,
@@ -217,125 +223,6 @@ impl Editor {
         self.frame_times.push_back(began.elapsed());
         while self.frame_times.len() > 120 {
             self.frame_times.pop_front();
-        }
-    }
-
-    fn panels(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        let is_use = self.use_layout.is_some();
-        let slot = if is_use { self.use_layout.take() } else { None };
-        let mut layout = slot.unwrap_or_else(|| std::mem::replace(&mut self.layout, Layout::empty("panels")));
-        let theme = self.theme.clone();
-        let problems = self.problem_count();
-        self.rects.clear();
-        let mut docked = Docked {
-            theme: &theme,
-            problems,
-            contents: &mut |ui, panel| self.panel(ui, panel, actions),
-        };
-        let frame = egui::Frame::new().fill(theme.ground);
-        egui::CentralPanel::default()
-            .frame(frame)
-            .show(ui, |ui| layout.ui(&mut docked, ui));
-        if is_use {
-            self.use_layout = Some(layout);
-        } else {
-            self.layout = layout;
-        }
-    }
-
-    /// Draws what is in a panel.
-    fn panel(&mut self, ui: &mut Ui, panel: Panel, actions: &mut Vec<Action>) {
-        self.rects.insert(panel, ui.max_rect());
-        match panel {
-            Panel::Canvas => self.canvas_panel(ui, actions),
-            Panel::Viewport => self.model_panel(ui, actions),
-            Panel::Flat => {
-                let wanted = self.pinned.clone().or(self.shown.clone());
-                let title = wanted.as_ref().map_or_else(String::new, |node| self.title_of(node));
-                self.padded(ui, |editor, ui| {
-                    editor
-                        .flat_view
-                        .show(ui, &editor.stage, &editor.theme.clone(), wanted.as_ref(), &title);
-                });
-            }
-            _ => self.padded(ui, |editor, ui| editor.side_panel(ui, panel, actions)),
-        }
-    }
-
-    fn side_panel(&mut self, ui: &mut Ui, panel: Panel, actions: &mut Vec<Action>) {
-        let theme = self.theme.clone();
-        match panel {
-            Panel::Parameters => panels::parameters::show(self, ui, &theme, actions),
-            Panel::Stack => panels::stack::show(self, ui, &theme, actions),
-            Panel::Library => panels::library::show(self, ui, &theme, actions),
-            Panel::Export => panels::export::show(self, ui, &theme),
-            Panel::History => panels::history::show(self, ui, &theme, actions),
-            Panel::Problems => panels::problems::show(self, ui, &theme, actions),
-            Panel::Performance => panels::performance::show(self, ui, &theme),
-            Panel::Page => panels::page::show(self, ui, &theme),
-            Panel::Canvas | Panel::Viewport | Panel::Flat => {}
-        }
-    }
-
-    /// A panel with room around what is in it.
-    fn padded(&mut self, ui: &mut Ui, contents: impl FnOnce(&mut Editor, &mut Ui)) {
-        let frame = egui::Frame::new().fill(self.theme.panel).inner_margin(8);
-        frame.show(ui, |ui| {
-            ui.set_min_size(ui.available_size());
-            contents(self, ui);
-        });
-    }
-
-    fn canvas_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        self.breadcrumb(ui, actions);
-        let (stage, desk, ports) = (&self.stage, &self.desk, &self.ports);
-        let state_of = |id: &sabi_graph::NodeId| {
-            let node = desk.full_id(id);
-            let reference = NodeRef {
-                port: ports.get(&node).cloned(),
-                node,
-            };
-            NodeState {
-                picture: stage.thumbnail(&reference).map(egui::TextureHandle::id),
-                time: stage.time(&reference.node),
-                fault: stage.fault(&reference.node).cloned(),
-                waits: stage.waits(&reference.node).cloned(),
-            }
-        };
-        let looked_at = self.pinned.as_ref().or(self.shown.as_ref());
-        let previewed = looked_at.and_then(|node| {
-            let own = node.node.rsplit('/').next()?;
-            let id = own.parse::<sabi_graph::NodeId>().ok()?;
-            (desk.full_id(&id) == node.node).then_some(id)
-        });
-        let around = Around {
-            desk,
-            theme: &self.theme,
-            state_of: &state_of,
-            candidates: &self.candidates.1,
-            previewed: previewed.as_ref(),
-        };
-        actions.extend(self.canvas.show(ui, &around));
-    }
-
-    fn model_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        self.model_strip(ui, actions);
-        let seen = self.seen();
-        let locked = self.locked_seen();
-        let theme = self.theme.clone();
-        let subject = Subject {
-            seen: &seen,
-            locked: locked.as_ref(),
-            is_moving: self.is_moving,
-            theme: &theme,
-        };
-        let render = self.render.clone();
-        let done = self.model_view.show(ui, &self.stage, render.as_ref(), &subject);
-        if let Some(environment) = done.environment {
-            self.settings.environment = environment;
-        }
-        if let Some(picked) = done.picked {
-            self.take_picked(&picked);
         }
     }
 

@@ -61,6 +61,24 @@ pub(crate) enum Loose {
     Into(SlotRef),
 }
 
+/// A knob that something is to be put into.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum KnobAt {
+    /// One of a node that is seen.
+    Node { node: NodeId, knob: String },
+    /// One that is published, by its name.
+    Panel(String),
+}
+
+impl KnobAt {
+    pub(crate) fn of_node(node: &NodeId, knob: String) -> KnobAt {
+        KnobAt::Node {
+            node: node.clone(),
+            knob,
+        }
+    }
+}
+
 /// The graph that is worked on.
 pub(crate) struct Desk {
     pub(crate) session: Session,

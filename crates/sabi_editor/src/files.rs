@@ -9,11 +9,10 @@ use std::path::{Path, PathBuf};
 
 use egui::{Key, Modal, RichText, Ui};
 use sabi_engine::{Recovery, recoveries};
-use sabi_graph::NodeId;
 
 use crate::action::Action;
 use crate::app::Editor;
-use crate::desk::Desk;
+use crate::desk::{Desk, KnobAt};
 
 /// What a path is wanted for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,11 +20,8 @@ pub(crate) enum PathFor {
     Open,
     Save,
     Model,
-    /// A knob of a node that names a picture.
-    Picture {
-        node: NodeId,
-        knob: String,
-    },
+    /// A knob that names a picture.
+    Picture(KnobAt),
 }
 
 /// Something that has to be answered before anything else.
@@ -97,8 +93,8 @@ impl Files {
         self.ask_path(PathFor::Model, String::new());
     }
 
-    pub(crate) fn ask_for_picture(&mut self, node: NodeId, knob: String) {
-        self.ask_path(PathFor::Picture { node, knob }, String::new());
+    pub(crate) fn ask_for_picture(&mut self, knob: KnobAt) {
+        self.ask_path(PathFor::Picture(knob), String::new());
     }
 
     fn ask_path(&mut self, what: PathFor, text: String) {
@@ -149,7 +145,7 @@ impl Editor {
             PathFor::Open => ("Open a graph", "Open"),
             PathFor::Save => ("Save the graph", "Save"),
             PathFor::Model => ("Add a model", "Add"),
-            PathFor::Picture { .. } => ("Choose a picture", "Choose"),
+            PathFor::Picture(_) => ("Choose a picture", "Choose"),
         };
         let mut chosen = false;
         let modal = Modal::new(egui::Id::new("path question")).show(ui.ctx(), |ui| {
@@ -183,9 +179,9 @@ impl Editor {
                 PathFor::Open => self.files.ask_next(&mut self.desk, Next::Open(path)),
                 PathFor::Save => actions.push(Action::SaveTo(with_ending(path))),
                 PathFor::Model => actions.push(Action::TakeModel(path)),
-                PathFor::Picture { node, knob } => {
+                PathFor::Picture(knob) => {
                     let text = self.desk.relative(&path);
-                    self.desk.set_knob(&node, &knob, Some(sabi_graph::Value::Text(text)));
+                    self.desk.set_at(&knob, sabi_graph::Value::Text(text));
                 }
             }
         } else if !modal.inner && !modal.should_close() {
@@ -262,7 +258,7 @@ fn system_dialog(what: &PathFor, text: &str) -> Option<PathBuf> {
         PathFor::Open => dialog.add_filter("Graphs", &["sabi"]).pick_file(),
         PathFor::Save => dialog.add_filter("Graphs", &["sabi"]).save_file(),
         PathFor::Model => dialog.add_filter("Models", &["glb", "gltf", "obj"]).pick_file(),
-        PathFor::Picture { .. } => {
+        PathFor::Picture(_) => {
             let endings = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
             dialog.add_filter("Pictures", &endings).pick_file()
         }

@@ -24,7 +24,7 @@ mod text;
 mod typing;
 mod values;
 
-use egui::Ui;
+use egui::{RichText, Ui};
 use sabi_engine::catalog::Knob;
 use sabi_graph::Value;
 
@@ -32,7 +32,7 @@ use self::asking::Asking;
 pub(crate) use self::asking::KnobMemory;
 pub(crate) use self::inline::knob_inline;
 pub(crate) use self::length::Lengths;
-use crate::theme::Theme;
+use crate::theme::{Theme, space, type_size};
 
 /// Points between rows.
 const BETWEEN: f32 = 3.0;
@@ -86,6 +86,12 @@ pub(crate) enum KnobEvent {
     ShowLength(f64),
 }
 
+/// Knobs of a panel that stand together, under a title where they have one.
+pub(crate) struct KnobSection<'a> {
+    pub(crate) title: Option<&'a str>,
+    pub(crate) rows: Vec<KnobRow<'a>>,
+}
+
 /// Shows rows of knobs and says what is asked for, in order.
 ///
 /// To be called in every frame, without rows where there are none: a drag ends here too when its row has gone. The `ui` of
@@ -97,17 +103,37 @@ pub(crate) fn knobs_ui(
     rows: &[KnobRow<'_>],
     lengths: &Lengths,
 ) -> Vec<KnobEvent> {
-    let mut ask = Asking {
-        theme,
-        memory,
-        lengths: *lengths,
-        zoom: 1.0,
-        events: Vec::new(),
-    };
+    let mut ask = Asking::new(theme, memory, lengths);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = BETWEEN;
         for row in rows {
             row::show(ui, &mut ask, row);
+        }
+    });
+    ask.finish(ui.ctx(), |_| true);
+    ask.events
+}
+
+/// Shows knobs that are published, as [`knobs_ui`] does: all are, so that no row says it.
+pub(crate) fn published_ui(
+    ui: &mut Ui,
+    theme: &Theme,
+    memory: &mut KnobMemory,
+    sections: &[KnobSection<'_>],
+    lengths: &Lengths,
+) -> Vec<KnobEvent> {
+    let mut ask = Asking::new(theme, memory, lengths);
+    ask.is_panel = true;
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = BETWEEN;
+        for section in sections {
+            if let Some(title) = section.title {
+                ui.add_space(space::USUAL);
+                ui.label(RichText::new(title).size(type_size::SMALL).color(theme.quiet));
+            }
+            for row in &section.rows {
+                row::show(ui, &mut ask, row);
+            }
         }
     });
     ask.finish(ui.ctx(), |_| true);

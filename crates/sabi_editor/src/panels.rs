@@ -1,13 +1,18 @@
 //! The panels beside canvas, model and texture.
 
 pub(crate) mod export;
+mod field;
 pub(crate) mod history;
+pub(crate) mod keepsakes;
 pub(crate) mod library;
+mod order;
 pub(crate) mod page;
 pub(crate) mod parameters;
 pub(crate) mod performance;
 pub(crate) mod problems;
+pub(crate) mod published;
 pub(crate) mod stack;
+mod variants;
 
 /// What panels hold from frame to frame.
 #[derive(Default)]
@@ -16,4 +21,5 @@ pub(crate) struct Panels {
     pub(crate) library: library::Library,
     pub(crate) export: export::Export,
     pub(crate) page: page::Page,
+    pub(crate) keepsakes: keepsakes::Keepsakes,
 }

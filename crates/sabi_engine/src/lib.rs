@@ -40,6 +40,7 @@ mod sheet;
 mod solidity;
 mod source;
 mod stages;
+mod thumbnail;
 mod watch;
 mod workpiece;
 
@@ -64,6 +65,7 @@ pub use session::{Recovery, Session, recoveries};
 pub use setting::read_setting;
 pub use sheet::SheetPlane;
 pub use stages::{Progress, Silent, Stage};
+pub use thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
 pub use watch::NodeWatcher;
 pub use workpiece::{Workpiece, WorkpieceOptions};
 

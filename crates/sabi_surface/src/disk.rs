@@ -19,7 +19,7 @@ pub struct Kind {
 }
 
 /// How names of all kinds begin: nothing else in the folder is touched.
-const PREFIXES: [&str; 4] = ["atlas-", "sheet-", "rays-", "light-"];
+const PREFIXES: [&str; 5] = ["atlas-", "sheet-", "rays-", "light-", "thumb-"];
 
 impl Kind {
     fn file(&self, folder: &Path, key: &[u8; 32]) -> PathBuf {

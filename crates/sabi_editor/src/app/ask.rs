@@ -119,7 +119,7 @@ impl Editor {
 
     /// The surface of the model was clicked: where a color is wanted, it is taken.
     pub(super) fn take_picked(&mut self, picked: &Picked) {
-        let Some((node, knob)) = self.panels.parameters.eyedropper.take() else {
+        let Some(knob) = self.panels.parameters.eyedropper.take() else {
             return;
         };
         let Some((_, values)) = self.stage.inspected.as_ref() else {
@@ -138,7 +138,7 @@ impl Editor {
         let texel = (y * values.size as usize + x) * plane.components;
         let code = |at: usize| egui::ecolor::gamma_u8_from_linear_f32(plane.values[texel + at].clamp(0.0, 1.0));
         let text = format!("#{:02x}{:02x}{:02x}", code(0), code(1), code(2));
-        self.desk.set_knob(&node, &knob, Some(sabi_graph::Value::Text(text)));
+        self.desk.set_at(&knob, sabi_graph::Value::Text(text));
     }
 
     /// How many problems there are.

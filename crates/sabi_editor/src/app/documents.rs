@@ -85,8 +85,13 @@ impl Editor {
     }
 
     pub(crate) fn save_to(&mut self, path: &Path) {
-        match self.desk.session.save_as(path) {
+        let before = self.desk.session.file().unwrap_or(Path::new("")).to_owned();
+        match self.desk.save_as(path) {
             Ok(()) => {
+                let after = self.desk.session.file().unwrap_or(path);
+                if let Err(why) = self.panels.keepsakes.follow(&before, after) {
+                    self.say(why);
+                }
                 self.settings.remember(path);
                 self.say(format!("Saved to {}", path.display()));
                 if self.settings.exports_on_save {

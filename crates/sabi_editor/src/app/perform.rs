@@ -8,7 +8,7 @@ use sabi_graph::NodeId;
 use super::Editor;
 use crate::action::{Action, New};
 use crate::command::Command;
-use crate::desk::{Align, Desk};
+use crate::desk::{Align, Desk, KnobAt};
 use crate::dock::{self, Panel};
 use crate::knobs::KnobEvent;
 
@@ -91,6 +91,8 @@ impl Editor {
                 desk.leave_to(depth);
             }
             Action::Knob { node, event } => self.turn_knob(&node, event),
+            Action::Panel(asked) => self.change_panel(asked),
+            Action::Variant(asked) => self.change_variants(asked),
             Action::Rename { node, name } => {
                 desk.rename(&node, &name);
             }
@@ -137,25 +139,11 @@ impl Editor {
                 desk.expose(node, &knob);
             }
             KnobEvent::Unexpose { knob } => {
-                let name = desk.exposed_as(node, &knob).map(str::to_owned);
-                if let Some(name) = name {
-                    desk.unexpose(&name);
-                }
+                desk.take_off_panel(node, &knob);
             }
-            KnobEvent::Began => {
-                desk.session.begin("Turn a knob");
-                self.is_moving = true;
-            }
-            KnobEvent::Ended => {
-                desk.session.end();
-                self.is_moving = false;
-            }
-            KnobEvent::Eyedropper { knob } => {
-                self.panels.parameters.eyedropper = Some((node.clone(), knob));
-                self.say("Click the model where the color is.");
-            }
-            KnobEvent::Browse { knob } => self.files.ask_for_picture(node.clone(), knob),
-            KnobEvent::ShowLength(length) => self.panels.parameters.length = Some(length),
+            KnobEvent::Eyedropper { knob } => self.ask_for_color(KnobAt::of_node(node, knob)),
+            KnobEvent::Browse { knob } => self.files.ask_for_picture(KnobAt::of_node(node, knob)),
+            KnobEvent::Began | KnobEvent::Ended | KnobEvent::ShowLength(_) => self.move_knob(&event),
         }
     }
 
@@ -254,12 +242,7 @@ impl Editor {
             Command::PreviousPanel => self.step_panel(false, ui.ctx()),
             Command::Help => dock::bring_up(&mut self.layout, Panel::Page),
             Command::Keys => self.files.shows_keys = !self.files.shows_keys,
-            Command::UseView => {
-                self.use_layout = match self.use_layout.take() {
-                    Some(_) => None,
-                    None => Some(dock::use_layout()),
-                };
-            }
+            Command::UseView => self.toggle_use_view(),
             Command::Larger => self.scale_by(SCALE_STEP, ui),
             Command::Smaller => self.scale_by(1.0 / SCALE_STEP, ui),
             Command::FitFlat | Command::TrueSize | Command::TileFlat | Command::UvWires => {

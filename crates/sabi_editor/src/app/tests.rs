@@ -1,6 +1,7 @@
 //! The window as somebody uses it: by clicks and keys, without a screen.
 
 mod building;
+mod panels;
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};

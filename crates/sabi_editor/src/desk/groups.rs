@@ -23,6 +23,22 @@ impl Desk {
         steps.take(bodies.len() - 1).map(title).collect()
     }
 
+    /// What the graph that is seen is called: the document's name, or the group's.
+    pub(crate) fn graph_title(&self) -> String {
+        match &self.seen {
+            Body::Main if self.document().name.is_empty() => "Untitled".to_owned(),
+            Body::Main => self.document().name.clone(),
+            Body::Group(name) => self.group_title(name),
+        }
+    }
+
+    fn group_title(&self, name: &str) -> String {
+        let group = self.document().groups.get(name);
+        group
+            .and_then(|group| group.name.clone())
+            .unwrap_or_else(|| name.to_owned())
+    }
+
     /// Goes into a group instance.
     pub(crate) fn enter(&mut self, id: &NodeId) -> bool {
         let instance = self.node(id).filter(|node| node.kind == GROUP_KIND);

@@ -17,6 +17,8 @@ pub(crate) struct PanelKnob {
     pub(crate) knob: Knob,
     /// What it holds.
     pub(crate) value: Value,
+    /// What the kind of that first one has at first.
+    pub(crate) at_first: Value,
 }
 
 impl Desk {
@@ -28,7 +30,10 @@ impl Desk {
         };
         let knobs = self.graph().panel().into_iter().filter_map(|(name, exposed)| {
             let knob = face?.knob(name)?.clone();
+            let first = exposed.to.first()?;
+            let inner = self.face(&first.node)?.knob(&first.name)?;
             Some(PanelKnob {
+                at_first: inner.default.clone(),
                 name: name.to_owned(),
                 exposed: exposed.clone(),
                 // Of a published knob, it is what it holds while nobody outside sets it.

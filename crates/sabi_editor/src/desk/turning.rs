@@ -2,7 +2,7 @@
 
 use sabi_graph::{Edit, Exposed, NodeId, SlotRef, Value, canonical_number};
 
-use super::Desk;
+use super::{Desk, KnobAt};
 
 impl Desk {
     /// Turns a knob of the panel: its default where it has one, else the knobs of nodes that it stands for.
@@ -13,6 +13,33 @@ impl Desk {
         let edits = self.turning(name, value);
         let step = format!("Set {}", name.replace('_', " "));
         self.edit(&step, edits)
+    }
+
+    /// Gives a knob of the panel back what the kinds of its nodes have at first.
+    pub(crate) fn turn_back(&mut self, name: &str) -> bool {
+        let Some(exposed) = self.graph().exposed().get(name).cloned() else {
+            return self.refuse(format!("there is no knob '{name}' on the panel"));
+        };
+        let reset = |slot: &SlotRef| Edit::SetParam {
+            body: self.body(),
+            node: slot.node.clone(),
+            param: slot.name.clone(),
+            value: None,
+        };
+        let mut edits: Vec<Edit> = exposed.to.iter().map(reset).collect();
+        if exposed.default.is_some() {
+            let default = None;
+            edits.push(self.exposing(name, Exposed { default, ..exposed }));
+        }
+        self.edit(&format!("Reset {}", name.replace('_', " ")), edits)
+    }
+
+    /// Sets a knob, wherever it is.
+    pub(crate) fn set_at(&mut self, knob: &KnobAt, value: Value) -> bool {
+        match knob {
+            KnobAt::Node { node, knob } => self.set_knob(node, knob, Some(value)),
+            KnobAt::Panel(name) => self.turn(name, &value),
+        }
     }
 
     /// Why a knob of the panel cannot be turned there.

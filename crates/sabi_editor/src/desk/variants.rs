@@ -25,6 +25,12 @@ impl Desk {
         self.edit("Save variant", vec![edit])
     }
 
+    /// A variant as a text that says all of it: in which graph of the file it is, and its values.
+    pub(crate) fn variant_as_text(&self, name: &str) -> String {
+        let values = self.graph().variants().get(name).cloned().unwrap_or_default();
+        format!("variant of {:?}: {}", self.seen, Value::Object(values).to_json())
+    }
+
     /// Turns the panel as a variant has it; knobs that it does not name stay.
     pub(crate) fn apply_variant(&mut self, name: &str) -> bool {
         let Some(values) = self.graph().variants().get(name).cloned() else {

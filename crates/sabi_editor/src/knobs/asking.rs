@@ -89,7 +89,22 @@ pub(super) struct Asking<'a> {
     pub(super) lengths: Lengths,
     /// Factor on type and heights.
     pub(super) zoom: f32,
+    /// Whether these are the knobs of a panel, of which each is published.
+    pub(super) is_panel: bool,
     pub(super) events: Vec<KnobEvent>,
+}
+
+impl<'a> Asking<'a> {
+    pub(super) fn new(theme: &'a Theme, memory: &'a mut KnobMemory, lengths: &Lengths) -> Asking<'a> {
+        Asking {
+            theme,
+            memory,
+            lengths: *lengths,
+            zoom: 1.0,
+            is_panel: false,
+            events: Vec::new(),
+        }
+    }
 }
 
 impl Asking<'_> {

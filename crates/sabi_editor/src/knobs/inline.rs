@@ -35,11 +35,8 @@ pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: 
         metres_per_model_unit: 0.0,
     };
     let mut ask = Asking {
-        theme,
-        memory: &mut memory,
-        lengths,
         zoom,
-        events: Vec::new(),
+        ..Asking::new(theme, &mut memory, &lengths)
     };
     ask.age_fault(ui.ctx(), id);
     let (_, rect) = ui.allocate_space(Vec2::new(width, HEIGHT * zoom));

@@ -119,7 +119,7 @@ fn name(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     let theme = ask.theme;
     let response = ui.interact(rect, id.with("name"), Sense::hover());
     let mut room = rect;
-    if row.exposed.is_some() {
+    if row.exposed.is_some() && !ask.is_panel {
         let sign = write(
             ui.painter(),
             rect,

@@ -1,10 +1,12 @@
-//! The knobs of the selected node; with nothing selected, those that are published.
+//! The knobs of the selected nodes; with nothing selected, what the graph that is seen publishes.
 
 use egui::Ui;
 use sabi_graph::{NodeId, Value};
 
+use super::{published, variants};
 use crate::action::Action;
 use crate::app::Editor;
+use crate::desk::{Desk, KnobAt};
 use crate::knobs::{KnobRow, Lengths, knobs_ui};
 use crate::theme::Theme;
 
@@ -12,29 +14,69 @@ use crate::theme::Theme;
 #[derive(Default)]
 pub(crate) struct Parameters {
     /// The knob that takes a color from the model.
-    pub(crate) eyedropper: Option<(NodeId, String)>,
+    pub(crate) eyedropper: Option<KnobAt>,
     /// A length that is turned, working units.
     pub(crate) length: Option<f64>,
+    published: published::Published,
+    variants: variants::Variants,
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
     editor.model_view.length = editor.panels.parameters.length.take();
-    let Some(id) = editor.desk.selected_one().cloned() else {
-        let count = editor.desk.selection().len();
-        let sentence = match count {
-            0 => "Select a node to turn its knobs.".to_owned(),
-            _ => format!("{count} nodes are selected."),
-        };
-        ui.colored_label(theme.quiet, sentence);
+    if editor.is_use_view() || editor.desk.selection().is_empty() {
+        of_graph(editor, ui, theme, actions);
         return;
+    }
+    match alike(&editor.desk) {
+        Some(id) => of_node(editor, ui, theme, &id, actions),
+        None => {
+            let count = editor.desk.selection().len();
+            let sentence =
+                format!("{count} nodes of several kinds are selected; those of one kind are turned together.");
+            ui.add(egui::Label::new(egui::RichText::new(sentence).color(theme.quiet)).wrap());
+            let lengths = lengths(editor);
+            knobs_ui(ui, theme, editor.knob_memory(), &[], &lengths);
+        }
+    }
+}
+
+/// What the graph publishes.
+fn of_graph(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
+    let around = published::Around {
+        theme,
+        lengths: lengths(editor),
+        is_use: editor.is_use_view(),
     };
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let (desk, panels, memory) = editor.parts_of_panel();
+        let own = &mut panels.parameters;
+        let asked = published::show(ui, desk, &around, &mut own.published, memory);
+        actions.extend(asked.into_iter().map(Action::Panel));
+        let asked = variants::show(ui, theme, desk, &mut own.variants, &mut panels.keepsakes);
+        actions.extend(asked.map(Action::Variant));
+    });
+}
+
+/// One of the selected nodes, if they are all of the same kind.
+fn alike(desk: &Desk) -> Option<NodeId> {
+    let kind = |id: &NodeId| desk.node(id).map(|node| (&node.kind, &node.group));
+    let mut selected = desk.selection().iter();
+    let first = selected.next()?;
+    selected.all(|other| kind(other) == kind(first)).then(|| first.clone())
+}
+
+fn of_node(editor: &mut Editor, ui: &mut Ui, theme: &Theme, id: &NodeId, actions: &mut Vec<Action>) {
     let lengths = lengths(editor);
-    let (Some(face), Some(node)) = (editor.desk.face(&id).cloned(), editor.desk.node(&id).cloned()) else {
+    let (Some(face), Some(node)) = (editor.desk.face(id).cloned(), editor.desk.node(id).cloned()) else {
         return;
     };
-    ui.heading(editor.desk.title(&id));
+    let count = editor.desk.selection().len();
+    ui.heading(match count {
+        1 => editor.desk.title(id),
+        _ => format!("{count} × {}", face.label),
+    });
     ui.colored_label(theme.quiet, &face.summary);
-    if let Some(fault) = editor.stage.fault(&editor.desk.full_id(&id)) {
+    if let Some(fault) = editor.stage.fault(&editor.desk.full_id(id)) {
         ui.colored_label(theme.fault, fault);
     }
     ui.separator();
@@ -46,7 +88,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
     let exposed: Vec<Option<String>> = face
         .knobs
         .iter()
-        .map(|knob| editor.desk.exposed_as(&id, &knob.name).map(str::to_owned))
+        .map(|knob| editor.desk.exposed_as(id, &knob.name).map(str::to_owned))
         .collect();
     let rows: Vec<KnobRow<'_>> = face
         .knobs
@@ -57,29 +99,24 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
             value: node.params.get(&knob.name),
             wired: wired.as_deref(),
             exposed: exposed.as_deref(),
-            differs: differs(editor, &id, &knob.name, node.params.get(&knob.name)),
+            differs: differs(&editor.desk, &knob.name, node.params.get(&knob.name)),
         })
         .collect();
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let events = knobs_ui(ui, theme, editor.knob_memory(), &rows, &lengths);
-        actions.extend(events.into_iter().map(|event| Action::Knob {
-            node: id.clone(),
-            event,
-        }));
+        ui.push_id(id, |ui| {
+            let events = knobs_ui(ui, theme, editor.knob_memory(), &rows, &lengths);
+            actions.extend(events.into_iter().map(|event| Action::Knob {
+                node: id.clone(),
+                event,
+            }));
+        });
     });
 }
 
-/// Whether selected nodes of the same kind have another value.
-fn differs(editor: &Editor, id: &NodeId, knob: &str, value: Option<&Value>) -> bool {
-    let kind = editor.desk.node(id).map(|node| &node.kind);
-    let others = editor
-        .desk
-        .selection()
-        .iter()
-        .filter_map(|other| editor.desk.node(other));
-    others
-        .filter(|other| Some(&other.kind) == kind)
-        .any(|other| other.params.get(knob) != value)
+/// Whether another selected node, all being of one kind, has another value.
+fn differs(desk: &Desk, knob: &str, value: Option<&Value>) -> bool {
+    let mut selected = desk.selection().iter().filter_map(|other| desk.node(other));
+    selected.any(|other| other.params.get(knob) != value)
 }
 
 /// How long 1 is on the model that is shown.

@@ -58,6 +58,21 @@ fn one_published_knob_turns_several_of_the_same_sort() {
 }
 
 #[test]
+fn a_published_knob_is_reset_with_all_that_it_turns_and_its_own_default() {
+    let mut desk = opened("", NODES);
+    desk.expose(&id("n"), "size");
+    desk.expose_as(&id("w"), "size", "size");
+    desk.set_exposed_default("size", number(0.75));
+    step(&mut desk, |desk| desk.turn_back("size"));
+    assert_eq!(["n", "w"].map(|id| param(&desk, id, "size")), [None, None]);
+    assert_eq!(desk.graph().exposed()["size"].default, None);
+    let knob = desk.panel().remove(0);
+    assert_eq!(knob.value, knob.at_first);
+    let said = refused(&mut desk, |desk| desk.turn_back("nothing"));
+    assert_eq!(said, "there is no knob 'nothing' on the panel");
+}
+
+#[test]
 fn a_seed_on_a_panel_is_not_called_as_that_of_every_instance() {
     let mut desk = opened("", NODES);
     desk.select_all();

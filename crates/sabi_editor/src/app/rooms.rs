@@ -1,0 +1,149 @@
+//! What is in each panel.
+
+use egui::Ui;
+use sabi_graph::NodeRef;
+
+use super::Editor;
+use crate::action::Action;
+use crate::canvas::{Around, NodeState};
+use crate::dock::{self, Docked, Layout, Panel};
+use crate::model_view::Subject;
+use crate::panels;
+
+impl Editor {
+    pub(super) fn panels(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let mut layout = std::mem::replace(self.layout_in_use(), Layout::empty("panels"));
+        let theme = self.theme.clone();
+        let problems = self.problem_count();
+        self.rects.clear();
+        let mut docked = Docked {
+            theme: &theme,
+            problems,
+            contents: &mut |ui, panel| self.panel(ui, panel, actions),
+        };
+        let frame = egui::Frame::new().fill(theme.ground);
+        egui::CentralPanel::default()
+            .frame(frame)
+            .show(ui, |ui| layout.ui(&mut docked, ui));
+        *self.layout_in_use() = layout;
+    }
+
+    /// Where panels are now.
+    fn layout_in_use(&mut self) -> &mut Layout {
+        self.use_layout.as_mut().unwrap_or(&mut self.layout)
+    }
+
+    /// Whether only the model and the published knobs are seen.
+    pub(crate) fn is_use_view(&self) -> bool {
+        self.use_layout.is_some()
+    }
+
+    /// Shows only the model and the published knobs, or everything again.
+    pub(super) fn toggle_use_view(&mut self) {
+        self.use_layout = match self.use_layout.take() {
+            Some(_) => None,
+            None => {
+                // The panel of the whole graph is meant, and keys are for nothing that is not seen.
+                self.desk.leave_to(0);
+                self.active = Panel::Viewport;
+                Some(dock::use_layout())
+            }
+        };
+    }
+
+    /// Draws what is in a panel.
+    fn panel(&mut self, ui: &mut Ui, panel: Panel, actions: &mut Vec<Action>) {
+        self.rects.insert(panel, ui.max_rect());
+        match panel {
+            Panel::Canvas => self.canvas_panel(ui, actions),
+            Panel::Viewport => self.model_panel(ui, actions),
+            Panel::Flat => {
+                let wanted = self.pinned.clone().or(self.shown.clone());
+                let title = wanted.as_ref().map_or_else(String::new, |node| self.title_of(node));
+                self.padded(ui, |editor, ui| {
+                    editor
+                        .flat_view
+                        .show(ui, &editor.stage, &editor.theme.clone(), wanted.as_ref(), &title);
+                });
+            }
+            _ => self.padded(ui, |editor, ui| editor.side_panel(ui, panel, actions)),
+        }
+    }
+
+    fn side_panel(&mut self, ui: &mut Ui, panel: Panel, actions: &mut Vec<Action>) {
+        let theme = self.theme.clone();
+        match panel {
+            Panel::Parameters => panels::parameters::show(self, ui, &theme, actions),
+            Panel::Stack => panels::stack::show(self, ui, &theme, actions),
+            Panel::Library => panels::library::show(self, ui, &theme, actions),
+            Panel::Export => panels::export::show(self, ui, &theme),
+            Panel::History => panels::history::show(self, ui, &theme, actions),
+            Panel::Problems => panels::problems::show(self, ui, &theme, actions),
+            Panel::Performance => panels::performance::show(self, ui, &theme),
+            Panel::Page => panels::page::show(self, ui, &theme),
+            Panel::Canvas | Panel::Viewport | Panel::Flat => {}
+        }
+    }
+
+    /// A panel with room around what is in it.
+    fn padded(&mut self, ui: &mut Ui, contents: impl FnOnce(&mut Editor, &mut Ui)) {
+        let frame = egui::Frame::new().fill(self.theme.panel).inner_margin(8);
+        frame.show(ui, |ui| {
+            ui.set_min_size(ui.available_size());
+            contents(self, ui);
+        });
+    }
+
+    fn canvas_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        self.breadcrumb(ui, actions);
+        let (stage, desk, ports) = (&self.stage, &self.desk, &self.ports);
+        let state_of = |id: &sabi_graph::NodeId| {
+            let node = desk.full_id(id);
+            let reference = NodeRef {
+                port: ports.get(&node).cloned(),
+                node,
+            };
+            NodeState {
+                picture: stage.thumbnail(&reference).map(egui::TextureHandle::id),
+                time: stage.time(&reference.node),
+                fault: stage.fault(&reference.node).cloned(),
+                waits: stage.waits(&reference.node).cloned(),
+            }
+        };
+        let looked_at = self.pinned.as_ref().or(self.shown.as_ref());
+        let previewed = looked_at.and_then(|node| {
+            let own = node.node.rsplit('/').next()?;
+            let id = own.parse::<sabi_graph::NodeId>().ok()?;
+            (desk.full_id(&id) == node.node).then_some(id)
+        });
+        let around = Around {
+            desk,
+            theme: &self.theme,
+            state_of: &state_of,
+            candidates: &self.candidates.1,
+            previewed: previewed.as_ref(),
+        };
+        actions.extend(self.canvas.show(ui, &around));
+    }
+
+    fn model_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        self.model_strip(ui, actions);
+        let seen = self.seen();
+        let locked = self.locked_seen();
+        let theme = self.theme.clone();
+        let subject = Subject {
+            seen: &seen,
+            locked: locked.as_ref(),
+            is_moving: self.is_moving,
+            theme: &theme,
+        };
+        let render = self.render.clone();
+        let done = self.model_view.show(ui, &self.stage, render.as_ref(), &subject);
+        if let Some(environment) = done.environment {
+            self.settings.environment = environment;
+        }
+        if let Some(picked) = done.picked {
+            self.take_picked(&picked);
+        }
+    }
+}

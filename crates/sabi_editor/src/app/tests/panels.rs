@@ -1,0 +1,206 @@
+//! What is handed on: published knobs, variants, inputs and outputs, as somebody changes them in the window.
+
+use std::collections::BTreeSet;
+
+use egui::{Event, Key, Modifiers, PointerButton, Vec2, vec2};
+use egui_kittest::kittest::Queryable;
+use sabi_engine::Session;
+use sabi_graph::Value;
+
+use super::Window;
+use crate::dock::Panel;
+
+const PUBLISHED: &str = r##"{
+  "format": "sabi", "version": 1, "name": "Worn edges",
+  "exposed": {
+    "amount": { "to": ["l.opacity"], "label": "Wear", "order": 1 },
+    "size": { "to": ["n.size"], "label": "Grain size", "order": 2 }
+  },
+  "variants": { "faint": { "amount": 0.25 } },
+  "nodes": {
+    "n": { "kind": "noise/simplex", "params": { "size": 0.25 } },
+    "l": { "kind": "effect/layer", "inputs": { "mask": "n" }, "pos": [260, 0] },
+    "out": { "kind": "output/material", "inputs": { "material": "l" }, "pos": [520, 0] }
+  }
+}"##;
+
+impl Window {
+    /// A graph of this text, in a file.
+    fn of(text: &str) -> Window {
+        let mut window = Window::with(|folders| {
+            let folder = folders
+                .settings
+                .as_ref()
+                .and_then(|folder| folder.parent())
+                .expect("a folder");
+            let file = folder.join("worn.sabi");
+            std::fs::write(&file, text).expect("a writable folder");
+            Session::open(&file, None).expect("a graph")
+        });
+        window.settle();
+        window
+    }
+
+    fn click(&mut self, name: &str) {
+        self.harness.get_by_label(name).click();
+        self.settle();
+    }
+
+    /// Types into a line of text in place of what it holds, and finishes it.
+    fn fill(&mut self, name: &str, text: &str) {
+        self.harness.get_by_label(name).click();
+        self.settle();
+        self.keys(Modifiers::COMMAND, Key::A);
+        self.harness.event(Event::Text(text.to_owned()));
+        self.settle();
+        self.key(Key::Enter);
+    }
+
+    /// Opens the menu of something and clicks an entry.
+    fn choose(&mut self, name: &str, entry: &str) {
+        self.harness.get_by_label(name).click_secondary();
+        self.settle();
+        self.click(entry);
+    }
+
+    fn steps(&self) -> usize {
+        self.editor().desk.session.undo_names().count()
+    }
+
+    fn held(&self, knob: &str) -> Option<Value> {
+        let panel = self.editor().desk.panel();
+        panel
+            .into_iter()
+            .find(|known| known.name == knob)
+            .map(|known| known.value)
+    }
+}
+
+#[test]
+fn a_drag_of_a_published_knob_is_one_step_and_turns_what_it_stands_for() {
+    let mut window = Window::of(PUBLISHED);
+    let bar = window.harness.get_by_label("Wear").rect();
+    window.drag(
+        bar.center(),
+        bar.center() - vec2(bar.width() / 4.0, 0.0),
+        PointerButton::Primary,
+        Modifiers::NONE,
+    );
+    let held = window
+        .held("amount")
+        .and_then(|value| value.as_number())
+        .expect("a number");
+    assert!((0.0..1.0).contains(&held), "{held}");
+    assert_eq!(window.steps(), 1);
+    let layer = "l".parse().expect("an id");
+    let own = window
+        .editor()
+        .desk
+        .node(&layer)
+        .and_then(|node| node.params.get("opacity").cloned());
+    assert_eq!(own, Some(Value::Number(held)), "the node's own knob was turned");
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.held("amount"), Some(Value::Number(1.0)));
+}
+
+#[test]
+fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_else() {
+    let mut window = Window::of(PUBLISHED);
+    let noise = "n".parse().expect("an id");
+    window.harness.state_mut().desk.select([noise]);
+    window.settle();
+    assert!(
+        window.harness.query_by_label("Grain size").is_none(),
+        "those of the node are shown"
+    );
+    window.keys(Modifiers::COMMAND, Key::Space);
+    let shown: BTreeSet<Panel> = window.editor().rects.keys().copied().collect();
+    assert_eq!(
+        shown,
+        BTreeSet::from([Panel::Viewport, Panel::Parameters, Panel::Export])
+    );
+    assert!(window.harness.query_by_label("Grain size").is_some());
+    assert!(window.harness.query_by_label("faint").is_some(), "variants are there");
+    assert!(window.harness.query_by_label("Change the panel").is_none());
+    window.keys(Modifiers::COMMAND, Key::Space);
+    assert!(window.editor().rects.contains_key(&Panel::Canvas));
+}
+
+#[test]
+fn nothing_published_says_how_to_publish_a_knob() {
+    let mut window = Window::empty();
+    window.settle();
+    let sentence = "No knob is published yet. Right-click a knob of a node and put it on the panel: it will stand here, for \
+                    people who never open the graph.";
+    assert!(window.harness.query_by_label(sentence).is_some());
+}
+
+#[test]
+fn the_pen_changes_what_published_knobs_say_of_themselves() {
+    let mut window = Window::of(PUBLISHED);
+    window.click("Change the panel");
+    let labels: Vec<_> = window.harness.get_all_by_label("Label").collect();
+    assert_eq!(labels.len(), 2, "a card for each");
+    drop(labels);
+    window.click("Take Grain size off the panel");
+    window.fill("Label", "How worn");
+    window.fill("Section", "Looks");
+    window.fill("Name in files", "wear");
+    window.click(&format!("{} Start here", egui_phosphor::regular::PUSH_PIN));
+    let exposed = window.editor().desk.graph().exposed().clone();
+    let wear = &exposed["wear"];
+    assert_eq!(exposed.len(), 1);
+    assert_eq!(
+        (wear.label.as_deref(), wear.section.as_deref(), &wear.default),
+        (Some("How worn"), Some("Looks"), &Some(Value::Number(1.0)))
+    );
+    assert_eq!(window.steps(), 5, "each is one step");
+    assert!(
+        window.editor().desk.graph().variants()["faint"].contains_key("wear"),
+        "variants follow"
+    );
+}
+
+#[test]
+fn published_knobs_are_put_into_order_by_dragging() {
+    let mut window = Window::of(PUBLISHED);
+    window.click("Change the panel");
+    let [first, second] =
+        ["Move Wear", "Move Grain size"].map(|name| window.harness.get_by_label(name).rect().center());
+    window.drag(
+        second,
+        first - Vec2::splat(3.0),
+        PointerButton::Primary,
+        Modifiers::NONE,
+    );
+    let names: Vec<String> = window.editor().desk.panel().into_iter().map(|knob| knob.name).collect();
+    assert_eq!(names, ["size", "amount"]);
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() {
+    let mut window = Window::of(PUBLISHED);
+    window.until("a picture of the model", |editor| editor.model_view.drawn > 0);
+    window.click("faint");
+    assert_eq!(window.held("amount"), Some(Value::Number(0.25)));
+    window.fill("Name of a variant", "as bought");
+    let variants = window.editor().desk.graph().variants().clone();
+    assert_eq!(variants["as bought"]["amount"], Value::Number(0.25));
+    let what = window.editor().desk.variant_as_text("as bought");
+    let file = window.path("worn.sabi");
+    let cache = window.path("cache");
+    let kept = sabi_engine::find_thumbnail(&cache, &[&file.to_string_lossy(), &what]).expect("a picture");
+    assert_eq!(kept.size, [128, 128]);
+    window.choose("as bought", "Rename");
+    window.fill("New name of the variant", "new");
+    assert!(window.editor().desk.graph().variants().contains_key("new"));
+    assert_eq!(
+        window.editor().desk.variant_as_text("new"),
+        what,
+        "the picture is found under the new name"
+    );
+    window.choose("new", "Remove");
+    assert_eq!(window.editor().desk.graph().variants().len(), 1);
+    assert_eq!(window.steps(), 4);
+}

@@ -1,0 +1,145 @@
+//! Pictures of the model: drawn as far as they have to be, and shown.
+
+use std::sync::Arc;
+
+use eframe::egui_wgpu::RenderState;
+use egui::{Color32, Rect, Stroke, TextureId, Ui, pos2};
+use sabi_engine::view::{Mode, Pixels, Scene, Shot, Viewport};
+use sabi_engine::{EngineError, Gpu};
+
+use super::{ModelView, REST, Screen, Subject};
+use crate::stage::{Picture, Stage};
+
+impl ModelView {
+    /// The picture that is shown, in memory; none while there is none.
+    pub(crate) fn picture(&self, gpu: &Arc<Gpu>) -> Option<Pixels> {
+        self.screens[0].as_ref()?.viewport.picture()?.read(gpu).ok()
+    }
+
+    pub(super) fn paint(
+        &mut self,
+        ui: &Ui,
+        rect: Rect,
+        stage: &Stage,
+        render: &RenderState,
+        picture: &Picture,
+        subject: &Subject<'_>,
+    ) {
+        let is_turning = self.moved.is_some_and(|moved| moved.elapsed() < REST);
+        if is_turning {
+            ui.ctx().request_repaint_after(REST);
+        }
+        let is_moving = is_turning || subject.is_moving;
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let locked = subject.locked.and_then(|seen| stage.picture(seen)).cloned();
+        let wipe = self.wipe.zip(locked);
+        let first = self.refreshed(0, ui, rect, stage, render, picture, is_moving);
+        let Some(first) = first else { return };
+        ui.painter().image(first, rect, whole, Color32::WHITE);
+        let Some((share, locked)) = wipe else { return };
+        let Some(other) = self.refreshed(1, ui, rect, stage, render, &locked, is_moving) else {
+            return;
+        };
+        let at = rect.left() + share * rect.width();
+        let right = Rect::from_min_max(pos2(at, rect.top()), rect.max);
+        let uv = Rect::from_min_max(pos2(share, 0.0), pos2(1.0, 1.0));
+        ui.painter().image(other, right, uv, Color32::WHITE);
+        ui.painter()
+            .vline(at, rect.y_range(), Stroke::new(1.5, subject.theme.accent));
+    }
+
+    /// One picture, drawn as far as it has to be; none where that failed, which is then said.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "what is drawn where, with what, of what, and how well"
+    )]
+    fn refreshed(
+        &mut self,
+        at: usize,
+        ui: &Ui,
+        rect: Rect,
+        stage: &Stage,
+        render: &RenderState,
+        picture: &Picture,
+        is_moving: bool,
+    ) -> Option<TextureId> {
+        let scale = ui.ctx().pixels_per_point();
+        let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
+        let drawn = self.draw(at, stage, picture, size, is_moving);
+        match drawn {
+            Ok(has_drawn) => {
+                self.fault = None;
+                if has_drawn {
+                    self.drawn += 1;
+                    ui.ctx().request_repaint();
+                }
+            }
+            Err(error) => {
+                self.fault = Some(error.to_string());
+                return None;
+            }
+        }
+        let screen = self.screens[at].as_mut()?;
+        let shown = screen.viewport.picture()?.texture().clone();
+        if let Some((id, known)) = &screen.texture
+            && *known == shown
+        {
+            return Some(*id);
+        }
+        let view = shown.create_view(&wgpu::TextureViewDescriptor::default());
+        let mut renderer = render.renderer.write();
+        let filter = wgpu::FilterMode::Linear;
+        let id = match &screen.texture {
+            Some((id, _)) => {
+                renderer.update_egui_texture_from_wgpu_texture(&render.device, &view, filter, *id);
+                *id
+            }
+            None => renderer.register_native_texture(&render.device, &view, filter),
+        };
+        screen.texture = Some((id, shown));
+        Some(id)
+    }
+
+    fn draw(
+        &mut self,
+        at: usize,
+        stage: &Stage,
+        picture: &Picture,
+        size: [u32; 2],
+        is_moving: bool,
+    ) -> Result<bool, EngineError> {
+        let Some(environment) = self.surroundings.environment() else {
+            return Ok(false);
+        };
+        let gpu = stage.gpu();
+        if self.screens[at].is_none() {
+            self.screens[at] = Some(Screen {
+                viewport: Viewport::new(gpu)?,
+                texture: None,
+            });
+        }
+        let Some(screen) = &mut self.screens[at] else {
+            return Ok(false);
+        };
+        let scene = Scene {
+            model: &picture.model.view,
+            looks: &picture.shown.looks,
+            look_of_material: &picture.shown.look_of_material,
+            environment,
+            lights: &[],
+        };
+        let shot = Shot {
+            camera: self.camera,
+            mode: if picture.shown.is_lit {
+                self.shot.mode
+            } else {
+                Mode::Node
+            },
+            height_range: picture.shown.height_range,
+            ..self.shot.clone()
+        };
+        // An environment that was changed is another picture too.
+        let revision = picture.number ^ (self.surroundings.number() << 48);
+        Ok(screen.viewport.show(gpu, &scene, revision, &shot, size, is_moving)?)
+    }
+}

@@ -1,0 +1,54 @@
+//! Rows that are put into another order by dragging: a line says where the dragged one would come to stand.
+
+use std::any::Any;
+use std::sync::Arc;
+
+use egui::{Align2, Area, DragAndDrop, Frame, Id, Order, Rect, Stroke, Ui, vec2};
+
+use crate::theme::Theme;
+
+/// How far beside a list it still takes what is dropped, points.
+const NEAR: f32 = 12.0;
+
+/// Shows what is dragged and between which of these rows it would come to stand; gives it, and the number of the row that it
+/// comes before, once it is dropped there. `title` says what it is called, or that it belongs to another list.
+pub(crate) fn dropped<P: Any + Send + Sync>(
+    ui: &Ui,
+    theme: &Theme,
+    rows: &[Rect],
+    title: impl FnOnce(&P) -> Option<String>,
+) -> Option<(Arc<P>, usize)> {
+    let payload = DragAndDrop::payload::<P>(ui.ctx())?;
+    let at = ui.input(|input| input.pointer.interact_pos())?;
+    let title = title(&payload)?;
+    ghost(ui, at, &title);
+    let all = rows.iter().fold(Rect::NOTHING, |all, row| all.union(*row));
+    if !all.expand(NEAR).contains(at) {
+        return None;
+    }
+    let gap = rows.iter().filter(|row| row.center().y < at.y).count();
+    let between = ui.spacing().item_spacing.y / 2.0;
+    let y = match (rows.get(gap), rows.last()) {
+        (Some(next), _) => next.top() - between,
+        (None, Some(last)) => last.bottom() + between,
+        (None, None) => return None,
+    };
+    let stroke = Stroke::new(2.0, theme.accent);
+    ui.painter().hline(all.x_range(), y, stroke);
+    ui.painter().circle(egui::pos2(all.left(), y), 3.5, theme.panel, stroke);
+    let is_released = ui.input(|input| input.pointer.any_released());
+    is_released.then_some((payload, gap))
+}
+
+/// What is dragged, beside the pointer.
+pub(crate) fn ghost(ui: &Ui, at: egui::Pos2, title: &str) {
+    ui.set_cursor_icon(egui::CursorIcon::Grabbing);
+    Area::new(Id::new("what is dragged"))
+        .order(Order::Tooltip)
+        .interactable(false)
+        .pivot(Align2::LEFT_CENTER)
+        .fixed_pos(at + vec2(14.0, 0.0))
+        .show(ui.ctx(), |ui| {
+            Frame::popup(ui.style()).show(ui, |ui| ui.label(title));
+        });
+}

@@ -1,0 +1,165 @@
+//! What published knobs say of themselves: a card for each.
+
+use egui::{DragValue, Rect, RichText, Sense, Ui, WidgetInfo, WidgetType};
+use egui_phosphor::regular as icon;
+use sabi_graph::Value;
+
+use crate::action::PanelAsk;
+use crate::desk::PanelKnob;
+use crate::panels::field::Field;
+use crate::panels::order;
+use crate::theme::{Theme, space};
+
+/// The knob that is dragged, by its name.
+struct Dragged(String);
+
+pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut Vec<PanelAsk>) {
+    let rows: Vec<Rect> = panel.iter().map(|knob| card(ui, theme, knob, asked)).collect();
+    let title = |dragged: &Dragged| {
+        let knob = panel.iter().find(|knob| knob.name == dragged.0)?;
+        Some(knob.knob.label.clone())
+    };
+    if let Some((dragged, gap)) = order::dropped(ui, theme, &rows, title) {
+        let before = panel.get(gap).map(|knob| knob.name.clone());
+        let name = dragged.0.clone();
+        asked.push(PanelAsk::Move { name, before });
+    }
+}
+
+fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) -> Rect {
+    let frame = egui::Frame::new()
+        .fill(theme.raised)
+        .corner_radius(space::CORNER)
+        .inner_margin(6);
+    let shown = frame.show(ui, |ui| {
+        ui.set_min_width(ui.available_width());
+        ui.visuals_mut().extreme_bg_color = theme.panel;
+        head(ui, theme, knob, asked);
+        names(ui, knob, asked);
+        if is_number(&knob.value) {
+            range(ui, theme, knob, asked);
+        }
+        start(ui, theme, knob, asked);
+    });
+    shown.response.rect
+}
+
+/// The handle by which it is dragged, the name that artists see, and the way off the panel.
+fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
+    ui.horizontal(|ui| {
+        let sign = RichText::new(icon::DOTS_SIX_VERTICAL).color(theme.quiet);
+        let handle = ui.add(egui::Label::new(sign).sense(Sense::drag()));
+        handle.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("Move {}", knob.knob.label)));
+        handle
+            .on_hover_cursor(egui::CursorIcon::Grab)
+            .dnd_set_drag_payload(Dragged(knob.name.clone()));
+        let label = Field {
+            name: "Label",
+            hint: &knob.name,
+            held: &knob.knob.label,
+            width: ui.available_width() - 34.0,
+        };
+        if let Some(label) = label.show(ui, ("label", &knob.name)) {
+            let name = knob.name.clone();
+            asked.push(PanelAsk::Label { name, label });
+        }
+        let off = ui.small_button(icon::TRASH);
+        off.widget_info(|| {
+            let name = format!("Take {} off the panel", knob.knob.label);
+            WidgetInfo::labeled(WidgetType::Button, true, name)
+        });
+        if off.on_hover_text("Take off the panel").clicked() {
+            asked.push(PanelAsk::TakeOff(knob.name.clone()));
+        }
+    });
+}
+
+/// The name in files, and the section.
+fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
+    ui.horizontal(|ui| {
+        let half = (ui.available_width() - space::USUAL) / 2.0 - space::USUAL;
+        let name = Field {
+            name: "Name in files",
+            hint: "name in files",
+            held: &knob.name,
+            width: half,
+        };
+        if let Some(to) = name.show(ui, ("name", &knob.name)) {
+            let name = knob.name.clone();
+            asked.push(PanelAsk::Rename { name, to });
+        }
+        let section = Field {
+            name: "Section",
+            hint: "no section",
+            held: knob.exposed.section.as_deref().unwrap_or(""),
+            width: half,
+        };
+        if let Some(section) = section.show(ui, ("section", &knob.name)) {
+            let name = knob.name.clone();
+            asked.push(PanelAsk::Section { name, section });
+        }
+    });
+}
+
+/// The ends between which it may be turned.
+fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
+    ui.horizontal(|ui| {
+        ui.colored_label(theme.quiet, "From");
+        let own = knob.exposed.range;
+        let [mut low, mut high] = own.unwrap_or_else(|| knob.knob.slider());
+        let speed = ((high - low).abs() / 200.0).max(1e-4);
+        let end = |ui: &mut Ui, end: &mut f64, name: &str| {
+            let response = ui.add(DragValue::new(end).speed(speed).update_while_editing(false));
+            response.widget_info(|| WidgetInfo::labeled(WidgetType::DragValue, true, name));
+            response.changed()
+        };
+        let mut has_changed = end(ui, &mut low, "Lowest value");
+        ui.colored_label(theme.quiet, "to");
+        has_changed |= end(ui, &mut high, "Highest value");
+        let name = knob.name.clone();
+        if has_changed {
+            let range = Some([low.min(high), high.max(low)]);
+            asked.push(PanelAsk::Range { name, range });
+        } else if own.is_some() && sign(ui, icon::X, "The range of its node").clicked() {
+            asked.push(PanelAsk::Range { name, range: None });
+        }
+    });
+}
+
+/// What it holds while nobody sets it.
+fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
+    ui.horizontal(|ui| {
+        let name = knob.name.clone();
+        match &knob.exposed.default {
+            Some(held) => {
+                ui.colored_label(theme.quiet, format!("Starts at {}", held.to_json()));
+                if sign(ui, icon::X, "Start as its nodes are set").clicked() {
+                    asked.push(PanelAsk::Default { name, default: None });
+                }
+            }
+            None => {
+                let keep = ui.small_button(format!("{} Start here", icon::PUSH_PIN));
+                let told = "Keeps the present value as what it starts from, whatever its nodes are set to";
+                if keep.on_hover_text(told).clicked() {
+                    let default = Some(knob.value.clone());
+                    asked.push(PanelAsk::Default { name, default });
+                }
+            }
+        }
+    });
+}
+
+fn sign(ui: &mut Ui, sign: &str, name: &str) -> egui::Response {
+    let response = ui.small_button(sign);
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
+    response.on_hover_text(name)
+}
+
+fn is_number(value: &Value) -> bool {
+    let one = std::slice::from_ref(value);
+    value
+        .as_list()
+        .unwrap_or(one)
+        .iter()
+        .all(|part| part.as_number().is_some())
+}

@@ -1,0 +1,171 @@
+//! Variants: named settings of the panel, as cards with the model as it looked when they were saved.
+
+use std::path::Path;
+
+use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
+use egui_phosphor::regular as icon;
+use sabi_graph::Value;
+
+use super::keepsakes::Keepsakes;
+use crate::action::VariantAsk;
+use crate::desk::Desk;
+use crate::theme::{Theme, space, type_size};
+
+/// Width of a card, and height of its picture.
+const SIDE: f32 = 84.0;
+/// Height of the name below it.
+const NAME: f32 = 18.0;
+
+/// What is held from frame to frame.
+#[derive(Default)]
+pub(crate) struct Variants {
+    /// The name for the next one.
+    name: String,
+    /// The one that gets another name, and what was typed so far.
+    renaming: Option<Renaming>,
+}
+
+struct Renaming {
+    name: String,
+    to: String,
+    is_new: bool,
+}
+
+/// Shows the variants of the graph that is seen and says what is asked of them.
+pub(crate) fn show(
+    ui: &mut Ui,
+    theme: &Theme,
+    desk: &Desk,
+    variants: &mut Variants,
+    keepsakes: &mut Keepsakes,
+) -> Option<VariantAsk> {
+    let panel = desk.panel();
+    if panel.is_empty() {
+        return None;
+    }
+    let mut asked = None;
+    ui.add_space(space::WIDE);
+    ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
+    let file = desk.session.file().unwrap_or(Path::new(""));
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
+        for (name, values) in desk.graph().variants() {
+            let holds = |knob: &str, value: &Value| panel.iter().any(|it| it.name == knob && it.value == *value);
+            let card = Card {
+                name,
+                picture: keepsakes.find(ui.ctx(), file, &desk.variant_as_text(name)),
+                is_held: values.iter().all(|(knob, value)| holds(knob, value)),
+            };
+            asked = card.show(ui, theme, variants).or(asked.take());
+        }
+    });
+    let renamed = rename(ui, &mut variants.renaming);
+    let saved = save(ui, desk, variants);
+    renamed.or(saved).or(asked)
+}
+
+/// One variant.
+struct Card<'a> {
+    name: &'a str,
+    picture: Option<egui::TextureId>,
+    /// Whether the panel is as it has it.
+    is_held: bool,
+}
+
+impl Card<'_> {
+    fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<VariantAsk> {
+        let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
+        response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, self.name));
+        self.paint(ui, theme, rect, response.hovered() || response.has_focus());
+        let mut asked = response.clicked().then(|| VariantAsk::Apply(self.name.to_owned()));
+        let response = response.on_hover_text(format!("Turn all knobs as in '{}'", self.name));
+        response.context_menu(|ui| {
+            if ui.button("Rename").clicked() {
+                variants.renaming = Some(Renaming {
+                    name: self.name.to_owned(),
+                    to: self.name.to_owned(),
+                    is_new: true,
+                });
+            }
+            if ui.button("Replace by the present values").clicked() {
+                asked = Some(VariantAsk::Save(self.name.to_owned()));
+            }
+            if ui.button("Remove").clicked() {
+                asked = Some(VariantAsk::Remove(self.name.to_owned()));
+            }
+        });
+        asked
+    }
+
+    fn paint(&self, ui: &Ui, theme: &Theme, rect: Rect, is_hovered: bool) {
+        if !ui.is_rect_visible(rect) {
+            return;
+        }
+        let fill = if is_hovered { theme.hovered } else { theme.raised };
+        ui.painter().rect_filled(rect, space::CORNER, fill);
+        let square = Rect::from_min_size(rect.min, Vec2::splat(SIDE)).shrink(3.0);
+        match self.picture {
+            Some(picture) => {
+                let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+                ui.painter().image(picture, square, whole, Color32::WHITE);
+            }
+            None => {
+                let font = FontId::proportional(type_size::TITLE);
+                ui.painter()
+                    .text(square.center(), Align2::CENTER_CENTER, icon::SWATCHES, font, theme.line);
+            }
+        }
+        let room = rect.with_min_y(square.bottom()).shrink2(Vec2::new(4.0, 0.0));
+        let color = if self.is_held { theme.text } else { theme.quiet };
+        let mut job = egui::text::LayoutJob::simple_singleline(
+            self.name.to_owned(),
+            FontId::proportional(type_size::SMALL),
+            color,
+        );
+        job.wrap = egui::text::TextWrapping::truncate_at_width(room.width());
+        let name = ui.painter().layout_job(job);
+        let at = Align2::CENTER_CENTER.align_size_within_rect(name.size(), room);
+        ui.painter().galley(at.min, name, color);
+        if self.is_held {
+            let line = Stroke::new(1.5, theme.accent);
+            ui.painter().rect_stroke(rect, space::CORNER, line, StrokeKind::Inside);
+        }
+    }
+}
+
+fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<VariantAsk> {
+    let asked = renaming.as_mut()?;
+    let edit = egui::TextEdit::singleline(&mut asked.to).desired_width(f32::INFINITY);
+    let field = ui.add(edit);
+    field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "New name of the variant"));
+    if std::mem::take(&mut asked.is_new) {
+        field.request_focus();
+    }
+    if !field.lost_focus() {
+        return None;
+    }
+    let is_given_up = ui.input(|input| input.key_pressed(Key::Escape));
+    let Renaming { name, to, .. } = renaming.take()?;
+    (!is_given_up && name != to).then_some(VariantAsk::Rename { name, to })
+}
+
+/// A line to save what the panel holds now.
+fn save(ui: &mut Ui, desk: &Desk, variants: &mut Variants) -> Option<VariantAsk> {
+    ui.horizontal(|ui| {
+        let name = &mut variants.name;
+        let edit = egui::TextEdit::singleline(name)
+            .hint_text("Name of a variant")
+            .desired_width(ui.available_width() - 64.0);
+        let field = ui.add(edit);
+        field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Name of a variant"));
+        let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        let is_known = desk.graph().variants().contains_key(name.trim());
+        let verb = if is_known { "Replace" } else { "Save" };
+        let can_save = !name.trim().is_empty();
+        let save = ui.add_enabled(can_save, egui::Button::new(verb));
+        let told = "Keeps what the knobs are set to now, with the model as it looks";
+        let is_clicked = save.on_hover_text(told).clicked();
+        (can_save && (is_entered || is_clicked)).then(|| VariantAsk::Save(std::mem::take(name)))
+    })
+    .inner
+}
