@@ -62,9 +62,11 @@ impl FlatView {
     /// Draws the result of the inspected node.
     pub(crate) fn show(&mut self, ui: &mut Ui, stage: &Stage, theme: &Theme, wanted: Option<&NodeRef>, title: &str) {
         let Some((_, values)) = stage.inspected.as_ref().filter(|(node, _)| Some(node) == wanted) else {
-            let sentence = match wanted {
-                Some(_) => "Evaluating…",
-                None => "Click a node to see its result as a texture.",
+            let fault = wanted.and_then(|node| stage.fault(&node.node).or(stage.waits(&node.node)));
+            let sentence = match (wanted, fault) {
+                (_, Some(fault)) => fault,
+                (Some(_), None) => "Evaluating…",
+                (None, None) => "Click a node to see its result as a texture.",
             };
             ui.centered_and_justified(|ui| ui.colored_label(theme.quiet, sentence));
             return;

@@ -204,7 +204,7 @@ impl Theme {
         let widgets = &mut visuals.widgets;
         let states = [
             (&mut widgets.noninteractive, self.panel, self.text, self.line),
-            (&mut widgets.inactive, self.raised, self.text, Color32::TRANSPARENT),
+            (&mut widgets.inactive, self.raised, self.text, self.line),
             (&mut widgets.hovered, self.hovered, self.text, self.line),
             (&mut widgets.active, self.hovered, self.text, self.accent),
             (&mut widgets.open, self.hovered, self.text, self.line),

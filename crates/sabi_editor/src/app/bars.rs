@@ -228,7 +228,8 @@ impl Editor {
                     let summary = self.stage.gpu().summary();
                     ui.label(quiet(format!("{} ({})", summary.name, summary.kind)));
                     if self.stage.is_busy() {
-                        ui.add(egui::Spinner::new().size(10.0));
+                        // Nothing that turns: every turn would draw the whole window again, which costs the evaluation its time.
+                        ui.label(quiet(format!("{} evaluating", icon::HOURGLASS_MEDIUM)));
                     }
                     if let Some(latency) = self.stage.last.latency {
                         ui.label(quiet(crate::canvas::shown_time(latency)));

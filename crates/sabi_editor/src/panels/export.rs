@@ -1,9 +1,9 @@
 //! Textures written for engines.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex};
 use std::thread;
 
 use egui::{RichText, Ui};
@@ -53,12 +53,14 @@ struct Watch {
     is_canceled: AtomicBool,
     done: AtomicUsize,
     of: AtomicUsize,
-    stage: AtomicUsize,
+    stage: Mutex<Option<Stage>>,
 }
 
 impl Progress for Watch {
     fn advance(&self, stage: Stage, done: usize, of: usize) {
-        self.stage.store(stage as usize, Ordering::Relaxed);
+        if let Ok(mut known) = self.stage.lock() {
+            *known = Some(stage);
+        }
         self.done.store(done, Ordering::Relaxed);
         self.of.store(of, Ordering::Relaxed);
     }
@@ -152,18 +154,20 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
         Some(running) => {
             let watch = &running.watch;
             let share = watch.done.load(Ordering::Relaxed) as f32 / watch.of.load(Ordering::Relaxed).max(1) as f32;
-            ui.add(egui::ProgressBar::new(share).fill(theme.accent).show_percentage());
+            let label = watch
+                .stage
+                .lock()
+                .map_or("", |stage| stage.map_or("Reading", Stage::label));
+            ui.label(label);
+            ui.add(egui::ProgressBar::new(share).fill(theme.accent).desired_height(6.0));
             if ui.button("Cancel").clicked() {
                 watch.is_canceled.store(true, Ordering::Relaxed);
             }
-            ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(250));
         }
         None => {
             let button = egui::Button::new(RichText::new("Export").color(theme.on_accent)).fill(theme.accent);
-            if ui
-                .add(button.min_size(egui::vec2(ui.available_width(), 28.0)))
-                .clicked()
-            {
+            if ui.add_sized([ui.available_width(), 28.0], button).clicked() {
                 editor.export();
             }
         }
