@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     /// What is to be done: without a command, the editor is opened.
-    pub(crate) fn command(self) -> (Command, Global) {
+    pub(crate) fn into_command(self) -> (Command, Global) {
         (self.command.unwrap_or(Command::Edit(self.edit)), self.global)
     }
 }

@@ -38,7 +38,7 @@ fn start() -> Exit {
             };
         }
     };
-    let (command, global) = arguments.command();
+    let (command, global) = arguments.into_command();
     let terminal = Terminal::new(&global);
     let done = start_log(global.log.as_deref()).and_then(|()| commands::run(command, &terminal));
     match done {

@@ -70,6 +70,10 @@ pub(crate) enum Action {
     RenameFrame { frame: String, title: String },
     /// Give a frame its next color.
     RecolorFrame(String),
+    /// Select the nodes in a frame.
+    SelectFrame(String),
+    /// Put the selected nodes into a frame, or take them out of all.
+    PutIntoFrame(Option<String>),
     /// Remove a frame.
     RemoveFrame(String),
     /// Paste a text at a place.

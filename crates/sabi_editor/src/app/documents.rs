@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use egui::Ui;
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Seams, Session,
-    WorkpieceOptions, bake_graph,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EngineError, ModelOptions, Overrides, Seams,
+    Session, WorkpieceOptions, bake_graph,
 };
 use sabi_graph::Value;
 
@@ -79,19 +79,29 @@ impl Editor {
     /// Saves to the graph's file, or asks for one.
     pub(crate) fn save(&mut self) {
         match self.desk.session.file().map(Path::to_owned) {
-            Some(file) => self.save_to(&file),
+            Some(file) => {
+                let saved = self.desk.save();
+                self.tell_saved(&file, saved);
+            }
             None => self.files.ask_save(&self.desk),
         }
     }
 
     pub(crate) fn save_to(&mut self, path: &Path) {
         let before = self.desk.session.file().unwrap_or(Path::new("")).to_owned();
-        match self.desk.save_as(path) {
+        let saved = self.desk.save_as(path);
+        let after = self.desk.session.file().unwrap_or(path);
+        if saved.is_ok()
+            && let Err(why) = self.panels.keepsakes.follow(&before, after)
+        {
+            self.say(why);
+        }
+        self.tell_saved(path, saved);
+    }
+
+    fn tell_saved(&mut self, path: &Path, saved: Result<(), EngineError>) {
+        match saved {
             Ok(()) => {
-                let after = self.desk.session.file().unwrap_or(path);
-                if let Err(why) = self.panels.keepsakes.follow(&before, after) {
-                    self.say(why);
-                }
                 self.settings.remember(path);
                 self.say(format!("Saved to {}", path.display()));
                 if self.settings.exports_on_save {

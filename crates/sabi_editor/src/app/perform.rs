@@ -100,6 +100,11 @@ impl Editor {
             Action::RecolorFrame(frame) => self.change_frame(&frame, |known| {
                 known.color = Some(Desk::next_color(known.color.as_deref()));
             }),
+            Action::SelectFrame(frame) => desk.select_frame(&frame),
+            Action::PutIntoFrame(frame) => {
+                let nodes = desk.selection().clone();
+                desk.put_into_frame(&nodes, frame.as_deref());
+            }
             Action::RemoveFrame(frame) => {
                 desk.remove_frame(&frame);
             }
@@ -166,10 +171,10 @@ impl Editor {
             Command::Mute => drop(desk.mute()),
             Command::Duplicate => drop(desk.duplicate(false)),
             Command::DuplicateWired => drop(desk.duplicate(true)),
-            Command::Copy => drop(self.copy(ui)),
+            Command::Copy => self.copy(ui),
             Command::CutNodes => {
-                if self.copy(ui) {
-                    self.desk.delete(false);
+                if let Some(text) = desk.cut_out() {
+                    ui.ctx().copy_text(text);
                 }
             }
             Command::Paste => ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste),
@@ -264,13 +269,11 @@ impl Editor {
         ui.ctx().set_zoom_factor(self.settings.scale);
     }
 
-    fn copy(&mut self, ui: &Ui) -> bool {
-        let Some(text) = self.desk.copied() else {
-            self.say("Select the nodes to copy first");
-            return false;
-        };
-        ui.ctx().copy_text(text);
-        true
+    fn copy(&mut self, ui: &Ui) {
+        match self.desk.copied() {
+            Some(text) => ui.ctx().copy_text(text),
+            None => self.say("Select the nodes to copy first"),
+        }
     }
 
     /// Takes another model, and remembers it on the strip.

@@ -19,6 +19,18 @@ pub(super) fn rect_of(desk: &Desk, id: &str) -> Option<Rect> {
     Some(Rect::from_min_max(all.min - vec2(0.0, FRAME_STRIP), all.max))
 }
 
+/// The frame into which the selected nodes are dropped there: one that holds none of them yet.
+pub(super) fn under(canvas: &Canvas, desk: &Desk, pointer: egui::Pos2) -> Option<String> {
+    let panel = canvas.panel?;
+    let frames = desk.graph().frames().iter();
+    let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| desk.is_selected(id)));
+    let mut under = others.filter(|(id, _)| {
+        let rect = rect_of(desk, id).map(|rect| canvas.view.screen_rect(panel, rect));
+        rect.is_some_and(|rect| rect.contains(pointer))
+    });
+    under.next().map(|(id, _)| id.clone())
+}
+
 pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, actions: &mut Vec<Action>) {
     let desk = around.desk;
     for (id, frame) in desk.graph().frames() {
@@ -50,7 +62,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
         if response.double_clicked() {
             canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
         } else if response.clicked() {
-            actions.push(Action::Select(frame.nodes.clone()));
+            actions.push(Action::SelectFrame(id.clone()));
         }
         if response.drag_started_by(egui::PointerButton::Primary) {
             let places = frame

@@ -297,6 +297,9 @@ fn drag(
         let node = id.clone();
         actions.push(Action::Insert { node, into });
     }
+    if let Some(frame) = super::frames::under(canvas, around.desk, pointer) {
+        actions.push(Action::PutIntoFrame(Some(frame)));
+    }
     actions.push(Action::EndMove);
     canvas.gesture = Gesture::Idle;
 }

@@ -163,6 +163,11 @@ fn context_menu(
         if is_group && ui_menu.button("Go into the group").clicked() {
             actions.push(Action::Enter(id.clone()));
         }
+        let frames = around.desk.graph().frames().values();
+        let is_framed = frames.into_iter().any(|frame| frame.nodes.contains(id));
+        if is_framed && ui_menu.button("Take out of the frame").clicked() {
+            actions.push(Action::PutIntoFrame(None));
+        }
         ui_menu.separator();
         let commands = [
             Command::Preview,

@@ -34,7 +34,7 @@ impl Desk {
         let (clusters, reads) = match is_ordered(&reads) {
             true => (clusters, reads),
             false => {
-                let single = ids.iter().map(|id| self.cluster(vec![id.clone()], false)).collect();
+                let single: Vec<Cluster> = ids.iter().map(|id| self.cluster(vec![id.clone()], false)).collect();
                 let reads = self.reads_of(&single);
                 (single, reads)
             }
@@ -107,7 +107,7 @@ impl Desk {
     }
 
     /// For each cluster the others that it reads.
-    fn reads_of(&self, clusters: &Vec<Cluster>) -> Vec<Vec<usize>> {
+    fn reads_of(&self, clusters: &[Cluster]) -> Vec<Vec<usize>> {
         let owners = clusters
             .iter()
             .enumerate()

@@ -113,12 +113,12 @@ mod tests {
     #[test]
     fn every_example_finds_its_model_where_it_is_unpacked() {
         let folder = tempfile::tempdir().expect("a folder");
-        for at in 0..EXAMPLES.len() {
+        for (at, example) in EXAMPLES.iter().enumerate() {
             let file = unpack(folder.path(), at).expect("written").expect("an example");
             let open = sabi_engine::OpenGraph::open(&file).expect("a graph");
             let mesh = open.document.preview.as_ref().and_then(|preview| preview.mesh.clone());
-            let mesh = mesh.unwrap_or_else(|| panic!("{} names a model", EXAMPLES[at].name));
-            assert!(open.folder().join(&mesh).is_file(), "{}: {mesh}", EXAMPLES[at].name);
+            let mesh = mesh.unwrap_or_else(|| panic!("{} names a model", example.name));
+            assert!(open.folder().join(&mesh).is_file(), "{}: {mesh}", example.name);
         }
     }
 }
