@@ -80,8 +80,6 @@ pub(crate) enum Action {
     Paste { text: String, place: [f32; 2] },
     /// Open a graph file.
     OpenFile(PathBuf),
-    /// Save under a name.
-    SaveTo(PathBuf),
     /// Take another model.
     TakeModel(PathBuf),
     /// Whatever a file is that was dropped on the window.

@@ -110,13 +110,12 @@ impl Files {
         }
     }
 
-    /// What is to be done now that nothing is lost by it.
-    pub(crate) fn take_next(&mut self) -> Option<Next> {
+    /// What is to be done now that nothing is lost by it. A save that failed ends it: the work stays on the desk.
+    pub(crate) fn take_next(&mut self, desk: &mut Desk) -> Option<Next> {
         if self.question.is_some() {
-            None
-        } else {
-            self.after_save.take()
+            return None;
         }
+        self.after_save.take().filter(|_| !desk.session.is_dirty())
     }
 }
 
@@ -135,7 +134,7 @@ impl Editor {
             Some(Question::Unsaved { next }) => self.unsaved_question(ui, next),
             None => {}
         }
-        if let Some(next) = self.files.take_next() {
+        if let Some(next) = self.files.take_next(&mut self.desk) {
             self.go_on(next, ui);
         }
     }
@@ -177,7 +176,8 @@ impl Editor {
         if chosen && !path.as_os_str().is_empty() {
             match what {
                 PathFor::Open => self.files.ask_next(&mut self.desk, Next::Open(path)),
-                PathFor::Save => actions.push(Action::SaveTo(with_ending(path))),
+                // At once, since something may wait for it that takes the work off the desk.
+                PathFor::Save => self.save_to(&with_ending(path)),
                 PathFor::Model => actions.push(Action::TakeModel(path)),
                 PathFor::Picture(knob) => {
                     let text = self.desk.relative(&path);

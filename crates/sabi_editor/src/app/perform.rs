@@ -112,7 +112,6 @@ impl Editor {
                 desk.paste(&text, place);
             }
             Action::OpenFile(path) => self.open_file(&path),
-            Action::SaveTo(path) => self.save_to(&path),
             Action::TakeModel(path) => self.take_model(&path),
             Action::Dropped(path) => self.take_dropped_file(&path, ui),
             Action::GoTo(node) => self.go_to(&node),
