@@ -44,6 +44,8 @@ pub(crate) enum Action {
     Move(BTreeMap<NodeId, [f32; 2]>),
     /// A drag of nodes ends.
     EndMove,
+    /// A drag of nodes is let go: they are where they were.
+    TakeBack,
     /// Take the selected nodes out of their wires and begin to drag them.
     TakeOut,
     /// Select these and nothing else.

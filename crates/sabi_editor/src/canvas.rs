@@ -194,6 +194,11 @@ impl Canvas {
         held
     }
 
+    /// Whether nodes are being dragged.
+    pub(crate) fn is_moving_nodes(&self) -> bool {
+        matches!(self.gesture, Gesture::Move { .. })
+    }
+
     fn follow_path(&mut self, desk: &Desk) {
         let path: Vec<NodeId> = desk.path().into_iter().map(|(id, _)| id).collect();
         if path == self.path {

@@ -251,6 +251,14 @@ impl Desk {
         );
     }
 
+    /// Takes back what was done since a step began that is not ended yet, as if it had never begun.
+    pub(crate) fn take_back(&mut self) {
+        if let Err(error) = self.session.cancel() {
+            self.say(error.to_string());
+        }
+        self.refresh();
+    }
+
     fn seen_ids(&self) -> (usize, BTreeSet<NodeId>) {
         (self.inside.len(), self.graph().ids().cloned().collect())
     }

@@ -155,6 +155,15 @@ impl Session {
         self.history.end();
     }
 
+    /// Takes back what was done since [`Session::begin`], as if it had never been.
+    ///
+    /// # Errors
+    /// The document was changed past its history, which is a mistake of the program.
+    pub fn cancel(&mut self) -> Result<(), EditError> {
+        self.revision += 1;
+        self.history.cancel(&mut self.open.document)
+    }
+
     /// Takes the last step back and names it; none where there is nothing to undo.
     pub fn undo(&mut self) -> Result<Option<String>, EditError> {
         let undone = self.history.undo(&mut self.open.document)?;

@@ -77,6 +77,18 @@ impl History {
         }
     }
 
+    /// Takes back what the open group did, as if it had never been.
+    ///
+    /// # Errors
+    /// The document was changed past this history; it stays as it is.
+    pub fn cancel(&mut self, document: &mut Document) -> Result<(), EditError> {
+        let Some(mut step) = self.open.take() else {
+            return Ok(());
+        };
+        step.edits.reverse();
+        document.apply(Edit::Batch(step.edits)).map(drop)
+    }
+
     /// Takes the last step back; gives its name, or `None` when there is nothing to undo.
     ///
     /// # Errors

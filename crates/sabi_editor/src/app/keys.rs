@@ -17,6 +17,10 @@ impl Editor {
             return Vec::new();
         }
         self.hold_focus(&context);
+        // What is dragged is in the middle of a step, which has to end first.
+        if self.waits_for_key.is_some() || self.canvas.is_moving_nodes() || self.is_moving {
+            return Vec::new();
+        }
         let mut actions = Vec::new();
         let events = ui.input(|input| input.events.clone());
         for event in events {

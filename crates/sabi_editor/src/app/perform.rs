@@ -70,6 +70,7 @@ impl Editor {
                 desk.move_to("Move", places);
             }
             Action::EndMove => desk.session.end(),
+            Action::TakeBack => desk.take_back(),
             Action::TakeOut => {
                 desk.take_out();
             }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use egui::{CursorIcon, Modifiers, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
+use egui::{CursorIcon, Key, Modifiers, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 use sabi_graph::{NodeId, SlotRef};
 
 use super::ports::Place;
@@ -269,6 +269,11 @@ fn drag(
     pointer: Pos2,
     actions: &mut Vec<Action>,
 ) {
+    if ui.input(|input| input.key_pressed(Key::Escape)) {
+        actions.push(Action::TakeBack);
+        canvas.gesture = Gesture::Idle;
+        return;
+    }
     pull(canvas, ui, panel, pointer);
     let Gesture::Move { from, grabbed } = &canvas.gesture else {
         return;
