@@ -292,6 +292,8 @@ fn dress(context: &Context, theme: &Theme, scale: f32) {
     egui_phosphor::add_to_fonts(&mut fonts, egui_phosphor::Variant::Regular);
     context.set_fonts(fonts);
     theme.apply(context);
+    // Ctrl and + is a key of ours, which is kept between runs and can be bound anew.
+    context.options_mut(|options| options.zoom_with_keyboard = false);
     context.set_zoom_factor(scale);
 }
 

@@ -31,8 +31,9 @@ impl Editor {
                     modifiers,
                     ..
                 } => self.key(key, modifiers, ui, &mut actions),
-                Event::Copy if self.active == Panel::Canvas => actions.push(Action::Do(Command::Copy)),
-                Event::Cut if self.active == Panel::Canvas => actions.push(Action::Do(Command::CutNodes)),
+                // So the system tells these keys, whatever they mean here.
+                Event::Copy => self.key(Key::C, Modifiers::COMMAND, ui, &mut actions),
+                Event::Cut => self.key(Key::X, Modifiers::COMMAND, ui, &mut actions),
                 Event::Paste(text) if self.active == Panel::Canvas => {
                     let place = self.canvas.place_for_new(ui);
                     actions.push(Action::Paste { text, place });
