@@ -210,6 +210,7 @@ impl Editor {
         self.top_bar(ui, &mut actions);
         self.status_bar(ui);
         self.panels(ui, &mut actions);
+        self.leave_hidden();
         self.show_files(ui, &mut actions);
         self.show_notices(ui);
         for action in actions {

@@ -1,6 +1,6 @@
 //! Keys: they act on what the pointer is over, or on the panel that was chosen by a key.
 
-use egui::{Context, Event, EventFilter, Key, Modifiers, Ui};
+use egui::{Context, Event, EventFilter, Id, Key, Modifiers, Ui};
 
 use super::Editor;
 use crate::action::Action;
@@ -49,7 +49,7 @@ impl Editor {
         let is_ours = ui
             .ctx()
             .memory(|memory| memory.focused())
-            .is_none_or(|id| id == focus_id());
+            .is_none_or(|id| id == focus_id() || id == anchor_id(self.active));
         let scope = match self.active {
             Panel::Canvas => Scope::Canvas,
             Panel::Viewport => Scope::Viewport,
@@ -86,15 +86,21 @@ impl Editor {
         });
         if let Some(at) = at.filter(|_| has_moved)
             && let Some((panel, _)) = self.rects.iter().find(|(_, rect)| rect.contains(at))
+            && self.active != *panel
         {
             self.active = *panel;
+            // What was turned by keys in another panel lets go of them; a text that is being typed does not.
+            if !ui.ctx().text_edit_focused() {
+                let_go_of_focus(ui.ctx());
+            }
         }
     }
 
     /// While keys are for the canvas, Tab and the arrows are its own and do not lead from widget to widget.
     fn hold_focus(&self, context: &Context) {
         let id = focus_id();
-        let is_canvas = self.active == Panel::Canvas;
+        // A focus on what is not drawn leads programs astray that read the window to those who do not see it.
+        let is_canvas = self.active == Panel::Canvas && self.rects.contains_key(&Panel::Canvas);
         context.memory_mut(|memory| {
             let focused = memory.focused();
             if is_canvas && focused.is_none() {
@@ -114,6 +120,15 @@ impl Editor {
         });
     }
 
+    /// Keys are for a panel that is shown.
+    pub(super) fn leave_hidden(&mut self) {
+        if !self.rects.contains_key(&self.active)
+            && let Some(shown) = Panel::ALL.into_iter().find(|panel| self.rects.contains_key(panel))
+        {
+            self.active = shown;
+        }
+    }
+
     /// The next panel is the one that keys are for.
     pub(super) fn step_panel(&mut self, is_on: bool, context: &Context) {
         let shown: Vec<Panel> = Panel::ALL
@@ -125,11 +140,10 @@ impl Editor {
         let next = if is_on { now + 1 } else { now + count - 1 } % count;
         if let Some(panel) = shown.get(next) {
             self.active = *panel;
-            context.memory_mut(|memory| {
-                if let Some(id) = memory.focused() {
-                    memory.surrender_focus(id);
-                }
-            });
+            let_go_of_focus(context);
+            if *panel != Panel::Canvas {
+                context.memory_mut(|memory| memory.request_focus(anchor_id(*panel)));
+            }
             self.say(format!("Keys are for: {}", panel.title()));
         }
     }
@@ -141,4 +155,17 @@ impl Editor {
             actions.push(Action::Dropped(path));
         }
     }
+}
+
+/// What has the focus once a panel was chosen by a key: Tab leads from there to the first widget in it.
+pub(super) fn anchor_id(panel: Panel) -> Id {
+    Id::new(("keys are for", panel))
+}
+
+fn let_go_of_focus(context: &Context) {
+    context.memory_mut(|memory| {
+        if let Some(id) = memory.focused() {
+            memory.surrender_focus(id);
+        }
+    });
 }

@@ -1,9 +1,10 @@
 //! What is in each panel.
 
-use egui::Ui;
+use egui::{Rect, Ui};
 use sabi_graph::NodeRef;
 
 use super::Editor;
+use super::keys::anchor_id;
 use crate::action::Action;
 use crate::canvas::{Around, NodeState};
 use crate::dock::{self, Docked, Layout, Panel};
@@ -54,6 +55,11 @@ impl Editor {
     /// Draws what is in a panel.
     fn panel(&mut self, ui: &mut Ui, panel: Panel, actions: &mut Vec<Action>) {
         self.rects.insert(panel, ui.max_rect());
+        if panel != Panel::Canvas {
+            let corner = Rect::from_min_size(ui.max_rect().min, egui::Vec2::ZERO);
+            let anchor = ui.interact(corner, anchor_id(panel), egui::Sense::focusable_noninteractive());
+            anchor.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, panel.title()));
+        }
         match panel {
             Panel::Canvas => self.canvas_panel(ui, actions),
             Panel::Viewport => self.model_panel(ui, actions),
