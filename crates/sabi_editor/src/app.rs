@@ -110,6 +110,9 @@ pub(crate) struct Editor {
     pub(crate) files: Files,
     notices: VecDeque<(Instant, String)>,
     kept_at: Instant,
+    /// The state of the graph that was kept last.
+    kept_revision: Option<u64>,
+    keep_every: Duration,
     render: Option<RenderState>,
     handover: Handover,
     is_leaving: bool,
@@ -168,6 +171,8 @@ impl Editor {
             panels,
             notices: VecDeque::new(),
             kept_at: Instant::now(),
+            kept_revision: None,
+            keep_every: KEEP_EVERY,
             desk,
             canvas,
             stage,
@@ -244,15 +249,18 @@ impl Editor {
 
     /// Keeps what is not saved, and settings that changed.
     fn keep(&mut self, context: &Context) {
-        if self.kept_at.elapsed() >= KEEP_EVERY {
+        let revision = Some(self.desk.session.revision());
+        if self.kept_at.elapsed() >= self.keep_every {
             self.kept_at = Instant::now();
+            self.kept_revision = revision;
             if let Err(error) = self.desk.session.keep() {
+                self.kept_revision = None;
                 self.say(format!("What is not saved cannot be kept in case of a crash: {error}"));
             }
             self.keep_settings();
         }
-        if self.desk.session.is_dirty() {
-            context.request_repaint_after(KEEP_EVERY);
+        if self.kept_revision != revision {
+            context.request_repaint_after(self.keep_every);
         }
     }
 

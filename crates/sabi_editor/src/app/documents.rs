@@ -65,6 +65,7 @@ impl Editor {
         let model = named.map(|mesh| session.graph().folder().join(mesh));
         let before = std::mem::replace(&mut self.desk, Desk::new(session));
         before.session.close();
+        self.kept_revision = None;
         self.canvas = Default::default();
         self.shown = None;
         self.pinned = None;
