@@ -138,9 +138,15 @@ impl Editor {
         let theme = Arc::new(Theme::of(settings.shade));
         dress(context, &theme, settings.scale);
         let kept = handover.lock().ok().and_then(|mut kept| kept.take());
-        let (desk, canvas, model) = match kept {
-            Some(kept) => (kept.desk, kept.canvas, kept.model),
-            None => (Desk::new(beginning.session), Canvas::default(), beginning.model),
+        let is_start = beginning.is_start;
+        let recovery = beginning.folders.recovery.as_deref();
+        let (desk, canvas, model, files) = match kept {
+            // Who was at work goes on, without a start page before it.
+            Some(kept) => (kept.desk, kept.canvas, kept.model, Files::new(false, None)),
+            None => {
+                let files = Files::new(is_start, recovery);
+                (Desk::new(beginning.session), Canvas::default(), beginning.model, files)
+            }
         };
         let panels = panels::Panels {
             keepsakes: Keepsakes::new(beginning.folders.cache.clone()),
@@ -156,7 +162,7 @@ impl Editor {
             theme,
             kept_settings: None,
             settings,
-            files: Files::new(beginning.is_start, beginning.folders.recovery.as_deref()),
+            files,
             folders: beginning.folders,
             rects: BTreeMap::new(),
             active: Panel::Canvas,
