@@ -211,6 +211,7 @@ impl Editor {
         let began = Instant::now();
         let context = ui.ctx().clone();
         self.stage.take_news(&context);
+        self.panels.export.poll();
         if self.stage.lost.is_some() {
             self.hand_over(&context);
             return;

@@ -103,7 +103,6 @@ impl Export {
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
-    editor.panels.export.poll();
     let export = &mut editor.panels.export;
     egui::Grid::new("export")
         .num_columns(2)
