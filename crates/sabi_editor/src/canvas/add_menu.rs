@@ -192,6 +192,10 @@ impl AddMenu {
 
     fn fits(&self, desk: &Desk, candidate: &Candidate) -> bool {
         let face = &candidate.face;
+        // Only kinds take the place of a node.
+        if self.purpose.instead.is_some() && !matches!(candidate.new, New::Kind(_)) {
+            return false;
+        }
         match &self.purpose.loose {
             None => true,
             Some(Loose::From(from)) => face.input_for(desk.faces().carried(&desk.body(), from)).is_some(),
