@@ -140,7 +140,8 @@ fn cross(one: [Pos2; 2], other: [Pos2; 2]) -> bool {
         let (along, to) = (line[1] - line[0], place - line[0]);
         along.x * to.y - along.y * to.x
     };
-    let parts = |line: [Pos2; 2], ends: [Pos2; 2]| side(line, ends[0]) * side(line, ends[1]) < 0.0;
+    // An end that lies on the line counts to one side, so that no line goes through between two pieces.
+    let parts = |line: [Pos2; 2], ends: [Pos2; 2]| (side(line, ends[0]) < 0.0) != (side(line, ends[1]) < 0.0);
     parts(one, other) && parts(other, one)
 }
 
@@ -226,6 +227,10 @@ mod tests {
     fn a_line_cuts_what_it_crosses_only() {
         let wire = wire([pos2(0.0, 0.0), pos2(300.0, 0.0)]);
         assert!(wire.is_crossed([pos2(150.0, -20.0), pos2(160.0, 20.0)]));
+        assert!(
+            wire.is_crossed([pos2(150.0, -20.0), pos2(150.0, 20.0)]),
+            "where two pieces meet"
+        );
         assert!(!wire.is_crossed([pos2(150.0, 5.0), pos2(160.0, 20.0)]));
         assert!(!wire.is_crossed([pos2(400.0, -20.0), pos2(400.0, 20.0)]));
     }
