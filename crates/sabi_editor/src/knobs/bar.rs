@@ -1,5 +1,6 @@
 //! A number as a bar that is filled to its value: dragged, stepped or typed.
 
+use egui::text_edit::TextEditState;
 use egui::{
     Align2, CursorIcon, Event, Id, Key, Modifiers, MouseWheelUnit, Rect, Response, Sense, Ui, WidgetInfo, accesskit,
 };
@@ -252,6 +253,8 @@ impl Bar<'_> {
             }
         };
         if is_entered || is_left {
+            // What is left of the field would pass the bar off as one, and its keys as letters.
+            ui.data_mut(|data| data.remove::<TextEditState>(self.id));
             ui.memory_mut(|memory| memory.request_focus(self.id));
         }
         asked
