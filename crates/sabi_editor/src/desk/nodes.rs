@@ -8,7 +8,7 @@ use sabi_engine::catalog::{Entry, Faces, KnobRole};
 use sabi_graph::{Body, Edit, GROUP_KIND, Graph, Node, NodeId, Value};
 
 use super::variants::NO_VARIANT;
-use super::{Desk, Loose};
+use super::{Desk, GRID, Loose};
 
 /// How names of groups end that are files.
 const FILE_ENDING: &str = ".sabi";
@@ -125,7 +125,8 @@ impl Desk {
         None
     }
 
-    fn place_new(&mut self, id: NodeId, node: Node, entry: &Entry, loose: Option<&Loose>) -> Option<NodeId> {
+    fn place_new(&mut self, id: NodeId, mut node: Node, entry: &Entry, loose: Option<&Loose>) -> Option<NodeId> {
+        node.pos = self.free_place(node.pos);
         let mut edits = vec![self.adding(&id, node)];
         edits.extend(loose.and_then(|loose| self.tie_loose(loose, &id, entry)));
         let is_made = self.edit(&format!("Add {}", entry.label), edits);
@@ -133,6 +134,15 @@ impl Desk {
             self.select([id.clone()]);
             id
         })
+    }
+
+    /// A place where no node stands exactly, at the given one or down to the right of it: one node would hide the other.
+    fn free_place(&self, pos: [f32; 2]) -> [f32; 2] {
+        let mut place = pos;
+        while self.graph().nodes().any(|(_, node)| node.pos == place) {
+            place = place.map(|at| at + 2.0 * GRID);
+        }
+        place
     }
 
     /// Removes the selected nodes; the wires to those who read them are gone, or heal as if the nodes had been wires.
