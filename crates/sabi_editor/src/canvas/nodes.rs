@@ -218,3 +218,89 @@ fn zoomed(style: &egui::Style, zoom: f32) -> egui::Style {
 pub(super) fn sensed(ui: &Ui, key: Key, rect: Rect) -> Response {
     ui.interact(rect, window_id(ui, key), Sense::click_and_drag())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+    use std::rc::Rc;
+    use std::sync::Arc;
+
+    use egui::{Pos2, pos2};
+    use egui_kittest::Harness;
+    use egui_node_graph::AnyParameterId;
+    use sabi_engine::Session;
+
+    use super::super::snapshot::Snapshot;
+    use super::*;
+    use crate::desk::{Desk, NODE_WIDTH, input_row, output_row};
+    use crate::theme::{Shade, Theme};
+
+    /// Where the canvas crate's widget of a node has its ports, and what it says of its size.
+    fn drawn(desk: &Desk, id: &NodeId, zoom: f32) -> (Vec<(AnyParameterId, Pos2)>, Rect) {
+        let mut snapshot = Snapshot::default();
+        snapshot.sync(desk);
+        let key = snapshot.key(id).expect("a node of the snapshot");
+        let theme = Arc::new(Theme::of(Shade::Dark));
+        let found = Rc::new(RefCell::new((Vec::new(), Rect::NOTHING)));
+        let given = found.clone();
+        let mut harness = Harness::builder().with_size(vec2(900.0, 3000.0)).build_ui(move |ui| {
+            theme.apply(ui.ctx());
+            ui.set_style(zoomed(&ui.style().clone(), zoom));
+            let mut hand = Hand {
+                theme: theme.clone(),
+                zoom,
+                knob_events: Vec::new(),
+            };
+            let mut ports = Default::default();
+            let widget = GraphNodeWidget {
+                position: &mut Pos2::ZERO.clone(),
+                orientation: &mut NodeOrientation::LeftToRight,
+                graph: &mut snapshot.graph,
+                port_locations: &mut ports,
+                node_rects: &mut Default::default(),
+                node_id: key,
+                ongoing_drag: None,
+                selected: false,
+                pan: egui::Vec2::ZERO,
+            };
+            let pan_zoom = PanZoom {
+                zoom,
+                ..PanZoom::default()
+            };
+            let _ = widget.show(&pan_zoom, ui, &mut hand);
+            let ports = ports.iter().map(|(port, at)| (*port, *at)).collect::<Vec<_>>();
+            let whole = ui.ctx().read_response(window_id(ui, key));
+            *given.borrow_mut() = (ports, whole.map_or(Rect::NOTHING, |whole| whole.rect));
+        });
+        harness.run_steps(3);
+        found.replace((Vec::new(), Rect::NOTHING))
+    }
+
+    #[test]
+    fn ports_of_every_kind_are_where_its_wires_end_at_every_zoom() {
+        let mut desk = Desk::new(Session::new(None));
+        let kinds: Vec<String> = desk.catalog().entries().map(|entry| entry.id.clone()).collect();
+        for (at, kind) in kinds.iter().enumerate() {
+            let id = desk.add(kind, [0.0, 0.0], None).expect("a kind of the catalog");
+            let face = desk.face(&id).expect("a node").clone();
+            for zoom in [[1.0, 0.6], [1.7, 1.0], [0.6, 3.0]][at % 3] {
+                let (ports, rect) = drawn(&desk, &id, zoom);
+                let inputs = (0..face.inputs.len()).map(|row| (true, pos2(0.0, input_row(row))));
+                let outputs = (0..face.outputs.len()).map(|row| (false, pos2(NODE_WIDTH, output_row(&face, row))));
+                for (is_input, place) in inputs.chain(outputs) {
+                    let expected = (place.to_vec2() * zoom).to_pos2();
+                    let is_there = ports.iter().any(|(port, at)| {
+                        matches!(port, AnyParameterId::Input(_)) == is_input && (*at - expected).length() < 1.0
+                    });
+                    assert!(is_there, "{kind} at {zoom}: {expected:?} in {ports:?}");
+                }
+                let size = vec2(NODE_WIDTH, desk.height(&id)) * zoom;
+                assert!(
+                    (rect.size() - size).length() < 1.5,
+                    "{kind} at {zoom}: {rect:?}, and we say {size:?}"
+                );
+            }
+            desk.undo();
+        }
+    }
+}
