@@ -1,6 +1,6 @@
 //! Panels and where they are.
 
-use egui::{Ui, WidgetText};
+use egui::{Response, Ui, WidgetInfo, WidgetText, WidgetType};
 use egui_phosphor::regular as icon;
 use egui_tiles::{Container, Linear, LinearDir, SimplificationOptions, TileId, Tiles, Tree, UiResponse};
 
@@ -166,6 +166,17 @@ impl egui_tiles::Behavior<Panel> for Docked<'_> {
             _ => String::new(),
         };
         format!("{} {}{badge}", panel.icon(), panel.title()).into()
+    }
+
+    fn on_tab_button(&mut self, tiles: &mut Tiles<Panel>, tile: TileId, response: Response) -> Response {
+        // The title is only painted; it is told to those who do not see it.
+        if let Some(panel) = tiles.get_pane(&tile) {
+            let count = format!("{} {}", panel.title(), self.problems);
+            let has_count = *panel == Panel::Problems && self.problems > 0;
+            let name = if has_count { count.as_str() } else { panel.title() };
+            response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
+        }
+        response
     }
 
     fn simplification_options(&self) -> SimplificationOptions {

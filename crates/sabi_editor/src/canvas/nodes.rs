@@ -36,6 +36,12 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
         let title = &canvas.snapshot.graph[key].user_data.title;
         let is_selected = around.desk.is_selected(id);
         response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, title));
+        let state = &canvas.snapshot.graph[key].user_data.state;
+        if let Some(sentence) = state.fault.as_ref().or(state.waits.as_ref()) {
+            let said = sentence.as_str();
+            ui.ctx()
+                .accesskit_node_builder(response.id, |node| node.set_description(said));
+        }
         touched(canvas, id, &response, around, actions);
         context_menu(canvas, ui, id, &response, around, actions);
         if !is_card {
