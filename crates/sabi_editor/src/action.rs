@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
 
 use crate::command::Command;
-use crate::desk::{Loose, Merge};
+use crate::desk::{Loose, Merge, StackEnd};
 use crate::knobs::KnobEvent;
 
 /// Something that a panel asks for.
@@ -22,6 +22,8 @@ pub(crate) enum Action {
         /// The wire into which it is put.
         into: Option<SlotRef>,
     },
+    /// Put the selected group into a library.
+    Shelve(Shelf),
     /// Put a node of another kind in the place of one.
     Replace { node: NodeId, kind: String },
     /// Tie a wire, taking it off another input where it came from one.
@@ -66,6 +68,10 @@ pub(crate) enum Action {
     Panel(PanelAsk),
     /// Save, apply or change a variant of the panel.
     Variant(VariantAsk),
+    /// Change what the graph that is seen takes and gives as a group.
+    Port(PortAsk),
+    /// Change a layer of a stack.
+    Layer(LayerAsk),
     /// Name a node.
     Rename { node: NodeId, name: String },
     /// Name a frame.
@@ -126,6 +132,57 @@ pub(crate) enum VariantAsk {
     Remove(String),
 }
 
+/// Something that is asked of the inputs and outputs of the graph that is seen, which go by their names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum PortAsk {
+    /// Name the graph.
+    NameGraph(String),
+    /// Make an input out of one of a node.
+    PublishInput(SlotRef),
+    /// Make an output out of a result.
+    PublishOutput(OutputRef),
+    /// The name of an input that artists see.
+    LabelInput { name: String, label: String },
+    /// The name of an input in files.
+    RenameInput { name: String, to: String },
+    /// Remove an input.
+    RemoveInput(String),
+    /// Have an input feed one of a node too.
+    Feed { name: String, slot: SlotRef },
+    /// Take an input of a node off what feeds it.
+    Unfeed(SlotRef),
+    /// The name of an output.
+    RenameOutput { name: String, to: String },
+    /// Remove an output.
+    RemoveOutput(String),
+    /// Have an output give another result.
+    Retarget { name: String, from: OutputRef },
+}
+
+/// Something that is asked of layers, which are counted from the top of their stack.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum LayerAsk {
+    /// Hide or show one.
+    Toggle(NodeId),
+    /// How much of one is used.
+    Opacity { node: NodeId, opacity: f64 },
+    /// Put one elsewhere.
+    Move { end: StackEnd, from: usize, to: usize },
+    /// Remove one.
+    Remove { end: StackEnd, at: usize },
+    /// Add a node of a kind above one.
+    Add { end: StackEnd, at: usize, kind: String },
+}
+
+/// A library of groups to be used again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shelf {
+    /// In the folder `library` beside the graph.
+    Project,
+    /// The user's own.
+    User,
+}
+
 /// What is added.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum New {
@@ -135,4 +192,15 @@ pub(crate) enum New {
     Group(String),
     /// A group out of a library file.
     Library(PathBuf),
+}
+
+impl New {
+    /// What a favorite is remembered by.
+    pub(crate) fn key(&self) -> String {
+        match self {
+            New::Kind(kind) => kind.clone(),
+            New::Group(group) => format!("group {group}"),
+            New::Library(file) => file.display().to_string(),
+        }
+    }
 }

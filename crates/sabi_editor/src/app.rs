@@ -242,15 +242,13 @@ impl Editor {
     /// What may be added, brought up to date.
     fn refresh_candidates(&mut self) {
         let now = (self.desk.session.revision(), self.desk.kinds().1);
-        if self.candidates.0 == Some(now) && !self.panels.library.has_changed() {
+        let shelves = self.shelves();
+        if self.candidates.0 == Some(now) && !self.panels.library.has_changed(&shelves) {
             return;
         }
         let groups: Vec<String> = self.desk.document().groups.keys().cloned().collect();
-        let shelf = self
-            .panels
-            .library
-            .shelf(self.folders.library.as_deref(), self.desk.catalog());
-        let found = candidates(self.desk.catalog(), self.desk.faces(), &groups, &shelf);
+        let shelved = self.panels.library.shelved(shelves, self.desk.catalog());
+        let found = candidates(self.desk.catalog(), self.desk.faces(), &groups, shelved);
         self.candidates = (Some(now), found);
     }
 
@@ -337,9 +335,12 @@ impl Editor {
     pub(crate) fn thumbnail_of(&self, id: &sabi_graph::NodeId) -> Option<egui::TextureId> {
         let node = self.desk.full_id(id);
         let port = self.ports.get(&node).cloned();
-        self.stage
-            .thumbnail(&NodeRef { node, port })
-            .map(egui::TextureHandle::id)
+        self.picture_of(&NodeRef { node, port })
+    }
+
+    /// The picture of a result, if there is one.
+    pub(crate) fn picture_of(&self, result: &NodeRef) -> Option<egui::TextureId> {
+        self.stage.thumbnail(result).map(egui::TextureHandle::id)
     }
 
     pub(crate) fn theme(&self) -> &Arc<Theme> {

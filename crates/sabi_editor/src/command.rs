@@ -179,6 +179,15 @@ commands! {
     NextPort "next_port" "To the next port" Canvas ["Ctrl+Tab", "J"];
     PreviousPort "previous_port" "To the port before" Canvas ["Ctrl+Shift+Tab", "K"];
     Wire "wire" "Take or drop a wire at the port" Canvas ["W"];
+Favorite1 "favorite_1" "Add favorite 1" Canvas ["1"];
+    Favorite2 "favorite_2" "Add favorite 2" Canvas ["2"];
+    Favorite3 "favorite_3" "Add favorite 3" Canvas ["3"];
+    Favorite4 "favorite_4" "Add favorite 4" Canvas ["4"];
+    Favorite5 "favorite_5" "Add favorite 5" Canvas ["5"];
+    Favorite6 "favorite_6" "Add favorite 6" Canvas ["6"];
+    Favorite7 "favorite_7" "Add favorite 7" Canvas ["7"];
+    Favorite8 "favorite_8" "Add favorite 8" Canvas ["8"];
+    Favorite9 "favorite_9" "Add favorite 9" Canvas ["9"];
     FrameModel "frame_model" "Show all of the model" Viewport ["A", "Home"];
     FocusModel "focus_model" "Look at what is under the pointer" Viewport ["F"] blender ["Period", "F"];
     Front "front" "From the front" Viewport ["1"];
@@ -192,6 +201,31 @@ commands! {
     TrueSize "true_size" "One texel a pixel" Flat ["Z"];
     TileFlat "tile_flat" "Repeat the texture" Flat ["T"];
     UvWires "uv_wires" "UV wires" Flat ["W"];
+}
+
+/// Commands that add favorites, in their order.
+const FAVORITES: [Command; 9] = [
+    Command::Favorite1,
+    Command::Favorite2,
+    Command::Favorite3,
+    Command::Favorite4,
+    Command::Favorite5,
+    Command::Favorite6,
+    Command::Favorite7,
+    Command::Favorite8,
+    Command::Favorite9,
+];
+
+impl Command {
+    /// The place of the favorite that it adds, if it adds one.
+    pub(crate) fn favorite(self) -> Option<usize> {
+        FAVORITES.iter().position(|known| *known == self)
+    }
+
+    /// What adds the favorite of that place.
+    pub(crate) fn of_favorite(at: usize) -> Option<Command> {
+        FAVORITES.get(at).copied()
+    }
 }
 
 /// Which keys mean what.
@@ -274,6 +308,18 @@ mod tests {
     fn commands_have_names_of_their_own() {
         let names: BTreeSet<&str> = Command::ALL.iter().map(|command| command.name()).collect();
         assert_eq!(names.len(), Command::ALL.len());
+    }
+
+    #[test]
+    fn nine_favorites_have_a_key_each_in_every_preset() {
+        for (habit, name) in Habit::ALL {
+            let (keys, _) = KeyMap::new(habit, &BTreeMap::new());
+            for (at, favorite) in FAVORITES.into_iter().enumerate() {
+                assert_eq!(keys.shown(favorite), (at + 1).to_string(), "{name}");
+                assert_eq!(favorite.favorite(), Some(at));
+            }
+        }
+        assert_eq!(Command::Mute.favorite(), None);
     }
 
     #[test]

@@ -90,6 +90,8 @@ pub(crate) struct Desk {
     files_revision: u64,
     /// What nodes show, of a revision of the document and of the kinds.
     faces: (Option<(u64, u64)>, Faces),
+    /// What they showed when the graph was opened.
+    opened: Faces,
     group_files: group_files::GroupFiles,
     /// Instances that were entered, outermost first.
     inside: Vec<NodeId>,
@@ -121,6 +123,7 @@ impl Desk {
             kinds_revision: 0,
             files_revision: 0,
             faces: (None, Faces::default()),
+            opened: Faces::default(),
             group_files: group_files::GroupFiles::default(),
             inside: Vec::new(),
             seen: Body::Main,
@@ -129,6 +132,7 @@ impl Desk {
             notices: Vec::new(),
         };
         desk.refresh();
+        desk.opened = desk.faces().clone();
         desk
     }
 

@@ -9,6 +9,7 @@ mod order;
 pub(crate) mod page;
 pub(crate) mod parameters;
 pub(crate) mod performance;
+mod ports;
 pub(crate) mod problems;
 pub(crate) mod published;
 pub(crate) mod stack;
@@ -21,5 +22,6 @@ pub(crate) struct Panels {
     pub(crate) library: library::Library,
     pub(crate) export: export::Export,
     pub(crate) page: page::Page,
+    pub(crate) stack: stack::Layers,
     pub(crate) keepsakes: keepsakes::Keepsakes,
 }

@@ -7,7 +7,7 @@ use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 use sabi_engine::catalog::{Catalog, Entry, Faces};
 
-use crate::action::New;
+use crate::action::{New, Shelf};
 
 /// What may be added.
 #[derive(Clone, Debug)]
@@ -21,6 +21,7 @@ pub(crate) struct Candidate {
 /// A group in a library folder.
 #[derive(Clone, Debug)]
 pub(crate) struct Shelved {
+    pub(crate) shelf: Shelf,
     pub(crate) file: PathBuf,
     pub(crate) face: Arc<Entry>,
 }
@@ -42,7 +43,10 @@ pub(crate) fn candidates(catalog: &Catalog, faces: &Faces, groups: &[String], sh
     let shelved = shelf.iter().map(|shelved| Candidate {
         new: New::Library(shelved.file.clone()),
         face: shelved.face.clone(),
-        section: "library".to_owned(),
+        section: match shelved.shelf {
+            Shelf::Project => "project library".to_owned(),
+            Shelf::User => "library".to_owned(),
+        },
     });
     kinds.chain(own).chain(shelved).collect()
 }

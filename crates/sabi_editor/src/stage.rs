@@ -50,7 +50,7 @@ pub(crate) struct Stage {
     graph: Arc<OpenGraph>,
     wishes: u64,
     pictures: BTreeMap<Seen, Picture>,
-    thumbnails: BTreeMap<NodeRef, TextureHandle>,
+    thumbnails: BTreeMap<NodeRef, (TextureHandle, Pixels)>,
     pub(crate) inspected: Option<(NodeRef, Arc<Inspected>)>,
     /// The finest model that came.
     pub(crate) shown_model: Option<Arc<LiveModel>>,
@@ -215,7 +215,7 @@ impl Stage {
                     self.pictures.insert(seen, Picture { model, shown, number });
                 }
                 News::Inspected { node, values, .. } => self.inspected = Some((node, values)),
-                News::Thumbnail { node, picture, .. } => self.take_thumbnail(context, node, &picture),
+                News::Thumbnail { node, picture, .. } => self.take_thumbnail(context, node, picture),
                 News::Faults { faults, .. } => self.take_faults(faults),
                 News::Times { times, .. } => {
                     self.times.extend(times.nodes.iter().cloned());
@@ -228,14 +228,17 @@ impl Stage {
         }
     }
 
-    fn take_thumbnail(&mut self, context: &Context, node: NodeRef, picture: &Pixels) {
+    fn take_thumbnail(&mut self, context: &Context, node: NodeRef, picture: Pixels) {
         let size = picture.size.map(|side| side as usize);
         let image = ColorImage::from_rgba_unmultiplied(size, &picture.rgba);
         match self.thumbnails.get_mut(&node) {
-            Some(handle) => handle.set(image, TextureOptions::LINEAR),
+            Some((handle, known)) => {
+                handle.set(image, TextureOptions::LINEAR);
+                *known = picture;
+            }
             None => {
                 let handle = context.load_texture(format!("result of {}", node.node), image, TextureOptions::LINEAR);
-                self.thumbnails.insert(node, handle);
+                self.thumbnails.insert(node, (handle, picture));
             }
         }
     }
@@ -266,7 +269,12 @@ impl Stage {
     }
 
     pub(crate) fn thumbnail(&self, node: &NodeRef) -> Option<&TextureHandle> {
-        self.thumbnails.get(node)
+        self.thumbnails.get(node).map(|(handle, _)| handle)
+    }
+
+    /// The same in memory, to be kept.
+    pub(crate) fn thumbnail_pixels(&self, node: &NodeRef) -> Option<&Pixels> {
+        self.thumbnails.get(node).map(|(_, picture)| picture)
     }
 
     pub(crate) fn fault(&self, node: &str) -> Option<&String> {

@@ -6,6 +6,7 @@ use sabi_engine::view::Picked;
 use sabi_graph::{NodeId, NodeRef, PortType};
 
 use super::Editor;
+use crate::dock::Panel;
 use crate::stage::Wanted;
 
 impl Editor {
@@ -39,7 +40,7 @@ impl Editor {
     }
 
     /// A node that is seen, as the evaluation knows it.
-    pub(super) fn reference(&self, id: &NodeId, port: Option<String>) -> NodeRef {
+    pub(crate) fn reference(&self, id: &NodeId, port: Option<String>) -> NodeRef {
         let first = self
             .desk
             .face(id)
@@ -93,14 +94,22 @@ impl Editor {
         }
         let mut seen = vec![self.seen()];
         seen.extend(self.locked_seen());
-        let visible = self.canvas.visible(&self.desk).into_iter().map(|id| {
-            let node = self.desk.full_id(&id);
-            NodeRef {
-                port: self.ports.get(&node).cloned(),
-                node,
-            }
-        });
-        let thumbnails = visible.collect();
+        let is_canvas = self.rects.contains_key(&Panel::Canvas);
+        let visible = self
+            .canvas
+            .visible(&self.desk)
+            .into_iter()
+            .filter(|_| is_canvas)
+            .map(|id| {
+                let node = self.desk.full_id(&id);
+                NodeRef {
+                    port: self.ports.get(&node).cloned(),
+                    node,
+                }
+            });
+        let is_stack = self.rects.contains_key(&Panel::Stack);
+        let layers = self.panels.stack.wanted.iter().filter(|_| is_stack).cloned();
+        let thumbnails = visible.chain(layers).collect();
         let inspected = self.pinned.clone().or(self.shown.clone());
         let wanted = Wanted {
             seen,

@@ -10,10 +10,11 @@ use sabi_engine::{
 use sabi_graph::Value;
 
 use super::Editor;
-use crate::action::{Action, New};
+use crate::action::{Action, New, Shelf};
 use crate::desk::Desk;
 use crate::files::examples;
 use crate::panels::export::{Running, folder_of};
+use crate::panels::library::KEPT_AS;
 
 impl Editor {
     pub(crate) fn recovery_folder(&self) -> Option<&Path> {
@@ -153,15 +154,57 @@ impl Editor {
         self.panels.export.running = Some(Running::start(&context, work));
     }
 
-    /// Puts the selected group into the library.
-    pub(crate) fn shelve_selected(&mut self) {
-        let Some(folder) = self.folders.library.clone() else {
-            self.say("This system has no folder for a library.");
+    /// Folders of groups to be used again, of which the project's is only there once the graph has a file.
+    pub(super) fn shelves(&self) -> Vec<(Shelf, PathBuf)> {
+        let file = self.desk.session.file();
+        let project = file.map(|file| (Shelf::Project, file.parent().unwrap_or(Path::new("")).join("library")));
+        let user = self.folders.library.clone().map(|folder| (Shelf::User, folder));
+        project.into_iter().chain(user).collect()
+    }
+
+    /// Puts the selected group into a library, with its picture.
+    pub(super) fn shelve_selected(&mut self, shelf: Shelf) {
+        let folder = self.shelves().into_iter().find(|(known, _)| *known == shelf);
+        let Some((_, folder)) = folder else {
+            self.say(match shelf {
+                Shelf::Project => "Save the graph first, so that there is a folder beside it.",
+                Shelf::User => "This system has no folder for a library.",
+            });
             return;
         };
-        if self.desk.shelve(&folder).is_some() {
-            self.panels.library.forget();
+        let picture = self.desk.selected_one().and_then(|id| {
+            let result = self.reference(id, None);
+            self.stage.thumbnail_pixels(&result).cloned()
+        });
+        let Some(file) = self.desk.shelve(&folder) else {
+            return;
+        };
+        self.panels.library.forget();
+        if let Some(picture) = picture
+            && let Err(why) = self.panels.keepsakes.keep(&self.context, &file, KEPT_AS, &picture)
+        {
+            self.say(why);
         }
+    }
+
+    /// Adds the favorite of that number where the pointer is.
+    pub(super) fn add_favorite(&mut self, at: usize, ui: &Ui) {
+        let key = self.settings.favorites.get(at).cloned();
+        let found = key.and_then(|key| self.candidates().iter().find(|known| known.new.key() == key));
+        let Some(kind) = found.map(|found| found.new.clone()) else {
+            let number = at + 1;
+            self.say(format!(
+                "There is no favorite {number}; a star in the library makes one."
+            ));
+            return;
+        };
+        let add = Action::Add {
+            kind,
+            place: self.canvas.place_for_new(ui),
+            loose: None,
+            into: None,
+        };
+        self.perform(add, ui);
     }
 
     /// Takes a file by what it is: a graph is opened, a model shown, an environment lit, a picture becomes a node.

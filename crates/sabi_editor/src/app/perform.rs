@@ -6,7 +6,7 @@ use egui::Ui;
 use sabi_graph::NodeId;
 
 use super::Editor;
-use crate::action::{Action, New};
+use crate::action::{Action, LayerAsk, New};
 use crate::command::Command;
 use crate::desk::{Align, Desk, KnobAt};
 use crate::dock::{self, Panel};
@@ -41,6 +41,7 @@ impl Editor {
                     self.look_at(&id, None);
                 }
             }
+            Action::Shelve(shelf) => self.shelve_selected(shelf),
             Action::Replace { node, kind } => {
                 desk.replace(&node, &kind);
             }
@@ -94,6 +95,8 @@ impl Editor {
             Action::Knob { node, event } => self.turn_knob(&node, event),
             Action::Panel(asked) => self.change_panel(asked),
             Action::Variant(asked) => self.change_variants(asked),
+            Action::Port(asked) => self.change_ports(asked),
+            Action::Layer(asked) => self.change_layers(asked),
             Action::Rename { node, name } => {
                 desk.rename(&node, &name);
             }
@@ -119,6 +122,21 @@ impl Editor {
             Action::Steps(steps) => {
                 for _ in 0..steps.unsigned_abs() {
                     if steps < 0 { self.desk.undo() } else { self.desk.redo() }
+                }
+            }
+        }
+    }
+
+    fn change_layers(&mut self, asked: LayerAsk) {
+        let desk = &mut self.desk;
+        match asked {
+            LayerAsk::Toggle(id) => drop(desk.toggle_layer(&id)),
+            LayerAsk::Opacity { node, opacity } => drop(desk.set_layer_opacity(&node, opacity)),
+            LayerAsk::Move { end, from, to } => drop(desk.move_layer(&end, from, to)),
+            LayerAsk::Remove { end, at } => drop(desk.remove_layer(&end, at)),
+            LayerAsk::Add { end, at, kind } => {
+                if let Some(id) = desk.add_layer(&end, at, &kind) {
+                    self.look_at(&id, None);
                 }
             }
         }
@@ -158,6 +176,10 @@ impl Editor {
             for action in actions {
                 self.perform(action, ui);
             }
+            return;
+        }
+        if let Some(at) = command.favorite() {
+            self.add_favorite(at, ui);
             return;
         }
         let desk = &mut self.desk;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::Editor;
-use crate::action::{PanelAsk, VariantAsk};
+use crate::action::{PanelAsk, PortAsk, VariantAsk};
 use crate::desk::{Desk, KnobAt};
 use crate::knobs::{KnobEvent, KnobMemory};
 use crate::panels::Panels;
@@ -40,6 +40,24 @@ impl Editor {
             KnobEvent::Began | KnobEvent::Ended | KnobEvent::ShowLength(_) => self.move_knob(&event),
             // All that stand on the panel are published.
             KnobEvent::Expose { .. } => {}
+        }
+    }
+
+    /// Does what is asked of inputs and outputs.
+    pub(super) fn change_ports(&mut self, asked: PortAsk) {
+        let desk = &mut self.desk;
+        match asked {
+            PortAsk::NameGraph(name) => drop(desk.rename_graph(&name)),
+            PortAsk::PublishInput(slot) => drop(desk.publish_input(&slot)),
+            PortAsk::PublishOutput(from) => drop(desk.publish_output(&from)),
+            PortAsk::LabelInput { name, label } => drop(desk.label_input(&name, &label)),
+            PortAsk::RenameInput { name, to } => drop(desk.rename_input(&name, &to)),
+            PortAsk::RemoveInput(name) => drop(desk.remove_input(&name)),
+            PortAsk::Feed { name, slot } => drop(desk.feed(&name, &slot)),
+            PortAsk::Unfeed(slot) => drop(desk.unfeed(&slot)),
+            PortAsk::RenameOutput { name, to } => drop(desk.rename_output(&name, &to)),
+            PortAsk::RemoveOutput(name) => drop(desk.remove_output(&name)),
+            PortAsk::Retarget { name, from } => drop(desk.retarget_output(&name, &from)),
         }
     }
 

@@ -1,7 +1,9 @@
 //! The window as somebody uses it: by clicks and keys, without a screen.
 
 mod building;
+mod layers;
 mod panels;
+mod ports;
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};

@@ -5,7 +5,7 @@ use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, OutputRef, PortType, SlotRef};
 
 use super::gesture::Gesture;
-use super::{Around, Canvas, wires};
+use super::{Around, Canvas, port_menu, wires};
 use crate::action::Action;
 use crate::desk::{Desk, Loose};
 use crate::theme::Theme;
@@ -109,6 +109,8 @@ pub(super) fn show(
                 });
             }
         }
+        port_menu::mark(ui.painter(), around.theme, desk, &place, center, zoom);
+        port_menu::show(canvas, &response, &place, desk, actions);
         if matches!(canvas.gesture, Gesture::Idle) {
             response.on_hover_ui(|ui| tooltip(ui, around.theme, &port));
         }

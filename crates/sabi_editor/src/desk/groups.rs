@@ -1,5 +1,8 @@
 //! Groups: going in and out, and what they are called.
 
+use std::sync::Arc;
+
+use sabi_engine::catalog::{Entry, Faces};
 use sabi_graph::{Body, Edit, GROUP_KIND, NodeId};
 
 use super::Desk;
@@ -23,20 +26,33 @@ impl Desk {
         steps.take(bodies.len() - 1).map(title).collect()
     }
 
-    /// What the graph that is seen is called: the document's name, or the group's.
-    pub(crate) fn graph_title(&self) -> String {
+    /// What the graph that is seen is called: the document's name, or the group's. Documents may have none.
+    pub(crate) fn graph_name(&self) -> String {
         match &self.seen {
-            Body::Main if self.document().name.is_empty() => "Untitled".to_owned(),
             Body::Main => self.document().name.clone(),
-            Body::Group(name) => self.group_title(name),
+            Body::Group(name) => {
+                let group = self.document().groups.get(name);
+                group
+                    .and_then(|group| group.name.clone())
+                    .unwrap_or_else(|| name.clone())
+            }
         }
     }
 
-    fn group_title(&self, name: &str) -> String {
-        let group = self.document().groups.get(name);
-        group
-            .and_then(|group| group.name.clone())
-            .unwrap_or_else(|| name.to_owned())
+    /// Names the graph that is seen.
+    pub(crate) fn rename_graph(&mut self, to: &str) -> bool {
+        match self.body() {
+            Body::Main => {
+                let name = to.trim().to_owned();
+                self.edit("Rename graph", vec![Edit::RenameDocument { name }])
+            }
+            Body::Group(name) => self.rename_group(&name, to),
+        }
+    }
+
+    /// What those see of the graph that is seen who use it as a group.
+    pub(crate) fn own_face(&self) -> Option<&Arc<Entry>> {
+        face_of(self.faces(), &self.seen)
     }
 
     /// Goes into a group instance.
@@ -97,6 +113,14 @@ impl Desk {
     /// A name that no group has.
     pub(super) fn free_group_name(&self, stem: &str) -> String {
         free_name(stem, ' ', |name| self.document().groups.contains_key(name))
+    }
+}
+
+/// What those see of a graph who use it as a group.
+pub(super) fn face_of<'f>(faces: &'f Faces, body: &Body) -> Option<&'f Arc<Entry>> {
+    match body {
+        Body::Main => faces.of_whole(),
+        Body::Group(name) => faces.of_group(name),
     }
 }
 

@@ -1,7 +1,9 @@
 //! Layers of a stack moved, added and removed: the chain is wired anew, and everything else stays.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
+use sabi_engine::catalog::Entry;
 use sabi_graph::{Edit, NodeId, OutputRef, PortType, SlotRef};
 
 use super::arrange::NODE_WIDTH;
@@ -114,6 +116,14 @@ impl Desk {
             id: layer.node.clone(),
         });
         self.edit("Remove layer", edits)
+    }
+
+    /// The kinds that a layer can be: those that change the material below them, or, where there is none, all that give one.
+    pub(crate) fn layer_kinds(&self, is_lowest: bool) -> Vec<Arc<Entry>> {
+        let gives = |entry: &Entry| entry.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+        let entries = self.catalog.entries();
+        let fit = entries.filter(|entry| gives(entry) && (is_lowest || main_input(entry).is_some()));
+        fit.cloned().collect()
     }
 
     /// Adds a node of a kind above a layer, or, past the last one, at the bottom where nothing is.

@@ -1,10 +1,10 @@
 //! The panel of the graph that is seen: knobs that are published, for people who never open the graph.
 
 use sabi_engine::catalog::Knob;
-use sabi_graph::{Body, Edit, Exposed, INSTANCE_KNOBS, NodeId, SlotRef, Value};
+use sabi_graph::{Edit, Exposed, INSTANCE_KNOBS, NodeId, SlotRef, Value};
 
 use super::Desk;
-use super::groups::free_name;
+use super::groups::{face_of, free_name};
 
 /// A knob on the panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,23 +17,22 @@ pub(crate) struct PanelKnob {
     pub(crate) knob: Knob,
     /// What it holds.
     pub(crate) value: Value,
-    /// What the kind of that first one has at first.
+    /// What it held when the graph was opened; for one that was published since, what its node's kind has at first.
     pub(crate) at_first: Value,
 }
 
 impl Desk {
     /// The knobs on the panel, in its order. One that turns nothing which is known is left out.
     pub(crate) fn panel(&self) -> Vec<PanelKnob> {
-        let face = match &self.seen {
-            Body::Main => self.faces().of_whole(),
-            Body::Group(name) => self.faces().of_group(name),
-        };
+        let face = self.own_face();
+        let opened = face_of(&self.opened, &self.seen);
         let knobs = self.graph().panel().into_iter().filter_map(|(name, exposed)| {
             let knob = face?.knob(name)?.clone();
             let first = exposed.to.first()?;
             let inner = self.face(&first.node)?.knob(&first.name)?;
+            let before = opened.and_then(|face| face.knob(name));
             Some(PanelKnob {
-                at_first: inner.default.clone(),
+                at_first: before.map_or(&inner.default, |knob| &knob.default).clone(),
                 name: name.to_owned(),
                 exposed: exposed.clone(),
                 // Of a published knob, it is what it holds while nobody outside sets it.

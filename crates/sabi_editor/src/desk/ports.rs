@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_graph::{Body, Edit, Exposed, GroupInput, OutputRef, PortType, SlotRef};
 
 use super::groups::free_name;
-use super::{Desk, instances};
+use super::{Desk, Loose, instances};
 
 impl Desk {
     /// Inputs of the graph that is seen.
@@ -91,6 +91,54 @@ impl Desk {
             )),
             _ => Ok(()),
         }
+    }
+
+    /// Inputs of nodes that an input of the group could feed too: those that nothing leads to.
+    pub(crate) fn feedable(&self, name: &str) -> Vec<SlotRef> {
+        let Some(input) = self.group_inputs().get(name) else {
+            return Vec::new();
+        };
+        let all = self.graph().ids().flat_map(|id| {
+            let ports = self.face(id).map(|face| face.inputs.as_slice()).unwrap_or_default();
+            ports.iter().map(|port| SlotRef {
+                node: id.clone(),
+                name: port.name.clone(),
+            })
+        });
+        let is_free = |slot: &SlotRef| self.wire_into(slot).is_none() && self.feeder(&self.seen, slot).is_none();
+        all.filter(|slot| is_free(slot) && self.may_feed(Some(input), slot).is_ok())
+            .collect()
+    }
+
+    /// All results of the nodes that are seen.
+    pub(crate) fn results(&self) -> Vec<OutputRef> {
+        let all = self.graph().ids().flat_map(|id| {
+            let ports = self.face(id).map(|face| face.outputs.as_slice()).unwrap_or_default();
+            ports.iter().map(|port| OutputRef {
+                node: id.clone(),
+                port: Some(port.name.clone()),
+            })
+        });
+        all.collect()
+    }
+
+    /// The name under which the graph gives a port on to those who use it as a group.
+    pub(crate) fn given_as(&self, port: &Loose) -> Option<&str> {
+        match port {
+            Loose::Into(slot) => self.feeder(&self.seen, slot),
+            Loose::From(result) => {
+                let result = self.shortest(result);
+                let mut outputs = self.group_outputs().iter();
+                let given = outputs.find(|(_, from)| self.shortest(from) == result);
+                given.map(|(name, _)| name.as_str())
+            }
+        }
+    }
+
+    /// Whether an input of a node reads this result.
+    pub(crate) fn reads(&self, slot: &SlotRef, from: &OutputRef) -> bool {
+        let read = self.wire_into(slot);
+        read.is_some_and(|read| self.shortest(read) == self.shortest(from))
     }
 
     /// Removes an input of the group.

@@ -15,23 +15,13 @@ impl Desk {
         self.edit(&step, edits)
     }
 
-    /// Gives a knob of the panel back what the kinds of its nodes have at first.
+    /// Gives a knob of the panel back what it held when the graph was opened.
     pub(crate) fn turn_back(&mut self, name: &str) -> bool {
-        let Some(exposed) = self.graph().exposed().get(name).cloned() else {
-            return self.refuse(format!("there is no knob '{name}' on the panel"));
-        };
-        let reset = |slot: &SlotRef| Edit::SetParam {
-            body: self.body(),
-            node: slot.node.clone(),
-            param: slot.name.clone(),
-            value: None,
-        };
-        let mut edits: Vec<Edit> = exposed.to.iter().map(reset).collect();
-        if exposed.default.is_some() {
-            let default = None;
-            edits.push(self.exposing(name, Exposed { default, ..exposed }));
+        let mut panel = self.panel().into_iter();
+        match panel.find(|knob| knob.name == name) {
+            Some(knob) => self.turn(name, &knob.at_first),
+            None => self.refuse(format!("there is no knob '{name}' on the panel")),
         }
-        self.edit(&format!("Reset {}", name.replace('_', " ")), edits)
     }
 
     /// Sets a knob, wherever it is.

@@ -1,18 +1,23 @@
 //! Everything that can be put into a graph, to be searched, marked and dragged.
 
+mod entry;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{Color32, RichText, Ui};
+use egui::{RichText, Ui};
 use egui_phosphor::regular as icon;
 use sabi_engine::OpenGraph;
 use sabi_engine::catalog::{Catalog, Faces};
 
-use crate::action::{Action, New};
+use crate::action::{Action, New, Shelf};
 use crate::app::Editor;
 use crate::search::{Candidate, Shelved, ranked};
 use crate::theme::{Theme, space};
+
+/// What a picture of a group in a library is kept as.
+pub(crate) const KEPT_AS: &str = "group";
 
 /// What the panel holds from frame to frame.
 #[derive(Default)]
@@ -20,7 +25,9 @@ pub(crate) struct Library {
     query: String,
     /// Whether files may have changed since they were read.
     is_stale: bool,
-    shelf: Option<Vec<Shelved>>,
+    shelved: Vec<Shelved>,
+    /// The folders from which they were read.
+    read_from: Option<Vec<(Shelf, PathBuf)>>,
 }
 
 impl Library {
@@ -29,21 +36,24 @@ impl Library {
         self.is_stale = true;
     }
 
-    pub(crate) fn has_changed(&self) -> bool {
-        self.is_stale || self.shelf.is_none()
+    /// Whether what was read is not what lies in these folders.
+    pub(crate) fn has_changed(&self, folders: &[(Shelf, PathBuf)]) -> bool {
+        self.is_stale || self.read_from.as_deref() != Some(folders)
     }
 
-    /// Groups in the folder of the library.
-    pub(crate) fn shelf(&mut self, folder: Option<&Path>, catalog: &Catalog) -> Vec<Shelved> {
-        if self.has_changed() {
+    /// Groups in the folders of the library.
+    pub(crate) fn shelved(&mut self, folders: Vec<(Shelf, PathBuf)>, catalog: &Catalog) -> &[Shelved] {
+        if self.has_changed(&folders) {
             self.is_stale = false;
-            self.shelf = Some(folder.map(|folder| read(folder, catalog)).unwrap_or_default());
+            let all = folders.iter();
+            self.shelved = all.flat_map(|(shelf, folder)| read(*shelf, folder, catalog)).collect();
+            self.read_from = Some(folders);
         }
-        self.shelf.clone().unwrap_or_default()
+        &self.shelved
     }
 }
 
-fn read(folder: &Path, catalog: &Catalog) -> Vec<Shelved> {
+fn read(shelf: Shelf, folder: &Path, catalog: &Catalog) -> Vec<Shelved> {
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();
     };
@@ -58,6 +68,7 @@ fn read(folder: &Path, catalog: &Catalog) -> Vec<Shelved> {
             face.label = file.file_stem()?.to_string_lossy().into_owned();
         }
         Some(Shelved {
+            shelf,
             file,
             face: Arc::new(face),
         })
@@ -66,57 +77,43 @@ fn read(folder: &Path, catalog: &Catalog) -> Vec<Shelved> {
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
-    ui.horizontal(|ui| {
-        let library = &mut editor.panels.library;
-        let hint = format!("{} Search", icon::MAGNIFYING_GLASS);
-        let width = ui.available_width() - 90.0;
-        let field = ui.add(
-            egui::TextEdit::singleline(&mut library.query)
-                .hint_text(hint)
-                .desired_width(width),
-        );
-        field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Search the library"));
-        let shelve = ui
-            .button("Keep group")
-            .on_hover_text("Puts the selected group into the library");
-        if shelve.clicked() {
-            editor.shelve_selected();
-        }
-    });
+    head(editor, ui, actions);
     ui.add_space(space::TIGHT);
     let query = editor.panels.library.query.clone();
     let all = editor.candidates().to_vec();
     let mut found: Vec<&Candidate> = ranked(&all, &query);
     let favorites = editor.settings.favorites.clone();
-    let is_favorite = |candidate: &Candidate| favorites.contains(&key_of(&candidate.new));
-    // Sorting keeps the order of those that are alike.
-    found.sort_by_key(|candidate| !is_favorite(candidate));
+    let number = |candidate: &Candidate| favorites.iter().position(|known| *known == candidate.new.key());
+    // Favorites come first in their own order; sorting keeps that of the others.
+    found.sort_by_key(|candidate| number(candidate).unwrap_or(usize::MAX));
     let mut toggled = None;
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 1.0;
         let mut section = String::new();
         for candidate in found {
-            let own = if is_favorite(candidate) {
+            let number = number(candidate);
+            let own = if number.is_some() {
                 "favorites"
             } else {
                 candidate.section.as_str()
             };
             if query.is_empty() && own != section {
                 own.clone_into(&mut section);
-                ui.add_space(space::TIGHT);
+                ui.add_space(space::USUAL);
                 ui.label(RichText::new(own.to_uppercase()).small().color(theme.quiet));
             }
-            ui.horizontal(|ui| {
-                let star = if is_favorite(candidate) {
-                    theme.accent
-                } else {
-                    Color32::TRANSPARENT
-                };
-                let star = ui.add(egui::Label::new(RichText::new(icon::STAR).color(star)).sense(egui::Sense::click()));
-                if star.on_hover_text("Favorite").clicked() {
-                    toggled = Some(key_of(&candidate.new));
-                }
-                entry(ui, theme, candidate, editor, actions);
-            });
+            let picture = match &candidate.new {
+                New::Library(file) => editor.panels.keepsakes.find(ui.ctx(), file, KEPT_AS),
+                _ => None,
+            };
+            let shown = entry::Shown {
+                candidate,
+                number,
+                picture,
+            };
+            if shown.show(ui, theme, editor, actions) {
+                toggled = Some(candidate.new.key());
+            }
         }
     });
     if let Some(key) = toggled {
@@ -127,39 +124,28 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
     }
 }
 
-/// One entry: a click adds it in the middle of the canvas, a drag where it is dropped.
-fn entry(ui: &mut Ui, theme: &Theme, candidate: &Candidate, editor: &Editor, actions: &mut Vec<Action>) {
-    let face = &candidate.face;
-    let text = RichText::new(&face.label).color(theme.text);
-    let sense = egui::Sense::click_and_drag();
-    let response = ui.add(egui::Label::new(text).sense(sense)).on_hover_text(&face.summary);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, &face.label));
-    let place = if response.clicked() {
-        Some(editor.canvas.middle())
-    } else if response.drag_stopped() {
-        let at = ui.input(|input| input.pointer.latest_pos());
-        at.and_then(|at| editor.canvas.place_at(at))
-    } else {
-        None
-    };
-    if response.dragged() {
-        ui.set_cursor_icon(egui::CursorIcon::Grabbing);
-    }
-    if let Some(place) = place {
-        actions.push(Action::Add {
-            kind: candidate.new.clone(),
-            place,
-            loose: None,
-            into: None,
+/// The search, and the way of a group into the library.
+fn head(editor: &mut Editor, ui: &mut Ui, actions: &mut Vec<Action>) {
+    let has_file = editor.desk.session.file().is_some();
+    let row = egui::vec2(ui.available_width(), space::ROW);
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.allocate_ui_with_layout(row, layout, |ui| {
+        let menu = ui.menu_button("Keep group", |ui| {
+            if ui.button("For all graphs").clicked() {
+                actions.push(Action::Shelve(Shelf::User));
+            }
+            let beside = ui.add_enabled(has_file, egui::Button::new("Beside this graph"));
+            let beside = beside.on_hover_text("In a folder 'library' that goes with the project");
+            let beside = beside.on_disabled_hover_text("Save the graph first, so that there is a folder beside it");
+            if beside.clicked() {
+                actions.push(Action::Shelve(Shelf::Project));
+            }
         });
-    }
-}
-
-/// What a favorite is remembered by.
-fn key_of(new: &New) -> String {
-    match new {
-        New::Kind(kind) => kind.clone(),
-        New::Group(group) => format!("group {group}"),
-        New::Library(file) => file.display().to_string(),
-    }
+        menu.response.on_hover_text("Puts the selected group into a library");
+        let field = egui::TextEdit::singleline(&mut editor.panels.library.query)
+            .hint_text(format!("{} Search", icon::MAGNIFYING_GLASS))
+            .desired_width(ui.available_width() - space::USUAL);
+        let field = ui.add(field);
+        field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Search the library"));
+    });
 }

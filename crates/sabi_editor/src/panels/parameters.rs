@@ -3,7 +3,7 @@
 use egui::Ui;
 use sabi_graph::{NodeId, Value};
 
-use super::{published, variants};
+use super::{ports, published, variants};
 use crate::action::Action;
 use crate::app::Editor;
 use crate::desk::{Desk, KnobAt};
@@ -54,6 +54,9 @@ fn of_graph(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<A
         actions.extend(asked.into_iter().map(Action::Panel));
         let asked = variants::show(ui, theme, desk, &mut own.variants, &mut panels.keepsakes);
         actions.extend(asked.map(Action::Variant));
+        if !around.is_use {
+            actions.extend(ports::show(ui, theme, desk).into_iter().map(Action::Port));
+        }
     });
 }
 

@@ -36,7 +36,8 @@ pub(crate) fn show(
     let panel = desk.panel();
     let mut asked = Vec::new();
     ui.horizontal(|ui| {
-        ui.heading(desk.graph_title());
+        let name = desk.graph_name();
+        ui.heading(if name.is_empty() { "Untitled" } else { &name });
         if around.is_use || panel.is_empty() {
             published.is_editing = false;
             return;
@@ -81,7 +82,7 @@ pub(crate) fn show(
     asked
 }
 
-/// The knob as a row shows it: it is changed where it holds something else than its node's kind has at first.
+/// The knob as a row shows it: it is changed where it holds something else than when the graph was opened.
 fn shown(knob: &PanelKnob) -> sabi_engine::catalog::Knob {
     sabi_engine::catalog::Knob {
         default: knob.at_first.clone(),

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_engine::catalog::readable;
 use sabi_graph::Value;
 
 use super::keepsakes::Keepsakes;
@@ -75,7 +76,7 @@ struct Card<'a> {
 impl Card<'_> {
     fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<VariantAsk> {
         let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
-        response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, self.name));
+        response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, readable(self.name)));
         self.paint(ui, theme, rect, response.hovered() || response.has_focus());
         let mut asked = response.clicked().then(|| VariantAsk::Apply(self.name.to_owned()));
         let response = response.on_hover_text(format!("Turn all knobs as in '{}'", self.name));
@@ -118,7 +119,7 @@ impl Card<'_> {
         let room = rect.with_min_y(square.bottom()).shrink2(Vec2::new(4.0, 0.0));
         let color = if self.is_held { theme.text } else { theme.quiet };
         let mut job = egui::text::LayoutJob::simple_singleline(
-            self.name.to_owned(),
+            readable(self.name),
             FontId::proportional(type_size::SMALL),
             color,
         );
@@ -151,20 +152,22 @@ fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<VariantAsk> {
 
 /// A line to save what the panel holds now.
 fn save(ui: &mut Ui, desk: &Desk, variants: &mut Variants) -> Option<VariantAsk> {
-    ui.horizontal(|ui| {
+    let row = egui::vec2(ui.available_width(), space::ROW);
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.allocate_ui_with_layout(row, layout, |ui| {
         let name = &mut variants.name;
-        let edit = egui::TextEdit::singleline(name)
-            .hint_text("Name of a variant")
-            .desired_width(ui.available_width() - 64.0);
-        let field = ui.add(edit);
-        field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Name of a variant"));
-        let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let is_known = desk.graph().variants().contains_key(name.trim());
         let verb = if is_known { "Replace" } else { "Save" };
         let can_save = !name.trim().is_empty();
         let save = ui.add_enabled(can_save, egui::Button::new(verb));
         let told = "Keeps what the knobs are set to now, with the model as it looks";
         let is_clicked = save.on_hover_text(told).clicked();
+        let edit = egui::TextEdit::singleline(name)
+            .hint_text("Name of a variant")
+            .desired_width(ui.available_width() - space::USUAL);
+        let field = ui.add(edit);
+        field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Name of a variant"));
+        let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         (can_save && (is_entered || is_clicked)).then(|| VariantAsk::Save(std::mem::take(name)))
     })
     .inner

@@ -26,7 +26,7 @@ const PUBLISHED: &str = r##"{
 
 impl Window {
     /// A graph of this text, in a file.
-    fn of(text: &str) -> Window {
+    pub(super) fn of(text: &str) -> Window {
         let mut window = Window::with(|folders| {
             let folder = folders
                 .settings
@@ -41,13 +41,22 @@ impl Window {
         window
     }
 
-    fn click(&mut self, name: &str) {
+    pub(super) fn click(&mut self, name: &str) {
         self.harness.get_by_label(name).click();
         self.settle();
     }
 
+    /// Clicks something of which a panel has another one of that name.
+    pub(super) fn click_beside(&mut self, panel: Panel, name: &str) {
+        let rect = self.editor().rects[&panel];
+        let mut all = self.harness.get_all_by_label(name);
+        let other = all.find(|node| !rect.contains(node.rect().center()));
+        other.expect("another one").click();
+        self.settle();
+    }
+
     /// Types into a line of text in place of what it holds, and finishes it.
-    fn fill(&mut self, name: &str, text: &str) {
+    pub(super) fn fill(&mut self, name: &str, text: &str) {
         self.harness.get_by_label(name).click();
         self.settle();
         self.keys(Modifiers::COMMAND, Key::A);
@@ -57,17 +66,17 @@ impl Window {
     }
 
     /// Opens the menu of something and clicks an entry.
-    fn choose(&mut self, name: &str, entry: &str) {
+    pub(super) fn choose(&mut self, name: &str, entry: &str) {
         self.harness.get_by_label(name).click_secondary();
         self.settle();
         self.click(entry);
     }
 
-    fn steps(&self) -> usize {
+    pub(super) fn steps(&self) -> usize {
         self.editor().desk.session.undo_names().count()
     }
 
-    fn held(&self, knob: &str) -> Option<Value> {
+    pub(super) fn held(&self, knob: &str) -> Option<Value> {
         let panel = self.editor().desk.panel();
         panel
             .into_iter()
@@ -120,7 +129,7 @@ fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_els
         BTreeSet::from([Panel::Viewport, Panel::Parameters, Panel::Export])
     );
     assert!(window.harness.query_by_label("Grain size").is_some());
-    assert!(window.harness.query_by_label("faint").is_some(), "variants are there");
+    assert!(window.harness.query_by_label("Faint").is_some(), "variants are there");
     assert!(window.harness.query_by_label("Change the panel").is_none());
     window.keys(Modifiers::COMMAND, Key::Space);
     assert!(window.editor().rects.contains_key(&Panel::Canvas));
@@ -182,7 +191,7 @@ fn published_knobs_are_put_into_order_by_dragging() {
 fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() {
     let mut window = Window::of(PUBLISHED);
     window.until("a picture of the model", |editor| editor.model_view.drawn > 0);
-    window.click("faint");
+    window.click("Faint");
     assert_eq!(window.held("amount"), Some(Value::Number(0.25)));
     window.fill("Name of a variant", "as bought");
     let variants = window.editor().desk.graph().variants().clone();
@@ -192,7 +201,7 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
     let cache = window.path("cache");
     let kept = sabi_engine::find_thumbnail(&cache, &[&file.to_string_lossy(), &what]).expect("a picture");
     assert_eq!(kept.size, [128, 128]);
-    window.choose("as bought", "Rename");
+    window.choose("As bought", "Rename");
     window.fill("New name of the variant", "new");
     assert!(window.editor().desk.graph().variants().contains_key("new"));
     assert_eq!(
@@ -200,7 +209,7 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
         what,
         "the picture is found under the new name"
     );
-    window.choose("new", "Remove");
+    window.choose("New", "Remove");
     assert_eq!(window.editor().desk.graph().variants().len(), 1);
     assert_eq!(window.steps(), 4);
 }

@@ -58,16 +58,23 @@ fn one_published_knob_turns_several_of_the_same_sort() {
 }
 
 #[test]
-fn a_published_knob_is_reset_with_all_that_it_turns_and_its_own_default() {
-    let mut desk = opened("", NODES);
-    desk.expose(&id("n"), "size");
-    desk.expose_as(&id("w"), "size", "size");
-    desk.set_exposed_default("size", number(0.75));
+fn a_published_knob_is_reset_to_what_it_held_when_the_graph_was_opened() {
+    let mut desk = opened(r#""exposed": { "size": { "to": ["n.size", "w.size"] } },"#, NODES);
+    desk.turn("size", &Value::Number(0.75));
+    assert_eq!(desk.panel()[0].at_first, Value::Number(0.5));
     step(&mut desk, |desk| desk.turn_back("size"));
-    assert_eq!(["n", "w"].map(|id| param(&desk, id, "size")), [None, None]);
-    assert_eq!(desk.graph().exposed()["size"].default, None);
-    let knob = desk.panel().remove(0);
-    assert_eq!(knob.value, knob.at_first);
+    assert_eq!(
+        ["n", "w"].map(|id| param(&desk, id, "size")),
+        [number(0.5), number(0.5)]
+    );
+    desk.expose(&id("n"), "gain");
+    desk.turn("gain", &Value::Number(0.125));
+    step(&mut desk, |desk| desk.turn_back("gain"));
+    assert_eq!(
+        value(&desk, "gain"),
+        number(0.5),
+        "that of the kind, since it was not there then"
+    );
     let said = refused(&mut desk, |desk| desk.turn_back("nothing"));
     assert_eq!(said, "there is no knob 'nothing' on the panel");
 }

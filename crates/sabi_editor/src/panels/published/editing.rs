@@ -57,7 +57,7 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>)
             name: "Label",
             hint: &knob.name,
             held: &knob.knob.label,
-            width: ui.available_width() - 34.0,
+            width: ui.available_width() - 52.0,
         };
         if let Some(label) = label.show(ui, ("label", &knob.name)) {
             let name = knob.name.clone();
@@ -77,7 +77,7 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>)
 /// The name in files, and the section.
 fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
     ui.horizontal(|ui| {
-        let half = (ui.available_width() - space::USUAL) / 2.0 - space::USUAL;
+        let half = ((ui.available_width() - space::USUAL) / 2.0 - space::USUAL).floor();
         let name = Field {
             name: "Name in files",
             hint: "name in files",

@@ -1,0 +1,119 @@
+//! The list of layers, as somebody who comes from a layer tool uses it.
+
+use egui::{Modifiers, PointerButton, vec2};
+use egui_kittest::kittest::Queryable;
+
+use super::Window;
+use crate::dock::{self, Panel};
+
+const LAYERED: &str = r#"{
+  "format": "sabi", "version": 1, "name": "Worn paint",
+  "nodes": {
+    "paint": { "kind": "source/material", "label": "Paint" },
+    "n": { "kind": "noise/cells", "pos": [0, 300] },
+    "dents": { "kind": "effect/relief", "label": "Dents", "inputs": { "base": "paint" }, "pos": [300, 0] },
+    "rust": { "kind": "effect/layer", "label": "Rust", "inputs": { "base": "dents", "mask": "n" }, "pos": [600, 0] },
+    "out": { "kind": "output/material", "inputs": { "material": "rust" }, "pos": [900, 0] }
+  }
+}"#;
+
+fn layered(text: &str) -> Window {
+    let mut window = Window::of(text);
+    dock::bring_up(&mut window.harness.state_mut().layout, Panel::Stack);
+    window.settle();
+    window
+}
+
+fn titles(window: &Window) -> Vec<String> {
+    let stacks = window.editor().desk.stacks();
+    stacks[0].layers.iter().map(|layer| layer.title.clone()).collect()
+}
+
+/// The picture in the row of a layer; the canvas shows a node of the same name.
+fn row(window: &Window, title: &str) -> egui::Pos2 {
+    let panel = window.editor().rects[&Panel::Stack];
+    let mut rows = window.harness.get_all_by_label(title).map(|node| node.rect());
+    let row = rows.find(|rect| panel.contains(rect.center()));
+    row.expect("a row").left_center() + vec2(50.0, 0.0)
+}
+
+#[test]
+fn a_layer_is_dragged_to_another_place_and_what_cannot_be_says_why() {
+    let mut window = layered(LAYERED);
+    let [rust, dents, paint] = ["Rust", "Dents", "Paint"].map(|title| row(&window, title));
+    window.drag(rust, dents + vec2(0.0, 20.0), PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(titles(&window), ["Dents", "Rust", "Paint"]);
+    assert_eq!(window.steps(), 1);
+    window.drag(rust, paint + vec2(0.0, 20.0), PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(
+        titles(&window),
+        ["Dents", "Rust", "Paint"],
+        "nothing can lie below the material at the bottom"
+    );
+    let why = "'Paint' is the material at the bottom; nothing can lie below it";
+    assert!(window.harness.query_by_label(why).is_some());
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn eyes_bars_and_bins_of_layers_do_what_they_say_as_one_step_each() {
+    let mut window = layered(LAYERED);
+    window.click("Show Rust");
+    assert!(window.editor().desk.stacks()[0].layers[0].is_muted);
+    let bars: Vec<egui::Rect> = window
+        .harness
+        .get_all_by_label("Opacity")
+        .map(|bar| bar.rect())
+        .collect();
+    let panel = window.editor().rects[&Panel::Stack];
+    let bar = *bars.iter().find(|bar| panel.contains_rect(**bar)).expect("a bar");
+    let middle = bar.center();
+    window.drag(
+        middle,
+        middle - vec2(bar.width() / 3.0, 0.0),
+        PointerButton::Primary,
+        Modifiers::NONE,
+    );
+    let opacity = window.editor().desk.stacks()[0].layers[0].opacity.expect("an opacity");
+    assert!((0.0..1.0).contains(&opacity), "{opacity}");
+    window.click("Remove Dents");
+    assert_eq!(titles(&window), ["Rust", "Paint"]);
+    assert_eq!(window.steps(), 3);
+}
+
+#[test]
+fn a_layer_of_a_kind_is_added_on_top_and_above_another() {
+    let mut window = layered(LAYERED);
+    window.click(&format!("{} Layer", egui_phosphor::regular::PLUS));
+    window.click_beside(Panel::Library, "Adjust material");
+    assert_eq!(titles(&window)[0], "Adjust material");
+    assert_eq!(titles(&window).len(), 4);
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn a_layer_that_is_read_elsewhere_is_locked_and_says_by_what() {
+    let shared = LAYERED.replace(
+        r#""out": {"#,
+        r#""other": { "kind": "material/split", "inputs": { "material": "dents" } }, "out": {"#,
+    );
+    let window = layered(&shared);
+    let why = "'Dents' is also read by 'Split material', which would change too; use the canvas";
+    assert!(window.harness.query_by_label(why).is_some());
+    assert!(window.harness.query_by_label("Remove Dents").is_none());
+    assert!(window.harness.query_by_label("Remove Rust").is_some());
+}
+
+#[test]
+fn masks_and_layers_have_pictures_although_the_canvas_does_not_show_their_nodes() {
+    let mut window = layered(LAYERED);
+    window.harness.state_mut().layout = {
+        let mut tiles = egui_tiles::Tiles::default();
+        let root = tiles.insert_pane(Panel::Stack);
+        dock::Layout::new("panels", root, tiles)
+    };
+    let noise = "n".parse().expect("an id");
+    window.until("a picture of the mask", |editor| {
+        editor.picture_of(&editor.reference(&noise, None)).is_some()
+    });
+}

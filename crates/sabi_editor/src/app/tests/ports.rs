@@ -1,0 +1,95 @@
+//! Inputs and outputs of graphs that are used as groups, by menus of ports and the list in the parameters.
+
+use egui_kittest::kittest::Queryable;
+use sabi_graph::Body;
+
+use super::Window;
+
+const GROUPED: &str = r#"{
+  "format": "sabi", "version": 1, "name": "Worn edges",
+  "groups": {
+    "wear": { "inputs": { "where": { "to": ["l.source"] } }, "outputs": { "mask": "l" },
+      "nodes": { "l": { "kind": "adjust/levels", "pos": [300, 0] }, "n": { "kind": "noise/cells" } } }
+  },
+  "nodes": {
+    "w": { "kind": "noise/white" },
+    "g": { "kind": "graph/group", "group": "wear", "inputs": { "where": "w" }, "pos": [260, 0] },
+    "out": { "kind": "output/mask", "inputs": { "source": "g.mask" }, "pos": [520, 0] }
+  }
+}"#;
+
+fn inside() -> Window {
+    let mut window = Window::of(GROUPED);
+    let instance = "g".parse().expect("an id");
+    assert!(window.harness.state_mut().desk.enter(&instance));
+    window.settle();
+    window
+}
+
+#[test]
+fn ports_are_published_and_taken_back_by_their_menus() {
+    let mut window = inside();
+    window.choose("Cells, input Position, vector", "Publish as input of the group");
+    window.choose("Cells, output Mask, mask", "Publish as output of the group");
+    let desk = &window.editor().desk;
+    assert_eq!(
+        desk.group_inputs()["position"].to,
+        ["n.position".parse().expect("an input")]
+    );
+    assert_eq!(desk.group_outputs()["mask_2"].to_string(), "n");
+    window.choose("Cells, output Mask, mask", "Take back the output 'mask_2'");
+    window.choose("Levels, input Source, mask", "Take off the input 'where'");
+    let desk = &window.editor().desk;
+    assert!(!desk.group_outputs().contains_key("mask_2"));
+    assert!(desk.group_inputs()["where"].to.is_empty());
+    assert_eq!(window.steps(), 4);
+}
+
+#[test]
+fn a_port_is_disconnected_and_gets_a_new_node_by_its_menu() {
+    let mut window = Window::of(GROUPED);
+    window.choose("Mask output, input Source, mask", "Disconnect");
+    let out = "out".parse().expect("an id");
+    assert_eq!(window.wire_into(&out, "source"), None);
+    window.choose("Mask output, input Source, mask", "Connect a new node…");
+    window.harness.event(egui::Event::Text("clouds".to_owned()));
+    window.settle();
+    window.key(egui::Key::Enter);
+    let added = window.wire_into(&out, "source").expect("a wire");
+    let kind = window.editor().desk.node(&added.node).map(|node| node.kind.clone());
+    assert_eq!(kind.as_deref(), Some("noise/simplex"));
+}
+
+#[test]
+fn inputs_and_outputs_of_the_group_that_is_open_are_changed_in_a_list() {
+    let mut window = inside();
+    window.fill("Label of the input", "Where it is worn");
+    window.fill("Input", "place");
+    window.fill("Output", "worn");
+    window.click("Levels · Mask");
+    window.click("Cells · Id");
+    let desk = &window.editor().desk;
+    assert_eq!(desk.group_inputs()["place"].label.as_deref(), Some("Where it is worn"));
+    assert_eq!(desk.group_outputs()["worn"].to_string(), "n.id");
+    let instance = desk.document().graph.node("g").expect("the instance");
+    assert!(instance.inputs.contains_key("place"), "instances follow");
+    window.fill("Name of the group", "Wear and tear");
+    assert_eq!(window.editor().desk.body(), Body::Group("Wear and tear".to_owned()));
+    window.click("Remove the input place");
+    assert!(window.editor().desk.group_inputs().is_empty());
+    assert_eq!(window.steps(), 6);
+}
+
+#[test]
+fn the_main_graph_is_named_and_can_be_a_group_for_others() {
+    let mut window = Window::of(GROUPED);
+    assert!(
+        window.harness.query_by_label("Name of the graph").is_none(),
+        "it is folded away"
+    );
+    window.click("AS A GROUP");
+    window.fill("Name of the graph", "Old edges");
+    assert_eq!(window.editor().desk.document().name, "Old edges");
+    window.choose("wear, output Mask, mask", "Publish as output of the graph");
+    assert_eq!(window.editor().desk.group_outputs()["mask"].to_string(), "g.mask");
+}

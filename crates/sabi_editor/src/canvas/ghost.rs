@@ -1,0 +1,33 @@
+//! A node that is dragged to the canvas from elsewhere.
+
+use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
+use sabi_engine::catalog::Entry;
+
+use super::{Canvas, body};
+use crate::desk::{NODE_WIDTH, PICTURE_SIDE, TITLE_HEIGHT};
+use crate::theme::{Theme, space, type_size};
+
+/// How large it is beside the canvas.
+const BESIDE: f32 = 0.6;
+
+impl Canvas {
+    /// Shows a node that is dragged, where it would come to stand.
+    pub(crate) fn ghost(&self, ui: &Ui, theme: &Theme, face: &Entry, at: Pos2) {
+        let zoom = self.place_at(at).map_or(BESIDE, |_| self.view.zoom);
+        let painter = ui
+            .ctx()
+            .layer_painter(LayerId::new(Order::Tooltip, Id::new("node that is dragged")));
+        let rect = Rect::from_min_size(at, vec2(NODE_WIDTH, TITLE_HEIGHT + PICTURE_SIDE) * zoom);
+        let title = rect.with_max_y(rect.top() + TITLE_HEIGHT * zoom);
+        let corner = CornerRadius::same(space::CORNER);
+        painter.rect_filled(rect, corner, theme.raised.gamma_multiply(0.7));
+        painter.rect_filled(title, corner, theme.category(face.category()).gamma_multiply(0.9));
+        let line = Stroke::new(1.5, theme.accent);
+        painter.rect_stroke(rect, corner, line, StrokeKind::Outside);
+        let font = FontId::proportional((type_size::BODY * zoom).max(type_size::SMALL));
+        let name = body::elided(ui, &face.label, font, title.width() - 12.0 * zoom, theme.text);
+        let place = Align2::LEFT_CENTER.align_size_within_rect(name.size(), title.shrink2(vec2(8.0 * zoom, 0.0)));
+        painter.galley(place.min, name, theme.text);
+        ui.set_cursor_icon(egui::CursorIcon::Grabbing);
+    }
+}

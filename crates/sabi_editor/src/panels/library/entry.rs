@@ -1,0 +1,118 @@
+//! One entry of the library: a click adds it in the middle of the canvas, a drag where it is dropped.
+
+use egui::{Align2, Color32, FontId, Rect, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use egui_phosphor::regular as icon;
+
+use crate::action::Action;
+use crate::app::Editor;
+use crate::command::Command;
+use crate::search::Candidate;
+use crate::theme::{Theme, space, type_size};
+
+/// Heights of entries without and with a picture.
+const HEIGHT: f32 = 22.0;
+const WITH_PICTURE: f32 = 40.0;
+/// Room for the star and what it is added by.
+const STAR: f32 = 34.0;
+
+/// What is shown of an entry.
+pub(super) struct Shown<'a> {
+    pub(super) candidate: &'a Candidate,
+    /// Its place among the favorites.
+    pub(super) number: Option<usize>,
+    pub(super) picture: Option<TextureId>,
+}
+
+impl Shown<'_> {
+    /// Shows it; says whether it becomes a favorite, or is one no longer.
+    pub(super) fn show(&self, ui: &mut Ui, theme: &Theme, editor: &Editor, actions: &mut Vec<Action>) -> bool {
+        let face = &self.candidate.face;
+        let height = if self.picture.is_some() { WITH_PICTURE } else { HEIGHT };
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &face.label));
+        let star = rect.with_max_x(rect.left() + STAR);
+        let star = ui.interact(star, response.id.with("star"), Sense::CLICK);
+        star.widget_info(|| {
+            let name = format!("{} is a favorite", face.label);
+            WidgetInfo::selected(WidgetType::Checkbox, true, self.number.is_some(), name)
+        });
+        if ui.is_rect_visible(rect) {
+            self.paint(ui, theme, editor, rect, response.hovered(), star.hovered());
+        }
+        if response.dragged()
+            && let Some(at) = ui.input(|input| input.pointer.latest_pos())
+        {
+            editor.canvas.ghost(ui, theme, face, at);
+        }
+        let place = if response.clicked() {
+            Some(editor.canvas.middle())
+        } else if response.drag_stopped() {
+            let at = ui.input(|input| input.pointer.latest_pos());
+            at.and_then(|at| editor.canvas.place_at(at))
+        } else {
+            None
+        };
+        if let Some(place) = place {
+            actions.push(Action::Add {
+                kind: self.candidate.new.clone(),
+                place,
+                loose: None,
+                into: None,
+            });
+        }
+        if !response.dragged() {
+            response.on_hover_text(&face.summary);
+        }
+        let told = match self.number {
+            Some(_) => "No favorite any more",
+            None => "A favorite; the first nine are added by the keys 1 to 9",
+        };
+        star.on_hover_text(told).clicked()
+    }
+
+    fn paint(&self, ui: &Ui, theme: &Theme, editor: &Editor, rect: Rect, is_hovered: bool, is_on_star: bool) {
+        let painter = ui.painter();
+        if is_hovered || is_on_star {
+            painter.rect_filled(rect, space::CORNER, theme.raised);
+        }
+        let write = |at: egui::Pos2, align: Align2, text: &str, size: f32, color: Color32| {
+            painter.text(at, align, text, FontId::proportional(size), color)
+        };
+        let star = match (self.number.is_some(), is_on_star) {
+            (true, _) => Some(theme.accent),
+            (false, true) => Some(theme.quiet),
+            (false, false) => None,
+        };
+        if let Some(color) = star {
+            let at = pos2(rect.left() + 4.0, rect.center().y);
+            write(at, Align2::LEFT_CENTER, icon::STAR, type_size::BODY, color);
+        }
+        let command = self.number.and_then(Command::of_favorite);
+        if let Some(command) = command {
+            let at = pos2(rect.left() + 20.0, rect.center().y);
+            let keys = editor.keys().shown(command);
+            write(at, Align2::LEFT_CENTER, &keys, type_size::SMALL, theme.quiet);
+        }
+        let mut left = rect.left() + STAR;
+        let face = &self.candidate.face;
+        match self.picture {
+            Some(picture) => {
+                let place = Rect::from_min_size(pos2(left, rect.top() + 2.0), Vec2::splat(WITH_PICTURE - 4.0));
+                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                painter.image(picture, place, whole, Color32::WHITE);
+                left = place.right() + space::USUAL;
+            }
+            None => {
+                let mark = Rect::from_center_size(pos2(left + 3.0, rect.center().y), vec2(4.0, 12.0));
+                painter.rect_filled(mark, 2.0, theme.category(face.category()));
+                left += 12.0;
+            }
+        }
+        let at = pos2(left, rect.center().y);
+        write(at, Align2::LEFT_CENTER, &face.label, type_size::BODY, theme.text);
+        for (at, port) in face.outputs.iter().take(4).enumerate() {
+            let center = pos2(rect.right() - 10.0 - 10.0 * at as f32, rect.center().y);
+            painter.circle_filled(center, 3.0, theme.port(port.ty));
+        }
+    }
+}

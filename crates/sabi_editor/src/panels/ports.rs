@@ -1,0 +1,208 @@
+//! What the graph that is seen takes and gives where it is used as a group, and what it is called.
+
+use egui::{RichText, Ui, WidgetInfo, WidgetType};
+use egui_phosphor::regular as icon;
+use sabi_engine::catalog::Port;
+use sabi_graph::{Body, GroupInput, OutputRef, SlotRef};
+
+use super::field::Field;
+use crate::action::PortAsk;
+use crate::desk::Desk;
+use crate::theme::{Theme, space, type_size};
+
+/// Shows them and says what is asked.
+pub(crate) fn show(ui: &mut Ui, theme: &Theme, desk: &Desk) -> Vec<PortAsk> {
+    let mut asked = Vec::new();
+    let is_group = matches!(desk.body(), Body::Group(_));
+    let count = desk.group_inputs().len() + desk.group_outputs().len();
+    let title = match (is_group, count) {
+        (true, _) => "THE GROUP".to_owned(),
+        (false, 0) => "AS A GROUP".to_owned(),
+        (false, count) => format!("AS A GROUP ({count})"),
+    };
+    ui.add_space(space::WIDE);
+    let title = RichText::new(title).size(type_size::SMALL).color(theme.quiet);
+    egui::CollapsingHeader::new(title)
+        .id_salt(("ports", desk.body()))
+        .default_open(is_group)
+        .show_unindented(ui, |ui| {
+            name(ui, theme, desk, is_group, &mut asked);
+            if count == 0 {
+                let sentence = "It takes and gives nothing yet. Right-click a port of a node on the canvas to publish it as an \
+                                input or an output.";
+                ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
+            }
+            inputs(ui, theme, desk, &mut asked);
+            outputs(ui, theme, desk, &mut asked);
+        });
+    asked
+}
+
+fn name(ui: &mut Ui, theme: &Theme, desk: &Desk, is_group: bool, asked: &mut Vec<PortAsk>) {
+    ui.horizontal(|ui| {
+        ui.colored_label(theme.quiet, "Name");
+        let field = Field {
+            name: if is_group {
+                "Name of the group"
+            } else {
+                "Name of the graph"
+            },
+            hint: "no name",
+            held: &desk.graph_name(),
+            width: ui.available_width() - space::USUAL,
+        };
+        asked.extend(field.show(ui, ("name of", desk.body())).map(PortAsk::NameGraph));
+    });
+}
+
+fn inputs(ui: &mut Ui, theme: &Theme, desk: &Desk, asked: &mut Vec<PortAsk>) {
+    if !desk.group_inputs().is_empty() {
+        ui.label(RichText::new("Inputs").color(theme.quiet));
+    }
+    for (name, input) in desk.group_inputs() {
+        let port = desk.own_face().and_then(|face| face.input(name));
+        ui.horizontal(|ui| {
+            dot(ui, theme, port);
+            let width = (ui.available_width() - 34.0 - 2.0 * space::USUAL) / 2.0 - space::USUAL;
+            let label = Field {
+                name: "Label of the input",
+                hint: name,
+                held: port.map_or("", |port| &port.label),
+                width,
+            };
+            if let Some(label) = label.show(ui, ("label", name)) {
+                let name = name.clone();
+                asked.push(PortAsk::LabelInput { name, label });
+            }
+            let own = Field {
+                name: "Input",
+                hint: "name in files",
+                held: name,
+                width,
+            };
+            if let Some(to) = own.show(ui, ("input", name)) {
+                let name = name.clone();
+                asked.push(PortAsk::RenameInput { name, to });
+            }
+            if small(ui, icon::TRASH, &format!("Remove the input {name}")) {
+                asked.push(PortAsk::RemoveInput(name.clone()));
+            }
+        });
+        fed(ui, theme, desk, name, input, asked);
+    }
+}
+
+/// What an input feeds, and what else it could.
+fn fed(ui: &mut Ui, theme: &Theme, desk: &Desk, name: &str, input: &GroupInput, asked: &mut Vec<PortAsk>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.add_space(space::WIDE);
+        ui.colored_label(theme.quiet, icon::ARROW_BEND_DOWN_RIGHT);
+        for slot in &input.to {
+            let title = title_of_slot(desk, slot);
+            let chip = egui::Button::new(format!("{title} {}", icon::X)).small();
+            if ui.add(chip).on_hover_text("Feeds this no longer").clicked() {
+                asked.push(PortAsk::Unfeed(slot.clone()));
+            }
+        }
+        let feedable = desk.feedable(name);
+        let more = ui.add_enabled_ui(!feedable.is_empty(), |ui| {
+            let menu = ui.menu_button(icon::PLUS, |ui| {
+                list(
+                    ui,
+                    feedable.iter().map(|slot| (title_of_slot(desk, slot), slot)),
+                    |slot| {
+                        asked.push(PortAsk::Feed {
+                            name: name.to_owned(),
+                            slot: slot.clone(),
+                        });
+                    },
+                );
+            });
+            menu.response.widget_info(|| {
+                WidgetInfo::labeled(
+                    WidgetType::Button,
+                    true,
+                    format!("Lead the input {name} to another node"),
+                )
+            });
+        });
+        more.response.on_hover_text("Feed another input of a node too");
+    });
+}
+
+fn outputs(ui: &mut Ui, theme: &Theme, desk: &Desk, asked: &mut Vec<PortAsk>) {
+    if !desk.group_outputs().is_empty() {
+        ui.label(RichText::new("Outputs").color(theme.quiet));
+    }
+    for (name, from) in desk.group_outputs() {
+        let port = desk.own_face().and_then(|face| face.output(Some(name)));
+        ui.horizontal(|ui| {
+            dot(ui, theme, port);
+            let width = (ui.available_width() - 34.0 - 2.0 * space::USUAL) / 2.0 - space::USUAL;
+            let own = Field {
+                name: "Output",
+                hint: "name in files",
+                held: name,
+                width,
+            };
+            if let Some(to) = own.show(ui, ("output", name)) {
+                let name = name.clone();
+                asked.push(PortAsk::RenameOutput { name, to });
+            }
+            let menu = ui.menu_button(title_of_result(desk, from), |ui| {
+                let results = desk.results();
+                list(
+                    ui,
+                    results.iter().map(|from| (title_of_result(desk, from), from)),
+                    |from| {
+                        asked.push(PortAsk::Retarget {
+                            name: name.clone(),
+                            from: from.clone(),
+                        });
+                    },
+                );
+            });
+            menu.response.on_hover_text("What it gives");
+            if small(ui, icon::TRASH, &format!("Remove the output {name}")) {
+                asked.push(PortAsk::RemoveOutput(name.clone()));
+            }
+        });
+    }
+}
+
+/// Entries of a menu, of which one may be clicked.
+fn list<'l, T: 'l>(ui: &mut Ui, entries: impl Iterator<Item = (String, &'l T)>, mut choose: impl FnMut(&T)) {
+    egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
+        for (title, entry) in entries {
+            if ui.button(title).clicked() {
+                choose(entry);
+            }
+        }
+    });
+}
+
+fn title_of_slot(desk: &Desk, slot: &SlotRef) -> String {
+    let port = desk.input(slot).map_or(&slot.name, |port| &port.label);
+    format!("{} · {port}", desk.title(&slot.node))
+}
+
+fn title_of_result(desk: &Desk, from: &OutputRef) -> String {
+    let face = desk.face(&from.node);
+    let port = face.and_then(|face| face.output(from.port.as_deref()));
+    match port {
+        Some(port) => format!("{} · {}", desk.title(&from.node), port.label),
+        None => desk.title(&from.node),
+    }
+}
+
+fn dot(ui: &mut Ui, theme: &Theme, port: Option<&Port>) {
+    let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(10.0), egui::Sense::hover());
+    let ty = port.and_then(|port| port.ty);
+    ui.painter().circle_filled(rect.center(), 4.0, theme.port(ty));
+}
+
+fn small(ui: &mut Ui, sign: &str, name: &str) -> bool {
+    let response = ui.small_button(sign);
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
+    response.on_hover_text(name).clicked()
+}

@@ -1,0 +1,210 @@
+//! One layer: an eye, what it and its mask look like, what it is called, and how much of it is used.
+
+use egui::{
+    Align2, Color32, FontId, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2, WidgetInfo,
+    WidgetType, pos2, vec2,
+};
+use egui_phosphor::regular as icon;
+use sabi_graph::Value;
+
+use crate::action::{Action, LayerAsk};
+use crate::app::Editor;
+use crate::desk::Layer;
+use crate::knobs::{KnobEvent, KnobRow, knob_inline};
+use crate::theme::{Theme, space, type_size};
+
+/// Height of a row.
+const HEIGHT: f32 = 48.0;
+/// Sides of the pictures of a layer and of its mask.
+const PICTURE: f32 = 40.0;
+const MASK: f32 = 26.0;
+/// Room for a sign that is clicked.
+const SIGN: f32 = 24.0;
+
+/// What is asked of a layer.
+pub(super) enum Ask {
+    Toggle,
+    Opacity(f64),
+    Remove,
+}
+
+/// Shows a layer; what comes back is what a drag takes.
+pub(super) fn show(
+    editor: &Editor,
+    ui: &mut Ui,
+    theme: &Theme,
+    layer: &Layer,
+    asked: impl Fn(Ask) -> LayerAsk,
+    actions: &mut Vec<Action>,
+) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click_and_drag());
+    let is_selected = editor.desk.is_selected(&layer.node);
+    response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, &layer.title));
+    let fill = match (is_selected, response.hovered()) {
+        (true, _) => theme.raised.lerp_to_gamma(theme.accent, 0.25),
+        (false, true) => theme.hovered,
+        (false, false) => theme.raised,
+    };
+    ui.painter().rect_filled(rect, space::CORNER, fill);
+    let mut room = rect.shrink(4.0);
+    let eye = sign(
+        ui,
+        theme,
+        left(&mut room, SIGN),
+        if layer.is_muted { icon::EYE_SLASH } else { icon::EYE },
+        layer,
+    );
+    eye.widget_info(|| {
+        let name = format!("Show {}", layer.title);
+        WidgetInfo::selected(WidgetType::Checkbox, true, !layer.is_muted, name)
+    });
+    if eye.on_hover_text("Hides or shows the layer").clicked() {
+        actions.push(Action::Layer(asked(Ask::Toggle)));
+    }
+    let tint = Color32::from_white_alpha(if layer.is_muted { 90 } else { 255 });
+    let own = editor.thumbnail_of(&layer.node);
+    picture(ui, theme, left(&mut room, PICTURE), own, tint);
+    if let Some(mask) = &layer.mask {
+        left(&mut room, space::TIGHT);
+        let place = left(&mut room, MASK);
+        let place = Align2::CENTER_CENTER.align_size_within_rect(Vec2::splat(MASK), place);
+        let shown = editor.picture_of(&editor.reference(&mask.node, mask.port.clone()));
+        picture(ui, theme, place, shown, tint);
+        mask_of(editor, ui, layer, place, actions);
+    }
+    left(&mut room, space::USUAL);
+    end(ui, theme, layer, &mut room, &asked, actions);
+    name_and_opacity(editor, ui, theme, layer, room, &asked, actions);
+    if response.clicked() {
+        actions.push(Action::Select(vec![layer.node.clone()]));
+        actions.push(Action::Show {
+            node: layer.node.clone(),
+            port: None,
+        });
+    }
+    response
+}
+
+/// Takes room off the left.
+fn left(room: &mut Rect, width: f32) -> Rect {
+    let (taken, rest) = room.split_left_right_at_x((room.left() + width).min(room.right()));
+    *room = rest;
+    taken
+}
+
+fn sign(ui: &Ui, theme: &Theme, rect: Rect, sign: &str, layer: &Layer) -> Response {
+    let response = ui.interact(rect, ui.id().with((sign, &layer.node)), Sense::click());
+    let color = if response.hovered() { theme.text } else { theme.quiet };
+    let font = FontId::proportional(type_size::HEADING);
+    ui.painter()
+        .text(rect.center(), Align2::CENTER_CENTER, sign, font, color);
+    response
+}
+
+fn picture(ui: &Ui, theme: &Theme, rect: Rect, picture: Option<TextureId>, tint: Color32) {
+    ui.painter().rect_filled(rect, space::CORNER, theme.ground);
+    if let Some(picture) = picture {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter().image(picture, rect, whole, tint);
+    }
+}
+
+/// A click on the mask goes to where it comes from.
+fn mask_of(editor: &Editor, ui: &Ui, layer: &Layer, rect: Rect, actions: &mut Vec<Action>) {
+    let Some(mask) = &layer.mask else { return };
+    let title = editor.desk.title(&mask.node);
+    let response = ui.interact(rect, ui.id().with(("mask", &layer.node)), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Mask of {}", layer.title)));
+    if response.hovered() {
+        let line = Stroke::new(1.0, editor.theme().accent);
+        ui.painter().rect_stroke(rect, space::CORNER, line, StrokeKind::Inside);
+    }
+    if response.on_hover_text(format!("Where: {title}")).clicked() {
+        actions.push(Action::Select(vec![mask.node.clone()]));
+        actions.push(Action::Show {
+            node: mask.node.clone(),
+            port: mask.port.clone(),
+        });
+    }
+}
+
+/// The way out of the stack, or why there is none.
+fn end(
+    ui: &Ui,
+    theme: &Theme,
+    layer: &Layer,
+    room: &mut Rect,
+    asked: &impl Fn(Ask) -> LayerAsk,
+    actions: &mut Vec<Action>,
+) {
+    let (rest, place) = room.split_left_right_at_x((room.right() - SIGN).max(room.left()));
+    *room = rest;
+    match &layer.shared {
+        Some(why) => {
+            let lock = sign(ui, theme, place, icon::LOCK_SIMPLE, layer);
+            lock.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, why));
+            lock.on_hover_text(why);
+        }
+        None => {
+            let bin = sign(ui, theme, place, icon::TRASH, layer);
+            let name = format!("Remove {}", layer.title);
+            bin.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &name));
+            if bin.on_hover_text("Removes the layer; what is above heals").clicked() {
+                actions.push(Action::Layer(asked(Ask::Remove)));
+            }
+        }
+    }
+}
+
+fn name_and_opacity(
+    editor: &Editor,
+    ui: &mut Ui,
+    theme: &Theme,
+    layer: &Layer,
+    room: Rect,
+    asked: &impl Fn(Ask) -> LayerAsk,
+    actions: &mut Vec<Action>,
+) {
+    let knob = editor.desk.face(&layer.node).and_then(|face| face.knob("opacity"));
+    let bar = knob.zip(layer.opacity).filter(|_| layer.opacity.is_some());
+    let (name, below) = match bar {
+        Some(_) => room.split_top_bottom_at_y(room.center().y - 2.0),
+        None => (room, room),
+    };
+    let color = if layer.is_muted { theme.quiet } else { theme.text };
+    let text = RichText::new(&layer.title).color(color);
+    let label = egui::Label::new(text)
+        .truncate()
+        .selectable(false)
+        .sense(Sense::hover());
+    ui.scope_builder(egui::UiBuilder::new().max_rect(name), |ui| {
+        ui.horizontal_centered(|ui| ui.add(label));
+    });
+    let Some((knob, opacity)) = bar else { return };
+    let value = Value::Number(opacity);
+    let row = KnobRow {
+        knob,
+        value: Some(&value),
+        wired: None,
+        exposed: None,
+        differs: false,
+    };
+    let builder = egui::UiBuilder::new()
+        .max_rect(below.shrink2(vec2(0.0, 1.0)))
+        .id_salt(("opacity", &layer.node));
+    let events = ui
+        .scope_builder(builder, |ui| knob_inline(ui, theme, &row, below.width(), 0.85))
+        .inner;
+    for event in events {
+        actions.push(match event {
+            KnobEvent::Set { value, .. } => match value.as_number() {
+                Some(opacity) => Action::Layer(asked(Ask::Opacity(opacity))),
+                None => continue,
+            },
+            event => Action::Knob {
+                node: layer.node.clone(),
+                event,
+            },
+        });
+    }
+}
