@@ -216,6 +216,10 @@ impl Editor {
             self.hand_over(&context);
             return;
         }
+        // Whoever comes back may have saved group files in another window.
+        if ui.input(|input| input.events.contains(&egui::Event::WindowFocused(true))) {
+            self.desk.group_files_changed();
+        }
         let mut actions = self.keys_pressed(ui);
         self.take_dropped(&context, &mut actions);
         self.refresh_candidates();
@@ -341,6 +345,11 @@ impl Editor {
     /// The picture of a result, if there is one.
     pub(crate) fn picture_of(&self, result: &NodeRef) -> Option<egui::TextureId> {
         self.stage.thumbnail(result).map(egui::TextureHandle::id)
+    }
+
+    #[cfg(test)]
+    fn folders(&self) -> &Folders {
+        &self.folders
     }
 
     pub(crate) fn theme(&self) -> &Arc<Theme> {

@@ -315,6 +315,7 @@ impl Desk {
     /// Looks again at group files, since some were saved by somebody else.
     pub(crate) fn group_files_changed(&mut self) {
         self.faces.0 = None;
+        self.files_revision += 1;
         self.refresh();
     }
 

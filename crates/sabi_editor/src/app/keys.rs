@@ -5,7 +5,7 @@ use egui::{Context, Event, EventFilter, Id, Key, Modifiers, Ui};
 use super::Editor;
 use crate::action::Action;
 use crate::canvas::{Way, focus_id};
-use crate::command::{Command, Scope};
+use crate::command::Scope;
 use crate::dock::Panel;
 
 impl Editor {

@@ -158,9 +158,7 @@ impl Editor {
             KnobEvent::Reset { knob } => {
                 desk.set_knob_of_alike(node, &knob, None);
             }
-            KnobEvent::Expose { knob } => {
-                desk.expose(node, &knob);
-            }
+            KnobEvent::Expose { knob } => self.expose_of_alike(node, &knob),
             KnobEvent::Unexpose { knob } => {
                 desk.take_off_panel(node, &knob);
             }
@@ -168,6 +166,25 @@ impl Editor {
             KnobEvent::Browse { knob } => self.files.ask_for_picture(KnobAt::of_node(node, knob)),
             KnobEvent::Began | KnobEvent::Ended | KnobEvent::ShowLength(_) => self.move_knob(&event),
         }
+    }
+
+    /// Publishes a knob: one on the panel turns it on all selected nodes of the kind.
+    fn expose_of_alike(&mut self, node: &NodeId, knob: &str) {
+        let desk = &mut self.desk;
+        let kind = |desk: &Desk, id: &NodeId| desk.node(id).map(|node| node.kind.clone());
+        let alike = desk
+            .selection()
+            .iter()
+            .filter(|id| *id != node && kind(desk, id) == kind(desk, node));
+        let alike: Vec<NodeId> = alike.cloned().collect();
+        desk.session.begin("Expose");
+        desk.expose(node, knob);
+        if let Some(name) = desk.exposed_as(node, knob).map(str::to_owned) {
+            for other in alike {
+                desk.expose_as(&other, knob, &name);
+            }
+        }
+        desk.session.end();
     }
 
     /// Does what a key or a menu entry means.

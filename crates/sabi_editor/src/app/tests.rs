@@ -2,6 +2,7 @@
 
 mod building;
 mod layers;
+mod lost;
 mod panels;
 mod ports;
 

@@ -138,11 +138,11 @@ impl Desk {
 
     /// A place where no node stands exactly, at the given one or down to the right of it: one node would hide the other.
     fn free_place(&self, pos: [f32; 2]) -> [f32; 2] {
-        let mut place = pos;
-        while self.graph().nodes().any(|(_, node)| node.pos == place) {
-            place = place.map(|at| at + 2.0 * GRID);
-        }
-        place
+        let is_taken = |place: [f32; 2]| self.graph().nodes().any(|(_, node)| node.pos == place);
+        // As many places as there are nodes cannot all be taken, unless it is so far out that a step makes no difference.
+        let steps = 0..=self.graph().len();
+        let mut places = steps.map(|step| pos.map(|at| at + step as f32 * 2.0 * GRID));
+        places.find(|place| !is_taken(*place)).unwrap_or(pos)
     }
 
     /// Removes the selected nodes; the wires to those who read them are gone, or heal as if the nodes had been wires.

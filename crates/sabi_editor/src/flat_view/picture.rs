@@ -28,10 +28,10 @@ pub(super) fn picture_of(values: &Inspected, plane: &SheetPlane, component: Opti
             (None, texel) => Color32::from_gray(code(texel[0])),
         };
         if *is_on_surface {
-            color
-        } else {
-            color.gamma_multiply(BESIDE).to_opaque()
+            return color;
         }
+        let [red, green, blue] = [color.r(), color.g(), color.b()].map(|code| (f32::from(code) * BESIDE) as u8);
+        Color32::from_rgb(red, green, blue)
     });
     ColorImage::new([side, side], pixels.collect())
 }
