@@ -178,6 +178,11 @@ fn told(editor: &Editor, ui: &mut Ui, theme: &Theme) {
     egui::ScrollArea::vertical()
         .auto_shrink(false)
         .show(ui, |ui| match &editor.panels.export.told {
+            Some(Ok(files)) if files.is_empty() => {
+                let why = "Every channel is the same everywhere, so that there is nothing to write; switch on \"Constant \
+                           channels too\" for maps all the same.";
+                ui.colored_label(theme.quiet, why);
+            }
             Some(Ok(files)) => {
                 ui.colored_label(theme.good, "Written:");
                 for file in files {
