@@ -24,7 +24,7 @@ pub(crate) struct FlatView {
     /// From the middle of the panel to the middle of the texture, points.
     pan: Vec2,
     /// Points in one texel; none to show all of it.
-    zoom: Option<f32>,
+    pub(crate) zoom: Option<f32>,
     /// Which of the planes.
     plane: usize,
     /// Which number of it alone; none for all as a color.

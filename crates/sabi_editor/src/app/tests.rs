@@ -1,22 +1,37 @@
 //! The window as somebody uses it: by clicks and keys, without a screen.
 
 mod building;
+mod commands;
+mod design;
+mod export;
+mod faults;
+mod groups;
+mod hands;
+mod keyboard;
+mod knobs;
 mod layers;
+mod looking;
 mod lost;
+mod many;
+mod moving;
 mod panels;
+mod pictures;
 mod ports;
+mod safety;
+mod views;
+mod wires;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
+use egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use sabi_engine::{AdapterChoice, Gpu, Session};
-use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::{Beginning, Editor, Folders, Handover};
+use crate::desk::Desk;
 use crate::window::configuration;
 
 /// What runs tests needs a Vulkan driver.
@@ -32,21 +47,32 @@ struct Window {
 }
 
 impl Window {
-    /// An empty graph.
+    /// An empty graph, whose results are small so that they come soon.
     fn empty() -> Window {
-        Window::with(|_| Session::new(None))
+        Window::opened("")
+    }
+
+    /// A graph of these nodes in a file of its own.
+    fn opened(nodes: &str) -> Window {
+        Window::with(|folders| {
+            let file = beside(folders).join("graph.sabi");
+            std::fs::write(&file, graph_text(nodes)).expect("a graph");
+            Session::open(&file, folders.recovery.as_deref()).expect("a graph that can be read")
+        })
+    }
+
+    /// A graph without a file.
+    fn untitled() -> Window {
+        Window::with(|folders| Session::new(folders.recovery.as_deref()))
     }
 
     fn with(session: impl FnOnce(&Folders) -> Session) -> Window {
-        let folder = tempfile::tempdir().expect("a folder");
-        let at = |name: &str| Some(folder.path().join(name));
-        let folders = Folders {
-            settings: at("settings"),
-            cache: at("cache"),
-            recovery: at("unsaved"),
-            library: at("library"),
-            examples: at("examples"),
-        };
+        Window::in_folder(tempfile::tempdir().expect("a folder"), session)
+    }
+
+    /// A window where another one left things.
+    fn in_folder(folder: tempfile::TempDir, session: impl FnOnce(&Folders) -> Session) -> Window {
+        let folders = folders_in(folder.path());
         let session = session(&folders);
         let handover: Handover = Arc::new(Mutex::new(None));
         let harness = open(session, folders, handover.clone());
@@ -61,9 +87,13 @@ impl Window {
         self.harness.state()
     }
 
+    fn desk(&self) -> &Desk {
+        &self.harness.state().desk
+    }
+
     /// Draws frames until nothing moves any more.
     fn settle(&mut self) {
-        self.harness.run_steps(4);
+        self.harness.run_steps(3);
     }
 
     /// Draws frames until something is so.
@@ -74,89 +104,7 @@ impl Window {
             self.harness.step();
             std::thread::sleep(Duration::from_millis(5));
         }
-    }
-
-    /// Puts the pointer somewhere.
-    fn point(&mut self, at: Pos2) {
-        self.harness.event(Event::PointerMoved(at));
-        self.harness.step();
-    }
-
-    fn button(&mut self, at: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) {
-        self.harness.event(Event::PointerButton {
-            pos: at,
-            button,
-            pressed,
-            modifiers,
-        });
-        self.harness.step();
-    }
-
-    /// Drags from one place to another, by way of the middle.
-    fn drag(&mut self, from: Pos2, to: Pos2, button: PointerButton, modifiers: Modifiers) {
-        self.harness.event(Event::PointerMoved(from));
-        self.harness.step();
-        self.button(from, button, true, modifiers);
-        for share in [0.25, 0.5, 0.75, 1.0] {
-            self.harness.event(Event::PointerMoved(from.lerp(to, share)));
-            self.harness.step();
-        }
-        self.button(to, button, false, modifiers);
         self.settle();
-    }
-
-    fn key(&mut self, key: Key) {
-        self.keys(Modifiers::NONE, key);
-    }
-
-    fn keys(&mut self, modifiers: Modifiers, key: Key) {
-        self.harness.key_press_modifiers(modifiers, key);
-        self.settle();
-    }
-
-    /// Where an empty place of the canvas is: `[0, 0]` is its upper left corner, `[1, 1]` the lower right one.
-    fn on_canvas(&self, share: [f32; 2]) -> Pos2 {
-        let rect = self.editor().rects[&crate::dock::Panel::Canvas];
-        rect.min + vec2(share[0] * rect.width(), share[1] * rect.height())
-    }
-
-    /// Adds a node by the menu at a place of the canvas.
-    fn add(&mut self, share: [f32; 2], query: &str) -> NodeId {
-        let at = self.on_canvas(share);
-        self.point(at);
-        self.key(Key::Tab);
-        self.harness.event(Event::Text(query.to_owned()));
-        self.settle();
-        self.key(Key::Enter);
-        let added = self.editor().desk.selected_one().cloned();
-        added.unwrap_or_else(|| panic!("nothing is called '{query}'"))
-    }
-
-    /// Where a port of a node is on the screen, found by what is said of it to those who do not see it.
-    fn port(&self, node: &NodeId, name: &str) -> Pos2 {
-        let desk = &self.editor().desk;
-        let face = desk.face(node).expect("a node").clone();
-        let (side, port) = match face.input(name) {
-            Some(port) => ("input", port),
-            None => ("output", face.output(Some(name)).expect("a port")),
-        };
-        let carries = port.ty.map_or("anything".to_owned(), |ty| ty.to_string());
-        let said = format!("{}, {side} {}, {carries}", desk.title(node), port.label);
-        self.harness.get_by_label(&said).rect().center()
-    }
-
-    /// Drags a wire from one port to another.
-    fn wire(&mut self, from: (&NodeId, &str), to: (&NodeId, &str)) {
-        let ends = [self.port(from.0, from.1), self.port(to.0, to.1)];
-        self.drag(ends[0], ends[1], PointerButton::Primary, Modifiers::NONE);
-    }
-
-    fn wire_into(&self, node: &NodeId, input: &str) -> Option<OutputRef> {
-        let slot = SlotRef {
-            node: node.clone(),
-            name: input.to_owned(),
-        };
-        self.editor().desk.wire_into(&slot).cloned()
     }
 
     /// The graph's text.
@@ -167,14 +115,57 @@ impl Window {
     fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
+
+    /// Whether a sentence is shown that holds this.
+    fn says(&self, part: &str) -> bool {
+        self.harness.query_all_by_label_contains(part).next().is_some()
+    }
+
+    fn undo(&mut self, times: usize) {
+        for _ in 0..times {
+            self.keys(Modifiers::COMMAND, Key::Z);
+        }
+    }
+
+    fn redo(&mut self, times: usize) {
+        for _ in 0..times {
+            self.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+        }
+    }
+}
+
+/// A file of a graph with these nodes.
+fn graph_text(nodes: &str) -> String {
+    format!(r#"{{ "format": "sabi", "version": 1, "preview": {{ "size": 64 }}, "nodes": {{ {nodes} }} }}"#)
+}
+
+fn folders_in(folder: &Path) -> Folders {
+    let at = |name: &str| Some(folder.join(name));
+    Folders {
+        settings: at("settings"),
+        // What is kept by content is the same for all tests.
+        cache: Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/tmp/window")),
+        recovery: at("unsaved"),
+        library: at("library"),
+        examples: at("examples"),
+    }
+}
+
+/// The folder that holds those of a window.
+fn beside(folders: &Folders) -> &Path {
+    let settings = folders.settings.as_deref().and_then(Path::parent);
+    settings.expect("a folder for settings")
 }
 
 /// A window on the software driver.
 fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'static, Editor> {
     let setup = configuration(&AdapterChoice::Cpu).wgpu_setup;
     let model = cube(&folders);
-    let builder = Harness::builder().with_size(vec2(1600.0, 900.0)).with_max_steps(400);
-    builder.wgpu_setup(setup).build_eframe(move |context| {
+    let builder = Harness::builder()
+        .with_size(vec2(1600.0, 900.0))
+        .with_step_dt(1.0 / 60.0)
+        .with_max_steps(4);
+    let mut harness = builder.wgpu_setup(setup).build_eframe(move |context| {
         let render = context.wgpu_render_state.clone().expect(INSTALL);
         let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone()).expect(INSTALL);
         let beginning = Beginning {
@@ -184,7 +175,10 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
             is_start: false,
         };
         Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover)
-    })
+    });
+    // A picture that is quick, and not a good one.
+    harness.state_mut().model_view.shot.samples = 1;
+    harness
 }
 
 /// A model that is quick to evaluate.

@@ -1,5 +1,3 @@
-use egui::{Key, Modifiers};
-
 use super::Window;
 
 #[test]
@@ -12,16 +10,12 @@ fn a_graph_is_built_from_nothing_by_clicks_and_keys_and_taken_back_to_nothing() 
     let layer = window.add([0.4, 0.1], "effect layer");
     window.wire((&paint, "material"), (&layer, "base"));
     window.wire((&noise, "mask"), (&layer, "mask"));
-    assert_eq!(window.wire_into(&layer, "base").map(|from| from.node), Some(paint));
-    assert_eq!(window.wire_into(&layer, "mask").map(|from| from.node), Some(noise));
+    assert_eq!(window.reads(&layer, "base"), paint.to_string());
+    assert_eq!(window.reads(&layer, "mask"), noise.to_string());
     let built = window.text();
-    for _ in 0..5 {
-        window.keys(Modifiers::COMMAND, Key::Z);
-    }
+    window.undo(5);
     assert_eq!(window.text(), empty, "five steps lead back to nothing");
-    for _ in 0..5 {
-        window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    }
+    window.redo(5);
     assert_eq!(window.text(), built, "and forth to the same bytes");
 }
 

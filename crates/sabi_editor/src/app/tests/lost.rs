@@ -1,3 +1,5 @@
+//! A device that is lost takes no work with it.
+
 use sabi_engine::Session;
 
 use super::{Window, open};
@@ -17,13 +19,14 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     window.until("the loss", |_| handover.lock().is_ok_and(|kept| kept.is_some()));
     let folders = window.editor().folders().clone();
     window.harness = open(Session::new(None), folders, handover);
+    window.settle();
     assert_eq!(window.text(), muted);
+    assert!(!window.says("Examples"), "no start page stands before the work");
     window.until("pictures on another device", |editor| editor.model_view.drawn > 0);
-    let texts = [added, empty].map(|expected| {
+    for expected in [&added, &empty] {
         window.harness.state_mut().desk.undo();
-        (window.text(), expected)
-    });
-    for (text, expected) in texts {
-        assert_eq!(text, expected);
+        assert_eq!(&window.text(), expected);
     }
+    window.redo(2);
+    assert_eq!(window.text(), muted);
 }

@@ -200,8 +200,8 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
     assert_eq!(variants["as bought"]["amount"], Value::Number(0.25));
     let what = window.editor().desk.variant_as_text("as bought");
     let file = window.path("worn.sabi");
-    let cache = window.path("cache");
-    let kept = sabi_engine::find_thumbnail(&cache, &[&file.to_string_lossy(), &what]).expect("a picture");
+    let cache = window.editor().stage.cache_dir().expect("a cache");
+    let kept = sabi_engine::find_thumbnail(cache, &[&file.to_string_lossy(), &what]).expect("a picture");
     assert_eq!(kept.size, [128, 128]);
     window.choose("As bought", "Rename");
     window.fill("New name of the variant", "new");

@@ -1,0 +1,119 @@
+//! Textures out of the window.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+use super::Window;
+use super::hands::id;
+use crate::dock::Panel;
+
+const LAYERED: &str = r##"
+    "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+    "layer": { "kind": "effect/layer", "inputs": { "mask": "clouds" }, "params": { "color": "#6b3a1e" },
+        "pos": [260, 0] },
+    "out": { "kind": "output/material", "inputs": { "material": "layer" }, "pos": [520, 0] }
+"##;
+
+fn maps_in(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut maps: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    maps.retain(|path| {
+        path.extension()
+            .is_some_and(|ending| ending == "png" || ending == "exr")
+    });
+    maps
+}
+
+/// The window with the export panel in front and a folder named.
+fn ready() -> Window {
+    let mut window = Window::opened(LAYERED);
+    window.harness.state_mut().panels.export.size = 64;
+    window.open(Panel::Export);
+    let panel = window.editor().rects[&Panel::Export];
+    let found = window.harness.query_all_by_label("Folder").map(|node| node.rect());
+    let field = found
+        .filter(|rect| panel.contains(rect.center()))
+        .max_by(|one, other| one.width().total_cmp(&other.width()));
+    let field = field.expect("a field for the folder").center();
+    window.click_at(field);
+    window.typed("maps");
+    window
+}
+
+#[test]
+fn maps_are_written_to_the_folder_that_was_named() {
+    let mut window = ready();
+    let folder = window.path("maps");
+    window.press("Export");
+    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    assert!(window.says("Written:"), "{:?}", window.labels());
+    let maps = maps_in(&folder);
+    assert!(
+        maps.iter().any(|path| path.to_string_lossy().contains("base_color")),
+        "{maps:?} {:?}",
+        window.labels()
+    );
+    // Again at every save, whatever panel is in front.
+    for map in &maps {
+        fs::remove_file(map).expect("removed");
+    }
+    let switch = window
+        .harness
+        .get_by_role_and_label(Role::CheckBox, "Again at every save")
+        .rect()
+        .center();
+    window.click_at(switch);
+    assert!(window.editor().settings.exports_on_save);
+    window.open(Panel::Parameters);
+    for detail in ["3", "4"] {
+        window.click_at(window.title(&id("clouds")));
+        window.set_number("Detail", detail);
+        window.keys(Modifiers::COMMAND, Key::S);
+        window.until("the maps again", |editor| editor.panels.export.running.is_none());
+        assert!(!maps_in(&folder).is_empty(), "after a save with {detail}");
+        fs::remove_dir_all(&folder).expect("removed");
+    }
+}
+
+#[test]
+fn a_material_without_any_pattern_says_why_there_are_no_maps() {
+    let mut window = ready();
+    window.harness.state_mut().desk.select([id("clouds")]);
+    window.harness.state_mut().desk.delete(false);
+    window.press("Export");
+    window.until("the end", |editor| editor.panels.export.running.is_none());
+    assert!(
+        window.says("Every channel is the same everywhere"),
+        "{:?}",
+        window.labels()
+    );
+    assert!(maps_in(&window.path("maps")).is_empty());
+}
+
+#[test]
+fn an_export_is_canceled_and_leaves_nothing() {
+    let mut window = ready();
+    window.harness.state_mut().panels.export.size = 4096;
+    window.press("Export");
+    assert!(window.editor().panels.export.running.is_some());
+    window.press("Cancel");
+    window.until("the end", |editor| editor.panels.export.running.is_none());
+    assert!(maps_in(&window.path("maps")).is_empty());
+    assert!(!window.says("Written:"));
+}
+
+#[test]
+fn what_cannot_be_exported_says_why() {
+    let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
+    window.open(Panel::Export);
+    window.press("Export");
+    assert!(window.says("Name the folder for the textures first"));
+    window.harness.state_mut().panels.export.folder = "maps".to_owned();
+    window.press("Export");
+    window.until("the end", |editor| editor.panels.export.running.is_none());
+    assert!(window.says("output"), "{:?}", window.labels());
+}

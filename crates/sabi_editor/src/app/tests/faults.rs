@@ -1,0 +1,113 @@
+//! What is wrong is shown where it is, and the rest goes on.
+
+use egui_kittest::kittest::{NodeT, Queryable};
+
+use super::Window;
+use super::hands::id;
+use crate::dock::Panel;
+
+/// A blur without the source that it needs, an invert behind it, and clouds that have nothing to do with it.
+const BROKEN: &str = r#"
+    "blur": { "kind": "filter/blur", "pos": [0, 0] },
+    "clouds": { "kind": "noise/simplex", "pos": [0, 330] },
+    "invert": { "kind": "adjust/invert", "inputs": { "source": "blur" }, "pos": [300, 0] }
+"#;
+
+/// What is said of a node besides its name.
+fn told_of(window: &Window, node: &str) -> String {
+    let near = window.rect(&id(node)).expand(10.0);
+    let title = window.desk().title(&id(node));
+    let found = window.harness.query_all_by_label(&title);
+    let mut told = found.filter(|found| near.contains(found.rect().center()));
+    told.find_map(|found| found.accesskit_node().description())
+        .unwrap_or_default()
+}
+
+#[test]
+fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictures() {
+    let mut window = Window::opened(BROKEN);
+    window.until("the fault", |editor| editor.stage.fault("blur").is_some());
+    window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
+    let fault = window.editor().stage.fault("blur").expect("a sentence").clone();
+    assert!(fault.contains("source"), "{fault}");
+    assert_eq!(told_of(&window, "blur"), fault);
+    assert_eq!(told_of(&window, "invert"), "waiting for blur");
+    assert_eq!(told_of(&window, "clouds"), "");
+    assert!(window.editor().thumbnail_of(&id("invert")).is_none());
+    window.click_at(window.title(&id("blur")));
+    assert!(window.says(&fault), "in the panel of parameters too");
+    // Tied, all is well.
+    window.wire((&id("clouds"), "mask"), (&id("blur"), "source"));
+    window.until("a picture of what waited", |editor| {
+        editor.thumbnail_of(&id("invert")).is_some()
+    });
+    assert_eq!(window.editor().problem_count(), 0);
+    assert_eq!(told_of(&window, "blur"), "");
+}
+
+#[test]
+fn a_click_in_problems_goes_to_the_node_whatever_group_it_is_in() {
+    let mut window = Window::with(|folders| {
+        let text = r#"{
+            "format": "sabi", "version": 1, "preview": { "size": 64 },
+            "nodes": { "worn": { "kind": "graph/group", "group": "Worn", "pos": [0, 0] } },
+            "groups": { "Worn": {
+                "outputs": { "mask": "blur.mask" },
+                "nodes": { "blur": { "kind": "filter/blur", "pos": [9000, 0] } }
+            } }
+        }"#;
+        let file = super::beside(folders).join("grouped.sabi");
+        std::fs::write(&file, text).expect("a graph");
+        sabi_engine::Session::open(&file, None).unwrap_or_else(|error| panic!("{error}"))
+    });
+    window.until("the fault", |editor| editor.problem_count() == 1);
+    window.open(Panel::Problems);
+    let fault = window.editor().stage.faults.faults[0].sentence.clone();
+    let at = window.harness.get_by_label_contains(&fault).rect().center();
+    window.click_at(at);
+    assert_eq!(window.desk().path().len(), 1);
+    assert_eq!(window.desk().selected_one(), Some(&id("blur")));
+    assert!(
+        window.editor().rects[&Panel::Canvas].contains(window.rect(&id("blur")).center()),
+        "it is in sight"
+    );
+}
+
+#[test]
+fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
+    let mut window = Window::opened(
+        r#"
+        "clouds": { "kind": "noise/simplex", "pos": [0, 330] },
+        "lost": { "kind": "source/image", "params": { "file": "nowhere.png" }, "pos": [0, 0] },
+        "odd": { "kind": "noise/of_tomorrow", "params": { "depth": 3 }, "pos": [300, 0] }
+        "#,
+    );
+    let before = window.text();
+    window.until("both faults", |editor| {
+        editor.stage.fault("lost").is_some() && editor.stage.fault("odd").is_some()
+    });
+    window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
+    assert!(
+        window
+            .editor()
+            .stage
+            .fault("lost")
+            .expect("a fault")
+            .contains("nowhere.png")
+    );
+    assert!(
+        window
+            .editor()
+            .stage
+            .fault("odd")
+            .expect("a fault")
+            .contains("noise/of_tomorrow")
+    );
+    window.open(Panel::Problems);
+    assert!(window.says("nowhere.png") && window.says("noise/of_tomorrow"));
+    // What is not known is kept as it is.
+    window.click_at(window.title(&id("odd")));
+    window.drag_from(window.title(&id("clouds")), window.on_canvas([0.5, 0.9]));
+    window.undo(1);
+    assert_eq!(window.text(), before);
+}

@@ -1,0 +1,160 @@
+//! Groups: made, entered, left, kept in the library and taken from it.
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, PointerButton};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+use super::Window;
+use super::hands::{beside, id};
+use crate::dock::Panel;
+
+const WORN: &str = r#"
+    "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+    "layer": { "kind": "effect/layer", "inputs": { "mask": "mix" }, "pos": [520, 60] },
+    "mix": { "kind": "blend/mask", "inputs": { "below": "clouds" }, "pos": [260, 60] }
+"#;
+
+/// The window with clouds and mix in a group.
+fn grouped() -> Window {
+    let mut window = Window::opened(WORN);
+    window.click_at(window.title(&id("clouds")));
+    window.click_with(window.title(&id("mix")), PointerButton::Primary, Modifiers::SHIFT);
+    window.keys(Modifiers::COMMAND, Key::G);
+    window
+}
+
+#[test]
+fn a_group_is_made_entered_by_a_double_click_and_left_by_escape() {
+    let mut window = grouped();
+    let group = window.desk().selected_one().expect("an instance").clone();
+    assert!(window.reads(&id("layer"), "mask").starts_with(group.as_str()));
+    assert_eq!((window.desk().graph().len(), window.steps()), (2, 1));
+    window.double_click(window.title(&group));
+    assert_eq!(window.desk().graph().len(), 2, "what is inside is seen");
+    assert!(window.desk().node(&id("clouds")).is_some());
+    assert!(
+        window
+            .harness
+            .query_all_by_role(Role::Link)
+            .any(|link| link.accesskit_node().label().as_deref() == Some("Graph")),
+        "the way out is shown"
+    );
+    window.key(Key::Escape);
+    assert!(window.desk().node(&id("layer")).is_some());
+    window.double_click(window.title(&id("layer")));
+    assert_eq!(window.desk().path().len(), 0, "only groups are entered");
+}
+
+#[test]
+fn groups_in_groups_are_left_step_by_step_or_at_once_by_the_path() {
+    let mut window = grouped();
+    let outer = window.desk().selected_one().expect("an instance").clone();
+    window.double_click(window.title(&outer));
+    window.click_at(window.title(&id("clouds")));
+    window.keys(Modifiers::COMMAND, Key::G);
+    let inner = window.desk().selected_one().expect("an instance").clone();
+    window.double_click(window.title(&inner));
+    assert_eq!(window.desk().path().len(), 2);
+    window.key(Key::Escape);
+    assert_eq!(window.desk().path().len(), 1);
+    window.double_click(window.title(&inner));
+    let way_out = window
+        .harness
+        .get_by_role_and_label(Role::Link, "Graph")
+        .rect()
+        .center();
+    window.click_at(way_out);
+    assert_eq!(window.desk().path().len(), 0);
+    // Undo takes back what was done inside, seen from wherever one is.
+    window.undo(2);
+    assert_eq!(window.desk().document().groups.len(), 0);
+    assert_eq!(window.desk().graph().len(), 3);
+}
+
+#[test]
+fn each_graph_is_looked_at_where_it_was_left() {
+    let mut window = grouped();
+    let group = window.desk().selected_one().expect("an instance").clone();
+    window.wheel(window.title(&group), -120.0);
+    let before = window.title(&group);
+    window.double_click(before);
+    assert!(
+        window.on_canvas([0.5, 0.5]).distance(window.rect(&id("mix")).center()) < 500.0,
+        "what is inside is framed"
+    );
+    window.key(Key::Escape);
+    assert!((window.title(&group) - before).length() < 0.5);
+}
+
+#[test]
+fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
+    let mut window = grouped();
+    window.key(Key::F2);
+    window.keys(Modifiers::COMMAND, Key::A);
+    window.typed("Worn");
+    window.key(Key::Enter);
+    window.press("Keep group");
+    window.press("For all graphs");
+    assert!(window.says("is in the library now"));
+    let files: Vec<_> = std::fs::read_dir(window.path("library"))
+        .expect("a library")
+        .flatten()
+        .collect();
+    assert_eq!(files.len(), 1);
+    // Another graph, in which there is no group yet.
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.keys(Modifiers::COMMAND, Key::N);
+    assert_eq!(window.desk().document().groups.len(), 0);
+    let kept = window.add([0.3, 0.3], "group");
+    let brought = window.desk().node(&kept).expect("a node").group.clone();
+    assert!(brought.is_some_and(|name| window.desk().document().groups.contains_key(&name)));
+    window.undo(1);
+    assert_eq!(
+        (window.desk().graph().len(), window.desk().document().groups.len()),
+        (0, 0),
+        "one step"
+    );
+    // By a drag out of the panel to the canvas.
+    window.open(Panel::Library);
+    let field = window.harness.get_by_label("Search the library").rect().center();
+    window.click_at(field);
+    window.typed("group");
+    let library = window.editor().rects[&Panel::Library];
+    let entry = window
+        .harness
+        .query_all_by_label("group")
+        .map(|node| node.rect().center())
+        .find(|at| library.contains(*at))
+        .expect("the group in the list");
+    let at = window.on_canvas([0.5, 0.4]);
+    let there = window.editor().canvas.place_at(at).expect("a place");
+    window.drag_from(entry, at);
+    let added = window.desk().selected_one().expect("an instance").clone();
+    let pos = window.desk().node(&added).expect("a node").pos;
+    assert!(
+        (pos[0] - there[0]).abs() <= 1.0 && (pos[1] - there[1]).abs() <= 1.0,
+        "{pos:?} {there:?}"
+    );
+    window.drag_from(entry, beside(library.right_top(), [-3.0, -3.0]));
+    assert_eq!(window.desk().graph().len(), 1, "dropped elsewhere it is nowhere");
+}
+
+#[test]
+fn what_fits_a_wire_is_found_in_the_library_panel_by_a_click_too() {
+    let mut window = Window::empty();
+    let field = window.harness.get_by_label("Search the library").rect().center();
+    window.click_at(field);
+    window.typed("clouds");
+    let library = window.editor().rects[&Panel::Library];
+    let found = window
+        .harness
+        .query_all_by_label("Clouds")
+        .map(|node| node.rect().center());
+    let entry = found.into_iter().find(|at| library.contains(*at)).expect("an entry");
+    window.click_at(entry);
+    assert_eq!(
+        window.desk().graph().len(),
+        1,
+        "a click adds it in the middle of what is seen"
+    );
+}

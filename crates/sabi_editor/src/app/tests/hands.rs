@@ -1,0 +1,329 @@
+//! What somebody does with a window: pointing, dragging, typing, and finding things on it.
+
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Rect, TouchPhase, Vec2, pos2, vec2};
+use egui_kittest::kittest::{NodeT, Queryable, by};
+use sabi_graph::{NodeId, OutputRef, SlotRef};
+
+use super::Window;
+use crate::desk::{NODE_WIDTH, TITLE_HEIGHT};
+use crate::dock::Panel;
+
+/// The pointer.
+impl Window {
+    /// Puts the pointer somewhere.
+    pub(super) fn point(&mut self, at: Pos2) {
+        self.harness.event(Event::PointerMoved(at));
+        self.harness.step();
+    }
+
+    /// Holds keys down, or lets them go.
+    pub(super) fn hold(&mut self, modifiers: Modifiers) {
+        self.harness.input_mut().modifiers = modifiers;
+        self.harness.step();
+    }
+
+    pub(super) fn button(&mut self, at: Pos2, button: PointerButton, pressed: bool) {
+        let modifiers = self.harness.input().modifiers;
+        self.harness.event(Event::PointerButton {
+            pos: at,
+            button,
+            pressed,
+            modifiers,
+        });
+        self.harness.step();
+    }
+
+    pub(super) fn click_at(&mut self, at: Pos2) {
+        self.click_with(at, PointerButton::Primary, Modifiers::NONE);
+    }
+
+    pub(super) fn click_with(&mut self, at: Pos2, button: PointerButton, modifiers: Modifiers) {
+        // Two clicks at once would be one double click.
+        self.pause();
+        self.hold(modifiers);
+        self.point(at);
+        self.button(at, button, true);
+        self.button(at, button, false);
+        self.hold(Modifiers::NONE);
+        self.settle();
+    }
+
+    pub(super) fn double_click(&mut self, at: Pos2) {
+        self.pause();
+        self.point(at);
+        for pressed in [true, false, true, false] {
+            self.button(at, PointerButton::Primary, pressed);
+        }
+        self.settle();
+    }
+
+    /// Lets half a second pass.
+    pub(super) fn pause(&mut self) {
+        let now = self.harness.ctx.input(|input| input.time);
+        self.harness.input_mut().time = Some(now + 0.5);
+        self.harness.step();
+        self.harness.input_mut().time = None;
+    }
+
+    /// Presses a button and drags along these places.
+    pub(super) fn pull(&mut self, way: &[Pos2], button: PointerButton, modifiers: Modifiers) {
+        self.pause();
+        self.hold(modifiers);
+        self.point(way[0]);
+        self.button(way[0], button, true);
+        for ends in way.windows(2) {
+            for share in [0.34, 0.67, 1.0] {
+                self.point(ends[0].lerp(ends[1], share));
+            }
+        }
+    }
+
+    /// Drags along these places and lets go at the last.
+    pub(super) fn drag_along(&mut self, way: &[Pos2], button: PointerButton, modifiers: Modifiers) {
+        self.pull(way, button, modifiers);
+        let end = way[way.len() - 1];
+        self.button(end, button, false);
+        self.hold(Modifiers::NONE);
+        self.settle();
+    }
+
+    pub(super) fn drag(&mut self, from: Pos2, to: Pos2, button: PointerButton, modifiers: Modifiers) {
+        self.drag_along(&[from, to], button, modifiers);
+    }
+
+    pub(super) fn drag_from(&mut self, from: Pos2, to: Pos2) {
+        self.drag_with(from, to, Modifiers::NONE);
+    }
+
+    pub(super) fn drag_with(&mut self, from: Pos2, to: Pos2, modifiers: Modifiers) {
+        self.drag_along(&[from, to], PointerButton::Primary, modifiers);
+    }
+
+    /// Turns the wheel so far over a place, and waits until what is smoothed has come to rest.
+    pub(super) fn wheel(&mut self, at: Pos2, points: f32) {
+        self.point(at);
+        self.harness.event(Event::MouseWheel {
+            unit: MouseWheelUnit::Point,
+            delta: vec2(0.0, points),
+            phase: TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        });
+        self.harness.run_steps(30);
+    }
+}
+
+/// The keyboard.
+impl Window {
+    pub(super) fn key(&mut self, key: Key) {
+        self.keys(Modifiers::NONE, key);
+    }
+
+    pub(super) fn keys(&mut self, modifiers: Modifiers, key: Key) {
+        // The system tells of these as what they usually mean.
+        let told = match key {
+            Key::C if modifiers == Modifiers::COMMAND => Some(Event::Copy),
+            Key::X if modifiers == Modifiers::COMMAND => Some(Event::Cut),
+            _ => None,
+        };
+        match told {
+            Some(event) => self.harness.event_modifiers(event, modifiers),
+            None => self.harness.key_press_modifiers(modifiers, key),
+        }
+        self.settle();
+    }
+
+    pub(super) fn typed(&mut self, text: &str) {
+        self.harness.event(Event::Text(text.to_owned()));
+        self.settle();
+    }
+}
+
+/// Things in the window.
+impl Window {
+    /// Where an empty place of the canvas is: `[0, 0]` is its upper left corner, `[1, 1]` the lower right one.
+    pub(super) fn on_canvas(&self, share: [f32; 2]) -> Pos2 {
+        let rect = self.editor().rects[&Panel::Canvas];
+        rect.min + vec2(share[0] * rect.width(), share[1] * rect.height())
+    }
+
+    /// Screen points in a canvas point.
+    pub(super) fn zoom(&self) -> f32 {
+        let middle = self.on_canvas([0.5, 0.5]);
+        let place = |at| self.editor().canvas.place_at(at).expect("a place on the canvas");
+        let [one, other] = [place(middle), place(middle + vec2(100.0, 0.0))];
+        100.0 / (other[0] - one[0])
+    }
+
+    /// Where a place of the canvas is on the screen.
+    pub(super) fn screen(&self, place: [f32; 2]) -> Pos2 {
+        let middle = self.on_canvas([0.5, 0.5]);
+        let there = self.editor().canvas.place_at(middle).expect("a place on the canvas");
+        middle + vec2(place[0] - there[0], place[1] - there[1]) * self.zoom()
+    }
+
+    /// The rectangle of a node on the screen.
+    pub(super) fn rect(&self, id: &NodeId) -> Rect {
+        let pos = self.desk().node(id).expect("a node").pos;
+        let size = vec2(NODE_WIDTH, self.desk().height(id)) * self.zoom();
+        Rect::from_min_size(self.screen(pos), size)
+    }
+
+    /// Where a node is taken: its title.
+    pub(super) fn title(&self, id: &NodeId) -> Pos2 {
+        let rect = self.rect(id);
+        rect.center_top() + vec2(0.0, TITLE_HEIGHT / 2.0 * self.zoom())
+    }
+
+    /// Adds a node by the menu at a place of the canvas.
+    pub(super) fn add(&mut self, share: [f32; 2], query: &str) -> NodeId {
+        let at = self.on_canvas(share);
+        self.point(at);
+        self.key(Key::Tab);
+        self.pick(query)
+    }
+
+    /// Chooses a node in the menu that is open.
+    pub(super) fn pick(&mut self, query: &str) -> NodeId {
+        self.typed(query);
+        self.key(Key::Enter);
+        let added = self.desk().selected_one().cloned();
+        added.unwrap_or_else(|| panic!("nothing is called '{query}'"))
+    }
+
+    /// Where a port of a node is on the screen: its input of that name, or else its output.
+    pub(super) fn port(&self, node: &NodeId, name: &str) -> Pos2 {
+        let face = self.desk().face(node).expect("a node");
+        let side = if face.input(name).is_some() { "input" } else { "output" };
+        self.port_at(node, side, name)
+    }
+
+    /// Where a port is, found by what is said of it to those who do not see it.
+    fn port_at(&self, node: &NodeId, side: &str, name: &str) -> Pos2 {
+        let desk = self.desk();
+        let face = desk.face(node).expect("a node");
+        let port = match side {
+            "input" => face.input(name),
+            _ => face.output(Some(name)),
+        };
+        let port = port.expect("a port");
+        let carries = port.ty.map_or("anything".to_owned(), |ty| ty.to_string());
+        let said = format!("{}, {side} {}, {carries}", desk.title(node), port.label);
+        let near = self.rect(node).expand(20.0);
+        let mut found = self.harness.query_all_by_label(&said).map(|node| node.rect().center());
+        found
+            .find(|at| near.contains(*at))
+            .unwrap_or_else(|| panic!("no port '{said}'"))
+    }
+
+    /// Drags a wire from one port to another: from an output where there is one of that name.
+    pub(super) fn wire(&mut self, from: (&NodeId, &str), to: (&NodeId, &str)) {
+        let face = self.desk().face(from.0).expect("a node");
+        let side = if face.output(Some(from.1)).is_some() {
+            "output"
+        } else {
+            "input"
+        };
+        let ends = [self.port_at(from.0, side, from.1), self.port(to.0, to.1)];
+        self.drag_from(ends[0], ends[1]);
+    }
+
+    pub(super) fn wire_into(&self, node: &NodeId, input: &str) -> Option<OutputRef> {
+        let slot = SlotRef {
+            node: node.clone(),
+            name: input.to_owned(),
+        };
+        self.desk().wire_into(&slot).cloned()
+    }
+
+    /// What an input reads, as the file has it; empty where it reads nothing.
+    pub(super) fn reads(&self, node: &NodeId, input: &str) -> String {
+        self.wire_into(node, input)
+            .map_or_else(String::new, |from| from.to_string())
+    }
+
+    /// Clicks a button by its name; of several, the one that was drawn last.
+    pub(super) fn press(&mut self, name: &str) {
+        let found = self.harness.query_all(by().role(Role::Button).label(name));
+        let at = found.map(|node| node.rect().center()).next_back();
+        let at = at.unwrap_or_else(|| panic!("no button is called '{name}'"));
+        self.click_at(at);
+    }
+
+    /// Clicks the tab of a panel.
+    pub(super) fn open(&mut self, panel: Panel) {
+        let tabs = self
+            .harness
+            .query_all(by().role(Role::Button).label_contains(panel.title()));
+        let mut tabs = tabs.filter(|tab| tab.accesskit_node().label().is_some_and(|label| is_tab(&label, panel)));
+        let at = tabs
+            .next()
+            .unwrap_or_else(|| panic!("no tab for {}", panel.title()))
+            .rect()
+            .center();
+        drop(tabs);
+        self.click_at(at);
+        assert!(self.editor().rects.contains_key(&panel), "{} is shown", panel.title());
+    }
+
+    /// Names of everything that can be seen.
+    pub(super) fn labels(&self) -> Vec<String> {
+        let nodes = self.harness.query_all(by().predicate(|_| true));
+        let named = |node: egui_kittest::Node<'_>| node.accesskit_node().label().or(node.value());
+        nodes.filter_map(named).collect()
+    }
+}
+
+/// Whether a tab is called so: by its panel, and maybe with a count.
+fn is_tab(label: &str, panel: Panel) -> bool {
+    let rest = label.strip_prefix(panel.title());
+    rest.is_some_and(|rest| rest.trim().chars().all(|letter| letter.is_ascii_digit()))
+}
+
+/// An id.
+pub(super) fn id(text: &str) -> NodeId {
+    text.parse().expect("an id")
+}
+
+/// So far from a place.
+pub(super) fn beside(at: Pos2, way: [f32; 2]) -> Pos2 {
+    at + Vec2::from(way)
+}
+
+/// The middle of two places.
+pub(super) fn between(one: Pos2, other: Pos2) -> Pos2 {
+    pos2((one.x + other.x) / 2.0, (one.y + other.y) / 2.0)
+}
+
+/// Knobs in the panel of parameters.
+impl Window {
+    /// Where the widget of that name is in the panel of parameters.
+    pub(super) fn knob(&self, name: &str) -> Pos2 {
+        let panel = self.editor().rects[&Panel::Parameters];
+        let mut found = self.harness.query_all_by_label(name).map(|node| node.rect().center());
+        found
+            .find(|at| panel.contains(*at))
+            .unwrap_or_else(|| panic!("no knob '{name}'"))
+    }
+
+    /// Types a number into the bar of that name, over what is there.
+    pub(super) fn set_number(&mut self, name: &str, text: &str) {
+        self.click_at(self.knob(name));
+        self.key(Key::Enter);
+        self.typed(text);
+        self.key(Key::Enter);
+    }
+
+    /// Types the code of a color.
+    pub(super) fn set_color(&mut self, name: &str, code: &str) {
+        self.click_at(self.knob(&format!("{name}: code")));
+        self.typed(code);
+        self.key(Key::Enter);
+    }
+
+    /// What a parameter of a node is set to, as text.
+    pub(super) fn param(&self, node: &NodeId, name: &str) -> Option<String> {
+        let node = self.desk().node(node).expect("a node");
+        node.params.get(name).map(sabi_graph::Value::to_json)
+    }
+}

@@ -1,0 +1,188 @@
+//! The window without a pointer.
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable, by};
+
+use super::Window;
+use crate::dock::Panel;
+
+/// What has the keyboard, by name.
+fn focused(window: &Window) -> String {
+    let found = window.harness.query_all(by().predicate(|node| node.is_focused()));
+    found
+        .filter_map(|node| node.accesskit_node().label())
+        .next()
+        .unwrap_or_default()
+}
+
+#[test]
+fn a_graph_is_built_turned_and_taken_back_by_keys_alone() {
+    let mut window = Window::empty();
+    window.settle();
+    let empty = window.text();
+    window.key(Key::Tab);
+    let noise = window.pick("clouds");
+    window.key(Key::Tab);
+    let layer = window.pick("effect layer");
+    assert_ne!(
+        window.desk().node(&noise).expect("a node").pos,
+        window.desk().node(&layer).expect("a node").pos,
+        "no node hides another"
+    );
+    // From the second input of the layer, the mask, back to the noise.
+    window.key(Key::J);
+    window.key(Key::J);
+    window.key(Key::W);
+    window.key(Key::ArrowLeft);
+    assert_eq!(window.desk().selected_one(), Some(&noise));
+    window.key(Key::J);
+    window.key(Key::W);
+    assert_eq!(window.reads(&layer, "mask"), noise.to_string());
+    assert_eq!(window.steps(), 3);
+    // A knob of the noise.
+    while window.editor().active != Panel::Parameters {
+        window.key(Key::F6);
+    }
+    let mut names = vec![focused(&window)];
+    while names.last().is_some_and(|name| name != "Detail") {
+        assert!(names.len() < 20, "no way to the knob: {names:?}");
+        window.key(Key::Tab);
+        names.push(focused(&window));
+    }
+    window.key(Key::ArrowLeft);
+    assert_eq!(window.param(&noise, "octaves").as_deref(), Some("7"));
+    window.typed("3");
+    window.key(Key::Enter);
+    assert_eq!(window.param(&noise, "octaves").as_deref(), Some("3"));
+    let steps = window.steps();
+    window.undo(steps);
+    assert_eq!(window.text(), empty);
+}
+
+#[test]
+fn ports_are_stepped_through_both_ways_and_escape_drops_the_wire() {
+    let mut window = Window::empty();
+    window.key(Key::Tab);
+    let noise = window.pick("clouds");
+    window.key(Key::Tab);
+    let invert = window.pick("invert");
+    // The port before the first is the last one: the output.
+    window.key(Key::K);
+    window.key(Key::W);
+    window.key(Key::Escape);
+    window.key(Key::J);
+    window.key(Key::W);
+    window.key(Key::ArrowLeft);
+    window.keys(Modifiers::COMMAND, Key::Tab);
+    window.key(Key::W);
+    assert_eq!(window.reads(&invert, "source"), noise.to_string());
+    assert_eq!(window.reads(&noise, "position"), "");
+}
+
+#[test]
+fn f6_goes_round_the_panels_and_says_where_it_is() {
+    let mut window = Window::empty();
+    window.settle();
+    assert_eq!(window.editor().active, Panel::Canvas);
+    let shown = window.editor().rects.len();
+    let mut seen = Vec::new();
+    for _ in 0..shown {
+        window.key(Key::F6);
+        let active = window.editor().active;
+        assert!(window.says(&format!("Keys are for: {}", active.title())));
+        let focused = focused(&window);
+        assert_eq!(
+            focused,
+            if active == Panel::Canvas {
+                "Canvas"
+            } else {
+                active.title()
+            }
+        );
+        seen.push(active);
+    }
+    assert_eq!(seen.last(), Some(&Panel::Canvas), "once round");
+    let mut back = Vec::new();
+    for _ in 0..shown {
+        window.keys(Modifiers::SHIFT, Key::F6);
+        back.push(window.editor().active);
+    }
+    seen.rotate_right(1);
+    back.reverse();
+    assert_eq!(
+        back.last(),
+        seen.get(1).or(seen.last()).filter(|_| shown < 2).or(back.last())
+    );
+    seen.sort_unstable();
+    back.sort_unstable();
+    assert_eq!(seen, back);
+}
+
+#[test]
+fn tab_opens_the_menu_only_while_keys_are_for_the_canvas() {
+    let mut window = Window::empty();
+    window.settle();
+    window.key(Key::F6);
+    window.key(Key::Tab);
+    assert!(!window.says("Find a node"));
+    window.keys(Modifiers::SHIFT, Key::F6);
+    window.key(Key::Tab);
+    assert!(window.says("Find a node"));
+    assert_eq!(
+        window
+            .harness
+            .get_by_label("Find a node")
+            .accesskit_node()
+            .label()
+            .as_deref(),
+        Some("Find a node")
+    );
+}
+
+#[test]
+fn the_menu_is_gone_through_by_arrows() {
+    let mut window = Window::empty();
+    window.settle();
+    window.key(Key::Tab);
+    window.typed("noise");
+    window.key(Key::ArrowDown);
+    window.key(Key::ArrowDown);
+    window.key(Key::ArrowUp);
+    window.key(Key::Enter);
+    let second = window.desk().selected_one().cloned().expect("a node");
+    window.key(Key::Tab);
+    let first = window.pick("noise");
+    let kind = |id| window.desk().node(id).expect("a node").kind.clone();
+    assert_ne!(kind(&first), kind(&second));
+}
+
+#[test]
+fn what_is_typed_into_a_field_is_no_command() {
+    let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
+    window.click_at(window.title(&super::hands::id("clouds")));
+    let field = window.harness.get_by_label("Search the library").rect().center();
+    window.click_at(field);
+    // The pointer is over the canvas again, and the field still has the keyboard.
+    window.point(window.on_canvas([0.5, 0.5]));
+    for key in [Key::Delete, Key::M, Key::L, Key::X, Key::Space, Key::Backspace] {
+        window.key(key);
+    }
+    assert_eq!(window.steps(), 0);
+    assert_eq!(window.desk().graph().len(), 1);
+    assert!(!window.says("Find a node"));
+}
+
+#[test]
+fn keys_act_on_what_the_pointer_is_over_whatever_was_turned_before() {
+    let mut window =
+        Window::opened(r#""clouds": { "kind": "noise/simplex", "params": { "size": 0.5 }, "pos": [0, 0] }"#);
+    window.click_at(window.title(&super::hands::id("clouds")));
+    window.click_at(window.knob("Size"));
+    window.point(window.on_canvas([0.8, 0.8]));
+    window.key(Key::Delete);
+    assert_eq!(
+        window.desk().graph().len(),
+        0,
+        "the node is deleted, and not its knob reset"
+    );
+}

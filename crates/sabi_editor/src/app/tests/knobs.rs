@@ -1,0 +1,140 @@
+//! Knobs in the window: one step a drag, on nodes and in the panel, of several nodes, published.
+
+use egui::{Key, Modifiers, PointerButton};
+use egui_kittest::kittest::Queryable;
+
+use super::Window;
+use super::hands::{beside, id};
+
+const TWO: &str = r#"
+    "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+    "dots": { "kind": "noise/dots", "pos": [300, 0] },
+    "more": { "kind": "noise/simplex", "pos": [0, 330] }
+"#;
+
+#[test]
+fn a_drag_in_the_panel_is_one_step_and_the_window_knows_that_it_moves() {
+    let mut window = Window::opened(TWO);
+    window.click_at(window.title(&id("clouds")));
+    let before = window.text();
+    let bar = window.knob("Grain");
+    window.pull(
+        &[bar, beside(bar, [20.0, 0.0])],
+        PointerButton::Primary,
+        Modifiers::NONE,
+    );
+    assert!(window.editor().is_moving, "pictures are quick while it is dragged");
+    window.point(beside(bar, [34.0, 0.0]));
+    window.keys(Modifiers::COMMAND, Key::Z);
+    window.button(beside(bar, [34.0, 0.0]), PointerButton::Primary, false);
+    window.settle();
+    assert!(!window.editor().is_moving);
+    assert_eq!(
+        window.steps(),
+        1,
+        "{:?}",
+        window.desk().session.undo_names().collect::<Vec<_>>()
+    );
+    assert!(window.param(&id("clouds"), "gain").is_some());
+    window.undo(1);
+    assert_eq!(window.text(), before);
+}
+
+#[test]
+fn a_drag_on_the_node_itself_turns_its_knob_and_does_not_move_it() {
+    let mut window = Window::opened(TWO);
+    let panel = window.editor().rects[&crate::dock::Panel::Canvas];
+    let near = window.rect(&id("dots"));
+    let found = window
+        .harness
+        .query_all_by_label_contains("Spacing")
+        .map(|node| node.rect().center());
+    let bar = found
+        .into_iter()
+        .find(|at| panel.contains(*at) && near.contains(*at))
+        .expect("a knob on the node");
+    window.drag_from(bar, beside(bar, [25.0, 0.0]));
+    assert!(window.param(&id("dots"), "spacing").is_some());
+    assert_eq!(window.desk().node(&id("dots")).expect("a node").pos, [300.0, 0.0]);
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn several_selected_nodes_of_a_kind_are_turned_together() {
+    let mut window = Window::opened(TWO);
+    window.keys(Modifiers::COMMAND, Key::A);
+    let near = window.rect(&id("more"));
+    let found = window
+        .harness
+        .query_all_by_label("Detail")
+        .map(|node| node.rect().center());
+    let bar = found
+        .into_iter()
+        .find(|at| near.contains(*at))
+        .expect("a knob on the node");
+    window.double_click(bar);
+    window.keys(Modifiers::COMMAND, Key::A);
+    window.typed("5");
+    window.key(Key::Enter);
+    let detail = |window: &Window, node: &str| window.param(&id(node), "octaves");
+    assert_eq!(
+        [detail(&window, "clouds"), detail(&window, "more")].map(|it| it.unwrap_or_default()),
+        ["5", "5"]
+    );
+    assert_eq!(window.param(&id("dots"), "octaves"), None);
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn an_expression_is_worked_out_and_what_is_none_is_told() {
+    let mut window = Window::opened(TWO);
+    window.click_at(window.title(&id("clouds")));
+    window.set_number("Grain", "2*0.3");
+    assert_eq!(window.param(&id("clouds"), "gain").as_deref(), Some("0.6"));
+    window.set_number("Grain", "much");
+    assert_eq!(window.param(&id("clouds"), "gain").as_deref(), Some("0.6"));
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn after_a_number_was_typed_keys_mean_commands_again() {
+    let mut window = Window::opened(TWO);
+    window.click_at(window.title(&id("clouds")));
+    window.set_number("Grain", "0.25");
+    window.undo(1);
+    assert_eq!(window.param(&id("clouds"), "gain"), None);
+    window.point(window.on_canvas([0.9, 0.9]));
+    window.key(Key::M);
+    assert!(window.desk().node(&id("clouds")).expect("a node").muted);
+}
+
+#[test]
+fn a_knob_is_put_on_the_panel_of_the_graph_and_taken_off_by_its_menu() {
+    let mut window = Window::opened(TWO);
+    window.click_at(window.title(&id("clouds")));
+    let bar = window.knob("Grain");
+    window.click_with(bar, PointerButton::Secondary, Modifiers::NONE);
+    window.press("Put on the panel");
+    let published: Vec<_> = window.desk().graph().exposed().values().cloned().collect();
+    assert_eq!(published.len(), 1);
+    assert_eq!(published[0].to[0].to_string(), "clouds.gain");
+    window.click_with(window.knob("Grain"), PointerButton::Secondary, Modifiers::NONE);
+    window.press("Take off the panel");
+    assert_eq!(window.desk().graph().exposed().len(), 0);
+    assert_eq!(window.steps(), 2);
+}
+
+#[test]
+fn a_number_on_a_wired_input_is_not_offered() {
+    let mut window = Window::opened(
+        r#"
+        "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+        "mix": { "kind": "blend/mask", "inputs": { "below": "clouds" }, "pos": [300, 0] }
+        "#,
+    );
+    window.click_at(window.title(&id("mix")));
+    let at = window.knob("Below");
+    window.drag_from(at, beside(at, [20.0, 0.0]));
+    assert_eq!(window.param(&id("mix"), "below"), None);
+    assert_eq!(window.steps(), 0);
+}

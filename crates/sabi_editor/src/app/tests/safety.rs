@@ -1,0 +1,212 @@
+//! No work is lost: saving, the questions before, and what is kept for a crash.
+
+use std::fs;
+use std::time::Duration;
+
+use egui::{Key, Modifiers, ViewportEvent, ViewportId};
+use sabi_engine::Session;
+
+use super::Window;
+use super::hands::id;
+
+const CLOUDS: &str = r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#;
+
+impl Window {
+    /// Types a path into the question for one, over what is there.
+    fn answer_path(&mut self, path: &std::path::Path) {
+        self.keys(Modifiers::COMMAND, Key::A);
+        self.typed(&path.display().to_string());
+        self.key(Key::Enter);
+    }
+
+    fn is_dirty(&mut self) -> bool {
+        self.harness.state_mut().desk.session.is_dirty()
+    }
+
+    fn mute(&mut self) {
+        self.harness.state_mut().desk.select([id("clouds")]);
+        self.point(self.on_canvas([0.9, 0.9]));
+        self.key(Key::M);
+    }
+
+    /// Asks the window to close, as its frame does; tells whether it goes on to close.
+    fn asks_to_close(&mut self) -> bool {
+        let viewport = self.harness.input_mut().viewports.entry(ViewportId::ROOT).or_default();
+        viewport.events.push(ViewportEvent::Close);
+        self.harness.step();
+        let commands = &self.harness.output().viewport_output[&ViewportId::ROOT].commands;
+        let is_held = commands.contains(&egui::ViewportCommand::CancelClose);
+        self.settle();
+        !is_held
+    }
+}
+
+#[test]
+fn a_graph_is_saved_under_a_name_and_opens_again_as_it_was() {
+    let mut window = Window::untitled();
+    window.add([0.3, 0.3], "clouds");
+    assert!(window.says("untitled •"), "it is marked that something is not saved");
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert!(window.says("Save the graph"), "a graph without a file asks for one");
+    let file = window.path("first");
+    window.answer_path(&file);
+    let file = file.with_extension("sabi");
+    let text = window.text();
+    assert_eq!(fs::read_to_string(&file).expect("a file"), text);
+    assert!(!window.is_dirty() && window.says("first.sabi") && !window.says("first.sabi •"));
+    window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    window.answer_path(&window.path("second.sabi"));
+    assert_eq!(window.desk().session.file(), Some(&*window.path("second.sabi")));
+    window.keys(Modifiers::COMMAND, Key::N);
+    assert_eq!(window.desk().graph().len(), 0);
+    window.keys(Modifiers::COMMAND, Key::O);
+    window.answer_path(&file);
+    assert_eq!(window.text(), text);
+    let recent = &window.editor().settings.recent;
+    let names: Vec<_> = recent.iter().filter_map(|path| path.file_name()).collect();
+    assert_eq!(names, ["first.sabi", "second.sabi"], "the last one first");
+}
+
+#[test]
+fn undo_goes_on_past_a_save_and_the_file_before_is_kept() {
+    let mut window = Window::opened(CLOUDS);
+    let first = window.text();
+    window.mute();
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert!(!window.is_dirty());
+    let backup = fs::read_to_string(window.path("graph.sabi.bak")).expect("a backup");
+    assert_eq!(backup, super::graph_text(CLOUDS), "as it was, down to its spaces");
+    window.undo(1);
+    assert!(window.is_dirty());
+    assert_eq!(window.text(), first);
+}
+
+#[test]
+fn before_something_else_is_opened_changes_are_asked_about() {
+    let mut window = Window::opened(CLOUDS);
+    let other = window.path("other.sabi");
+    fs::write(&other, super::graph_text("")).expect("a graph");
+    window.mute();
+    let changed = window.text();
+    window.keys(Modifiers::COMMAND, Key::O);
+    window.answer_path(&other);
+    assert!(window.says("There are changes that are not saved"));
+    window.press("Cancel");
+    assert_eq!(window.text(), changed, "nothing happened");
+    window.keys(Modifiers::COMMAND, Key::N);
+    window.press("Let them go");
+    assert_eq!(window.desk().graph().len(), 0);
+    assert_eq!(
+        fs::read_to_string(window.path("graph.sabi")).expect("a file"),
+        super::graph_text(CLOUDS)
+    );
+    window.keys(Modifiers::COMMAND, Key::O);
+    window.answer_path(&window.path("graph.sabi"));
+    window.mute();
+    window.keys(Modifiers::COMMAND, Key::O);
+    window.answer_path(&other);
+    window.press("Save");
+    assert_eq!(fs::read_to_string(window.path("graph.sabi")).expect("a file"), changed);
+    assert_eq!(window.desk().session.file(), Some(&*other));
+}
+
+#[test]
+fn a_graph_without_a_file_is_saved_before_it_makes_room_for_another() {
+    let mut window = Window::untitled();
+    window.add([0.3, 0.3], "clouds");
+    let text = window.text();
+    window.keys(Modifiers::COMMAND, Key::N);
+    window.press("Save");
+    assert!(window.says("Save the graph"));
+    let file = window.path("kept.sabi");
+    window.answer_path(&file);
+    assert_eq!(
+        fs::read_to_string(&file).expect("a file"),
+        text,
+        "what was there, and not what came after"
+    );
+    assert_eq!(window.desk().graph().len(), 0);
+}
+
+#[test]
+fn work_that_could_not_be_saved_stays() {
+    let mut window = Window::untitled();
+    window.add([0.3, 0.3], "clouds");
+    let text = window.text();
+    fs::write(window.path("taken"), "a file").expect("a file");
+    window.keys(Modifiers::COMMAND, Key::N);
+    window.press("Save");
+    window.answer_path(&window.path("taken").join("kept.sabi"));
+    assert_eq!(window.text(), text);
+    assert!(window.is_dirty());
+    // Without a name nothing is saved either.
+    window.keys(Modifiers::COMMAND, Key::N);
+    window.press("Save");
+    window.key(Key::Escape);
+    assert_eq!(window.text(), text);
+    window.add([0.3, 0.6], "dots");
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.answer_path(&window.path("later.sabi"));
+    assert_eq!(
+        window.desk().graph().len(),
+        2,
+        "an answer that was not given is forgotten"
+    );
+}
+
+#[test]
+fn a_window_with_changes_asks_before_it_closes() {
+    let mut window = Window::opened(CLOUDS);
+    window.mute();
+    assert!(!window.asks_to_close());
+    assert!(window.says("There are changes that are not saved"));
+    window.press("Cancel");
+    assert!(!window.asks_to_close());
+    window.press("Save");
+    assert!(!window.is_dirty());
+    assert!(window.editor().files.may_close);
+    assert!(window.asks_to_close());
+}
+
+#[test]
+fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
+    let mut window = Window::opened(CLOUDS);
+    window.harness.state_mut().keep_every = Duration::ZERO;
+    window.mute();
+    let text = window.text();
+    let unsaved = window.path("unsaved");
+    let kept: Vec<_> = fs::read_dir(&unsaved).expect("a folder").flatten().collect();
+    assert_eq!(kept.len(), 1);
+    // The program ends without a word: what it left bears the number of a process that is no more.
+    let Window { harness, folder, .. } = window;
+    std::mem::forget(harness.into_state().desk.session);
+    fs::rename(kept[0].path(), unsaved.join("4000000000-1-0.recovery")).expect("renamed");
+    let mut window = Window::in_folder(folder, |_| Session::new(None));
+    window.settle();
+    assert!(window.says("The program ended before this was saved"));
+    assert!(window.says("graph.sabi"));
+    window.press("Recover");
+    assert_eq!(window.text(), text);
+    assert!(window.is_dirty());
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert_eq!(fs::read_to_string(window.path("graph.sabi")).expect("a file"), text);
+    assert_eq!(
+        fs::read_dir(&unsaved).expect("a folder").count(),
+        0,
+        "nothing is left to recover"
+    );
+}
+
+#[test]
+fn settings_and_recent_files_are_there_in_the_next_window() {
+    let mut window = Window::opened(CLOUDS);
+    window.harness.state_mut().keep_every = Duration::ZERO;
+    window.keys(Modifiers::COMMAND, Key::Equals);
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.settle();
+    let folder = window.folder;
+    drop(window.harness);
+    let window = Window::in_folder(folder, |_| Session::new(None));
+    assert!((window.editor().settings.scale - 1.1).abs() < 1e-3);
+    assert_eq!(window.editor().settings.recent.len(), 1);
+}

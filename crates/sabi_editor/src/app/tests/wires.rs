@@ -1,0 +1,233 @@
+//! Wires by the pointer.
+
+use egui::{Key, Modifiers, PointerButton};
+
+use super::Window;
+use super::hands::{beside, between, id};
+use crate::desk::{ROW_HEIGHT, TITLE_HEIGHT};
+
+/// Two masks, a blend of nothing yet, and a layer on paint.
+const LOOSE: &str = r#"
+    "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+    "dots": { "kind": "noise/dots", "pos": [0, 330] },
+    "layer": { "kind": "effect/layer", "pos": [330, 120] },
+    "paint": { "kind": "source/material", "pos": [0, 660] }
+"#;
+
+/// The same with clouds in the layer's mask.
+const WIRED: &str = r#"
+    "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+    "dots": { "kind": "noise/dots", "pos": [0, 330] },
+    "invert": { "kind": "adjust/invert", "pos": [300, 520] },
+    "layer": { "kind": "effect/layer", "inputs": { "mask": "clouds" }, "pos": [560, 120] }
+"#;
+
+#[test]
+fn a_wire_is_dropped_at_a_port_or_anywhere_on_a_node_that_takes_it() {
+    let mut window = Window::opened(LOOSE);
+    window.wire((&id("clouds"), "mask"), (&id("layer"), "mask"));
+    assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
+    assert_eq!(window.steps(), 1);
+    let from = window.port(&id("paint"), "material");
+    window.drag_from(from, beside(window.title(&id("layer")), [30.0, 0.0]));
+    assert_eq!(
+        window.reads(&id("layer"), "base"),
+        "paint",
+        "the first input that takes a material"
+    );
+}
+
+#[test]
+fn a_wire_is_pulled_backwards_from_an_input_too() {
+    let mut window = Window::opened(LOOSE);
+    window.wire((&id("layer"), "mask"), (&id("dots"), "mask"));
+    assert_eq!(window.reads(&id("layer"), "mask"), "dots");
+    let from = window.port(&id("layer"), "base");
+    window.drag_from(from, beside(window.title(&id("paint")), [0.0, 0.0]));
+    assert_eq!(window.reads(&id("layer"), "base"), "paint", "on the body of a node");
+}
+
+#[test]
+fn a_wire_that_fits_nowhere_near_offers_the_nodes_that_it_fits() {
+    let mut window = Window::opened(LOOSE);
+    let from = window.port(&id("paint"), "material");
+    let free = window.on_canvas([0.6, 0.8]);
+    window.drag_from(from, free);
+    assert!(window.says("What fits the wire"));
+    let labels = window.labels();
+    assert!(labels.iter().any(|label| label == "Adjust material"), "{labels:?}");
+    // The list is searched: a mask's node is not offered for a material.
+    window.typed("threshold");
+    assert!(window.says("No node is called that"), "a threshold takes no material");
+    window.keys(Modifiers::COMMAND, Key::A);
+    let layer = window.pick("effect layer");
+    assert_ne!(layer, id("layer"));
+    assert_eq!(window.reads(&layer, "base"), "paint", "it is tied at once");
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn a_wire_pulled_from_an_input_into_empty_space_offers_what_gives_that() {
+    let mut window = Window::opened(LOOSE);
+    let from = window.port(&id("layer"), "base");
+    window.drag_from(from, window.on_canvas([0.6, 0.85]));
+    window.typed("source material");
+    window.key(Key::Enter);
+    let added = window.desk().selected_one().expect("a node").clone();
+    assert_eq!(window.reads(&id("layer"), "base"), added.to_string());
+}
+
+#[test]
+fn a_wire_taken_off_an_input_is_gone_or_tied_elsewhere_as_one_step() {
+    let mut window = Window::opened(WIRED);
+    let mask = window.port(&id("layer"), "mask");
+    window.drag_from(mask, window.on_canvas([0.5, 0.95]));
+    assert_eq!(window.reads(&id("layer"), "mask"), "");
+    assert_eq!(window.steps(), 1);
+    window.undo(1);
+    assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
+    window.wire((&id("layer"), "mask"), (&id("layer"), "roughness_map"));
+    assert_eq!(window.reads(&id("layer"), "mask"), "");
+    assert_eq!(window.reads(&id("layer"), "roughness_map"), "clouds");
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn a_wire_dropped_where_it_was_taken_changes_nothing() {
+    let mut window = Window::opened(WIRED);
+    let mask = window.port(&id("layer"), "mask");
+    let way = [mask, beside(mask, [-60.0, 40.0]), mask];
+    window.drag_along(&way, PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
+    assert_eq!(window.steps(), 0);
+}
+
+#[test]
+fn a_second_wire_on_a_taken_mask_asks_how_both_are_put_together() {
+    let mut window = Window::opened(WIRED);
+    for (answer, mode) in [
+        ("Multiply", "multiply"),
+        ("Add", "add"),
+        ("Max", "max"),
+        ("Subtract", "subtract"),
+    ] {
+        window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
+        assert!(window.says("There is a mask already"));
+        assert_eq!(
+            window.reads(&id("layer"), "mask"),
+            "clouds",
+            "nothing is done before the answer"
+        );
+        window.press(answer);
+        let blend = window.desk().selected_one().expect("the blend").clone();
+        assert_eq!(window.reads(&id("layer"), "mask"), blend.to_string());
+        assert_eq!(
+            [window.reads(&blend, "below"), window.reads(&blend, "above")],
+            ["clouds", "dots"]
+        );
+        assert_eq!(window.param(&blend, "mode").as_deref(), Some(&*format!("\"{mode}\"")));
+        assert_eq!(window.steps(), 1);
+        window.undo(1);
+    }
+}
+
+#[test]
+fn a_second_wire_may_replace_the_first_or_be_let_go() {
+    let mut window = Window::opened(WIRED);
+    window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
+    window.key(Key::Escape);
+    assert!(!window.says("There is a mask already"));
+    assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
+    window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
+    window.press("Replace");
+    assert_eq!(window.reads(&id("layer"), "mask"), "dots");
+}
+
+#[test]
+fn what_leads_in_a_circle_or_carries_something_else_is_not_tied() {
+    let mut window = Window::opened(WIRED);
+    window.wire((&id("layer"), "material"), (&id("invert"), "source"));
+    assert_eq!(window.reads(&id("invert"), "source"), "");
+    assert_eq!(window.steps(), 0);
+}
+
+#[test]
+fn a_node_dropped_on_a_wire_is_put_into_it() {
+    let mut window = Window::opened(WIRED);
+    let middle = between(window.port(&id("clouds"), "mask"), window.port(&id("layer"), "mask"));
+    let grip = window.title(&id("invert"));
+    let center = window.rect(&id("invert")).center();
+    window.drag_from(grip, middle + (grip - center));
+    assert_eq!(window.reads(&id("invert"), "source"), "clouds");
+    assert_eq!(window.reads(&id("layer"), "mask"), "invert");
+    assert_eq!(window.steps(), 1, "moved and tied in one step");
+    window.undo(1);
+    assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
+    assert_eq!(window.desk().node(&id("invert")).expect("a node").pos, [300.0, 520.0]);
+}
+
+const CHAIN: &str = r#"
+    "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+    "invert": { "kind": "adjust/invert", "inputs": { "source": "clouds" }, "pos": [280, 60] },
+    "layer": { "kind": "effect/layer", "inputs": { "mask": "invert" }, "pos": [560, 120] }
+"#;
+
+#[test]
+fn a_node_dragged_with_alt_leaves_its_wires_which_heal() {
+    let mut window = Window::opened(CHAIN);
+    let grip = window.title(&id("invert"));
+    window.drag_with(grip, beside(grip, [0.0, 420.0]), Modifiers::ALT);
+    assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
+    assert_eq!(window.reads(&id("invert"), "source"), "");
+    assert_eq!(window.steps(), 1);
+    assert!(window.desk().node(&id("invert")).expect("a node").pos[1] > 300.0);
+    window.undo(1);
+    assert_eq!(window.reads(&id("layer"), "mask"), "invert");
+}
+
+#[test]
+fn a_line_drawn_with_ctrl_and_the_right_button_cuts_what_it_crosses() {
+    let mut window = Window::opened(CHAIN);
+    let gap = between(window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source"));
+    let way = [beside(gap, [0.0, -90.0]), beside(gap, [0.0, 90.0])];
+    window.drag_along(&way, PointerButton::Secondary, Modifiers::COMMAND);
+    assert_eq!(window.reads(&id("invert"), "source"), "");
+    assert_eq!(
+        window.reads(&id("layer"), "mask"),
+        "invert",
+        "the other wire is not crossed"
+    );
+    assert_eq!(window.steps(), 1);
+    assert!(!window.says("Find a node"), "no menu opens after it");
+}
+
+#[test]
+fn a_click_with_alt_cuts_a_wire_and_a_double_click_bends_it() {
+    let mut window = Window::opened(CHAIN);
+    let gap = between(window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source"));
+    window.double_click(gap);
+    let bend = window
+        .desk()
+        .graph()
+        .nodes()
+        .find(|(_, node)| node.kind == "graph/reroute");
+    let bend = bend.expect("a bend").0.clone();
+    assert_eq!(window.reads(&bend, "source"), "clouds");
+    assert_eq!(window.reads(&id("invert"), "source"), bend.to_string());
+    window.undo(1);
+    window.click_with(gap, PointerButton::Primary, Modifiers::ALT);
+    assert_eq!(window.reads(&id("invert"), "source"), "");
+}
+
+#[test]
+fn ports_stand_beside_the_rows_that_name_them() {
+    let mut window = Window::opened(CHAIN);
+    let rect = window.rect(&id("layer"));
+    let base = window.port(&id("layer"), "base");
+    let row = (TITLE_HEIGHT + 0.5 * ROW_HEIGHT) * window.zoom();
+    assert!(
+        (base - (rect.left_top() + egui::vec2(0.0, row))).length() < 1.5,
+        "{base:?} {rect:?}"
+    );
+    window.point(base);
+}
