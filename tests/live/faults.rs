@@ -172,3 +172,44 @@ fn warnings_stay_as_long_as_what_they_are_about() {
     let told = warnings(3, "").expect("other warnings");
     assert!(!told.iter().any(|sentence| sentence.contains("open")), "{told:?}");
 }
+
+#[test]
+fn the_files_that_a_graph_hangs_on_are_told_when_they_change_whether_they_are_there_or_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let window = Window::new();
+    let files = |revision: u64, nodes: &str| {
+        let mut graph = graph(nodes);
+        graph.path = folder.path().join("graph.sabi");
+        let told = window.answer(wish(revision, graph));
+        let named = told.all.iter().find_map(|news| match news {
+            sabi_engine::News::Files { files, .. } => Some(files.clone()),
+            _ => None,
+        });
+        let names = |files: std::collections::BTreeSet<std::path::PathBuf>| {
+            let names = files
+                .iter()
+                .map(|file| file.strip_prefix(folder.path()).expect("beside the graph").to_owned());
+            names.map(|name| name.display().to_string()).collect::<Vec<String>>()
+        };
+        named.map(names)
+    };
+    let image = r#""image": { "kind": "source/image", "params": { "file": "maps/rust.png" } }"#;
+    assert_eq!(
+        files(1, image).as_deref(),
+        Some(["maps/rust.png".to_owned()].as_slice())
+    );
+    assert_eq!(files(2, &image.replace("\"image\":", "\"other\":")), None);
+    let group = r#""wear": { "kind": "graph/group", "group": "wear.sabi" }"#;
+    assert_eq!(
+        files(3, group).as_deref(),
+        Some(["wear.sabi".to_owned()].as_slice()),
+        "it is not there"
+    );
+    let inner = image.replace("maps/", "");
+    let text = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {inner} }} }}"#);
+    fs::create_dir(folder.path().join("lib")).expect("a folder");
+    fs::write(folder.path().join("lib/wear.sabi"), text).expect("a group file");
+    let group = group.replace("wear.sabi", "lib/wear.sabi");
+    let both = ["lib/rust.png", "lib/wear.sabi"].map(str::to_owned);
+    assert_eq!(files(4, &group).as_deref(), Some(both.as_slice()));
+}

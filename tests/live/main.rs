@@ -4,4 +4,5 @@ mod answers;
 mod faults;
 mod models;
 mod thumbnails;
+mod walk;
 mod window;

@@ -1,9 +1,10 @@
 //! Adding a node takes one file and nothing else, at run time too.
 
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use sabi_engine::{Kinds, NodeWatcher};
+use sabi_engine::{Kinds, Watched, Watcher};
 use sabi_tests::{NodeFolder, OnMesh, project};
 
 /// The example of the design, under a name of its own.
@@ -69,35 +70,63 @@ fn a_broken_edit_keeps_the_last_good_version() {
     assert!(told, "{:?}", on_mesh.workpiece.warnings);
 }
 
-/// Waits for what is on its way; how long that takes is the system's business.
-fn refreshed(watcher: &NodeWatcher, kinds: &mut Kinds) -> bool {
-    watcher.refresh(kinds, Duration::from_secs(20))
+/// A folder of nodes that is watched.
+struct WatchedNodes<'f> {
+    folder: &'f NodeFolder,
+    watcher: Watcher,
+    woken: Receiver<()>,
+}
+
+impl WatchedNodes<'_> {
+    fn new(folder: &NodeFolder) -> WatchedNodes<'_> {
+        let (wake, woken) = channel();
+        let watcher = Watcher::new(move || {
+            // Nobody listens once the test is over.
+            let _ = wake.send(());
+        });
+        let watcher = watcher.expect("a watcher");
+        watcher.watch(Watched {
+            nodes: vec![folder.path()],
+            ..Watched::default()
+        });
+        while !watcher.is_watching() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        WatchedNodes { folder, watcher, woken }
+    }
+
+    /// Waits for a change that is on its way and reads it; how long that takes is the system's business.
+    fn refresh(&self, kinds: &mut Kinds) {
+        self.woken.recv_timeout(Duration::from_secs(60)).expect("a change");
+        assert!(self.watcher.changes().nodes, "nothing else is watched");
+        kinds.reread(&[self.folder.path()]);
+    }
 }
 
 #[test]
 fn an_edit_is_seen_and_a_broken_one_is_told() {
     let folder = NodeFolder::new(&[("own/facing", FACING)]);
     let mut kinds = folder.kinds();
-    let watcher = NodeWatcher::new(&folder.path()).expect("a watcher");
-    assert!(!watcher.refresh(&mut kinds, Duration::ZERO), "nothing has changed");
+    let watched = WatchedNodes::new(&folder);
+    assert!(watched.watcher.changes().is_empty(), "nothing has changed");
 
     folder.write(
         "own/facing",
         &FACING.replace("return 1.0 - smoothstep", "return smoothstep"),
     );
-    assert!(refreshed(&watcher, &mut kinds));
+    watched.refresh(&mut kinds);
     assert!(kinds.faults.is_empty(), "{:?}", kinds.faults);
     let (on_mesh, values) = evaluated(kinds.clone());
     assert!(selects_the_top(&on_mesh, &values, 1.0));
 
     folder.write("own/facing", "fn mask() {");
-    assert!(refreshed(&watcher, &mut kinds));
+    watched.refresh(&mut kinds);
     assert_eq!(kinds.faults.len(), 1, "{:?}", kinds.faults);
     let (on_mesh, values) = evaluated(kinds.clone());
     assert!(selects_the_top(&on_mesh, &values, 1.0));
 
     folder.write("own/facing", FACING);
-    assert!(refreshed(&watcher, &mut kinds));
+    watched.refresh(&mut kinds);
     assert!(kinds.faults.is_empty(), "{:?}", kinds.faults);
     let (on_mesh, values) = evaluated(kinds);
     assert!(selects_the_top(&on_mesh, &values, 0.0));
@@ -110,24 +139,24 @@ fn an_edit_of_a_library_reaches_the_nodes_that_use_it() {
     let library = |factor: &str| format!("/// Which way it is.\nconst turned_over: f32 = {factor};\n");
     let folder = NodeFolder::new(&[("lib/own", &library("1.0")), ("own/facing", &node)]);
     let mut kinds = folder.kinds();
-    let watcher = NodeWatcher::new(&folder.path()).expect("a watcher");
+    let watched = WatchedNodes::new(&folder);
     let (on_mesh, values) = evaluated(kinds.clone());
     assert!(selects_the_top(&on_mesh, &values, 1.0));
 
     folder.write("lib/own", "const turned_over: f32 = ;");
-    assert!(refreshed(&watcher, &mut kinds));
+    watched.refresh(&mut kinds);
     assert_eq!(kinds.faults.len(), 1, "{:?}", kinds.faults);
     let (on_mesh, values) = evaluated(kinds.clone());
     assert!(selects_the_top(&on_mesh, &values, 1.0));
 
     folder.write("lib/own", &library("0.0"));
-    assert!(refreshed(&watcher, &mut kinds));
+    watched.refresh(&mut kinds);
     assert!(kinds.faults.is_empty(), "{:?}", kinds.faults);
     let (on_mesh, values) = evaluated(kinds.clone());
     assert!(on_mesh.owned().all(|(index, _)| values[index] == 1.0));
 
     folder.remove("own/facing");
-    assert!(refreshed(&watcher, &mut kinds));
+    watched.refresh(&mut kinds);
     assert!(kinds.library.kind("own/facing").is_none());
 }
 

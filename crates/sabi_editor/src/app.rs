@@ -36,6 +36,7 @@ use crate::search::{Candidate, candidates};
 use crate::settings::Settings;
 use crate::stage::Stage;
 use crate::theme::Theme;
+use crate::watching::Watching;
 
 /// How often what is not saved is kept in case the program ends.
 const KEEP_EVERY: Duration = Duration::from_secs(3);
@@ -79,6 +80,7 @@ pub(crate) struct Editor {
     pub(crate) desk: Desk,
     pub(crate) canvas: Canvas,
     pub(crate) stage: Stage,
+    pub(crate) watching: Watching,
     pub(crate) model_view: ModelView,
     pub(crate) flat_view: FlatView,
     theme: Arc<Theme>,
@@ -89,7 +91,7 @@ pub(crate) struct Editor {
     layout: Layout,
     use_layout: Option<Layout>,
     /// Where panels were when they were last drawn.
-    rects: BTreeMap<Panel, Rect>,
+    pub(crate) rects: BTreeMap<Panel, Rect>,
     /// The panel that keys are for.
     pub(crate) active: Panel,
     candidates: (Option<(u64, u64)>, Vec<Candidate>),
@@ -104,7 +106,7 @@ pub(crate) struct Editor {
     /// Outputs of nodes other than the first that thumbnails show, by the full id of the node.
     ports: BTreeMap<String, String>,
     /// Whether a knob is being moved.
-    is_moving: bool,
+    pub(crate) is_moving: bool,
     knob_memory: KnobMemory,
     pub(crate) panels: panels::Panels,
     pub(crate) files: Files,
@@ -152,6 +154,8 @@ impl Editor {
             keepsakes: Keepsakes::new(beginning.folders.cache.clone()),
             ..panels::Panels::default()
         };
+        let (watching, fault) = Watching::new(context);
+        faults.extend(fault.map(|error| error.to_string()));
         let stage = Stage::new(gpu, &model, beginning.folders.cache.clone(), context);
         let mut editor = Editor {
             model_view: ModelView::new(&settings.environment),
@@ -182,6 +186,7 @@ impl Editor {
             desk,
             canvas,
             stage,
+            watching,
             render,
             handover,
             is_leaving: false,
@@ -209,6 +214,9 @@ impl Editor {
     /// Draws everything and does what is asked for.
     pub(crate) fn frame(&mut self, ui: &mut Ui) {
         let began = Instant::now();
+        if self.is_leaving {
+            return;
+        }
         let context = ui.ctx().clone();
         self.stage.take_news(&context);
         self.panels.export.poll();
@@ -216,14 +224,12 @@ impl Editor {
             self.hand_over(&context);
             return;
         }
-        // Whoever comes back may have saved group files in another window.
-        if ui.input(|input| input.events.contains(&egui::Event::WindowFocused(true))) {
-            self.desk.group_files_changed();
-        }
+        self.follow_files();
         let mut actions = self.keys_pressed(ui);
         self.take_dropped(&context, &mut actions);
         self.refresh_candidates();
         self.top_bar(ui, &mut actions);
+        self.show_outside(ui);
         self.status_bar(ui);
         self.panels(ui, &mut actions);
         self.leave_hidden();

@@ -32,7 +32,7 @@ mod variants;
 mod wires;
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Catalog, Entry, Faces};
@@ -312,11 +312,20 @@ impl Desk {
         std::mem::take(&mut self.notices)
     }
 
-    /// Looks again at group files, since some were saved by somebody else.
-    pub(crate) fn group_files_changed(&mut self) {
+    /// Looks again at group files and pictures, since some were saved by somebody else.
+    pub(crate) fn files_changed(&mut self, files: &BTreeSet<PathBuf>) {
+        self.session.graph().look_again(files);
+        self.group_files.look_again(files);
         self.faces.0 = None;
         self.files_revision += 1;
         self.refresh();
+    }
+
+    /// Takes what the graph's file holds by now, as a step.
+    pub(crate) fn read_again(&mut self) -> Result<(), EngineError> {
+        let read = self.session.read_again();
+        self.refresh();
+        read
     }
 
     /// Brings what follows from the document up to date.

@@ -10,11 +10,14 @@ mod files;
 mod flat_view;
 mod knobs;
 mod model_view;
+mod offscreen;
 mod panels;
 mod search;
 mod settings;
 mod stage;
 mod theme;
+mod watching;
 mod window;
 
+pub use offscreen::{FrameTime, Offscreen};
 pub use window::{EditRequest, edit};

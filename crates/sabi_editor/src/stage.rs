@@ -55,6 +55,8 @@ pub(crate) struct Stage {
     /// The finest model that came.
     pub(crate) shown_model: Option<Arc<LiveModel>>,
     pub(crate) faults: Faults,
+    /// Pictures and group files that the graph names.
+    pub(crate) files: Arc<BTreeSet<PathBuf>>,
     by_node: BTreeMap<String, String>,
     waiting: BTreeMap<String, String>,
     times: BTreeMap<String, Duration>,
@@ -98,6 +100,7 @@ impl Stage {
             inspected: None,
             shown_model: None,
             faults: Faults::default(),
+            files: Arc::default(),
             by_node: BTreeMap::new(),
             waiting: BTreeMap::new(),
             times: BTreeMap::new(),
@@ -121,6 +124,12 @@ impl Stage {
     /// The file of the model.
     pub(crate) fn model_file(&self) -> &Path {
         &self.model.path
+    }
+
+    /// The model that is there, and whether it is the one that is wanted.
+    pub(crate) fn loaded_model(&self) -> (Option<u64>, bool) {
+        let loaded = self.shown_model.as_ref().map(|model| model.model_revision);
+        (loaded, loaded == Some(self.model_revision))
     }
 
     /// Texels along a side that full pictures have.
@@ -215,12 +224,14 @@ impl Stage {
                 }
                 News::Shown { seen, model, shown, .. } => {
                     self.numbers += 1;
+                    tracing::info!(?seen, texels = model.size, "a picture came");
                     self.failure = None;
                     let number = self.numbers;
                     self.pictures.insert(seen, Picture { model, shown, number });
                 }
                 News::Inspected { node, values, .. } => self.inspected = Some((node, values)),
                 News::Thumbnail { node, picture, .. } => self.take_thumbnail(context, node, picture),
+                News::Files { files, .. } => self.files = Arc::new(files),
                 News::Faults { faults, .. } => self.take_faults(faults),
                 News::Times { times, .. } => {
                     self.times.extend(times.nodes.iter().cloned());

@@ -1,5 +1,6 @@
 //! A graph file and the files it stands among.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -48,6 +49,11 @@ impl OpenGraph {
         self.path.parent().unwrap_or(Path::new(""))
     }
 
+    /// Looks at these pictures again when they are used next, however little they seem to have changed.
+    pub fn look_again(&self, pictures: &BTreeSet<PathBuf>) {
+        self.pictures.look_again(pictures);
+    }
+
     /// What is in the files that these nodes of the flat graph name.
     pub(crate) fn file_contents(
         &self,
@@ -82,7 +88,17 @@ impl OpenGraph {
         overrides: &Overrides,
         wanted: &[NodeRef],
     ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
-        self.try_flatten(overrides, wanted).map_err(|(error, of_file)| {
+        self.flatten_and_list(overrides, wanted, &mut BTreeSet::new())
+    }
+
+    /// The same; `groups` takes in the group files that were looked for, whatever came of it.
+    pub(crate) fn flatten_and_list(
+        &self,
+        overrides: &Overrides,
+        wanted: &[NodeRef],
+        groups: &mut BTreeSet<PathBuf>,
+    ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
+        self.try_flatten(overrides, wanted, groups).map_err(|(error, of_file)| {
             let kind = if self.is_asked_for(&error, overrides) {
                 ErrorKind::Usage
             } else {
@@ -97,11 +113,13 @@ impl OpenGraph {
         &self,
         overrides: &Overrides,
         wanted: &[NodeRef],
+        groups: &mut BTreeSet<PathBuf>,
     ) -> Result<(FlatGraph, Vec<Found>), (FlattenError, ErrorKind)> {
         let folder = self.folder().to_owned();
         let mut kind = ErrorKind::BadInput;
         let mut group_file = |name: &str| {
             let path = folder.join(name);
+            groups.insert(path.clone());
             let text = read_text(&path).map_err(|error| {
                 kind = error.kind;
                 format!("{}: {error}", path.display())
@@ -113,7 +131,7 @@ impl OpenGraph {
 
     /// Whether an error comes from what was set on top of the files, which are without it otherwise.
     fn is_asked_for(&self, error: &FlattenError, overrides: &Overrides) -> bool {
-        let is_gone_without = |less: &Overrides| match self.try_flatten(less, &[]) {
+        let is_gone_without = |less: &Overrides| match self.try_flatten(less, &[], &mut BTreeSet::new()) {
             Ok(_) => true,
             Err((other, _)) => other != *error,
         };

@@ -37,13 +37,36 @@ impl Kinds {
     /// The built-in kinds, and those of a `nodes` folder beside the graph and of the user's folder.
     pub fn beside(graph: Option<&Path>) -> Kinds {
         let mut kinds = Kinds::builtin();
+        kinds.reread(&Kinds::folders(graph));
+        kinds
+    }
+
+    /// The folders of own nodes that belong to a graph: the user's, and `nodes` beside it. They need not be there.
+    pub fn folders(graph: Option<&Path>) -> Vec<PathBuf> {
         let beside = graph.map(|graph| graph.parent().unwrap_or(Path::new("")).join("nodes"));
-        for folder in user_folder().into_iter().chain(beside) {
+        user_folder().into_iter().chain(beside).collect()
+    }
+
+    /// Reads folders again: takes what changed, keeps the last good version of what has a fault now, and drops nodes whose
+    /// files are gone.
+    pub fn reread(&mut self, folders: &[PathBuf]) {
+        for folder in folders {
+            self.faults.retain(|fault| !fault.path.starts_with(folder));
             if folder.is_dir() {
-                kinds.add_folder(&folder);
+                self.add_folder(folder);
+            } else {
+                self.drop_folder(folder);
             }
         }
-        kinds
+    }
+
+    /// Drops the nodes of a folder that is gone.
+    fn drop_folder(&mut self, folder: &Path) {
+        let own = self.library.kinds().filter(|kind| kind.path.starts_with(folder));
+        let ids: Vec<String> = own.map(|kind| kind.id.clone()).collect();
+        for id in ids {
+            self.library.remove(&id);
+        }
     }
 
     /// Has the kinds that show the model know this one.

@@ -61,12 +61,12 @@ pub use preview::{PreviewRequest, preview};
 pub use render::{RenderRequest, Turns, render};
 pub use report::{BakeReport, StageTime, StageTimes};
 pub use seams::Seams;
-pub use session::{Recovery, Session, recoveries};
+pub use session::{FileState, Recovery, Session, recoveries};
 pub use setting::read_setting;
 pub use sheet::SheetPlane;
 pub use stages::{Progress, Silent, Stage};
 pub use thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
-pub use watch::NodeWatcher;
+pub use watch::{Changes, Watched, Watcher};
 pub use workpiece::{Workpiece, WorkpieceOptions};
 
 pub use sabi_gpu::{

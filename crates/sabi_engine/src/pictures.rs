@@ -1,6 +1,6 @@
 //! Pictures that nodes name: known by what is in their files, decoded when they are used, shared by all nodes that use them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::SystemTime;
@@ -178,6 +178,12 @@ impl Pictures {
     /// Lets go of all pictures; they are read again when they are needed again.
     pub(crate) fn forget(&self) {
         *self.lock() = Held::default();
+    }
+
+    /// Reads these files again when they are used next: some are written so soon after one another that neither length nor
+    /// time tells.
+    pub(crate) fn look_again(&self, files: &BTreeSet<PathBuf>) {
+        self.lock().known.retain(|file, _| !files.contains(file));
     }
 
     fn lock(&self) -> MutexGuard<'_, Held> {

@@ -77,7 +77,7 @@ pub struct Prepared {
     pub atlas: Atlas,
     /// What hangs together inside its parts.
     pub pieces: Arc<Pieces>,
-    /// What its rays are followed through; built when the first one is shot.
+    /// What its rays are followed through; built when the first one is shot, and by the live evaluator before one is.
     pub bvh: Arc<OnceLock<Bvh>>,
     finest_texel: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
@@ -191,6 +191,11 @@ impl Prepared {
             solidity: OnceLock::new(),
             ..*self
         })
+    }
+
+    /// What rays are followed through, built now if that was not done.
+    pub(crate) fn hierarchy(&self) -> &Bvh {
+        self.bvh.get_or_init(|| Bvh::build(&self.model.mesh))
     }
 
     /// Factor from model units to working units under a fit.

@@ -23,6 +23,17 @@ const UNTITLED: &str = "untitled.sabi";
 /// What the file that a save replaces is called, after its own name.
 const BACKUP: &str = ".bak";
 
+/// What the file of a session holds, beside what the session last read from it or wrote to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileState {
+    /// The same, or the session has no file.
+    Same,
+    /// Something else, which another program wrote.
+    Another,
+    /// There is no such file any more, or none that can be read.
+    Gone,
+}
+
 /// A graph that is being worked on.
 #[derive(Debug)]
 pub struct Session {
@@ -176,6 +187,39 @@ impl Session {
         let redone = self.history.redo(&mut self.open.document)?;
         self.revision += u64::from(redone.is_some());
         Ok(redone)
+    }
+
+    /// What its file holds by now, whoever wrote it.
+    pub fn file_state(&self) -> FileState {
+        let Some(file) = &self.file else {
+            return FileState::Same;
+        };
+        match fs::read(file) {
+            Ok(bytes) if bytes == self.open.text.as_bytes() || bytes == self.saved.as_bytes() => FileState::Same,
+            Ok(_) => FileState::Another,
+            Err(_) => FileState::Gone,
+        }
+    }
+
+    /// Takes what its file holds by now in the place of what is here, as a step that can be undone.
+    ///
+    /// # Errors
+    /// The file is none that can be read; nothing changes.
+    pub fn read_again(&mut self) -> Result<(), EngineError> {
+        let Some(file) = &self.file else {
+            return Ok(());
+        };
+        let read = OpenGraph::open(file)?;
+        self.end();
+        let saved = read.document.to_json();
+        let edit = Edit::Replace {
+            document: Box::new(read.document),
+        };
+        let taken = self.edit("Open the file anew", edit);
+        taken.map_err(|error| EngineError::new(ErrorKind::BadInput, error.to_string()))?;
+        self.open.text = read.text;
+        self.saved = saved;
+        Ok(())
     }
 
     /// The canonical text of the document.

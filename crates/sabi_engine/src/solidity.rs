@@ -3,7 +3,6 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use sabi_plan::{Plan, Step};
-use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Mesh;
 
 use crate::prepare::Prepared;
@@ -55,7 +54,7 @@ fn about(prepared: &Prepared) -> Vec<String> {
 /// from several pieces are meant to reach into each other.
 fn crossings(prepared: &Prepared) -> u32 {
     let mesh = &prepared.model.mesh;
-    let bvh = prepared.bvh.get_or_init(|| Bvh::build(mesh));
+    let bvh = prepared.hierarchy();
     let pieces = &prepared.pieces.triangle_piece;
     let place = |vertex: u32| Vec3::from(mesh.positions[vertex as usize]);
     let crosses = |triangle: u32, [from, to]: [u32; 2]| {

@@ -74,6 +74,10 @@ impl Document {
                 let seed = std::mem::replace(&mut self.seed, seed);
                 Ok(Edit::SetSeed { seed })
             }
+            Edit::Replace { mut document } => {
+                std::mem::swap(self, &mut document);
+                Ok(Edit::Replace { document })
+            }
             Edit::Batch(edits) => self.apply_all(edits),
         }
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::document::{Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
 use crate::problem::Problem;
-use crate::{Node, NodeId, OutputRef, Value};
+use crate::{Document, Node, NodeId, OutputRef, Value};
 
 /// Which graph of a document is meant.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -95,6 +95,8 @@ pub enum Edit {
     SetFit { fit: Fit },
     /// Sets the document's seed.
     SetSeed { seed: u32 },
+    /// Puts another document in the place of this one.
+    Replace { document: Box<Document> },
     /// Several edits as one: when one fails, none was made.
     Batch(Vec<Edit>),
 }

@@ -30,6 +30,8 @@ use crate::model::Model;
 pub const MAX_TRIANGLES: u64 = 50_000_000;
 /// Room for the vertices and corners of that many triangles, written out as text.
 const MAX_FILE_BYTES: u64 = 32 << 30;
+/// No more places of files that are not there are taken down.
+const MOST_ABSENT: usize = 256;
 
 /// How a model is to be read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,14 +92,22 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
     let bytes = read_file(path).map_err(|unread| fault(reason(unread).map_or(Fault::NoFile, Fault::Unreadable)))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut files = vec![path.to_owned()];
-    let mut resolve = |uri: &str| {
-        let (bytes, file) = beside(folder, uri)?;
-        files.push(file);
-        Ok(bytes)
+    let mut absent = Vec::new();
+    let mut resolve = |uri: &str| match beside(folder, uri) {
+        Ok((bytes, file)) => {
+            files.push(file);
+            Ok(bytes)
+        }
+        Err(reason) => {
+            absent.extend(places(folder, uri));
+            absent.truncate(MOST_ABSENT);
+            Err(reason)
+        }
     };
     let loaded = load_bytes(&name, &bytes, &mut resolve, options);
     let mut model = loaded.map_err(|error| fault(error.fault))?;
     model.files = files;
+    model.absent = absent;
     Ok(model)
 }
 
@@ -169,10 +179,7 @@ fn reason(unread: Unread) -> Option<String> {
 /// A file that a model names: as named, with the other system's separators, or by its bare name in the model's folder,
 /// since artists' files carry the paths of another machine.
 fn beside(folder: &Path, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
-    let slashed = uri.replace('\\', "/");
-    let bare = slashed.rsplit('/').next().unwrap_or_default().to_string();
-    for candidate in [uri, &slashed, &bare] {
-        let file = folder.join(candidate);
+    for file in places(folder, uri) {
         match read_file(&file) {
             Ok(bytes) => return Ok((bytes, file)),
             Err(unread) => {
@@ -183,4 +190,11 @@ fn beside(folder: &Path, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
         }
     }
     Err("there is no such file".into())
+}
+
+/// Where a file is looked for that a model names, the likeliest place first.
+fn places(folder: &Path, uri: &str) -> [PathBuf; 3] {
+    let slashed = uri.replace('\\', "/");
+    let bare = slashed.rsplit('/').next().unwrap_or_default();
+    [uri, &slashed, bare].map(|place| folder.join(place))
 }

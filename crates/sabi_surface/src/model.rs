@@ -22,6 +22,8 @@ pub struct Model {
     pub parts: Vec<String>,
     /// Files that it was read from: the model's own, buffers, pictures, material libraries. Empty when read from memory.
     pub files: Vec<PathBuf>,
+    /// Files that it names and that are not there, where they were looked for; of very many only the first.
+    pub absent: Vec<PathBuf>,
     /// Whether the file is glTF, text or binary; a copy of any other is made from what was loaded.
     pub is_gltf: bool,
     /// What of it has no UVs of the chosen set although other triangles have: materials as warnings name them.

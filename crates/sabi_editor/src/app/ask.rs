@@ -154,6 +154,7 @@ impl Editor {
     pub(super) fn problem_count(&self) -> usize {
         let stage = &self.stage;
         let failures = usize::from(stage.failure.is_some()) + usize::from(stage.model_failure.is_some());
-        stage.faults.faults.len() + stage.faults.other.len() + failures
+        let of_kinds = self.desk.kinds().0.faults.len();
+        stage.faults.faults.len() + stage.faults.other.len() + of_kinds + failures
     }
 }

@@ -316,7 +316,7 @@ impl Editor {
     }
 
     /// Takes another model, and remembers it on the strip.
-    pub(super) fn take_model(&mut self, path: &Path) {
+    pub(crate) fn take_model(&mut self, path: &Path) {
         self.stage.take_model(path);
         self.remember_model();
     }

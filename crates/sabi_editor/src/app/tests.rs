@@ -19,6 +19,7 @@ mod pictures;
 mod ports;
 mod safety;
 mod views;
+mod watching;
 mod wires;
 
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! Graph files that are used as groups, read once for each time they are saved.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -17,6 +17,11 @@ pub(super) struct GroupFiles {
 }
 
 impl GroupFiles {
+    /// Reads these files again when they are used next, however little they seem to have changed.
+    pub(super) fn look_again(&mut self, files: &BTreeSet<PathBuf>) {
+        self.known.retain(|file, _| !files.contains(file));
+    }
+
     /// A graph file; none where there is none that can be read, and the evaluation says what is wrong with it.
     pub(super) fn read(&mut self, path: &Path) -> Option<Document> {
         // Taken first, so that a file that is saved meanwhile looks changed the next time.

@@ -71,6 +71,7 @@ impl ModelView {
                 self.fault = None;
                 if has_drawn {
                     self.drawn += 1;
+                    tracing::debug!(drawn = self.drawn, "the model was drawn");
                     ui.ctx().request_repaint();
                 }
             }

@@ -1,6 +1,7 @@
 //! The graph without its groups, and what is wrong with it.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
 use sabi_graph::{FlatGraph, NodeRef, Overrides, Value};
 use sabi_plan::{FileContents, PlanError, Target};
@@ -11,6 +12,7 @@ use super::wish::Seen;
 use super::worker::{Job, Worker};
 use crate::modelless::{all_nodes, planner};
 use crate::outputs::clashes;
+use crate::pictures;
 
 /// The graph of a wish, flat, and where in it the wanted results are.
 pub(super) struct Laid {
@@ -39,9 +41,12 @@ impl Worker {
         });
         let named = seen.chain(&wish.inspected).chain(&wish.thumbnails);
         let named: Vec<NodeRef> = named.cloned().collect::<BTreeSet<_>>().into_iter().collect();
-        let (graph, found) = match wish.graph.flatten_and_find(&Overrides::default(), &named) {
+        let mut files = BTreeSet::new();
+        let flat = wish.graph.flatten_and_list(&Overrides::default(), &named, &mut files);
+        let (graph, found) = match flat {
             Ok(laid) => laid,
             Err(error) => {
+                self.tell_files(job, files);
                 let other = error.messages;
                 self.tell_if_new(
                     job,
@@ -53,6 +58,8 @@ impl Worker {
                 return None;
             }
         };
+        files.extend(pictures::files(wish.graph.folder(), &graph, &wish.kinds));
+        self.tell_files(job, files);
         let mut other = clashes(&graph);
         let mut targets = BTreeMap::new();
         for (node, found) in named.into_iter().zip(found) {
@@ -78,6 +85,18 @@ impl Worker {
         self.broken.retain(|id, broken| laid.is_still_broken(id, broken));
         self.tell_faults(job, &laid);
         Some(laid)
+    }
+
+    /// Tells which files the graph names, if they are others than before.
+    fn tell_files(&mut self, job: &Job, files: BTreeSet<PathBuf>) {
+        if self.sent.files.as_ref() == Some(&files) {
+            return;
+        }
+        self.sent.files = Some(files.clone());
+        self.tell(News::Files {
+            revision: job.wish.revision,
+            files,
+        });
     }
 
     /// Tells what is wrong, if that has changed.

@@ -1,5 +1,7 @@
 //! What a window is told.
 
+use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -67,6 +69,13 @@ pub enum News {
         revision: u64,
         /// What it is.
         faults: Faults,
+    },
+    /// Which files besides its own the graph hangs on, whenever that changes: pictures and group files, there or not.
+    Files {
+        /// Of which wish.
+        revision: u64,
+        /// Where they are.
+        files: BTreeSet<PathBuf>,
     },
     /// What a wish took, once it is answered or a newer one took its place.
     Times {

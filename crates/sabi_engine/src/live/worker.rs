@@ -1,6 +1,7 @@
 //! The thread that works: it takes the last wish and answers it step by step.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -45,6 +46,7 @@ pub(super) struct Sent {
     pub(super) thumbnails: BTreeMap<NodeRef, Key>,
     pub(super) inspected: Option<(NodeRef, Key)>,
     pub(super) faults: Option<Faults>,
+    pub(super) files: Option<BTreeSet<PathBuf>>,
 }
 
 /// What a viewport shows.
@@ -128,6 +130,12 @@ impl Worker {
             is_full_first: false,
         };
         let outcome = self.answer_in_order(&mut job);
+        if outcome.is_ok()
+            && let Some(stage) = self.loaded.as_mut().and_then(Loaded::best)
+        {
+            // The window picks with it, and must not wait for it.
+            stage.model.prepared.hierarchy();
+        }
         if job.tally.steps + job.tally.cache_hits > 0 {
             self.tell_times(&job);
         }

@@ -35,6 +35,7 @@ impl Document {
             Edit::SetPreview { preview } => self.preview == *preview,
             Edit::SetFit { fit } => self.fit == *fit,
             Edit::SetSeed { seed } => self.seed == *seed,
+            Edit::Replace { document } => *self == **document,
             Edit::AddNode { .. }
             | Edit::RemoveNode { .. }
             | Edit::RemoveFrame { .. }

@@ -311,3 +311,18 @@ proptest! {
         prop_assert_eq!(document.to_json(), after);
     }
 }
+
+#[test]
+fn a_document_in_the_place_of_another_gives_way_to_it_again() {
+    let mut first = chain();
+    let other = document("", r#""lone": { "kind": "noise/white" }"#);
+    let replace = Edit::Replace {
+        document: Box::new(other.clone()),
+    };
+    assert!(!first.is_as_after(&replace));
+    let inverse = first.apply(replace.clone()).unwrap();
+    assert_eq!(first, other);
+    assert!(first.is_as_after(&replace));
+    first.apply(inverse).unwrap();
+    assert_eq!(first.to_json(), chain().to_json());
+}

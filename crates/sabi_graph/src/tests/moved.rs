@@ -100,3 +100,15 @@ fn undo_after_a_move_leads_to_what_was_before_as_it_is_written_now() {
         assert_eq!(document.to_json(), written(state));
     }
 }
+
+#[test]
+fn a_document_that_was_put_away_follows_to_another_folder() {
+    let (mut document, mut history) = (pictures(), History::new());
+    let replace = Edit::Replace {
+        document: Box::new(Document::default()),
+    };
+    history.apply(&mut document, "Another", replace).unwrap();
+    history.relocate(&document, relocation(&deeper));
+    history.undo(&mut document).unwrap();
+    assert_eq!(document, pictures().relocated(relocation(&deeper)));
+}

@@ -78,6 +78,8 @@ impl Library {
                 format!("There is a node `{id}` already, and this one is not read."),
                 "Give the file another name.",
             )),
+            // A library that changed had its nodes read again already.
+            Some(known) if *known.source == *text => {}
             _ => {
                 if let Err(mut found) = self.replace(SourceFile { path, id, text }) {
                     faults.append(&mut found);

@@ -1,5 +1,7 @@
 //! Adding, removing and setting nodes.
 
+use std::collections::BTreeSet;
+
 use super::*;
 
 #[test]
@@ -64,7 +66,7 @@ fn a_group_file_is_added_with_what_it_takes_and_gives() {
     );
     // Somebody else saves it.
     std::fs::write(&file, group.replace("Wear", "Worn out")).expect("a writable folder");
-    desk.group_files_changed();
+    desk.files_changed(&BTreeSet::from([file]));
     assert_eq!(desk.title(&wear), "Worn out");
 }
 

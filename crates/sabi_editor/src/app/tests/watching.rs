@@ -1,0 +1,245 @@
+//! Files that change while they are open.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use egui_kittest::kittest::Queryable;
+use sabi_engine::Session;
+
+use super::{Editor, Window};
+
+/// Writes a file in one step, as careful editors save.
+fn write(path: &Path, contents: impl AsRef<[u8]>) {
+    let folder = path.parent().expect("a folder");
+    fs::create_dir_all(folder).expect("a folder");
+    let draft = folder.join("draft");
+    fs::write(&draft, contents).expect("a draft");
+    fs::rename(draft, path).expect("a file");
+}
+
+fn graph_of(nodes: &str) -> String {
+    format!(r#"{{ "format": "sabi", "version": 1, "preview": {{ "size": 64 }}, "nodes": {{ {nodes} }} }}"#)
+}
+
+/// A window on a graph of these nodes with files beside it, all of them watched. It looks at the node `seen`, which has this
+/// value first.
+struct Watched {
+    window: Window,
+    folder: PathBuf,
+}
+
+impl Watched {
+    fn of(nodes: &str, files: &[(&str, &[u8])], first: f32) -> Watched {
+        let mut folder = PathBuf::new();
+        let mut window = Window::with(|folders| {
+            folder = folders.examples.clone().expect("a folder for examples");
+            for (name, contents) in files {
+                write(&folder.join(name), contents);
+            }
+            write(&folder.join("graph.sabi"), graph_of(nodes));
+            Session::open(&folder.join("graph.sabi"), None).expect("a graph")
+        });
+        let seen = "seen".parse().expect("an id");
+        window.harness.state_mut().look_at(&seen, None);
+        let mut watched = Watched { window, folder };
+        watched.until_value(first);
+        watched.rest();
+        watched
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
+        write(&self.path(name), contents);
+    }
+
+    fn until_value(&mut self, value: f32) {
+        self.window.until("the value", |editor| value_of(editor) == Some(value));
+    }
+
+    /// Waits until nothing is on its way, and all that is named is watched.
+    fn rest(&mut self) {
+        self.window.until("rest", |editor| {
+            editor.stage.loaded_model().1 && !editor.stage.is_busy() && editor.watching.is_watching()
+        });
+    }
+}
+
+/// What the node that is looked at gives.
+fn value_of(editor: &Editor) -> Option<f32> {
+    let (_, values) = editor.stage.inspected.as_ref()?;
+    let at = values.is_on_surface.iter().position(|is_there| *is_there)?;
+    let plane = values.planes.first()?;
+    plane.values.get(at * plane.components).copied()
+}
+
+/// A mask of one value.
+fn level(value: f32) -> String {
+    format!(
+        "//! Level\n//! One value everywhere.\n\n/// The value.\nfn mask(at: Surface) -> f32 {{\n    return {value:?};\n}}\n"
+    )
+}
+
+const LEVEL: &str = r#""seen": { "kind": "own/level" }"#;
+
+#[test]
+fn a_node_file_that_changes_changes_what_is_shown_and_a_broken_one_leaves_it() {
+    let mut watched = Watched::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
+    watched.write("nodes/own/level.wgsl", level(0.5));
+    watched.until_value(0.5);
+    watched.write("nodes/own/level.wgsl", "fn mask() {");
+    watched.window.until("a fault", |editor| editor.problem_count() > 0);
+    watched.rest();
+    assert_eq!(
+        value_of(watched.window.editor()),
+        Some(0.5),
+        "the last good version stays"
+    );
+    let faults = &watched.window.editor().desk.kinds().0.faults;
+    assert!(faults[0].path.ends_with("nodes/own/level.wgsl"), "{faults:?}");
+    watched.write("nodes/own/level.wgsl", level(0.75));
+    watched.until_value(0.75);
+    assert_eq!(watched.window.editor().problem_count(), 0);
+}
+
+#[test]
+fn a_first_node_file_of_ones_own_is_found() {
+    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    watched.write("nodes/own/level.wgsl", level(0.5));
+    watched.window.until("another kind", |editor| {
+        editor.desk.kinds().0.library.kind("own/level").is_some()
+    });
+}
+
+#[test]
+fn a_model_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
+    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let triangles = |editor: &Editor| {
+        let model = editor.stage.shown_model.as_ref().expect("a model");
+        model.prepared.model.mesh.triangles.len()
+    };
+    let of_cube = triangles(watched.window.editor());
+    let sphere = include_bytes!("../../../../../assets/meshes/sphere.glb");
+    watched.write("cube.glb", sphere);
+    watched
+        .window
+        .until("another model", |editor| triangles(editor) != of_cube);
+    watched.rest();
+    let of_sphere = triangles(watched.window.editor());
+    watched.write("cube.glb", &sphere[..100]);
+    watched
+        .window
+        .until("a failure", |editor| editor.stage.model_failure.is_some());
+    assert_eq!(triangles(watched.window.editor()), of_sphere, "the last good one stays");
+    watched.write("cube.glb", include_bytes!("../../../../../assets/meshes/cube.glb"));
+    watched.window.until("a model", |editor| triangles(editor) == of_cube);
+    watched.rest();
+    assert_eq!(watched.window.editor().stage.model_failure, None);
+}
+
+/// A picture of one gray pixel, as a BMP file.
+fn picture(gray: u8) -> Vec<u8> {
+    let mut bytes = b"BM".to_vec();
+    for number in [58_u32, 0, 54, 40, 1, 1, 24 << 16 | 1, 0, 4, 0, 0, 0, 0] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes.extend([gray, gray, gray, 0]);
+    bytes
+}
+
+#[test]
+fn a_picture_that_is_painted_over_is_shown() {
+    let image = r#""seen": { "kind": "source/image", "params": { "file": "gray.bmp" } }"#;
+    let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
+    watched.write("gray.bmp", picture(255));
+    watched.until_value(1.0);
+    fs::remove_file(watched.path("gray.bmp")).expect("the picture");
+    watched.window.until("a fault", |editor| editor.problem_count() > 0);
+    watched.write("gray.bmp", picture(0));
+    watched.until_value(0.0);
+    assert_eq!(watched.window.editor().problem_count(), 0);
+}
+
+/// A group file that gives one color.
+fn group(color: &str) -> String {
+    format!(
+        r##"{{ "format": "sabi", "version": 1, "outputs": {{ "color": "inner" }},
+            "nodes": {{ "inner": {{ "kind": "color/constant", "params": {{ "color": "{color}" }} }} }} }}"##
+    )
+}
+
+#[test]
+fn a_group_file_that_is_saved_elsewhere_is_used() {
+    let instance = r#""seen": { "kind": "graph/group", "group": "lib/wear.sabi" }"#;
+    let mut watched = Watched::of(instance, &[("lib/wear.sabi", group("#000000").as_bytes())], 0.0);
+    watched.write("lib/wear.sabi", group("#ffffff"));
+    watched.until_value(1.0);
+}
+
+const PLAIN: &str = r##""seen": { "kind": "color/constant", "params": { "color": "#ffffff" } }"##;
+
+#[test]
+fn a_graph_that_another_program_writes_is_asked_about_and_can_be_opened_anew() {
+    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    watched.write("graph.sabi", graph_of(&PLAIN.replace("#ffffff", "#000000")));
+    watched.window.until("a question", |editor| editor.watching.is_asked);
+    watched.rest();
+    assert_eq!(
+        value_of(watched.window.editor()),
+        Some(1.0),
+        "nothing happens by itself"
+    );
+    watched.window.harness.get_by_label("Open it anew").click();
+    watched.until_value(0.0);
+    assert!(!watched.window.editor().watching.is_asked);
+    let desk = &mut watched.window.harness.state_mut().desk;
+    assert!(!desk.session.is_dirty());
+    desk.undo();
+    watched.until_value(1.0);
+}
+
+#[test]
+fn what_is_here_can_be_kept_when_another_program_writes_the_graph() {
+    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let theirs = graph_of(&PLAIN.replace("#ffffff", "#000000"));
+    watched.write("graph.sabi", &theirs);
+    watched.window.until("a question", |editor| editor.watching.is_asked);
+    watched.window.harness.run_steps(2);
+    watched.window.harness.get_by_label("Keep what is here").click();
+    watched.window.until("an answer", |editor| !editor.watching.is_asked);
+    watched.window.harness.state_mut().save();
+    assert_eq!(fs::read_to_string(watched.path("graph.sabi.bak")).ok(), Some(theirs));
+    watched.rest();
+    assert_eq!(value_of(watched.window.editor()), Some(1.0));
+}
+
+#[test]
+fn saving_is_no_news() {
+    let image = r#""seen": { "kind": "source/image", "params": { "file": "gray.bmp" } }"#;
+    let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
+    let editor = watched.window.harness.state_mut();
+    let seen = "seen".parse().expect("an id");
+    editor.desk.set_knob(
+        &seen,
+        "projection",
+        Some(sabi_graph::Value::Text("triplanar".to_owned())),
+    );
+    editor.save();
+    // What is written later is told later.
+    watched.write("gray.bmp", picture(255));
+    watched.until_value(1.0);
+    assert!(!watched.window.editor().watching.is_asked);
+}
+
+#[test]
+fn a_device_that_goes_while_nothing_is_evaluated_is_noticed() {
+    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    watched.window.editor().stage.gpu().device().destroy();
+    watched.window.until("a way out", |editor| editor.is_leaving);
+    watched.window.harness.run_steps(3);
+    let kept = watched.window.handover.lock().expect("nobody panicked").take();
+    let kept = kept.expect("the work goes on");
+    assert_eq!(kept.desk.session.file(), Some(watched.path("graph.sabi").as_path()));
+}

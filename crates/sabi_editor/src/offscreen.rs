@@ -1,0 +1,181 @@
+//! The window without a screen, for those who measure it: frames are laid out and cut into triangles, and the model is drawn,
+//! but nothing is put on a screen.
+
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use eframe::egui_wgpu::{RenderState, WgpuSetup};
+use egui::{Context, Event, RawInput, Rect, Vec2};
+use sabi_engine::{AdapterChoice, EngineError, Gpu, Session, default_cache_dir};
+use sabi_graph::{Document, Edit, NodeId, Value};
+
+use crate::app::{Beginning, Editor, Folders};
+use crate::dock::Panel;
+use crate::window::configuration;
+
+/// A window without a screen.
+pub struct Offscreen {
+    context: Context,
+    editor: Editor,
+    size: Vec2,
+    opened: Instant,
+    /// Something has come that a frame would show.
+    woken: Receiver<()>,
+}
+
+/// What a frame took of the processor.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FrameTime {
+    /// To lay everything out, and to do what was asked for.
+    pub layout: Duration,
+    /// To cut what is seen into triangles.
+    pub tessellation: Duration,
+    /// How many triangles those are.
+    pub triangles: usize,
+}
+
+impl FrameTime {
+    /// All of it.
+    pub fn whole(&self) -> Duration {
+        self.layout + self.tessellation
+    }
+}
+
+impl Offscreen {
+    /// What a device for it is made with.
+    pub fn setup(adapter: &AdapterChoice) -> WgpuSetup {
+        configuration(adapter).wgpu_setup
+    }
+
+    /// Opens a graph on a model, on a device that [`Offscreen::setup`] made. Nothing is kept but what evaluations keep.
+    ///
+    /// # Errors
+    /// A graph that cannot be read, or a device that cannot run Sabi.
+    pub fn open(graph: &str, model: PathBuf, render: RenderState, size: [f32; 2]) -> Result<Offscreen, EngineError> {
+        let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone())?;
+        let context = Context::default();
+        let (wake, woken) = channel();
+        context.set_request_repaint_callback(move |_| {
+            // Nobody listens once the window is closed.
+            let _ = wake.send(());
+        });
+        let beginning = Beginning {
+            session: Session::open(graph.as_ref(), None)?,
+            model,
+            folders: Folders {
+                cache: default_cache_dir(),
+                ..Folders::default()
+            },
+            is_start: false,
+        };
+        let handover = Arc::new(Mutex::new(None));
+        let editor = Editor::new(beginning, &context, Arc::new(gpu), Some(render), handover);
+        Ok(Offscreen {
+            context,
+            editor,
+            size: size.into(),
+            opened: Instant::now(),
+            woken,
+        })
+    }
+
+    /// Draws a frame in which this happens.
+    pub fn frame(&mut self, events: Vec<Event>) -> FrameTime {
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(egui::Pos2::ZERO, self.size)),
+            time: Some(self.opened.elapsed().as_secs_f64()),
+            focused: true,
+            events,
+            ..RawInput::default()
+        };
+        let started = Instant::now();
+        let editor = &mut self.editor;
+        let output = self.context.run_ui(input, |ui| editor.frame(ui));
+        let layout = started.elapsed();
+        let started = Instant::now();
+        let primitives = self.context.tessellate(output.shapes, output.pixels_per_point);
+        let triangles = primitives.iter().map(|primitive| match &primitive.primitive {
+            egui::epaint::Primitive::Mesh(mesh) => mesh.indices.len() / 3,
+            egui::epaint::Primitive::Callback(_) => 0,
+        });
+        FrameTime {
+            layout,
+            triangles: triangles.sum(),
+            tessellation: started.elapsed(),
+        }
+    }
+
+    /// Draws frames as they are asked for, until nothing is on its way any more.
+    pub fn rest(&mut self) {
+        loop {
+            while self.woken.try_recv().is_ok() {}
+            self.frame(Vec::new());
+            if !self.is_busy() && self.woken.recv_timeout(Duration::from_millis(300)).is_err() {
+                return;
+            }
+            let _ = self.woken.recv_timeout(Duration::from_millis(50));
+        }
+    }
+
+    /// Waits until there is something to show, at most so long.
+    pub fn wait(&self, longest: Duration) {
+        let _ = self.woken.recv_timeout(longest);
+        while self.woken.try_recv().is_ok() {}
+    }
+
+    /// Whether results are on their way.
+    pub fn is_busy(&self) -> bool {
+        self.editor.stage.is_busy()
+    }
+
+    /// Sets a knob as a drag of it does, or as a click does that is not followed by another.
+    pub fn turn(&mut self, node: &str, knob: &str, value: f64, is_drag: bool) {
+        let Ok(node) = node.parse::<NodeId>() else { return };
+        self.editor.is_moving = is_drag;
+        self.editor.desk.set_knob(&node, knob, Some(Value::Number(value)));
+    }
+
+    /// The graph as it is.
+    pub fn document(&self) -> &Document {
+        self.editor.desk.document()
+    }
+
+    /// Makes an edit, unless it is refused.
+    pub fn edit(&mut self, edit: Edit) {
+        self.editor.desk.edit("Edit", vec![edit]);
+    }
+
+    /// Takes the last step back.
+    pub fn undo(&mut self) {
+        self.editor.desk.undo();
+    }
+
+    /// Does the last step again that was taken back.
+    pub fn redo(&mut self) {
+        self.editor.desk.redo();
+    }
+
+    /// How many pictures of the model were drawn, and at how many texels the last one that came is.
+    pub fn drawn(&self) -> (u64, u32) {
+        let picture = self.editor.stage.picture(&sabi_engine::Seen::Outputs);
+        (
+            self.editor.model_view.drawn,
+            picture.map_or(0, |picture| picture.model.size),
+        )
+    }
+
+    /// Waits until the device has drawn everything.
+    ///
+    /// # Errors
+    /// The device is gone.
+    pub fn finish(&self) -> Result<(), EngineError> {
+        Ok(self.editor.stage.gpu().wait()?)
+    }
+
+    /// Where on the screen the canvas is.
+    pub fn canvas(&self) -> Option<Rect> {
+        self.editor.rects.get(&Panel::Canvas).copied()
+    }
+}

@@ -1,0 +1,111 @@
+//! How files look from outside: whether they are there, how long they are, and when they were written.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use super::{Changes, Watched};
+
+/// Most folders and files of nodes that are looked at in one folder.
+const MOST_ENTRIES: usize = 4096;
+
+/// A look at all files that are watched.
+#[derive(Default)]
+pub(super) struct Look {
+    files: BTreeMap<PathBuf, Sight>,
+}
+
+/// One file.
+#[derive(Default)]
+struct Sight {
+    /// Length and time; none while it is not there.
+    stamp: Option<(u64, SystemTime)>,
+    /// As the system names it; none while its folder is not there.
+    place: Option<PathBuf>,
+}
+
+/// Files that changed from one look to another.
+pub(super) struct Changed(BTreeSet<PathBuf>);
+
+impl Look {
+    pub(super) fn at(watched: &Watched) -> Look {
+        let nodes = watched.nodes.iter().flat_map(|folder| node_files(folder));
+        let others = watched.graph.iter().chain(&watched.model).chain(&watched.files);
+        let mut folders = BTreeMap::new();
+        let files = nodes.chain(others.cloned());
+        Look {
+            files: files
+                .map(|file| {
+                    let sight = sight(&file, &mut folders);
+                    (file, sight)
+                })
+                .collect(),
+        }
+    }
+
+    /// What changed since an earlier look: what looks different now, and what was told of by name.
+    pub(super) fn since(&self, before: &Look, told: &BTreeSet<PathBuf>) -> Changed {
+        let is_changed = |file: &&PathBuf| {
+            let [now, before] = [self, before].map(|look| look.files.get(*file));
+            let stamp = |sight: Option<&Sight>| sight.and_then(|sight| sight.stamp);
+            let is_told = |sight: &Sight| sight.place.as_ref().is_some_and(|place| told.contains(place));
+            stamp(now) != stamp(before) || now.is_some_and(is_told)
+        };
+        let files: BTreeSet<&PathBuf> = self.files.keys().chain(before.files.keys()).collect();
+        Changed(files.into_iter().filter(is_changed).cloned().collect())
+    }
+}
+
+impl Changed {
+    /// What that means for those who wanted to know.
+    pub(super) fn of(self, watched: &Watched) -> Changes {
+        let is_changed = |file: &&PathBuf| self.0.contains(*file);
+        let is_node = |file: &PathBuf| watched.nodes.iter().any(|folder| is_node_of(folder, file));
+        Changes {
+            graph: watched.graph.iter().any(|file| is_changed(&file)),
+            nodes: self.0.iter().any(is_node),
+            model: watched.model.iter().any(|file| is_changed(&file)),
+            files: watched.files.iter().filter(is_changed).cloned().collect(),
+        }
+    }
+}
+
+fn sight(file: &Path, folders: &mut BTreeMap<PathBuf, Option<PathBuf>>) -> Sight {
+    let stamp = fs::metadata(file).and_then(|metadata| Ok((metadata.len(), metadata.modified()?)));
+    let folder = match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let found = folders.entry(folder.to_owned());
+    let folder = found.or_insert_with_key(|folder| fs::canonicalize(folder).ok());
+    Sight {
+        stamp: stamp.ok(),
+        place: folder.as_ref().and_then(|folder| Some(folder.join(file.file_name()?))),
+    }
+}
+
+/// The files in which nodes and their libraries are looked for.
+fn node_files(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let files = subfolders(folder).flat_map(|category| entries(&category));
+    files.filter(|file| is_wgsl(file))
+}
+
+/// The folders right below a folder.
+pub(super) fn subfolders(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    entries(folder).filter(|entry| entry.is_dir())
+}
+
+fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    let entries = fs::read_dir(folder).into_iter().flatten().take(MOST_ENTRIES);
+    entries.filter_map(|entry| Some(entry.ok()?.path()))
+}
+
+fn is_wgsl(file: &Path) -> bool {
+    file.extension().is_some_and(|ending| ending == "wgsl")
+}
+
+/// Whether nodes of a folder are looked for in a file.
+fn is_node_of(folder: &Path, file: &Path) -> bool {
+    is_wgsl(file) && file.parent().and_then(Path::parent) == Some(folder)
+}

@@ -1,0 +1,84 @@
+//! A long walk through graphs leads to what the last of them is on its own.
+
+#[path = "../../crates/sabi_editor/benches/soak/walk.rs"]
+mod edits;
+
+use std::sync::Arc;
+
+use edits::{FIRST, Step, Walk};
+use sabi_engine::{Faults, Shown, Wish};
+use sabi_graph::History;
+
+use crate::window::{Told, Window, bytes, document, wish};
+
+const EDITS: u64 = 200;
+/// So many edits are shown to the end; those between are overtaken by others.
+const EVERY: u64 = 10;
+/// What is at fault has no picture of its own to compare with: what was shown before it stays.
+
+/// What a window shows by now.
+#[derive(Default)]
+struct Screen {
+    shown: Option<Arc<Shown>>,
+    faults: Faults,
+}
+
+impl Screen {
+    fn take(&mut self, told: &Told) {
+        if let Some((.., shown)) = told.shown().last() {
+            self.shown = Some(Arc::clone(shown));
+        }
+        if let Some(faults) = told.faults() {
+            self.faults = faults.clone();
+        }
+    }
+
+    fn answer(&mut self, window: &Window, wished: Wish) {
+        self.take(&window.answer(wished));
+    }
+
+    fn is_at_fault(&self, node: &str) -> bool {
+        let faults = &self.faults;
+        faults.faults.iter().any(|fault| fault.node == node)
+            || faults.waiting.iter().any(|waiting| waiting.node == node)
+    }
+
+    fn bytes(&self) -> Option<Vec<u8>> {
+        self.shown.as_deref().map(bytes)
+    }
+}
+
+#[test]
+fn results_after_a_walk_are_those_of_a_fresh_evaluation() {
+    let mut open = document(FIRST);
+    let (mut history, mut walk) = (History::new(), Walk::new(7));
+    let (window, mut screen) = (Window::new(), Screen::default());
+    let mut compared = 0;
+    for revision in 1..=EDITS {
+        let document = &mut open.document;
+        // Some do not fit, and change nothing.
+        let _ = match walk.next(document) {
+            Step::Edit(edit) => history.apply(document, "Edit", *edit),
+            Step::Undo => history.undo(document).map(drop),
+            Step::Redo => history.redo(document).map(drop),
+        };
+        let wished = wish(revision, open.clone());
+        if revision % EVERY != 0 {
+            window.live.ask(wished);
+            continue;
+        }
+        screen.answer(&window, wished.clone());
+        let mut fresh = Screen::default();
+        fresh.answer(&Window::new(), wished);
+        assert_eq!(screen.faults, fresh.faults, "after {revision} edits");
+        if screen.is_at_fault("out") {
+            continue;
+        }
+        assert!(
+            screen.bytes() == fresh.bytes(),
+            "after {revision} edits:\n{}",
+            open.document.to_json()
+        );
+        compared += 1;
+    }
+}
