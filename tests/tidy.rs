@@ -2,120 +2,15 @@
 
 #[path = "tidy/functions.rs"]
 mod functions;
+#[path = "tidy/rules.rs"]
+mod rules;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use functions::functions_of;
-
-/// A crate, the crates of ours it may name, and the outside crates that it alone owns. An arrow that is not here is a
-/// design change, not a detail: it changes ARCHITECTURE.md first.
-const MAY_NAME: [(&str, &[&str], &[&str]); 12] = [
-    ("sabi_graph", &[], &["petgraph"]),
-    ("sabi_nodes", &["sabi_graph"], &["naga"]),
-    ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
-    ("sabi_surface", &[], &["gltf", "obvhs", "uvunwrap"]),
-    ("sabi_image", &[], &["image", "png", "exr"]),
-    ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
-    ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),
-    ("sabi_export", &["sabi_image", "sabi_surface"], &[]),
-    (
-        "sabi_engine",
-        &[
-            "sabi_graph",
-            "sabi_nodes",
-            "sabi_plan",
-            "sabi_surface",
-            "sabi_image",
-            "sabi_gpu",
-            "sabi_view",
-            "sabi_export",
-        ],
-        &["notify"],
-    ),
-    (
-        "sabi_editor",
-        &["sabi_graph", "sabi_gpu", "sabi_view", "sabi_engine"],
-        &[
-            "eframe",
-            "egui",
-            "egui_phosphor",
-            "egui_wgpu",
-            "egui_commonmark",
-            "egui_node_graph",
-            "egui_tiles",
-            "rfd",
-        ],
-    ),
-    ("sabi", &["sabi_engine", "sabi_editor"], &["clap", "indicatif"]),
-    ("xtask", &[], &[]),
-];
-
-/// What else a crate may name although another owns it: xtask writes pictures of its own, and the viewport draws with the
-/// device that kernels run on, which is the window's.
-const ALSO: [(&str, &str); 3] = [("xtask", "png"), ("sabi_view", "wgpu"), ("sabi_editor", "wgpu")];
-
-/// Outside crates with one owner. Anything else is free to use.
-const OWNED: [&str; 20] = [
-    "petgraph",
-    "naga",
-    "gltf",
-    "obvhs",
-    "uvunwrap",
-    "image",
-    "png",
-    "exr",
-    "wgpu",
-    "notify",
-    "clap",
-    "indicatif",
-    "eframe",
-    "egui",
-    "egui_phosphor",
-    "egui_wgpu",
-    "egui_commonmark",
-    "egui_node_graph",
-    "egui_tiles",
-    "rfd",
-];
-
-/// Files that may be longer, each with its reason.
-const LONGER_FILES: [(&str, &str); 0] = [];
-/// Functions that may be longer, as `file: name`, each with its reason.
-const LONGER_FUNCTIONS: [(&str, &str); 0] = [];
-
-const MOST_LINES_OF_A_FILE: usize = 400;
-const MOST_LINES_OF_A_FUNCTION: usize = 60;
-const MOST_BYTES_OF_A_GOLDEN: u64 = 8 * 1024;
-
-/// Names that say nothing about what is inside.
-const EMPTY_NAMES: [&str; 8] = [
-    "util", "utils", "common", "helper", "helpers", "manager", "managers", "misc",
-];
-
-/// What must not be left behind, split so that this file does not find itself.
-const LEFT_OVERS: [&str; 6] = [
-    concat!("to", "do!("),
-    concat!("db", "g!("),
-    concat!("unimple", "mented!("),
-    concat!("FIX", "ME"),
-    concat!("TO", "DO"),
-    concat!("XX", "X"),
-];
-
-/// Folders that exist on one machine only, split for the same reason.
-const MACHINE_PATHS: [&str; 6] = [
-    concat!("/wo", "rk/"),
-    concat!("/t", "mp/"),
-    concat!("/ho", "me/"),
-    concat!("/ro", "ot/"),
-    concat!("/Us", "ers/"),
-    concat!("C:\\", "Users"),
-];
-
-/// What is written by people and read as text.
-const TEXT_ENDINGS: [&str; 9] = ["rs", "wgsl", "toml", "md", "sabi", "txt", "json", "yml", "sh"];
+use rules::*;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -15,6 +15,7 @@ const EDITS: u64 = 200;
 /// So many edits are shown to the end; those between are overtaken by others.
 const EVERY: u64 = 10;
 /// What is at fault has no picture of its own to compare with: what was shown before it stays.
+const LEAST_COMPARED: usize = 8;
 
 /// What a window shows by now.
 #[derive(Default)]
@@ -81,4 +82,5 @@ fn results_after_a_walk_are_those_of_a_fresh_evaluation() {
         );
         compared += 1;
     }
+    assert!(compared >= LEAST_COMPARED, "{compared}");
 }

@@ -24,22 +24,12 @@ pub(crate) enum Action {
     },
     /// Put the selected group into a library.
     Shelve(Shelf),
+    /// Write the file of a node of the artist's own.
+    SaveNode { folder: PathBuf, id: String, text: String },
     /// Put a node of another kind in the place of one.
     Replace { node: NodeId, kind: String },
-    /// Tie a wire, taking it off another input where it came from one.
-    Connect {
-        from: OutputRef,
-        to: SlotRef,
-        off: Option<SlotRef>,
-    },
-    /// Tie a second wire to an input.
-    Merge { from: OutputRef, to: SlotRef, how: Merge },
-    /// Take wires off inputs.
-    Cut(Vec<SlotRef>),
-    /// Put a node into a wire.
-    Insert { node: NodeId, into: SlotRef },
-    /// Bend a wire.
-    Reroute { into: SlotRef, place: [f32; 2] },
+    /// Change wires.
+    Wire(WireAsk),
     /// A drag of nodes begins.
     BeginMove,
     /// Nodes are dragged.
@@ -74,16 +64,8 @@ pub(crate) enum Action {
     Layer(LayerAsk),
     /// Name a node.
     Rename { node: NodeId, name: String },
-    /// Name a frame.
-    RenameFrame { frame: String, title: String },
-    /// Give a frame its next color.
-    RecolorFrame(String),
-    /// Select the nodes in a frame.
-    SelectFrame(String),
-    /// Put the selected nodes into a frame, or take them out of all.
-    PutIntoFrame(Option<String>),
-    /// Remove a frame.
-    RemoveFrame(String),
+    /// Change frames around nodes.
+    Frame(FrameAsk),
     /// Paste a text at a place.
     Paste { text: String, place: [f32; 2] },
     /// Open a graph file.
@@ -96,6 +78,40 @@ pub(crate) enum Action {
     GoTo(String),
     /// Take back or do again so many steps; negative is back.
     Steps(i32),
+}
+
+/// Something that is asked of wires.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum WireAsk {
+    /// Tie a wire, taking it off another input where it came from one.
+    Connect {
+        from: OutputRef,
+        to: SlotRef,
+        off: Option<SlotRef>,
+    },
+    /// Tie a second wire to an input.
+    Merge { from: OutputRef, to: SlotRef, how: Merge },
+    /// Take wires off inputs.
+    Cut(Vec<SlotRef>),
+    /// Put a node into a wire.
+    Insert { node: NodeId, into: SlotRef },
+    /// Bend a wire.
+    Reroute { into: SlotRef, place: [f32; 2] },
+}
+
+/// Something that is asked of frames.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum FrameAsk {
+    /// Name one.
+    Rename { frame: String, title: String },
+    /// Give one its next color.
+    Recolor(String),
+    /// Select the nodes in one.
+    Select(String),
+    /// Put the selected nodes into one, or take them out of all.
+    Fill(Option<String>),
+    /// Remove one.
+    Remove(String),
 }
 
 /// Something that is asked of the panel of published knobs; knobs go by their name on it.

@@ -5,7 +5,6 @@ mod bars;
 mod documents;
 mod keys;
 mod perform;
-mod publishing;
 mod rooms;
 #[cfg(test)]
 mod tests;
@@ -31,7 +30,6 @@ use crate::flat_view::FlatView;
 use crate::knobs::KnobMemory;
 use crate::model_view::ModelView;
 use crate::panels;
-use crate::panels::keepsakes::Keepsakes;
 use crate::search::{Candidate, candidates};
 use crate::settings::Settings;
 use crate::stage::Stage;
@@ -125,6 +123,36 @@ pub(crate) struct Editor {
     pub(crate) frame_times: VecDeque<Duration>,
 }
 
+/// What is worked on in a window, from its first frame on.
+struct Work {
+    desk: Desk,
+    canvas: Canvas,
+    model: PathBuf,
+    files: Files,
+}
+
+impl Work {
+    /// What a window on a lost device left, or else a beginning with the questions that belong to one.
+    fn taken_up(session: Session, model: PathBuf, handover: &Handover, files: impl FnOnce() -> Files) -> Work {
+        let kept = handover.lock().ok().and_then(|mut kept| kept.take());
+        match kept {
+            // Who was at work goes on, without a start page before it.
+            Some(kept) => Work {
+                desk: kept.desk,
+                canvas: kept.canvas,
+                model: kept.model,
+                files: Files::new(false, None),
+            },
+            None => Work {
+                desk: Desk::new(session),
+                canvas: Canvas::default(),
+                model,
+                files: files(),
+            },
+        }
+    }
+}
+
 impl Editor {
     /// A window on a device.
     pub(crate) fn new(
@@ -139,21 +167,14 @@ impl Editor {
         faults.extend(fault);
         let theme = Arc::new(Theme::of(settings.shade));
         dress(context, &theme, settings.scale);
-        let kept = handover.lock().ok().and_then(|mut kept| kept.take());
-        let is_start = beginning.is_start;
-        let recovery = beginning.folders.recovery.as_deref();
-        let (desk, canvas, model, files) = match kept {
-            // Who was at work goes on, without a start page before it.
-            Some(kept) => (kept.desk, kept.canvas, kept.model, Files::new(false, None)),
-            None => {
-                let files = Files::new(is_start, recovery);
-                (Desk::new(beginning.session), Canvas::default(), beginning.model, files)
-            }
-        };
-        let panels = panels::Panels {
-            keepsakes: Keepsakes::new(beginning.folders.cache.clone()),
-            ..panels::Panels::default()
-        };
+        let Work {
+            desk,
+            canvas,
+            model,
+            files,
+        } = Work::taken_up(beginning.session, beginning.model, &handover, || {
+            Files::new(beginning.is_start, beginning.folders.recovery.as_deref())
+        });
         let (watching, fault) = Watching::new(context);
         faults.extend(fault.map(|error| error.to_string()));
         let stage = Stage::new(gpu, &model, beginning.folders.cache.clone(), context);
@@ -167,6 +188,7 @@ impl Editor {
             kept_settings: None,
             settings,
             files,
+            panels: panels::Panels::new(beginning.folders.cache.clone()),
             folders: beginning.folders,
             rects: BTreeMap::new(),
             active: Panel::Canvas,
@@ -178,7 +200,6 @@ impl Editor {
             ports: BTreeMap::new(),
             is_moving: false,
             knob_memory: KnobMemory::default(),
-            panels,
             notices: VecDeque::new(),
             kept_at: Instant::now(),
             kept_revision: None,

@@ -17,6 +17,7 @@ mod layered;
 mod layers;
 mod layout;
 mod library;
+mod map_names;
 mod names;
 mod nodes;
 mod panel;
@@ -26,6 +27,7 @@ mod selecting;
 mod stack;
 #[cfg(test)]
 mod tests;
+mod texture_set;
 mod turning;
 mod ungrouping;
 mod variants;

@@ -15,6 +15,8 @@ pub(crate) mod published;
 pub(crate) mod stack;
 mod variants;
 
+use std::path::PathBuf;
+
 /// What panels hold from frame to frame.
 #[derive(Default)]
 pub(crate) struct Panels {
@@ -24,4 +26,14 @@ pub(crate) struct Panels {
     pub(crate) page: page::Page,
     pub(crate) stack: stack::Layers,
     pub(crate) keepsakes: keepsakes::Keepsakes,
+}
+
+impl Panels {
+    /// Panels that keep small pictures in this folder, if there is one.
+    pub(crate) fn new(cache: Option<PathBuf>) -> Panels {
+        Panels {
+            keepsakes: keepsakes::Keepsakes::new(cache),
+            ..Panels::default()
+        }
+    }
 }

@@ -131,8 +131,8 @@ fn bake_open(
     stop_if_canceled(progress)?;
     encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let committed = encode.time(|| writer.commit())?;
-    let told = workpiece.warnings.iter().chain(&written.warnings).cloned();
-    let warnings: Vec<String> = told.chain(left_over(&committed)).collect();
+    let told = workpiece.warnings.iter().chain(&written.warnings);
+    let warnings: Vec<String> = told.cloned().chain(left_over(&committed)).collect();
     let times = StageTimes {
         encode,
         ..workpiece.times

@@ -94,27 +94,11 @@ impl Editor {
         }
         let mut seen = vec![self.seen()];
         seen.extend(self.locked_seen());
-        let is_canvas = self.rects.contains_key(&Panel::Canvas);
-        let visible = self
-            .canvas
-            .visible(&self.desk)
-            .into_iter()
-            .filter(|_| is_canvas)
-            .map(|id| {
-                let node = self.desk.full_id(&id);
-                NodeRef {
-                    port: self.ports.get(&node).cloned(),
-                    node,
-                }
-            });
-        let is_stack = self.rects.contains_key(&Panel::Stack);
-        let layers = self.panels.stack.wanted.iter().filter(|_| is_stack).cloned();
-        let thumbnails = visible.chain(layers).collect();
         let inspected = self.pinned.clone().or(self.shown.clone());
         let wanted = Wanted {
             seen,
             inspected,
-            thumbnails,
+            thumbnails: self.pictured(),
             is_flat: self.settings.is_flat,
             is_moving: self.is_moving,
         };
@@ -124,6 +108,21 @@ impl Editor {
             self.is_moving = false;
             context.request_repaint();
         }
+    }
+
+    /// The results that nodes and layers show, as far as they are seen.
+    fn pictured(&self) -> Vec<NodeRef> {
+        let is_seen = |panel: Panel| self.rects.contains_key(&panel);
+        let nodes = self.canvas.visible(&self.desk).into_iter().map(|id| {
+            let node = self.desk.full_id(&id);
+            NodeRef {
+                port: self.ports.get(&node).cloned(),
+                node,
+            }
+        });
+        let nodes = nodes.filter(|_| is_seen(Panel::Canvas));
+        let layers = self.panels.stack.wanted.iter().cloned();
+        nodes.chain(layers.filter(|_| is_seen(Panel::Stack))).collect()
     }
 
     /// The surface of the model was clicked: where a color is wanted, it is taken.

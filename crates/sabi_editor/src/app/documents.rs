@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::Ui;
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EngineError, ModelOptions, Overrides, Seams,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EngineError, Kinds, ModelOptions, Overrides, Seams,
     Session, WorkpieceOptions, bake_graph,
 };
 use sabi_graph::Value;
@@ -15,6 +15,9 @@ use crate::desk::Desk;
 use crate::files::examples;
 use crate::panels::export::{Running, folder_of};
 use crate::panels::library::KEPT_AS;
+
+/// Endings of pictures that nodes read.
+const PICTURES: [&str; 7] = ["png", "jpg", "jpeg", "exr", "tga", "bmp", "webp"];
 
 impl Editor {
     pub(crate) fn recovery_folder(&self) -> Option<&Path> {
@@ -154,18 +157,28 @@ impl Editor {
         self.panels.export.running = Some(Running::start(&context, work));
     }
 
-    /// Folders of groups to be used again, of which the project's is only there once the graph has a file.
+    /// The folder of a shelf of groups; the project's is only there once the graph has a file.
+    fn shelf_folder(&self, shelf: Shelf) -> Option<PathBuf> {
+        match shelf {
+            Shelf::Project => {
+                let file = self.desk.session.file()?;
+                Some(file.parent().unwrap_or(Path::new("")).join("library"))
+            }
+            Shelf::User => self.folders.library.clone(),
+        }
+    }
+
+    /// Folders of groups to be used again, each of them once.
     pub(super) fn shelves(&self) -> Vec<(Shelf, PathBuf)> {
-        let file = self.desk.session.file();
-        let project = file.map(|file| (Shelf::Project, file.parent().unwrap_or(Path::new("")).join("library")));
-        let user = self.folders.library.clone().map(|folder| (Shelf::User, folder));
-        project.into_iter().chain(user).collect()
+        let found = [Shelf::Project, Shelf::User].map(|shelf| Some((shelf, self.shelf_folder(shelf)?)));
+        let mut shelves: Vec<(Shelf, PathBuf)> = found.into_iter().flatten().collect();
+        shelves.dedup_by(|one, other| one.1 == other.1);
+        shelves
     }
 
     /// Puts the selected group into a library, with its picture.
     pub(super) fn shelve_selected(&mut self, shelf: Shelf) {
-        let folder = self.shelves().into_iter().find(|(known, _)| *known == shelf);
-        let Some((_, folder)) = folder else {
+        let Some(folder) = self.shelf_folder(shelf) else {
             self.say(match shelf {
                 Shelf::Project => "Save the graph first, so that there is a folder beside it.",
                 Shelf::User => "This system has no folder for a library.",
@@ -184,6 +197,25 @@ impl Editor {
             && let Err(why) = self.panels.keepsakes.keep(&self.context, &file, KEPT_AS, &picture)
         {
             self.say(why);
+        }
+    }
+
+    /// Writes the file of a node and takes it into use.
+    pub(super) fn save_node(&mut self, folder: &Path, id: &str, text: &str) {
+        match sabi_engine::save_node(folder, id, text) {
+            Ok(file) => {
+                self.say(format!(
+                    "'{id}' is in {}, and among the nodes that can be added.",
+                    file.display()
+                ));
+                let mut kinds = Kinds::clone(self.desk.kinds().0);
+                kinds.reread(&[folder.to_owned()]);
+                self.desk.take_kinds(kinds);
+                if let Some(draft) = &mut self.panels.page.draft {
+                    draft.is_saved = true;
+                }
+            }
+            Err(error) => self.say(error.to_string()),
         }
     }
 
@@ -209,6 +241,10 @@ impl Editor {
 
     /// Takes a file by what it is: a graph is opened, a model shown, an environment lit, a picture becomes a node.
     pub(super) fn take_dropped_file(&mut self, path: &Path, ui: &Ui) {
+        if path.is_dir() {
+            self.take_dropped_folder(path, ui);
+            return;
+        }
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
             Some("sabi") => self
@@ -217,12 +253,35 @@ impl Editor {
             Some("glb" | "gltf" | "obj") => self.take_model(path),
             Some("hdr") => self.take_environment(path),
             Some("exr") if self.active != crate::dock::Panel::Canvas => self.take_environment(path),
-            Some("png" | "jpg" | "jpeg" | "exr" | "tga" | "bmp" | "webp") => self.add_picture(path, ui),
+            Some(ending) if PICTURES.contains(&ending) => self.add_picture(path, ui),
             _ => self.say(format!(
                 "{} is nothing that can be taken; drop graphs, models, pictures and environments",
                 path.display()
             )),
         }
+    }
+
+    /// Takes a folder as the texture sets that its pictures are.
+    fn take_dropped_folder(&mut self, folder: &Path, ui: &Ui) {
+        let entries = match std::fs::read_dir(folder) {
+            Ok(entries) => entries,
+            Err(error) => {
+                self.say(format!("{} cannot be read: {error}", folder.display()));
+                return;
+            }
+        };
+        let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        let is_picture = |file: &PathBuf| {
+            let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+            ending.is_some_and(|ending| PICTURES.contains(&ending.as_str()))
+        };
+        let files: Vec<PathBuf> = files.filter(is_picture).collect();
+        if files.is_empty() {
+            self.say(format!("{} holds no pictures", folder.display()));
+            return;
+        }
+        let place = self.canvas.place_for_new(ui);
+        self.desk.add_texture_sets(&files, place);
     }
 
     fn take_environment(&mut self, path: &Path) {

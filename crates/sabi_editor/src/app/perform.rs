@@ -1,14 +1,16 @@
 //! What is asked for is done here, and nowhere else.
 
+mod publishing;
+
 use std::path::Path;
 
 use egui::Ui;
-use sabi_graph::NodeId;
+use sabi_graph::{NodeId, SlotRef};
 
 use super::Editor;
-use crate::action::{Action, LayerAsk, New};
+use crate::action::{Action, FrameAsk, LayerAsk, New, WireAsk};
 use crate::command::Command;
-use crate::desk::{Align, Desk, KnobAt};
+use crate::desk::{Align, Desk, KnobAt, Loose};
 use crate::dock::{self, Panel};
 use crate::knobs::KnobEvent;
 
@@ -26,46 +28,13 @@ impl Editor {
                 place,
                 loose,
                 into,
-            } => {
-                desk.session.begin("Add");
-                let added = match &kind {
-                    New::Kind(kind) => desk.add(kind, place, loose.as_ref()),
-                    New::Group(group) => desk.add_group_instance(group, place, loose.as_ref()),
-                    New::Library(file) => desk.add_from_library(file, place, loose.as_ref()),
-                };
-                if let Some((id, into)) = added.as_ref().zip(into) {
-                    desk.insert(id, &into);
-                }
-                desk.session.end();
-                if let Some(id) = added {
-                    self.look_at(&id, None);
-                }
-            }
+            } => self.add(&kind, place, loose.as_ref(), into.as_ref()),
+            Action::SaveNode { folder, id, text } => self.save_node(&folder, &id, &text),
             Action::Shelve(shelf) => self.shelve_selected(shelf),
             Action::Replace { node, kind } => {
                 desk.replace(&node, &kind);
             }
-            Action::Connect { from, to, off } => {
-                desk.session.begin("Connect");
-                if desk.connect(&from, &to)
-                    && let Some(off) = off
-                {
-                    desk.cut(&[off]);
-                }
-                desk.session.end();
-            }
-            Action::Merge { from, to, how } => {
-                desk.merge(&from, &to, how);
-            }
-            Action::Cut(slots) => {
-                desk.cut(&slots);
-            }
-            Action::Insert { node, into } => {
-                desk.insert(&node, &into);
-            }
-            Action::Reroute { into, place } => {
-                desk.reroute(&into, place);
-            }
+            Action::Wire(asked) => self.change_wires(asked),
             Action::BeginMove => desk.session.begin("Move"),
             Action::Move(places) => {
                 desk.move_to("Move", places);
@@ -78,14 +47,7 @@ impl Editor {
             Action::Select(ids) => desk.select(ids),
             Action::Toggle(id) => desk.toggle(&id),
             Action::Show { node, port } => self.look_at(&node, port),
-            Action::Pin { node } => {
-                let reference = self.reference(&node, None);
-                self.pinned = if self.pinned.as_ref() == Some(&reference) {
-                    None
-                } else {
-                    Some(reference)
-                };
-            }
+            Action::Pin { node } => self.pin(&node),
             Action::Enter(id) => {
                 desk.enter(&id);
             }
@@ -100,18 +62,7 @@ impl Editor {
             Action::Rename { node, name } => {
                 desk.rename(&node, &name);
             }
-            Action::RenameFrame { frame, title } => self.change_frame(&frame, |known| known.title = Some(title)),
-            Action::RecolorFrame(frame) => self.change_frame(&frame, |known| {
-                known.color = Some(Desk::next_color(known.color.as_deref()));
-            }),
-            Action::SelectFrame(frame) => desk.select_frame(&frame),
-            Action::PutIntoFrame(frame) => {
-                let nodes = desk.selection().clone();
-                desk.put_into_frame(&nodes, frame.as_deref());
-            }
-            Action::RemoveFrame(frame) => {
-                desk.remove_frame(&frame);
-            }
+            Action::Frame(asked) => self.change_frames(asked),
             Action::Paste { text, place } => {
                 desk.paste(&text, place);
             }
@@ -124,6 +75,65 @@ impl Editor {
                     if steps < 0 { self.desk.undo() } else { self.desk.redo() }
                 }
             }
+        }
+    }
+
+    /// Adds a node, ties it to the wire in hand or puts it into another one, and looks at it.
+    fn add(&mut self, kind: &New, place: [f32; 2], loose: Option<&Loose>, into: Option<&SlotRef>) {
+        let desk = &mut self.desk;
+        desk.session.begin("Add");
+        let added = match kind {
+            New::Kind(kind) => desk.add(kind, place, loose),
+            New::Group(group) => desk.add_group_instance(group, place, loose),
+            New::Library(file) => desk.add_from_library(file, place, loose),
+        };
+        if let Some((id, into)) = added.as_ref().zip(into) {
+            desk.insert(id, into);
+        }
+        desk.session.end();
+        if let Some(id) = added {
+            self.look_at(&id, None);
+        }
+    }
+
+    /// Keeps a node in the 2D view, or lets it go where it is kept.
+    fn pin(&mut self, node: &NodeId) {
+        let reference = Some(self.reference(node, None));
+        self.pinned = if self.pinned == reference { None } else { reference };
+    }
+
+    fn change_wires(&mut self, asked: WireAsk) {
+        let desk = &mut self.desk;
+        match asked {
+            WireAsk::Connect { from, to, off } => {
+                desk.session.begin("Connect");
+                if desk.connect(&from, &to)
+                    && let Some(off) = off
+                {
+                    desk.cut(&[off]);
+                }
+                desk.session.end();
+            }
+            WireAsk::Merge { from, to, how } => drop(desk.merge(&from, &to, how)),
+            WireAsk::Cut(slots) => drop(desk.cut(&slots)),
+            WireAsk::Insert { node, into } => drop(desk.insert(&node, &into)),
+            WireAsk::Reroute { into, place } => drop(desk.reroute(&into, place)),
+        }
+    }
+
+    fn change_frames(&mut self, asked: FrameAsk) {
+        let desk = &mut self.desk;
+        match asked {
+            FrameAsk::Rename { frame, title } => self.change_frame(&frame, |known| known.title = Some(title)),
+            FrameAsk::Recolor(frame) => self.change_frame(&frame, |known| {
+                known.color = Some(Desk::next_color(known.color.as_deref()));
+            }),
+            FrameAsk::Select(frame) => desk.select_frame(&frame),
+            FrameAsk::Fill(frame) => {
+                let nodes = desk.selection().clone();
+                desk.put_into_frame(&nodes, frame.as_deref());
+            }
+            FrameAsk::Remove(frame) => drop(desk.remove_frame(&frame)),
         }
     }
 

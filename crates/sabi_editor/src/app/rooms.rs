@@ -6,7 +6,7 @@ use sabi_graph::NodeRef;
 use super::Editor;
 use super::keys::anchor_id;
 use crate::action::Action;
-use crate::canvas::{Around, NodeState};
+use crate::canvas::{Around, NodeState, focus_id};
 use crate::dock::{self, Docked, Layout, Panel};
 use crate::model_view::Subject;
 use crate::panels;
@@ -27,6 +27,10 @@ impl Editor {
             .frame(frame)
             .show(ui, |ui| layout.ui(&mut docked, ui));
         *self.layout_in_use() = layout;
+        if !self.rects.contains_key(&Panel::Canvas) {
+            // What is not there cannot have the focus.
+            ui.ctx().memory_mut(|memory| memory.surrender_focus(focus_id()));
+        }
     }
 
     /// Where panels are now.
@@ -86,7 +90,7 @@ impl Editor {
             Panel::History => panels::history::show(self, ui, &theme, actions),
             Panel::Problems => panels::problems::show(self, ui, &theme, actions),
             Panel::Performance => panels::performance::show(self, ui, &theme),
-            Panel::Page => panels::page::show(self, ui, &theme),
+            Panel::Page => panels::page::show(self, ui, &theme, actions),
             Panel::Canvas | Panel::Viewport | Panel::Flat => {}
         }
     }

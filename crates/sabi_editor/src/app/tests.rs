@@ -10,6 +10,7 @@ mod hands;
 mod keyboard;
 mod knobs;
 mod layers;
+mod library;
 mod looking;
 mod lost;
 mod many;
@@ -145,7 +146,11 @@ fn folders_in(folder: &Path) -> Folders {
     Folders {
         settings: at("settings"),
         // What is kept by content is the same for all tests.
-        cache: Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/tmp/window")),
+        cache: Some(
+            Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("../../target")
+                .join("tmp/window"),
+        ),
         recovery: at("unsaved"),
         library: at("library"),
         examples: at("examples"),

@@ -7,7 +7,7 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, WidgetType, vec
 use super::gesture::Gesture;
 use super::questions::Renaming;
 use super::{Around, Canvas, node_rect};
-use crate::action::Action;
+use crate::action::{Action, FrameAsk};
 use crate::desk::{Desk, FRAME_AROUND, FRAME_STRIP};
 use crate::theme::type_size;
 
@@ -62,7 +62,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
         if response.double_clicked() {
             canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
         } else if response.clicked() {
-            actions.push(Action::SelectFrame(id.clone()));
+            actions.push(Action::Frame(FrameAsk::Select(id.clone())));
         }
         if response.drag_started_by(egui::PointerButton::Primary) {
             let places = frame
@@ -78,13 +78,13 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
         }
         response.context_menu(|ui| {
             if ui.button("Next color").clicked() {
-                actions.push(Action::RecolorFrame(id.clone()));
+                actions.push(Action::Frame(FrameAsk::Recolor(id.clone())));
             }
             if ui.button("Rename").clicked() {
                 canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
             }
             if ui.button("Remove the frame").clicked() {
-                actions.push(Action::RemoveFrame(id.clone()));
+                actions.push(Action::Frame(FrameAsk::Remove(id.clone())));
             }
         });
     }

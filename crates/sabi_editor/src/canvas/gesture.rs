@@ -1,16 +1,21 @@
 //! What the pointer holds: nodes, a wire, a box, a lasso, a knife, the canvas itself.
 
+mod carrying;
+mod marking;
+
 use std::collections::BTreeMap;
 
-use egui::{CursorIcon, Key, Modifiers, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
+use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
 use sabi_graph::{NodeId, SlotRef};
 
 use super::ports::Place;
 use super::questions::MergeQuestion;
 use super::wires::{self, Wire};
-use super::{AddMenu, Around, Canvas, Purpose, node_rect, ports};
-use crate::action::Action;
-use crate::desk::{Desk, GRID, Loose};
+use super::{AddMenu, Around, Canvas, Purpose, ports};
+use crate::action::{Action, WireAsk};
+use crate::desk::{Desk, Loose};
+use carrying::drag;
+use marking::{end_box, end_line};
 
 /// So near an edge of the panel what is dragged pulls the canvas along, screen points.
 const EDGE: f32 = 28.0;
@@ -75,62 +80,6 @@ impl Gesture {
         };
         line.windows(2).any(|piece| wire.is_crossed([piece[0], piece[1]]))
     }
-
-    /// The wire that would take the dragged node; or, with nothing in hand, the one under the pointer.
-    pub(super) fn hot_wire<'w>(
-        &self,
-        canvas: &Canvas,
-        desk: &Desk,
-        wires: &'w [Wire],
-        pointer: Option<Pos2>,
-    ) -> Option<&'w SlotRef> {
-        let pointer = pointer.filter(|at| canvas.panel.is_some_and(|panel| panel.contains(*at)))?;
-        match self {
-            Gesture::Idle if !canvas.holds_keys() => wires::under(wires, pointer).map(|wire| &wire.to),
-            Gesture::Move { from, .. } if from.len() == 1 => {
-                let id = from.keys().next()?;
-                let rect = canvas.view.screen_rect(canvas.panel?, node_rect(desk, id)?);
-                let crossing = wires.iter().filter(|wire| {
-                    let middle = rect.center();
-                    wire.to.node != *id && wire.from.node != *id && wire.distance(middle) < rect.height().min(60.0)
-                });
-                let crossing = crossing
-                    .min_by(|one, other| one.distance(rect.center()).total_cmp(&other.distance(rect.center())))?;
-                desk.may_insert(id, &crossing.to).then_some(&crossing.to)
-            }
-            _ => None,
-        }
-    }
-}
-
-impl Canvas {
-    /// Takes a node, and with it all that are selected.
-    pub(super) fn grab(
-        &mut self,
-        id: &NodeId,
-        response: &Response,
-        around: &Around<'_>,
-        modifiers: Modifiers,
-        actions: &mut Vec<Action>,
-    ) {
-        let (Some(panel), Some(at)) = (self.panel, response.ctx.input(|input| input.pointer.press_origin())) else {
-            return;
-        };
-        let mut from = around.desk.places();
-        if !from.contains_key(id) {
-            actions.push(Action::Select(vec![id.clone()]));
-            let Some(node) = around.desk.node(id) else { return };
-            from = BTreeMap::from([(id.clone(), node.pos)]);
-        }
-        actions.push(Action::BeginMove);
-        if modifiers.alt {
-            actions.push(Action::TakeOut);
-        }
-        self.gesture = Gesture::Move {
-            from,
-            grabbed: self.view.place(panel, at),
-        };
-    }
 }
 
 /// Goes on with what is in hand, or takes something.
@@ -149,7 +98,7 @@ pub(super) fn advance(
     let (delta, modifiers) = ui.input(|input| (input.pointer.delta(), input.modifiers));
     let is_down = |button| ui.input(|input| input.pointer.button_down(button));
     match &mut canvas.gesture {
-        Gesture::Idle => rest(canvas, ui, ground, panel, around, wires, actions),
+        Gesture::Idle => rest(canvas, ui, ground, panel, wires, actions),
         Gesture::Pan => {
             canvas.view.pan += delta;
             ui.set_cursor_icon(CursorIcon::Grabbing);
@@ -222,15 +171,7 @@ fn begin(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect) {
 }
 
 /// Clicks beside nodes, with nothing in hand.
-fn rest(
-    canvas: &mut Canvas,
-    ui: &Ui,
-    ground: &Response,
-    panel: Rect,
-    around: &Around<'_>,
-    wires: &[Wire],
-    actions: &mut Vec<Action>,
-) {
+fn rest(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, wires: &[Wire], actions: &mut Vec<Action>) {
     let Some(pointer) = ground.interact_pointer_pos() else {
         return;
     };
@@ -239,11 +180,11 @@ fn rest(
     if ground.double_clicked() {
         if let Some(wire) = wires::under(wires, pointer) {
             let into = wire.to.clone();
-            actions.push(Action::Reroute { into, place });
+            actions.push(Action::Wire(WireAsk::Reroute { into, place }));
         }
     } else if ground.clicked() {
         match wires::under(wires, pointer) {
-            Some(wire) if modifiers.alt => actions.push(Action::Cut(vec![wire.to.clone()])),
+            Some(wire) if modifiers.alt => actions.push(Action::Wire(WireAsk::Cut(vec![wire.to.clone()]))),
             _ => actions.push(Action::Select(Vec::new())),
         }
         canvas.port = None;
@@ -254,59 +195,8 @@ fn rest(
             into,
             ..Purpose::default()
         };
-        let _ = around;
         canvas.menu = Some(AddMenu::new(pointer, purpose));
     }
-}
-
-/// Nodes follow the pointer.
-fn drag(
-    canvas: &mut Canvas,
-    ui: &Ui,
-    panel: Rect,
-    around: &Around<'_>,
-    wires: &[Wire],
-    pointer: Pos2,
-    actions: &mut Vec<Action>,
-) {
-    if ui.input(|input| input.key_pressed(Key::Escape)) {
-        actions.push(Action::TakeBack);
-        canvas.gesture = Gesture::Idle;
-        return;
-    }
-    pull(canvas, ui, panel, pointer);
-    let Gesture::Move { from, grabbed } = &canvas.gesture else {
-        return;
-    };
-    let (is_down, modifiers) = ui.input(|input| (input.pointer.primary_down(), input.modifiers));
-    let here = canvas.view.place(panel, pointer);
-    let offset = [here[0] - grabbed[0], here[1] - grabbed[1]];
-    let snapped = |at: f32| match modifiers.command {
-        true => at.round(),
-        false => (at / GRID).round() * GRID,
-    };
-    let places = from
-        .iter()
-        .map(|(id, pos)| (id.clone(), [snapped(pos[0] + offset[0]), snapped(pos[1] + offset[1])]));
-    actions.push(Action::Move(places.collect()));
-    if is_down {
-        return;
-    }
-    let into = canvas
-        .gesture
-        .hot_wire(canvas, around.desk, wires, Some(pointer))
-        .cloned();
-    if let (Some(into), Gesture::Move { from, .. }) = (into, &canvas.gesture)
-        && let Some(id) = from.keys().next()
-    {
-        let node = id.clone();
-        actions.push(Action::Insert { node, into });
-    }
-    if let Some(frame) = super::frames::under(canvas, around.desk, pointer) {
-        actions.push(Action::PutIntoFrame(Some(frame)));
-    }
-    actions.push(Action::EndMove);
-    canvas.gesture = Gesture::Idle;
 }
 
 /// What is held at an edge pulls the canvas along.
@@ -335,7 +225,7 @@ fn drop_wire(canvas: &mut Canvas, around: &Around<'_>, panel: Rect, pointer: Pos
     match target {
         Some(place) => canvas.tie(around.desk, loose, place, off, pointer, actions),
         None => match off {
-            Some(slot) => actions.push(Action::Cut(vec![slot])),
+            Some(slot) => actions.push(Action::Wire(WireAsk::Cut(vec![slot]))),
             None => {
                 let purpose = Purpose {
                     place: canvas.view.place(panel, pointer),
@@ -370,76 +260,9 @@ impl Canvas {
         if off.is_none() && desk.may_merge(&from, &to) {
             self.merge = Some(MergeQuestion::new(at, from, to));
         } else {
-            actions.push(Action::Connect { from, to, off });
+            actions.push(Action::Wire(WireAsk::Connect { from, to, off }));
         }
     }
-}
-
-fn end_box(
-    canvas: &mut Canvas,
-    around: &Around<'_>,
-    panel: Rect,
-    pointer: Pos2,
-    modifiers: Modifiers,
-    actions: &mut Vec<Action>,
-) {
-    let Gesture::Box { from } = std::mem::take(&mut canvas.gesture) else {
-        return;
-    };
-    let to = canvas.view.place(panel, pointer);
-    let taken = Rect::from_two_pos(pos2(from[0], from[1]), pos2(to[0], to[1]));
-    select(around, modifiers, actions, |rect| taken.intersects(rect));
-}
-
-/// Selects what is inside; with Shift or Ctrl, besides what was.
-fn select(around: &Around<'_>, modifiers: Modifiers, actions: &mut Vec<Action>, is_in: impl Fn(Rect) -> bool) {
-    let desk = around.desk;
-    let inside = desk.graph().ids().filter(|id| node_rect(desk, id).is_some_and(&is_in));
-    let mut ids: Vec<NodeId> = inside.cloned().collect();
-    if modifiers.shift || modifiers.command {
-        ids.extend(desk.selection().iter().cloned());
-    }
-    actions.push(Action::Select(ids));
-}
-
-fn end_line(
-    canvas: &mut Canvas,
-    around: &Around<'_>,
-    panel: Rect,
-    wires: &[Wire],
-    modifiers: Modifiers,
-    actions: &mut Vec<Action>,
-) {
-    let gesture = std::mem::take(&mut canvas.gesture);
-    if let Gesture::Lasso { line } = &gesture {
-        let view = canvas.view;
-        let modifiers = Modifiers {
-            alt: false,
-            ..modifiers
-        };
-        select(around, modifiers, actions, |rect| {
-            is_inside(line, view.screen_rect(panel, rect).center())
-        });
-        return;
-    }
-    let cut: Vec<SlotRef> = wires
-        .iter()
-        .filter(|wire| gesture.cuts(wire))
-        .map(|wire| wire.to.clone())
-        .collect();
-    if !cut.is_empty() {
-        actions.push(Action::Cut(cut));
-    }
-}
-
-/// Whether a place is inside a closed line: a ray from it crosses the line an odd number of times.
-fn is_inside(line: &[Pos2], place: Pos2) -> bool {
-    let closed = line.iter().zip(line.iter().cycle().skip(1));
-    let crossings = closed.filter(|(one, other)| {
-        let spans = (one.y > place.y) != (other.y > place.y);
-        spans && place.x < one.x + (place.y - one.y) / (other.y - one.y) * (other.x - one.x)
-    });
-    crossings.count() % 2 == 1
 }
 
 /// Draws what is in hand.
@@ -489,24 +312,5 @@ pub(super) fn draw(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>) {
             painter.add(Shape::line(points.clone(), Stroke::new(2.0, theme.fault)));
         }
         _ => {}
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_lasso_holds_what_it_goes_around() {
-        let line = [
-            pos2(0.0, 0.0),
-            pos2(100.0, 0.0),
-            pos2(50.0, 50.0),
-            pos2(100.0, 100.0),
-            pos2(0.0, 100.0),
-        ];
-        assert!(is_inside(&line, pos2(20.0, 50.0)));
-        assert!(!is_inside(&line, pos2(80.0, 50.0)), "in the notch");
-        assert!(!is_inside(&line, pos2(-5.0, 50.0)));
     }
 }

@@ -7,7 +7,7 @@ use sabi_graph::NodeId;
 
 use super::snapshot::{Hand, Key};
 use super::{Around, CARD_ZOOM, Canvas, body, card, node_rect, ports};
-use crate::action::Action;
+use crate::action::{Action, FrameAsk};
 use crate::knobs::KnobEvent;
 
 /// The shape that a node's backdrop takes among those that its widget begins with: an outline, then what is behind it.
@@ -172,7 +172,7 @@ fn context_menu(
         let frames = around.desk.graph().frames().values();
         let is_framed = frames.into_iter().any(|frame| frame.nodes.contains(id));
         if is_framed && ui_menu.button("Take out of the frame").clicked() {
-            actions.push(Action::PutIntoFrame(None));
+            actions.push(Action::Frame(FrameAsk::Fill(None)));
         }
         ui_menu.separator();
         let commands = [

@@ -5,7 +5,7 @@ use sabi_graph::{Body, SlotRef};
 
 use super::ports::Place;
 use super::{AddMenu, Canvas, Purpose};
-use crate::action::{Action, PortAsk};
+use crate::action::{Action, PortAsk, WireAsk};
 use crate::desk::Desk;
 use crate::theme::{Theme, type_size};
 
@@ -43,7 +43,7 @@ pub(super) fn show(canvas: &mut Canvas, response: &Response, place: &Place, desk
             .add_enabled(!tied.is_empty(), egui::Button::new("Disconnect"))
             .clicked()
         {
-            actions.push(Action::Cut(tied.clone()));
+            actions.push(Action::Wire(WireAsk::Cut(tied.clone())));
         }
         let instead = match (place, tied.is_empty()) {
             (Place::Input(_), false) => "Replace by…",

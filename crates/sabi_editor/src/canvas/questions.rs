@@ -4,7 +4,7 @@ use egui::{Area, Frame, Id, Key, Order, Pos2, Ui};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::{Around, Canvas};
-use crate::action::Action;
+use crate::action::{Action, FrameAsk, WireAsk};
 use crate::desk::Merge;
 
 /// How a second mask is put together with the first one.
@@ -50,11 +50,11 @@ pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut
     });
     asked.is_new = false;
     if let Some(how) = chosen {
-        actions.push(Action::Merge {
+        actions.push(Action::Wire(WireAsk::Merge {
             from: asked.from.clone(),
             to: asked.to.clone(),
             how,
-        });
+        }));
     }
     if chosen.is_some() || is_left {
         *question = None;
@@ -132,10 +132,10 @@ pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions:
                 node,
                 name: renaming.text,
             },
-            Named::Frame(frame) => Action::RenameFrame {
+            Named::Frame(frame) => Action::Frame(FrameAsk::Rename {
                 frame,
                 title: renaming.text,
-            },
+            }),
         });
     }
 }

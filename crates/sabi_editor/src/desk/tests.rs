@@ -13,6 +13,7 @@ mod random;
 mod replacing;
 mod saving;
 mod seeing;
+mod texture_sets;
 mod variants;
 mod wires;
 

@@ -1,30 +1,50 @@
 //! The page of the selected node: what it is, what it takes and gives, and the file that it is.
 
+mod code;
+mod draft;
+
 use egui::{RichText, Ui};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use sabi_engine::catalog::{Entry, Port};
 
+use crate::action::Action;
 use crate::app::Editor;
+use crate::desk::Desk;
 use crate::theme::Theme;
+use draft::Draft;
 
 /// What the page holds from frame to frame.
 #[derive(Default)]
 pub(crate) struct Page {
     markdown: CommonMarkCache,
     shows_source: bool,
+    /// The node file that is being written.
+    pub(crate) draft: Option<Draft>,
 }
 
-pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
-    let face = editor.desk.selected_one().and_then(|id| editor.desk.face(id)).cloned();
+pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
+    let Editor { desk, panels, .. } = editor;
+    let page = &mut panels.page;
+    if let Some(draft) = &mut page.draft {
+        if draft.show(ui, theme, desk, actions) {
+            page.draft = None;
+        }
+        return;
+    }
+    let face = desk.selected_one().and_then(|id| desk.face(id)).cloned();
     let Some(face) = face else {
         ui.colored_label(theme.quiet, "Select a node to read what it does.");
         return;
     };
-    let page = &mut editor.panels.page;
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        ui.heading(&face.label);
-        ui.colored_label(theme.quiet, &face.id);
+        ui.horizontal(|ui| {
+            ui.heading(&face.label);
+            ui.colored_label(theme.quiet, RichText::new(&face.id).monospace());
+        });
         ui.label(&face.summary);
+        if let Some(text) = &face.source {
+            file(ui, theme, desk, page, &face.id, text);
+        }
         if !face.description.is_empty() {
             CommonMarkViewer::new().show(ui, &mut page.markdown, &face.description);
         }
@@ -35,14 +55,33 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
             ui.add_space(8.0);
             ui.colored_label(theme.quiet, format!("Also called {}", face.aliases.join(", ")));
         }
-        if let Some(source) = &face.source {
-            ui.add_space(8.0);
-            ui.toggle_value(&mut page.shows_source, "The file");
-            if page.shows_source {
-                ui.label(RichText::new(source.as_ref()).monospace());
+    });
+}
+
+/// The file that a node is, and the ways to write one.
+fn file(ui: &mut Ui, theme: &Theme, desk: &mut Desk, page: &mut Page, id: &str, text: &str) {
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        ui.toggle_value(&mut page.shows_source, "The file");
+        if let Some(own) = desk.kinds().0.own_folder(desk.session.file(), id) {
+            let change = ui
+                .button("Change it")
+                .on_hover_text(format!("It lies in {}", own.display()));
+            if change.clicked() {
+                page.draft = Draft::of_own(desk, id, text);
+            }
+        }
+        let new = ui.button("New node from here");
+        if new.on_hover_text("Copies the file to a node of your own").clicked() {
+            page.draft = Draft::like(desk, id, text);
+            if page.draft.is_none() {
+                desk.say("This system has no folder for nodes; save the graph first, so that there is one beside it.");
             }
         }
     });
+    if page.shows_source {
+        code::show(ui, theme, text);
+    }
 }
 
 fn ports(ui: &mut Ui, theme: &Theme, title: &str, ports: &[Port]) {

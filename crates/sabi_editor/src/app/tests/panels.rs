@@ -49,11 +49,10 @@ impl Window {
     /// Clicks something of which a panel has another one of that name.
     pub(super) fn click_beside(&mut self, panel: Panel, name: &str) {
         let rect = self.editor().rects[&panel];
-        {
-            let mut all = self.harness.get_all_by_label(name);
-            let other = all.find(|node| !rect.contains(node.rect().center()));
-            other.expect("another one").click();
-        }
+        let mut all = self.harness.get_all_by_label(name);
+        let other = all.find(|node| !rect.contains(node.rect().center()));
+        other.expect("another one").click();
+        drop(all);
         self.settle();
     }
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::Editor;
 use crate::action::{PanelAsk, PortAsk, VariantAsk};
+use crate::app::Editor;
 use crate::desk::{Desk, KnobAt};
 use crate::knobs::{KnobEvent, KnobMemory};
 use crate::panels::Panels;

@@ -1,0 +1,188 @@
+//! The library, favorites, the page of a node and dropped folders, as somebody uses them.
+
+use egui::{Key, Modifiers, PointerButton};
+use egui_kittest::kittest::Queryable;
+use sabi_graph::NodeId;
+
+use super::Window;
+use crate::action::Shelf;
+use crate::dock::Panel;
+
+const GROUPED: &str = r#"{
+  "format": "sabi", "version": 1, "name": "Worn edges",
+  "groups": { "Wear": { "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/cells" } } } },
+  "nodes": { "g": { "kind": "graph/group", "group": "Wear" } }
+}"#;
+
+fn kinds(window: &Window) -> Vec<String> {
+    let nodes = window.editor().desk.graph().nodes();
+    nodes.map(|(_, node)| node.kind.clone()).collect()
+}
+
+/// Selects the only node that there is.
+fn select_only(window: &mut Window) -> NodeId {
+    let id = window.editor().desk.graph().ids().next().cloned().expect("a node");
+    window.harness.state_mut().desk.select([id.clone()]);
+    window.settle();
+    id
+}
+
+#[test]
+fn the_first_favorites_are_added_by_number_where_the_pointer_is() {
+    let mut window = Window::empty();
+    window.harness.state_mut().settings.favorites = vec!["noise/cells".to_owned(), "filter/blur".to_owned()];
+    window.settle();
+    let at = window.on_canvas([0.3, 0.4]);
+    window.point(at);
+    window.key(Key::Num2);
+    assert_eq!(kinds(&window), ["filter/blur"]);
+    let place = window.editor().canvas.place_at(at).expect("on the canvas");
+    let id = window.editor().desk.selected_one().cloned().expect("the new node");
+    let pos = window.editor().desk.node(&id).map(|node| node.pos).expect("a node");
+    assert!(
+        (pos[0] - place[0]).abs() <= 1.0 && (pos[1] - place[1]).abs() <= 1.0,
+        "{pos:?} {place:?}"
+    );
+    window.key(Key::Num7);
+    let said = "There is no favorite 7; a star in the library makes one.";
+    assert!(window.harness.query_by_label(said).is_some());
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn a_star_makes_a_favorite_and_takes_it_back() {
+    let mut window = Window::empty();
+    window.settle();
+    window.click("Levels is a favorite");
+    assert_eq!(window.editor().settings.favorites, ["adjust/levels"]);
+    window.click("Levels is a favorite");
+    assert!(window.editor().settings.favorites.is_empty());
+}
+
+#[test]
+fn an_entry_is_dragged_to_where_it_is_dropped_and_nowhere_beside_the_canvas() {
+    let mut window = Window::empty();
+    window.settle();
+    let entry = window.harness.get_by_label("Levels").rect().center();
+    let at = window.on_canvas([0.5, 0.5]);
+    window.drag(entry, at, PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(kinds(&window), ["adjust/levels"]);
+    let model = window.editor().rects[&Panel::Viewport].center();
+    window.drag(entry, model, PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
+    let mut window = Window::of(GROUPED);
+    let instance = select_only(&mut window);
+    window.until("a picture of the group", |editor| {
+        editor.picture_of(&editor.reference(&instance, None)).is_some()
+    });
+    window.click("Keep group");
+    window.click("Beside this graph");
+    let file = window.path("library").join("wear.sabi");
+    assert!(file.is_file());
+    let cache = window.editor().folders().cache.clone().expect("a cache");
+    assert!(sabi_engine::find_thumbnail(&cache, &[&file.to_string_lossy(), "group"]).is_some());
+    window.settle();
+    let sections: Vec<String> = window
+        .editor()
+        .candidates()
+        .iter()
+        .filter(|candidate| candidate.face.label == "Wear")
+        .map(|candidate| candidate.section.clone())
+        .collect();
+    assert_eq!(sections, ["groups here", "project library"]);
+}
+
+#[test]
+fn a_graph_without_a_file_has_no_library_beside_it() {
+    let mut window = Window::untitled();
+    window.settle();
+    window.click("Keep group");
+    window.click("Beside this graph");
+    assert!(!window.path("library").exists(), "the entry cannot be chosen");
+    window.harness.state_mut().shelve_selected(Shelf::Project);
+    window.settle();
+    let said = "Save the graph first, so that there is a folder beside it.";
+    assert!(window.harness.query_by_label(said).is_some());
+}
+
+#[test]
+fn f1_opens_the_page_of_a_node() {
+    let mut window = Window::empty();
+    window.add([0.3, 0.3], "levels");
+    window.key(Key::F1);
+    assert!(window.editor().rects.contains_key(&Panel::Page));
+    assert!(window.harness.query_by_label("adjust/levels").is_some());
+}
+
+#[test]
+fn a_node_of_ones_own_begins_as_another_one_and_its_faults_are_told_as_it_is_typed() {
+    let mut window = Window::of(GROUPED);
+    let added = window.add([0.3, 0.6], "levels");
+    window.key(Key::F1);
+    window.click("New node from here");
+    assert!(window.harness.query_by_label("Nothing is wrong.").is_some());
+    window.fill("Id of the node", "noise/simplex");
+    let why = "there is a node 'noise/simplex' already; choose another name";
+    assert!(window.harness.query_by_label(why).is_some());
+    window.fill("Id of the node", "adjust/mine");
+    let text = window.harness.get_by_label("Text of the node").rect();
+    window.click_at(text.intersect(window.editor().rects[&Panel::Page]).center());
+    window.keys(Modifiers::COMMAND, Key::End);
+    window
+        .harness
+        .event(egui::Event::Text("fn broken() -> f32 { return nothing; }".to_owned()));
+    window.settle();
+    let is_told = window.harness.query_by_label("Nothing is wrong.").is_none();
+    assert!(is_told, "a fault is told at once");
+    window.keys(Modifiers::COMMAND, Key::Z);
+    window.settle();
+    window.click("Save node");
+    let file = window.path("nodes").join("adjust").join("mine.wgsl");
+    let text = std::fs::read_to_string(&file).expect("the file");
+    assert!(text.starts_with("//! Mine\n"), "{text}");
+    assert!(window.harness.query_by_label("Saved; nothing is wrong.").is_some());
+    window.click("Close");
+    assert!(
+        window.editor().desk.catalog().entry("adjust/mine").is_some(),
+        "it can be added at once"
+    );
+    assert_eq!(window.editor().desk.selected_one(), Some(&added));
+}
+
+#[test]
+fn a_dropped_folder_becomes_a_material() {
+    let mut window = Window::of(GROUPED);
+    let folder = window.path("bricks");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    for name in ["Bricks_diff_1k.png", "Bricks_rough_1k.png", "notes.txt"] {
+        std::fs::write(folder.join(name), "").expect("a file");
+    }
+    let dropped = egui::DroppedFile {
+        path: Some(folder),
+        ..egui::DroppedFile::default()
+    };
+    window.harness.input_mut().dropped_files.push(dropped);
+    window.settle();
+    let kinds = kinds(&window);
+    assert_eq!(
+        kinds.iter().filter(|kind| *kind == "source/image").count(),
+        2,
+        "{kinds:?}"
+    );
+    assert!(kinds.contains(&"material/combine".to_owned()));
+    assert_eq!(window.steps(), 1);
+    let empty = window.path("empty");
+    std::fs::create_dir_all(&empty).expect("a folder");
+    let dropped = egui::DroppedFile {
+        path: Some(empty.clone()),
+        ..egui::DroppedFile::default()
+    };
+    window.harness.input_mut().dropped_files.push(dropped);
+    window.settle();
+    let said = format!("{} holds no pictures", empty.display());
+    assert!(window.harness.query_by_label(&said).is_some());
+}

@@ -1,0 +1,120 @@
+//! Nodes that are dragged, and the wire that would take one.
+
+use std::collections::BTreeMap;
+
+use egui::{Key, Modifiers, Pos2, Rect, Response, Ui};
+use sabi_graph::{NodeId, SlotRef};
+
+use super::super::wires::{self, Wire};
+use super::super::{Around, Canvas, frames, node_rect};
+use super::{Gesture, pull};
+use crate::action::{Action, FrameAsk, WireAsk};
+use crate::desk::{Desk, GRID};
+
+impl Gesture {
+    /// The wire that would take the dragged node; or, with nothing in hand, the one under the pointer.
+    pub(in crate::canvas) fn hot_wire<'w>(
+        &self,
+        canvas: &Canvas,
+        desk: &Desk,
+        wires: &'w [Wire],
+        pointer: Option<Pos2>,
+    ) -> Option<&'w SlotRef> {
+        let pointer = pointer.filter(|at| canvas.panel.is_some_and(|panel| panel.contains(*at)))?;
+        match self {
+            Gesture::Idle if !canvas.holds_keys() => wires::under(wires, pointer).map(|wire| &wire.to),
+            Gesture::Move { from, .. } if from.len() == 1 => {
+                let id = from.keys().next()?;
+                let rect = canvas.view.screen_rect(canvas.panel?, node_rect(desk, id)?);
+                let crossing = wires.iter().filter(|wire| {
+                    let middle = rect.center();
+                    wire.to.node != *id && wire.from.node != *id && wire.distance(middle) < rect.height().min(60.0)
+                });
+                let crossing = crossing
+                    .min_by(|one, other| one.distance(rect.center()).total_cmp(&other.distance(rect.center())))?;
+                desk.may_insert(id, &crossing.to).then_some(&crossing.to)
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Canvas {
+    /// Takes a node, and with it all that are selected.
+    pub(in crate::canvas) fn grab(
+        &mut self,
+        id: &NodeId,
+        response: &Response,
+        around: &Around<'_>,
+        modifiers: Modifiers,
+        actions: &mut Vec<Action>,
+    ) {
+        let (Some(panel), Some(at)) = (self.panel, response.ctx.input(|input| input.pointer.press_origin())) else {
+            return;
+        };
+        let mut from = around.desk.places();
+        if !from.contains_key(id) {
+            actions.push(Action::Select(vec![id.clone()]));
+            let Some(node) = around.desk.node(id) else { return };
+            from = BTreeMap::from([(id.clone(), node.pos)]);
+        }
+        actions.push(Action::BeginMove);
+        if modifiers.alt {
+            actions.push(Action::TakeOut);
+        }
+        self.gesture = Gesture::Move {
+            from,
+            grabbed: self.view.place(panel, at),
+        };
+    }
+}
+
+/// Nodes follow the pointer.
+pub(super) fn drag(
+    canvas: &mut Canvas,
+    ui: &Ui,
+    panel: Rect,
+    around: &Around<'_>,
+    wires: &[Wire],
+    pointer: Pos2,
+    actions: &mut Vec<Action>,
+) {
+    if ui.input(|input| input.key_pressed(Key::Escape)) {
+        actions.push(Action::TakeBack);
+        canvas.gesture = Gesture::Idle;
+        return;
+    }
+    pull(canvas, ui, panel, pointer);
+    let Gesture::Move { from, grabbed } = &canvas.gesture else {
+        return;
+    };
+    let (is_down, modifiers) = ui.input(|input| (input.pointer.primary_down(), input.modifiers));
+    let here = canvas.view.place(panel, pointer);
+    let offset = [here[0] - grabbed[0], here[1] - grabbed[1]];
+    let snapped = |at: f32| match modifiers.command {
+        true => at.round(),
+        false => (at / GRID).round() * GRID,
+    };
+    let places = from
+        .iter()
+        .map(|(id, pos)| (id.clone(), [snapped(pos[0] + offset[0]), snapped(pos[1] + offset[1])]));
+    actions.push(Action::Move(places.collect()));
+    if is_down {
+        return;
+    }
+    let into = canvas
+        .gesture
+        .hot_wire(canvas, around.desk, wires, Some(pointer))
+        .cloned();
+    if let (Some(into), Gesture::Move { from, .. }) = (into, &canvas.gesture)
+        && let Some(id) = from.keys().next()
+    {
+        let node = id.clone();
+        actions.push(Action::Wire(WireAsk::Insert { node, into }));
+    }
+    if let Some(frame) = frames::under(canvas, around.desk, pointer) {
+        actions.push(Action::Frame(FrameAsk::Fill(Some(frame))));
+    }
+    actions.push(Action::EndMove);
+    canvas.gesture = Gesture::Idle;
+}

@@ -1,0 +1,167 @@
+//! What the names of texture files say: which set they belong to, and which channel they are. Follows what ambientCG, Poly
+//! Haven, cgbookcase and the exports of common tools write.
+
+use std::path::Path;
+
+/// What a picture of a texture set holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Map {
+    Color,
+    Roughness,
+    Metallic,
+    Occlusion,
+    Height,
+    /// `is_down` where green points down, as in DirectX.
+    Normal {
+        is_down: bool,
+    },
+    Alpha,
+    Emission,
+    /// Several channels in one picture.
+    Packed,
+}
+
+/// Words that name a map, without spaces and in small letters.
+const WORDS: [(Map, &[&str]); 9] = [
+    (
+        Map::Color,
+        &["color", "col", "basecolor", "albedo", "diff", "diffuse", "base"],
+    ),
+    (Map::Roughness, &["roughness", "rough", "rgh"]),
+    (Map::Metallic, &["metallic", "metalness", "metal", "mtl"]),
+    (Map::Occlusion, &["ambientocclusion", "occlusion", "ao"]),
+    (Map::Height, &["displacement", "displace", "disp", "height", "bump"]),
+    (
+        Map::Normal { is_down: false },
+        &["normal", "normals", "normalmap", "nor", "norm", "nrm"],
+    ),
+    (Map::Alpha, &["opacity", "alpha", "transparency"]),
+    (Map::Emission, &["emission", "emissive", "emit"]),
+    (Map::Packed, &["arm", "orm", "ord", "rma", "mra"]),
+];
+
+/// Words that say how green of a normal map points.
+const UP: [&str; 3] = ["gl", "opengl", "ogl"];
+const DOWN: [&str; 3] = ["dx", "directx", "d3d"];
+/// Words that say how a file is stored.
+const STORED: [&str; 6] = ["jpg", "jpeg", "png", "exr", "tif", "tiff"];
+
+/// What the name of a file says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct MapName {
+    /// The set that it belongs to, in small letters.
+    pub(super) set: String,
+    pub(super) map: Map,
+}
+
+impl MapName {
+    /// Reads the name of a file; none where it is not that of a map.
+    pub(super) fn of(file: &Path) -> Option<MapName> {
+        let stem = file.file_stem()?.to_string_lossy().to_lowercase();
+        let words: Vec<&str> = stem
+            .split(|letter: char| !letter.is_alphanumeric())
+            .filter(|word| !word.is_empty() && !is_stored(word))
+            .collect();
+        let (last, mut rest) = words.split_last()?;
+        let (mut word, mut is_down) = (*last, None);
+        if UP.contains(&word) || DOWN.contains(&word) {
+            is_down = Some(DOWN.contains(&word));
+            let (before, others) = rest.split_last()?;
+            (word, rest) = (*before, others);
+        } else if let Some((known, down)) = directed(word) {
+            (word, is_down) = (known, Some(down));
+        }
+        let map = match rest.split_last() {
+            // Base color and ambient occlusion are two words as often as one.
+            Some((before, others)) if map_of(&format!("{before}{word}")).is_some() => {
+                let both = map_of(&format!("{before}{word}"));
+                rest = others;
+                both?
+            }
+            _ => map_of(word)?,
+        };
+        let map = match (map, is_down) {
+            (Map::Normal { .. }, Some(is_down)) => Map::Normal { is_down },
+            (map, None) => map,
+            // A color that is said to be of OpenGL is no map that we know.
+            (_, Some(_)) => return None,
+        };
+        Some(MapName {
+            set: rest.join("_"),
+            map,
+        })
+    }
+}
+
+fn map_of(word: &str) -> Option<Map> {
+    let (map, _) = WORDS.iter().find(|(_, words)| words.contains(&word))?;
+    Some(*map)
+}
+
+/// A normal map and its direction in one word, as `normalgl`.
+fn directed(word: &str) -> Option<(&str, bool)> {
+    let cut = |ends: &[&str]| ends.iter().find_map(|end| word.strip_suffix(end));
+    let is_normal = |word: &&str| matches!(map_of(word), Some(Map::Normal { .. }));
+    let up = cut(&UP).filter(is_normal).map(|word| (word, false));
+    up.or_else(|| cut(&DOWN).filter(is_normal).map(|word| (word, true)))
+}
+
+/// Whether a word says how a file is stored: its format, or its size as in `2k`.
+fn is_stored(word: &str) -> bool {
+    let size = word.strip_suffix('k').unwrap_or("");
+    let is_size = !size.is_empty() && size.chars().all(|letter| letter.is_ascii_digit());
+    is_size || STORED.contains(&word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(name: &str) -> Option<(String, Map)> {
+        MapName::of(Path::new(name)).map(|name| (name.set, name.map))
+    }
+
+    #[test]
+    fn names_of_common_libraries_say_set_and_map() {
+        let up = Map::Normal { is_down: false };
+        let down = Map::Normal { is_down: true };
+        let known = [
+            ("Bricks001_2K-JPG_Color.jpg", "bricks001", Map::Color),
+            ("Bricks001_2K-JPG_NormalGL.jpg", "bricks001", up),
+            ("Bricks001_2K-JPG_NormalDX.jpg", "bricks001", down),
+            ("Bricks001_2K-JPG_AmbientOcclusion.jpg", "bricks001", Map::Occlusion),
+            ("Metal032_1K_Metalness.png", "metal032", Map::Metallic),
+            ("Metal032_1K_Displacement.png", "metal032", Map::Height),
+            ("rusty_metal_02_diff_4k.jpg", "rusty_metal_02", Map::Color),
+            ("rusty_metal_02_nor_gl_4k.exr", "rusty_metal_02", up),
+            ("rusty_metal_02_nor_dx_4k.exr", "rusty_metal_02", down),
+            ("rusty_metal_02_rough_4k.exr", "rusty_metal_02", Map::Roughness),
+            ("rusty_metal_02_ao_4k.jpg", "rusty_metal_02", Map::Occlusion),
+            ("rusty_metal_02_arm_4k.jpg", "rusty_metal_02", Map::Packed),
+            ("Floor_Base_Color.png", "floor", Map::Color),
+            ("Floor_Normal_OpenGL.png", "floor", up),
+            ("Floor_Ambient_occlusion.png", "floor", Map::Occlusion),
+            ("old-planks-height.png", "old_planks", Map::Height),
+            ("leaf opacity.png", "leaf", Map::Alpha),
+            ("lamp_emissive.png", "lamp", Map::Emission),
+            ("albedo.png", "", Map::Color),
+        ];
+        for (name, set, map) in known {
+            assert_eq!(told(name), Some((set.to_owned(), map)), "{name}");
+        }
+    }
+
+    #[test]
+    fn other_names_are_those_of_no_map() {
+        for name in [
+            "preview.png",
+            "color_chart_photo.jpg",
+            "bricks_color_gl.png",
+            "2k.png",
+            ".png",
+            "gl.png",
+        ] {
+            assert_eq!(told(name), None, "{name}");
+        }
+    }
+}
