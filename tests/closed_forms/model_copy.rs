@@ -55,6 +55,8 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         output: folder.join("out"),
         report: None,
         presets: Vec::new(),
+        names: None,
+        channels: Vec::new(),
         material: None,
         all_maps: false,
         padding: None,

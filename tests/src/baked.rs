@@ -56,6 +56,8 @@ impl Baked {
             },
             output: output.clone(),
             presets: Vec::new(),
+            names: None,
+            channels: Vec::new(),
             material: None,
             all_maps: false,
             padding: None,

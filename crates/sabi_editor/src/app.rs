@@ -8,6 +8,7 @@ mod perform;
 mod rooms;
 #[cfg(test)]
 mod tests;
+mod work;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
@@ -35,6 +36,7 @@ use crate::settings::Settings;
 use crate::stage::Stage;
 use crate::theme::Theme;
 use crate::watching::Watching;
+use work::Work;
 
 /// How often what is not saved is kept in case the program ends.
 const KEEP_EVERY: Duration = Duration::from_secs(3);
@@ -109,10 +111,7 @@ pub(crate) struct Editor {
     pub(crate) panels: panels::Panels,
     pub(crate) files: Files,
     notices: VecDeque<(Instant, String)>,
-    kept_at: Instant,
-    /// The state of the graph that was kept last.
-    kept_revision: Option<u64>,
-    keep_every: Duration,
+    keeping: Keeping,
     render: Option<RenderState>,
     handover: Handover,
     is_leaving: bool,
@@ -123,32 +122,20 @@ pub(crate) struct Editor {
     pub(crate) frame_times: VecDeque<Duration>,
 }
 
-/// What is worked on in a window, from its first frame on.
-struct Work {
-    desk: Desk,
-    canvas: Canvas,
-    model: PathBuf,
-    files: Files,
+/// What is not saved is kept in case the program ends: when last, and what then.
+struct Keeping {
+    at: Instant,
+    /// The state of the graph that was kept.
+    revision: Option<u64>,
+    every: Duration,
 }
 
-impl Work {
-    /// What a window on a lost device left, or else a beginning with the questions that belong to one.
-    fn taken_up(session: Session, model: PathBuf, handover: &Handover, files: impl FnOnce() -> Files) -> Work {
-        let kept = handover.lock().ok().and_then(|mut kept| kept.take());
-        match kept {
-            // Who was at work goes on, without a start page before it.
-            Some(kept) => Work {
-                desk: kept.desk,
-                canvas: kept.canvas,
-                model: kept.model,
-                files: Files::new(false, None),
-            },
-            None => Work {
-                desk: Desk::new(session),
-                canvas: Canvas::default(),
-                model,
-                files: files(),
-            },
+impl Default for Keeping {
+    fn default() -> Keeping {
+        Keeping {
+            at: Instant::now(),
+            revision: None,
+            every: KEEP_EVERY,
         }
     }
 }
@@ -167,17 +154,12 @@ impl Editor {
         faults.extend(fault);
         let theme = Arc::new(Theme::of(settings.shade));
         dress(context, &theme, settings.scale);
-        let Work {
-            desk,
-            canvas,
-            model,
-            files,
-        } = Work::taken_up(beginning.session, beginning.model, &handover, || {
+        let work = Work::taken_up(beginning.session, beginning.model, &handover, || {
             Files::new(beginning.is_start, beginning.folders.recovery.as_deref())
         });
         let (watching, fault) = Watching::new(context);
         faults.extend(fault.map(|error| error.to_string()));
-        let stage = Stage::new(gpu, &model, beginning.folders.cache.clone(), context);
+        let stage = Stage::new(gpu, &work.model, beginning.folders.cache.clone(), context);
         let mut editor = Editor {
             model_view: ModelView::new(&settings.environment),
             flat_view: FlatView::default(),
@@ -187,7 +169,7 @@ impl Editor {
             theme,
             kept_settings: None,
             settings,
-            files,
+            files: work.files,
             panels: panels::Panels::new(beginning.folders.cache.clone()),
             folders: beginning.folders,
             rects: BTreeMap::new(),
@@ -201,11 +183,9 @@ impl Editor {
             is_moving: false,
             knob_memory: KnobMemory::default(),
             notices: VecDeque::new(),
-            kept_at: Instant::now(),
-            kept_revision: None,
-            keep_every: KEEP_EVERY,
-            desk,
-            canvas,
+            keeping: Keeping::default(),
+            desk: work.desk,
+            canvas: work.canvas,
             stage,
             watching,
             render,
@@ -286,17 +266,17 @@ impl Editor {
     /// Keeps what is not saved, and settings that changed.
     fn keep(&mut self, context: &Context) {
         let revision = Some(self.desk.session.revision());
-        if self.kept_at.elapsed() >= self.keep_every {
-            self.kept_at = Instant::now();
-            self.kept_revision = revision;
+        if self.keeping.at.elapsed() >= self.keeping.every {
+            self.keeping.at = Instant::now();
+            self.keeping.revision = revision;
             if let Err(error) = self.desk.session.keep() {
-                self.kept_revision = None;
+                self.keeping.revision = None;
                 self.say(format!("What is not saved cannot be kept in case of a crash: {error}"));
             }
             self.keep_settings();
         }
-        if self.kept_revision != revision {
-            context.request_repaint_after(self.keep_every);
+        if self.keeping.revision != revision {
+            context.request_repaint_after(self.keeping.every);
         }
     }
 

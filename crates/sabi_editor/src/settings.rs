@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::command::Habit;
 use crate::dock::Layout;
+use crate::panels::export::ExportChoices;
 use crate::theme::Shade;
 
 const FILE: &str = "settings.json";
@@ -32,6 +33,7 @@ pub(crate) struct Settings {
     pub(crate) is_flat: bool,
     /// Whether textures are exported again at every save.
     pub(crate) exports_on_save: bool,
+    pub(crate) export: ExportChoices,
     /// Environment of the viewport: a built-in name, or a file.
     pub(crate) environment: String,
     pub(crate) layout: Option<Layout>,
@@ -50,6 +52,7 @@ impl Default for Settings {
             models: Vec::new(),
             is_flat: false,
             exports_on_save: false,
+            export: ExportChoices::default(),
             environment: "studio".to_owned(),
             layout: None,
             favorites: Vec::new(),
@@ -100,6 +103,7 @@ impl Settings {
         };
         self.models.truncate(MOST_MODELS);
         self.recent.truncate(MOST_RECENT);
+        self.export = self.export.sound();
         self
     }
 }

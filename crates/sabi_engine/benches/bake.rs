@@ -69,6 +69,8 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         output: folder.join("out"),
         report: None,
         presets: Vec::new(),
+        names: None,
+        channels: Vec::new(),
         material: None,
         all_maps: false,
         padding: None,

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Committed, Padding, SetOptions, preset};
+use sabi_export::{BakeWriter, Committed, Padding};
 use sabi_gpu::{Run, RunOptions};
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 use serde_json::{Map, Value as Json, json};
 
+use crate::bake_request::{BakeRequest, names, set_options};
 use crate::describe::describe_unwrapping;
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
@@ -22,42 +23,14 @@ use crate::modelless::{refuse_faults, targets};
 use crate::outputs::{clashes, nothing_comes_out, outputs};
 use crate::overlap::Sharing;
 use crate::report::{BakeReport, StageTime, StageTimes};
-use crate::seams::{ModelSeams, Seams};
+use crate::seams::ModelSeams;
 use crate::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::source::{OUTPUT_MASK, mask_name};
 use crate::stages::Progress;
-use crate::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
+use crate::workpiece::{Workpiece, stop_if_canceled};
 
 /// How long one submission of a bake may take: long enough to cost nothing, short enough to be stopped.
 const SUBMISSION: Duration = Duration::from_millis(200);
-
-/// What to bake.
-pub struct BakeRequest {
-    /// The graph file.
-    pub graph: PathBuf,
-    /// Model, overrides, fit, adapter.
-    pub workpiece: WorkpieceOptions,
-    /// Folder for the maps.
-    pub output: PathBuf,
-    /// Presets by name.
-    pub presets: Vec<String>,
-    /// Only the set of this material.
-    pub material: Option<String>,
-    /// Whether channels that are the same all over get maps too.
-    pub all_maps: bool,
-    /// How far maps reach out of the charts, texels; none for everywhere.
-    pub padding: Option<u32>,
-    /// What becomes of differences at seams.
-    pub seams: Seams,
-    /// Whether point nodes are fused.
-    pub fuse: bool,
-    /// Whether a folder that has files but no earlier maps is taken all the same.
-    pub force: bool,
-    /// Whether a glTF copy of the model that uses the maps is written too.
-    pub model: bool,
-    /// The file that the caller writes the report to: refused if it is one of those that the bake reads.
-    pub report: Option<PathBuf>,
-}
 
 /// Bakes; nothing is replaced before everything is complete, and no model is loaded for a graph with a fault.
 pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
@@ -77,11 +50,6 @@ pub fn bake_graph(
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
     bake_open(open, kinds.clone(), StageTime::default(), request, progress)
-}
-
-/// Names of all presets, the one that is taken unless told otherwise first.
-pub fn export_presets() -> impl Iterator<Item = &'static str> {
-    ["raw"].into_iter()
 }
 
 /// Bakes what was read in that time.
@@ -115,7 +83,6 @@ fn bake_open(
     let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, workpiece.gpu.limits())?;
     let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
     let sets = set_works(&workpiece.graph, &plan, sets, &serving.nodes);
-    let mut encode = workpiece.times.encode;
     let map_writer = MapWriter {
         workpiece: &workpiece,
         plan: &plan,
@@ -127,6 +94,7 @@ fn bake_open(
             ..RunOptions::new(SUBMISSION, request.workpiece.budget_bytes)
         },
     };
+    let mut encode = workpiece.times.encode;
     let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
     encode.time(|| write_copy(copy, &mut writer, &mut written))?;
@@ -138,33 +106,23 @@ fn bake_open(
         ..workpiece.times
     };
     let json = report(request, &workpiece, &plan, &run, &written, &times, &warnings);
-    let files = committed.files.iter().filter_map(|file| file.file_name());
     Ok(BakeReport {
         times,
-        files: files.map(|name| name.to_string_lossy().into_owned()).collect(),
+        files: file_names(&committed),
         warnings,
         json,
     })
+}
+
+fn file_names(committed: &Committed) -> Vec<String> {
+    let names = committed.files.iter().filter_map(|file| file.file_name());
+    names.map(|name| name.to_string_lossy().into_owned()).collect()
 }
 
 /// A sentence for each file that an earlier bake left.
 fn left_over(committed: &Committed) -> impl Iterator<Item = String> {
     let paths = committed.left_over.iter().map(|path| path.display());
     paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now"))
-}
-
-fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineError> {
-    for name in &request.presets {
-        if !export_presets().any(|known| known == name) {
-            let known = export_presets().collect::<Vec<_>>().join(", ");
-            let why = format!("there is no preset '{name}'; there is: {known}");
-            return Err(EngineError::new(ErrorKind::Usage, why));
-        }
-    }
-    Ok(SetOptions {
-        preset: preset::raw(),
-        all_maps: request.all_maps,
-    })
 }
 
 /// The graph's outputs, by id; refuses a graph that has none, or in which something that they need is at fault.
@@ -189,9 +147,18 @@ fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<V
     })
 }
 
+/// Whether a bake would be refused because its folder has files but no earlier maps, and `force` would let it be made.
+pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
+    let graph = open.flatten(&request.workpiece.overrides);
+    // What is wrong with either, the bake says.
+    graph.is_ok_and(|graph| {
+        refuse_foreign_folder(request, &graph).is_err_and(|error| error.kind == ErrorKind::CannotWrite)
+    })
+}
+
 /// A mistyped folder must not fill somebody's pictures with maps.
 fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(), EngineError> {
-    if request.force || !is_foreign_folder(&request.output, graph) {
+    if request.force || !is_foreign_folder(&request.output, graph, &names(request)?) {
         return Ok(());
     }
     let why = format!(

@@ -3,14 +3,15 @@
 use std::fs;
 use std::path::Path;
 
-use sabi_export::Channel;
+use sabi_export::{Channel, NamePattern};
 use sabi_graph::FlatGraph;
 
 use crate::source::{OUTPUT_MASK, mask_name};
 
-/// Whether a folder has files but none that a bake of this graph may have left: then it is somebody else's. A folder that
+/// Whether a folder has files but none that a bake of this graph may have left, `called` so or as maps usually are: then it
+/// is somebody else's. A folder that
 /// is not there or is empty is nobody's; hidden files do not count.
-pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph) -> bool {
+pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph, called: &NamePattern) -> bool {
     let Ok(entries) = fs::read_dir(folder) else {
         return false;
     };
@@ -21,11 +22,13 @@ pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph) -> bool {
     let masks = graph.nodes.iter().filter(|node| node.kind == OUTPUT_MASK);
     let masks = masks.map(|node| Channel::Mask(mask_name(node)));
     let channels: Vec<Channel> = Channel::ALL.into_iter().chain(masks).collect();
-    !names.is_empty() && !names.iter().any(|name| is_map(name, &channels))
+    let patterns = [called, &NamePattern::default()];
+    let is_one = |name: &String| patterns.iter().any(|pattern| is_map(name, pattern, &channels));
+    !names.is_empty() && !names.iter().any(is_one)
 }
 
 /// Whether a file is called as maps are: `wood_base_color.png`, `wood_height.1001.exr`.
-fn is_map(name: &str, channels: &[Channel]) -> bool {
+fn is_map(name: &str, called: &NamePattern, channels: &[Channel]) -> bool {
     let Some(stem) = name.strip_suffix(".png").or_else(|| name.strip_suffix(".exr")) else {
         return false;
     };
@@ -33,21 +36,21 @@ fn is_map(name: &str, channels: &[Channel]) -> bool {
         Some((stem, tile)) if tile.len() == 4 && tile.bytes().all(|byte| byte.is_ascii_digit()) => stem,
         _ => stem,
     };
-    let is_of = |channel: &Channel| stem.ends_with(&format!("_{}", channel.name()));
-    channels.iter().any(is_of)
+    channels.iter().any(|channel| called.may_give(stem, channel))
 }
 
 #[cfg(test)]
 mod tests {
-    use sabi_export::Channel;
+    use sabi_export::{Channel, NamePattern};
 
     use super::is_map;
 
     #[test]
     fn maps_are_known_by_their_names() {
+        let called = NamePattern::default();
         let channels = [Channel::BaseColor, Channel::Height, Channel::Mask("wear".into())];
         for name in ["wood_base_color.png", "wood_height.1001.exr", "a.b_wear.png"] {
-            assert!(is_map(name, &channels), "{name}");
+            assert!(is_map(name, &called, &channels), "{name}");
         }
         for name in [
             "holiday.png",
@@ -56,7 +59,7 @@ mod tests {
             "wood_height.12.exr",
             "thesis.doc",
         ] {
-            assert!(!is_map(name, &channels), "{name}");
+            assert!(!is_map(name, &called, &channels), "{name}");
         }
     }
 }

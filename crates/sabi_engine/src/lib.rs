@@ -3,6 +3,7 @@
 //! [`Workpiece::open`] brings a graph and a model together; [`bake`] and [`preview`] are what is done with them.
 
 mod bake;
+mod bake_request;
 mod cache_dir;
 pub mod catalog;
 mod check;
@@ -45,7 +46,8 @@ mod thumbnail;
 mod watch;
 mod workpiece;
 
-pub use bake::{BakeRequest, bake, bake_graph, export_presets};
+pub use bake::{bake, bake_graph, needs_force};
+pub use bake_request::{BakeRequest, DEFAULT_NAMES, default_padding, export_channels, export_presets, why_no_names};
 pub use cache_dir::default_cache_dir;
 pub use check::{CheckReport, check};
 pub use describe::{describe_mesh, describe_nodes, diagnose};

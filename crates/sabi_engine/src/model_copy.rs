@@ -6,7 +6,7 @@ use sabi_export::{BakeWriter, CopiedFile, ModelCopy};
 use sabi_surface::model::Model;
 use serde_json::{Value as Json, json};
 
-use crate::bake::BakeRequest;
+use crate::bake_request::BakeRequest;
 use crate::error::{EngineError, ErrorKind};
 use crate::maps::WrittenMaps;
 use crate::prepare::Prepared;

@@ -50,9 +50,18 @@ pub enum ExportError {
         /// What stands there.
         path: PathBuf,
     },
+    /// A pattern for the names of maps that cannot be one.
+    #[error("maps cannot be named '{pattern}': {why}")]
+    Names {
+        /// The pattern.
+        pattern: String,
+        /// What is wrong with it and what to do.
+        why: String,
+    },
     /// Two maps of a bake would have the same file.
     #[error(
-        "two maps would be written to {file_name}; rename the material or the mask output that one of them belongs to"
+        "two maps would be written to {file_name}; rename the material or the mask output that one of them belongs to, or \
+         name maps with {{material}}"
     )]
     SameName {
         /// The file, without its folder.
@@ -160,7 +169,8 @@ mod tests {
         };
         assert_eq!(
             same.to_string(),
-            "two maps would be written to a.png; rename the material or the mask output that one of them belongs to"
+            "two maps would be written to a.png; rename the material or the mask output that one of them belongs to, or \
+             name maps with {material}"
         );
         assert!(!same.is_cannot_write());
         let large = ExportError::CopyTooLarge {

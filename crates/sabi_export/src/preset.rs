@@ -85,13 +85,13 @@ impl Preset {
 }
 
 impl Map {
-    /// Name of the file for a set: `wood_base_color.png`, `wood_base_color.1002.png`.
-    pub fn file_name(&self, material: &str, channel: &Channel, udim: Option<u32>) -> String {
+    /// Name of the file of a stem for a tile: `wood_base_color.png`, `wood_base_color.1002.png`.
+    pub fn file_name(&self, stem: &str, udim: Option<u32>) -> String {
         let ending = match self.format {
             Format::Png { .. } => "png",
             Format::Exr => "exr",
         };
         let tile = udim.map(|number| format!(".{number}")).unwrap_or_default();
-        format!("{material}_{}{tile}.{ending}", channel.name())
+        format!("{stem}{tile}.{ending}")
     }
 }

@@ -9,13 +9,15 @@ use crate::encode::encode;
 use crate::layout::SetLayout;
 use crate::model_copy::{Gathering, MapFile, MaterialMaps, Passing};
 use crate::preset::{Codes, Format, Preset, When, raw};
-use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord, Staging, Value};
+use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, NamePattern, OutputRecord, Staging, Value};
 
 /// How a texture set is written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetOptions {
     /// Which files.
     pub preset: Preset,
+    /// How they are called.
+    pub names: NamePattern,
     /// Whether channels that are the same all over get a map all the same.
     pub all_maps: bool,
 }
@@ -24,6 +26,7 @@ impl Default for SetOptions {
     fn default() -> Self {
         SetOptions {
             preset: raw(),
+            names: NamePattern::default(),
             all_maps: false,
         }
     }
@@ -157,10 +160,11 @@ impl SetWriter<'_> {
         });
         let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
         let above_one = high[..components].iter().any(|&value| value > 1.0);
+        let stem = self.options.names.stem(&self.name, channel);
         let mut outputs = Vec::new();
         let mut written = Vec::new();
         for map in self.options.preset.maps_of(channel).cloned().collect::<Vec<_>>() {
-            let file_name = map.file_name(&self.name, channel, udim);
+            let file_name = map.file_name(&stem, udim);
             if (constant.is_some() && !self.options.all_maps) || (map.when == When::AboveOne && !above_one) {
                 self.bake.spared.insert(file_name);
                 continue;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sabi_engine::Seams;
+use sabi_engine::{Seams, default_padding};
 
 use super::{MapArguments, WorkpieceArguments};
 
@@ -33,6 +33,12 @@ pub(crate) struct BakeArguments {
     /// Which maps to write; may be repeated. There is: raw (the default)
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) preset: Vec<String>,
+    /// Only maps of this channel, or 'masks' for all outputs of masks; may be repeated
+    #[arg(long, value_name = "NAME", help_heading = "Maps")]
+    pub(crate) channel: Vec<String>,
+    /// How maps are called: text with {channel}, {material}, {graph} and {size} in it [default: {material}_{channel}]
+    #[arg(long, value_name = "PATTERN", help_heading = "Maps")]
+    pub(crate) names: Option<String>,
     /// Write maps of channels that are the same all over too, not only their value in the report
     #[arg(long, help_heading = "Maps")]
     pub(crate) all_maps: bool,
@@ -65,8 +71,7 @@ impl BakeArguments {
         match self.padding {
             Some(Padding::Infinite) => None,
             Some(Padding::Texels(texels)) => Some(texels),
-            // As coarser levels of a map shrink it, the same part of the map stays covered.
-            None => Some((self.maps.size / 128).max(2)),
+            None => Some(default_padding(self.maps.size)),
         }
     }
 }

@@ -48,6 +48,8 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
         workpiece: arguments.workpiece.options(arguments.maps.size)?,
         output: arguments.output.clone(),
         presets: arguments.preset.clone(),
+        names: arguments.names.clone(),
+        channels: arguments.channel.clone(),
         material: arguments.workpiece.material.clone(),
         all_maps: arguments.all_maps,
         padding: arguments.padding_texels(),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::Ui;
 use sabi_engine::{
     AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EngineError, Kinds, ModelOptions, Overrides, Seams,
-    Session, WorkpieceOptions, bake_graph,
+    Session, WorkpieceOptions, bake_graph, default_padding, needs_force,
 };
 use sabi_graph::Value;
 
@@ -69,7 +69,7 @@ impl Editor {
         let model = named.map(|mesh| session.graph().folder().join(mesh));
         let before = std::mem::replace(&mut self.desk, Desk::new(session));
         before.session.close();
-        self.kept_revision = None;
+        self.keeping.revision = None;
         self.canvas = Default::default();
         self.shown = None;
         self.pinned = None;
@@ -117,20 +117,48 @@ impl Editor {
         }
     }
 
-    /// Writes the textures beside the window's work.
+    /// Writes the textures beside the window's work; asks first where the folder has files of somebody else.
     pub(crate) fn export(&mut self) {
+        self.export_with(false);
+    }
+
+    /// Writes the textures into a folder whatever else it has.
+    pub(crate) fn export_into_any_folder(&mut self) {
+        self.export_with(true);
+    }
+
+    fn export_with(&mut self, force: bool) {
         if self.panels.export.running.is_some() {
             self.say("An export is being made already.");
             return;
         }
-        let export = &self.panels.export;
-        let Some(folder) = folder_of(&export.folder, self.desk.session.file()) else {
-            self.say("Name the folder for the textures first.");
+        let Some(folder) = folder_of(&self.panels.export.folder, self.desk.session.file()) else {
+            let is_empty = self.panels.export.folder.trim().is_empty();
+            self.say(match is_empty {
+                true => "Name the folder for the textures first.",
+                false => {
+                    "Save the graph first, so that there is a folder beside it, or write the whole path of another."
+                }
+            });
             return;
         };
+        let request = self.bake_request(folder, force);
+        let (open, kinds) = (self.desk.session.graph().clone(), self.desk.kinds().0.clone());
+        self.panels.export.asks_force = needs_force(&open, &request);
+        if self.panels.export.asks_force {
+            return;
+        }
+        let context = self.context.clone();
+        let work = move |progress: &dyn sabi_engine::Progress| bake_graph(&open, &kinds, &request, progress);
+        self.panels.export.running = Some(Running::start(&context, work));
+    }
+
+    /// What the export panel says, for the model and the device of the window.
+    pub(super) fn bake_request(&self, output: PathBuf, force: bool) -> BakeRequest {
+        let export = &self.settings.export;
         let mut model = ModelOptions::new(self.stage.model_file(), export.size);
         model.cache_dir = self.stage.cache_dir().map(Path::to_owned);
-        let request = BakeRequest {
+        BakeRequest {
             graph: self.desk.session.graph().path.clone(),
             workpiece: WorkpieceOptions {
                 model,
@@ -140,21 +168,19 @@ impl Editor {
                 caster: CasterChoice::Auto,
                 budget_bytes: DEFAULT_BUDGET_BYTES,
             },
-            output: folder,
+            output,
             presets: vec![export.preset.clone()],
+            names: Some(export.names.clone()).filter(|names| !names.is_empty()),
+            channels: export.channels.clone(),
             material: None,
             all_maps: export.all_maps,
-            padding: None,
+            padding: Some(default_padding(export.size)),
             seams: Seams::default(),
             fuse: true,
-            force: false,
+            force,
             model: export.has_model,
             report: None,
-        };
-        let (open, kinds) = (self.desk.session.graph().clone(), self.desk.kinds().0.clone());
-        let context = self.context.clone();
-        let work = move |progress: &dyn sabi_engine::Progress| bake_graph(&open, &kinds, &request, progress);
-        self.panels.export.running = Some(Running::start(&context, work));
+        }
     }
 
     /// The folder of a shelf of groups; the project's is only there once the graph has a file.

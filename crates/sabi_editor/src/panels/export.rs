@@ -1,91 +1,74 @@
 //! Textures written for engines.
 
-use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, channel};
-use std::sync::{Arc, Mutex};
-use std::thread;
+mod running;
 
-use egui::{RichText, Ui};
-use sabi_engine::{BakeReport, EngineError, Progress, Stage, export_presets};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use egui::{RichText, TextEdit, Ui};
+use sabi_engine::{DEFAULT_NAMES, Stage, export_channels, export_presets, why_no_names};
 
 use crate::app::Editor;
 use crate::theme::{Theme, space};
 
+pub(crate) use running::Running;
+
 /// Sizes that are offered.
 const SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
 
-/// What the panel holds from frame to frame.
-pub(crate) struct Export {
-    pub(crate) folder: String,
+/// What is exported and how; kept between runs.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct ExportChoices {
     pub(crate) preset: String,
+    /// Texels along a side.
     pub(crate) size: u32,
+    /// How maps are called; empty for what they are usually called.
+    pub(crate) names: String,
+    /// Only maps of these channels; empty for all.
+    pub(crate) channels: Vec<String>,
     pub(crate) has_model: bool,
     pub(crate) all_maps: bool,
-    pub(crate) running: Option<Running>,
-    /// What came of the last one.
-    told: Option<Result<Vec<String>, String>>,
 }
 
-impl Default for Export {
-    fn default() -> Export {
-        Export {
-            folder: String::new(),
-            preset: "raw".to_owned(),
+impl Default for ExportChoices {
+    fn default() -> ExportChoices {
+        ExportChoices {
+            preset: export_presets().next().unwrap_or_default().to_owned(),
             size: 2048,
+            names: String::new(),
+            channels: Vec::new(),
             has_model: false,
             all_maps: false,
-            running: None,
-            told: None,
         }
     }
 }
 
-/// An export that is being made.
-pub(crate) struct Running {
-    watch: Arc<Watch>,
-    done: Receiver<Result<BakeReport, EngineError>>,
+impl ExportChoices {
+    /// What of it can be used: files of settings may have been written by hand.
+    pub(crate) fn sound(mut self) -> ExportChoices {
+        let usual = ExportChoices::default();
+        if !export_presets().any(|preset| preset == self.preset) {
+            self.preset = usual.preset;
+        }
+        if !SIZES.contains(&self.size) {
+            self.size = usual.size;
+        }
+        let known = export_channels();
+        self.channels.retain(|channel| known.contains(channel));
+        self
+    }
 }
 
-/// How far it is.
+/// What the panel holds from frame to frame.
 #[derive(Default)]
-struct Watch {
-    is_canceled: AtomicBool,
-    done: AtomicUsize,
-    of: AtomicUsize,
-    stage: Mutex<Option<Stage>>,
-}
-
-impl Progress for Watch {
-    fn advance(&self, stage: Stage, done: usize, of: usize) {
-        if let Ok(mut known) = self.stage.lock() {
-            *known = Some(stage);
-        }
-        self.done.store(done, Ordering::Relaxed);
-        self.of.store(of, Ordering::Relaxed);
-    }
-
-    fn is_canceled(&self) -> bool {
-        self.is_canceled.load(Ordering::Relaxed)
-    }
-}
-
-impl Running {
-    /// Begins a piece of work beside the window.
-    pub(crate) fn start(
-        context: &egui::Context,
-        work: impl FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + Send + 'static,
-    ) -> Running {
-        let watch = Arc::new(Watch::default());
-        let (sender, done) = channel();
-        let (watched, woken) = (watch.clone(), context.clone());
-        thread::spawn(move || {
-            // A window that was closed meanwhile does not listen.
-            let _ = sender.send(work(watched.as_ref()));
-            woken.request_repaint();
-        });
-        Running { watch, done }
-    }
+pub(crate) struct Export {
+    pub(crate) folder: String,
+    pub(crate) running: Option<Running>,
+    /// The folder has files of somebody else, and it is to be said whether maps go there all the same.
+    pub(crate) asks_force: bool,
+    /// What came of the last one.
+    told: Option<Result<Vec<String>, String>>,
 }
 
 impl Export {
@@ -103,75 +86,142 @@ impl Export {
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
-    let export = &mut editor.panels.export;
-    egui::Grid::new("export")
+    let grid = egui::Grid::new("export")
         .num_columns(2)
-        .spacing([space::USUAL, space::USUAL])
-        .show(ui, |ui| {
-            ui.label("Preset");
-            egui::ComboBox::from_id_salt("preset")
-                .selected_text(&export.preset)
-                .show_ui(ui, |ui| {
-                    for preset in export_presets() {
-                        ui.selectable_value(&mut export.preset, preset.to_owned(), preset);
-                    }
-                });
-            ui.end_row();
-            ui.label("Size");
-            egui::ComboBox::from_id_salt("size")
-                .selected_text(export.size.to_string())
-                .show_ui(ui, |ui| {
-                    for size in SIZES {
-                        ui.selectable_value(&mut export.size, size, size.to_string());
-                    }
-                });
-            ui.end_row();
-            let label = ui.label("Folder").id;
-            ui.horizontal(|ui| {
-                ui.add(egui::TextEdit::singleline(&mut export.folder).desired_width(ui.available_width() - 40.0))
-                    .labelled_by(label);
-                if ui.button("…").clicked()
-                    && let Some(folder) = rfd::FileDialog::new().pick_folder()
-                {
-                    export.folder = folder.display().to_string();
-                }
-            });
-            ui.end_row();
-            ui.label("");
-            ui.checkbox(&mut export.has_model, "The model with them");
-            ui.end_row();
-            ui.label("");
-            ui.checkbox(&mut export.all_maps, "Constant channels too");
-            ui.end_row();
-            ui.label("");
-            ui.checkbox(&mut editor.settings.exports_on_save, "Again at every save");
-            ui.end_row();
-        });
+        .spacing([space::USUAL, space::USUAL]);
+    grid.show(ui, |ui| {
+        choices(&mut editor.settings.export, ui, theme);
+        folder(&mut editor.panels.export, ui);
+        switches(editor, ui);
+    });
     ui.add_space(space::USUAL);
-    let export = &mut editor.panels.export;
-    match &export.running {
-        Some(running) => {
-            let watch = &running.watch;
-            let share = watch.done.load(Ordering::Relaxed) as f32 / watch.of.load(Ordering::Relaxed).max(1) as f32;
-            let label = watch
-                .stage
-                .lock()
-                .map_or("", |stage| stage.map_or("Reading", Stage::label));
-            ui.label(label);
-            ui.add(egui::ProgressBar::new(share).fill(theme.accent).desired_height(6.0));
-            if ui.button("Cancel").clicked() {
-                watch.is_canceled.store(true, Ordering::Relaxed);
+    progress(editor, ui, theme);
+    told(editor, ui, theme);
+}
+
+fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
+    ui.label("Preset");
+    egui::ComboBox::from_id_salt("preset")
+        .selected_text(&export.preset)
+        .show_ui(ui, |ui| {
+            for preset in export_presets() {
+                ui.selectable_value(&mut export.preset, preset.to_owned(), preset);
             }
-            ui.ctx().request_repaint_after(std::time::Duration::from_millis(250));
-        }
-        None => {
-            let button = egui::Button::new(RichText::new("Export").color(theme.on_accent)).fill(theme.accent);
-            if ui.add_sized([ui.available_width(), 28.0], button).clicked() {
-                editor.export();
+        });
+    ui.end_row();
+    ui.label("Size");
+    egui::ComboBox::from_id_salt("size")
+        .selected_text(export.size.to_string())
+        .show_ui(ui, |ui| {
+            for size in SIZES {
+                ui.selectable_value(&mut export.size, size, size.to_string());
             }
+        });
+    ui.end_row();
+    ui.label("Channels");
+    let menu = ui.menu_button(told_channels(&export.channels), |ui| channels(&mut export.channels, ui));
+    menu.response.on_hover_text("Maps of these are written");
+    ui.end_row();
+    let label = ui.label("Names").id;
+    let field = TextEdit::singleline(&mut export.names)
+        .hint_text(DEFAULT_NAMES)
+        .desired_width(ui.available_width());
+    ui.add(field)
+        .labelled_by(label)
+        .on_hover_text("{material}, {channel}, {graph} and {size} stand for what they say");
+    ui.end_row();
+    if let Some(why) = why_no_names(&export.names).filter(|_| !export.names.is_empty()) {
+        ui.label("");
+        ui.add(egui::Label::new(RichText::new(why).color(theme.fault)).wrap());
+        ui.end_row();
+    }
+}
+
+fn told_channels(channels: &[String]) -> String {
+    match channels {
+        [] => "All".to_owned(),
+        [one] => one.clone(),
+        several => format!("{} of {}", several.len(), export_channels().len()),
+    }
+}
+
+/// Switches for channels; all of them is the same as none.
+fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
+    let known = export_channels();
+    let is_chosen = |channel: &String| chosen.is_empty() || chosen.contains(channel);
+    let mut switches: Vec<bool> = known.iter().map(is_chosen).collect();
+    let mut is_changed = false;
+    for (channel, is_on) in known.iter().zip(&mut switches) {
+        is_changed |= ui.checkbox(is_on, channel).changed();
+    }
+    if is_changed {
+        let on = known.iter().zip(&switches).filter(|(_, is_on)| **is_on);
+        *chosen = on.map(|(channel, _)| channel.clone()).collect();
+        if chosen.len() == known.len() {
+            chosen.clear();
         }
     }
-    told(editor, ui, theme);
+}
+
+fn folder(export: &mut Export, ui: &mut Ui) {
+    let label = ui.label("Folder").id;
+    ui.horizontal(|ui| {
+        let field = TextEdit::singleline(&mut export.folder).desired_width(ui.available_width() - 40.0);
+        if ui.add(field).labelled_by(label).changed() {
+            export.asks_force = false;
+        }
+        if ui.button("…").clicked()
+            && let Some(folder) = rfd::FileDialog::new().pick_folder()
+        {
+            export.folder = folder.display().to_string();
+            export.asks_force = false;
+        }
+    });
+    ui.end_row();
+}
+
+fn switches(editor: &mut Editor, ui: &mut Ui) {
+    let settings = &mut editor.settings;
+    let all = [
+        (&mut settings.export.has_model, "The model with them"),
+        (&mut settings.export.all_maps, "Constant channels too"),
+        (&mut settings.exports_on_save, "Again at every save"),
+    ];
+    for (is_on, label) in all {
+        ui.label("");
+        ui.checkbox(is_on, label);
+        ui.end_row();
+    }
+}
+
+/// How far a running export is, or the ways to begin one.
+fn progress(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
+    if let Some(running) = &editor.panels.export.running {
+        let watch = &running.watch;
+        let stage = watch.stage.lock().ok().and_then(|stage| *stage);
+        ui.label(stage.map_or("Reading", Stage::label));
+        ui.add(
+            egui::ProgressBar::new(watch.share())
+                .fill(theme.accent)
+                .desired_height(6.0),
+        );
+        if ui.button("Cancel").clicked() {
+            watch.is_canceled.store(true, Ordering::Relaxed);
+        }
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(250));
+        return;
+    }
+    if editor.panels.export.asks_force {
+        let sentence = "This folder has files, and none of them is a map of this graph.";
+        ui.add(egui::Label::new(RichText::new(sentence).color(theme.warning)).wrap());
+        if ui.button("Put the textures there all the same").clicked() {
+            editor.export_into_any_folder();
+        }
+    }
+    let button = egui::Button::new(RichText::new("Export").color(theme.on_accent)).fill(theme.accent);
+    if ui.add_sized([ui.available_width(), 28.0], button).clicked() {
+        editor.export();
+    }
 }
 
 fn told(editor: &Editor, ui: &mut Ui, theme: &Theme) {
@@ -196,12 +246,47 @@ fn told(editor: &Editor, ui: &mut Ui, theme: &Theme) {
         });
 }
 
-/// The folder that was typed; a relative one is beside the graph.
-pub(crate) fn folder_of(text: &str, graph: Option<&std::path::Path>) -> Option<PathBuf> {
+/// The folder that was typed; a relative one is beside the graph, and nowhere while the graph has no file.
+pub(crate) fn folder_of(text: &str, graph: Option<&Path>) -> Option<PathBuf> {
     let typed = PathBuf::from(text.trim());
     if typed.as_os_str().is_empty() {
         return None;
     }
-    let beside = graph.and_then(|graph| graph.parent());
-    Some(beside.map_or(typed.clone(), |folder| folder.join(typed)))
+    match graph.and_then(Path::parent) {
+        Some(folder) => Some(folder.join(typed)),
+        None => Some(typed).filter(|typed| typed.is_absolute()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_are_beside_the_graph_and_never_where_the_program_was_started() {
+        let graph = Path::new("project").join("worn.sabi");
+        let whole = std::env::temp_dir();
+        let told = whole.display().to_string();
+        assert_eq!(folder_of(" maps ", Some(&graph)), Some(PathBuf::from("project/maps")));
+        assert_eq!(folder_of(&told, Some(&graph)), Some(whole.clone()));
+        assert_eq!(folder_of("maps", None), None);
+        assert_eq!(folder_of(&told, None), Some(whole));
+        assert_eq!(folder_of("  ", Some(&graph)), None);
+    }
+
+    #[test]
+    fn choices_that_nobody_knows_are_left_out() {
+        let choices = ExportChoices {
+            preset: "mine".to_owned(),
+            size: 1000,
+            channels: vec!["normal".to_owned(), "smell".to_owned()],
+            ..ExportChoices::default()
+        };
+        let channels = vec!["normal".to_owned()];
+        let expected = ExportChoices {
+            channels,
+            ..ExportChoices::default()
+        };
+        assert_eq!(choices.sound(), expected);
+    }
 }

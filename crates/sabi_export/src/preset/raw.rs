@@ -45,6 +45,7 @@ pub fn raw() -> Preset {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::NamePattern;
 
     #[test]
     fn every_channel_has_its_file_under_the_promised_name() {
@@ -53,7 +54,10 @@ mod tests {
         let names: Vec<String> = Channel::ALL
             .iter()
             .chain([&mask])
-            .flat_map(|channel| preset.maps_of(channel).map(|map| map.file_name("wood", channel, None)))
+            .flat_map(|channel| {
+                let stem = NamePattern::default().stem("wood", channel);
+                preset.maps_of(channel).map(move |map| map.file_name(&stem, None))
+            })
             .collect();
         assert_eq!(
             names,
@@ -72,7 +76,7 @@ mod tests {
             ]
         );
         assert_eq!(
-            preset.maps[0].file_name("wood", &Channel::BaseColor, Some(1012)),
+            preset.maps[0].file_name("wood_base_color", Some(1012)),
             "wood_base_color.1012.png"
         );
     }

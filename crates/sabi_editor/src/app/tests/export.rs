@@ -31,7 +31,7 @@ fn maps_in(folder: &Path) -> Vec<PathBuf> {
 /// The window with the export panel in front and a folder named.
 fn ready() -> Window {
     let mut window = Window::opened(LAYERED);
-    window.harness.state_mut().panels.export.size = 64;
+    window.harness.state_mut().settings.export.size = 64;
     window.open(Panel::Export);
     let panel = window.editor().rects[&Panel::Export];
     let found = window.harness.query_all_by_label("Folder").map(|node| node.rect());
@@ -97,7 +97,7 @@ fn a_material_without_any_pattern_says_why_there_are_no_maps() {
 #[test]
 fn an_export_is_canceled_and_leaves_nothing() {
     let mut window = ready();
-    window.harness.state_mut().panels.export.size = 4096;
+    window.harness.state_mut().settings.export.size = 4096;
     window.press("Export");
     assert!(window.editor().panels.export.running.is_some());
     window.press("Cancel");
@@ -116,4 +116,59 @@ fn what_cannot_be_exported_says_why() {
     window.press("Export");
     window.until("the end", |editor| editor.panels.export.running.is_none());
     assert!(window.says("output"), "{:?}", window.labels());
+}
+
+#[test]
+fn chosen_channels_are_written_under_the_names_that_were_asked_for() {
+    let mut window = ready();
+    let export = &mut window.harness.state_mut().settings.export;
+    export.channels = vec!["base_color".to_owned()];
+    export.names = "{channel".to_owned();
+    window.settle();
+    assert!(window.says("a brace is opened and not closed"), "{:?}", window.labels());
+    window.harness.state_mut().settings.export.names = "T_{graph}_{channel}_{size}".to_owned();
+    window.settle();
+    assert!(!window.says("a brace is opened"));
+    window.press("Export");
+    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    let file = window.path("maps").join("T_graph_base_color_64.png");
+    assert_eq!(maps_in(&window.path("maps")), [file]);
+}
+
+#[test]
+fn a_folder_with_files_of_somebody_else_is_asked_about() {
+    let mut window = ready();
+    let folder = window.path("maps");
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("thesis.doc"), "").expect("a file");
+    window.press("Export");
+    assert!(
+        window.says("none of them is a map of this graph"),
+        "{:?}",
+        window.labels()
+    );
+    assert!(window.editor().panels.export.running.is_none());
+    window.press("Put the textures there all the same");
+    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    assert!(!maps_in(&folder).is_empty());
+    assert!(folder.join("thesis.doc").exists());
+    window.press("Export");
+    assert!(window.editor().panels.export.running.is_some(), "now there are maps");
+    window.until("the maps", |editor| editor.panels.export.running.is_none());
+}
+
+#[test]
+fn the_window_writes_the_bytes_that_a_bake_without_it_writes() {
+    let mut window = ready();
+    window.press("Export");
+    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    let mut alone = window.editor().bake_request(window.path("alone"), false);
+    alone.graph = window.path("graph.sabi");
+    alone.workpiece.adapter = sabi_engine::AdapterChoice::Cpu;
+    let report = sabi_engine::bake(&alone, &sabi_engine::Silent).expect("a bake");
+    assert!(!report.files.is_empty());
+    for name in report.files.iter().filter(|name| name.ends_with("png")) {
+        let read = |folder: &str| fs::read(window.path(folder).join(name)).expect("a map");
+        assert!(read("maps") == read("alone"), "{name}");
+    }
 }

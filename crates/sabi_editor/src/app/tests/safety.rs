@@ -171,7 +171,7 @@ fn a_window_with_changes_asks_before_it_closes() {
 #[test]
 fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().keep_every = Duration::ZERO;
+    window.harness.state_mut().keeping.every = Duration::ZERO;
     window.mute();
     let text = window.text();
     let unsaved = window.path("unsaved");
@@ -200,7 +200,7 @@ fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
 #[test]
 fn settings_and_recent_files_are_there_in_the_next_window() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().keep_every = Duration::ZERO;
+    window.harness.state_mut().keeping.every = Duration::ZERO;
     window.keys(Modifiers::COMMAND, Key::Equals);
     window.keys(Modifiers::COMMAND, Key::S);
     window.settle();

@@ -1,0 +1,45 @@
+//! What is worked on in a window from its first frame on.
+
+use std::path::PathBuf;
+
+use sabi_engine::Session;
+
+use super::Handover;
+use crate::canvas::Canvas;
+use crate::desk::Desk;
+use crate::files::Files;
+
+/// What is worked on.
+pub(super) struct Work {
+    pub(super) desk: Desk,
+    pub(super) canvas: Canvas,
+    pub(super) model: PathBuf,
+    pub(super) files: Files,
+}
+
+impl Work {
+    /// What a window on a lost device left, or else a beginning with the questions that belong to one.
+    pub(super) fn taken_up(
+        session: Session,
+        model: PathBuf,
+        handover: &Handover,
+        files: impl FnOnce() -> Files,
+    ) -> Work {
+        let kept = handover.lock().ok().and_then(|mut kept| kept.take());
+        match kept {
+            // Who was at work goes on, without a start page before it.
+            Some(kept) => Work {
+                desk: kept.desk,
+                canvas: kept.canvas,
+                model: kept.model,
+                files: Files::new(false, None),
+            },
+            None => Work {
+                desk: Desk::new(session),
+                canvas: Canvas::default(),
+                model,
+                files: files(),
+            },
+        }
+    }
+}
