@@ -25,7 +25,7 @@ pub(crate) enum Action {
     /// Put the selected group into a library.
     Shelve(Shelf),
     /// Write the file of a node of the artist's own.
-    SaveNode { folder: PathBuf, id: String, text: String },
+    SaveNode(NodeText),
     /// Put a node of another kind in the place of one.
     Replace { node: NodeId, kind: String },
     /// Change wires.
@@ -78,6 +78,16 @@ pub(crate) enum Action {
     GoTo(String),
     /// Take back or do again so many steps; negative is back.
     Steps(i32),
+}
+
+/// A node file that is to be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct NodeText {
+    pub(crate) folder: PathBuf,
+    pub(crate) id: String,
+    pub(crate) text: String,
+    /// What the file is known to hold, which this takes the place of.
+    pub(crate) known: Option<String>,
 }
 
 /// Something that is asked of wires.

@@ -3,6 +3,8 @@
 mod ask;
 mod bars;
 mod documents;
+mod exports;
+mod keeping;
 mod keys;
 mod perform;
 mod rooms;
@@ -31,15 +33,15 @@ use crate::flat_view::FlatView;
 use crate::knobs::KnobMemory;
 use crate::model_view::ModelView;
 use crate::panels;
+use crate::panels::page::Draft;
 use crate::search::{Candidate, candidates};
 use crate::settings::Settings;
 use crate::stage::Stage;
 use crate::theme::Theme;
 use crate::watching::Watching;
+use keeping::Keeping;
 use work::Work;
 
-/// How often what is not saved is kept in case the program ends.
-const KEEP_EVERY: Duration = Duration::from_secs(3);
 /// How long a sentence stays.
 const NOTICE_LASTS: Duration = Duration::from_secs(6);
 
@@ -70,6 +72,8 @@ pub(crate) struct Kept {
     pub(crate) desk: Desk,
     pub(crate) canvas: Canvas,
     pub(crate) model: PathBuf,
+    /// The node file that was being written.
+    pub(crate) draft: Option<Draft>,
 }
 
 /// Where a window leaves what outlives it.
@@ -115,29 +119,13 @@ pub(crate) struct Editor {
     render: Option<RenderState>,
     handover: Handover,
     is_leaving: bool,
+    /// What the window is called.
+    named: String,
     context: Context,
     /// The command that waits for another key.
     pub(crate) waits_for_key: Option<Command>,
     /// Time of the last frames without the drawing of the device.
     pub(crate) frame_times: VecDeque<Duration>,
-}
-
-/// What is not saved is kept in case the program ends: when last, and what then.
-struct Keeping {
-    at: Instant,
-    /// The state of the graph that was kept.
-    revision: Option<u64>,
-    every: Duration,
-}
-
-impl Default for Keeping {
-    fn default() -> Keeping {
-        Keeping {
-            at: Instant::now(),
-            revision: None,
-            every: KEEP_EVERY,
-        }
-    }
 }
 
 impl Editor {
@@ -170,7 +158,7 @@ impl Editor {
             kept_settings: None,
             settings,
             files: work.files,
-            panels: panels::Panels::new(beginning.folders.cache.clone()),
+            panels: panels::Panels::new(beginning.folders.cache.clone(), work.draft),
             folders: beginning.folders,
             rects: BTreeMap::new(),
             active: Panel::Canvas,
@@ -191,15 +179,22 @@ impl Editor {
             render,
             handover,
             is_leaving: false,
+            named: String::new(),
             context: context.clone(),
             waits_for_key: None,
             frame_times: VecDeque::new(),
         };
-        editor.remember_model();
-        for fault in faults {
-            editor.say(fault);
-        }
+        editor.begin(faults);
         editor
+    }
+
+    /// Remembers what there is from the beginning, and says what could not be read.
+    fn begin(&mut self, faults: Vec<String>) {
+        self.remember_model();
+        self.recall_export();
+        for fault in faults {
+            self.say(fault);
+        }
     }
 
     /// Shows a sentence for a while.
@@ -220,7 +215,7 @@ impl Editor {
         }
         let context = ui.ctx().clone();
         self.stage.take_news(&context);
-        self.panels.export.poll();
+        self.follow_export();
         if self.stage.lost.is_some() {
             self.hand_over(&context);
             return;
@@ -242,6 +237,7 @@ impl Editor {
         for sentence in self.desk.take_notices() {
             self.say(sentence);
         }
+        self.name_window(&context);
         self.wish(&context);
         self.keep(&context);
         self.frame_times.push_back(began.elapsed());
@@ -263,46 +259,21 @@ impl Editor {
         self.candidates = (Some(now), found);
     }
 
-    /// Keeps what is not saved, and settings that changed.
-    fn keep(&mut self, context: &Context) {
-        let revision = Some(self.desk.session.revision());
-        if self.keeping.at.elapsed() >= self.keeping.every {
-            self.keeping.at = Instant::now();
-            self.keeping.revision = revision;
-            if let Err(error) = self.desk.session.keep() {
-                self.keeping.revision = None;
-                self.say(format!("What is not saved cannot be kept in case of a crash: {error}"));
-            }
-            self.keep_settings();
-        }
-        if self.keeping.revision != revision {
-            context.request_repaint_after(self.keeping.every);
-        }
-    }
-
-    fn keep_settings(&mut self) {
-        self.settings.layout = Some(self.layout.clone());
-        let Some(folder) = self.folders.settings.clone() else {
-            return;
-        };
-        let text = serde_json::to_string(&self.settings).ok();
-        if text == self.kept_settings {
-            return;
-        }
-        self.kept_settings = text;
-        if let Err(why) = self.settings.save(&folder) {
-            self.say(why);
-        }
-    }
-
     /// Leaves the work to a window on another device, since this one's is gone.
     fn hand_over(&mut self, context: &Context) {
-        let desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
+        let mut desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
+        // No hand holds anything in the other window; and should that one never come, what is here is kept.
+        desk.session.end();
+        if let Err(error) = desk.session.keep() {
+            tracing::error!("what is not saved cannot be kept: {error}");
+        }
+        self.canvas.drop_all();
         if let Ok(mut handover) = self.handover.lock() {
             *handover = Some(Kept {
                 desk,
                 canvas: std::mem::take(&mut self.canvas),
                 model: self.stage.model_file().to_owned(),
+                draft: self.panels.page.draft.take(),
             });
         }
         self.stage.lost = None;

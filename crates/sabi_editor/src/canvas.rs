@@ -196,6 +196,14 @@ impl Canvas {
         held
     }
 
+    /// Lets go of what is in hand, and closes what is open.
+    pub(crate) fn drop_all(&mut self) {
+        self.gesture = Gesture::Idle;
+        self.menu = None;
+        self.renaming = None;
+        self.merge = None;
+    }
+
     /// Whether nodes are being dragged.
     pub(crate) fn is_moving_nodes(&self) -> bool {
         matches!(self.gesture, Gesture::Move { .. })

@@ -217,6 +217,11 @@ const FAVORITES: [Command; 9] = [
 ];
 
 impl Command {
+    /// Whether it is meant although a text is being typed: a text has steps of its own to take back.
+    pub(crate) fn is_beside_text(self) -> bool {
+        self.scope() == Scope::Window && !matches!(self, Command::Undo | Command::Redo)
+    }
+
     /// The place of the favorite that it adds, if it adds one.
     pub(crate) fn favorite(self) -> Option<usize> {
         FAVORITES.iter().position(|known| *known == self)

@@ -118,12 +118,14 @@ impl Desk {
     }
 
     fn with_kinds(session: Session, names: names::Names, kinds: Arc<Kinds>, catalog: Arc<Catalog>) -> Desk {
+        // As the session's own, those of one desk are never those of another.
+        let first = session.revision();
         let mut desk = Desk {
             session,
             catalog,
             kinds,
-            kinds_revision: 0,
-            files_revision: 0,
+            kinds_revision: first,
+            files_revision: first,
             faces: (None, Faces::default()),
             opened: Faces::default(),
             group_files: group_files::GroupFiles::default(),
@@ -150,7 +152,7 @@ impl Desk {
         (&self.kinds, self.kinds_revision)
     }
 
-    /// Rises when files that the graph names were written anew.
+    /// Rises when files that the graph names were written anew; no other desk has the same.
     pub(crate) fn files_revision(&self) -> u64 {
         self.files_revision
     }

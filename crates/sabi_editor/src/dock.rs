@@ -127,18 +127,14 @@ fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> T
 
 /// A layout that has every panel that a new version knows; the default one where it does not.
 pub(crate) fn sound(layout: Option<Layout>) -> Layout {
-    let has_all = |layout: &Layout| {
-        let known: Vec<Panel> = layout
-            .tiles
-            .tiles()
-            .filter_map(|tile| match tile {
-                egui_tiles::Tile::Pane(panel) => Some(*panel),
-                egui_tiles::Tile::Container(_) => None,
-            })
-            .collect();
-        layout.root().is_some() && Panel::ALL.iter().all(|panel| known.contains(panel))
-    };
+    let has_all = |layout: &Layout| layout.root().is_some() && Panel::ALL.iter().all(|panel| has(layout, *panel));
     layout.filter(has_all).unwrap_or_else(default_layout)
+}
+
+/// Whether a panel is in a layout.
+pub(crate) fn has(layout: &Layout, panel: Panel) -> bool {
+    let mut tiles = layout.tiles.tiles();
+    tiles.any(|tile| matches!(tile, egui_tiles::Tile::Pane(known) if *known == panel))
 }
 
 /// Brings a panel to the front.

@@ -13,6 +13,7 @@ use sabi_engine::{Recovery, recoveries};
 use crate::action::Action;
 use crate::app::Editor;
 use crate::desk::{Desk, KnobAt};
+use crate::dock::Panel;
 
 /// What a path is wanted for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,6 +32,10 @@ pub(crate) enum Question {
     Path { what: PathFor, text: String },
     /// What becomes of changes that are not saved, and what is done next.
     Unsaved { next: Next },
+    /// Whether a file is replaced that is another graph's.
+    Replace { file: PathBuf },
+    /// The window is to be closed, and textures are being written.
+    Exporting,
 }
 
 /// What comes after the work was saved or let go.
@@ -122,16 +127,24 @@ impl Files {
 impl Editor {
     /// Shows what is asked, and the start page.
     pub(crate) fn show_files(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        if ui.input(|input| input.viewport().close_requested()) && !self.files.may_close && self.desk.session.is_dirty()
-        {
-            ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            self.files.question = Some(Question::Unsaved { next: Next::Close });
+        if ui.input(|input| input.viewport().close_requested()) && !self.files.may_close {
+            let is_held = if self.desk.session.is_dirty() {
+                self.files.question = Some(Question::Unsaved { next: Next::Close });
+                true
+            } else {
+                self.is_held_open()
+            };
+            if is_held {
+                ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            }
         }
         start::show(self, ui, actions);
         key_list::show(self, ui);
         match self.files.question.take() {
             Some(Question::Path { what, text }) => self.path_question(ui, what, text, actions),
             Some(Question::Unsaved { next }) => self.unsaved_question(ui, next),
+            Some(Question::Replace { file }) => self.replace_question(ui, file),
+            Some(Question::Exporting) => self.exporting_question(ui),
             None => {}
         }
         if let Some(next) = self.files.take_next(&mut self.desk) {
@@ -177,7 +190,7 @@ impl Editor {
             match what {
                 PathFor::Open => self.files.ask_next(&mut self.desk, Next::Open(path)),
                 // At once, since something may wait for it that takes the work off the desk.
-                PathFor::Save => self.save_to(&with_ending(path)),
+                PathFor::Save => self.save_unless_taken(with_ending(path)),
                 PathFor::Model => actions.push(Action::TakeModel(path)),
                 PathFor::Picture(knob) => {
                     let text = self.desk.relative(&path);
@@ -222,6 +235,86 @@ impl Editor {
         }
     }
 
+    /// Whether something else than the graph keeps the window from closing; what that is, is said.
+    fn is_held_open(&mut self) -> bool {
+        if self.panels.page.is_unsaved() {
+            self.bring_up(Panel::Page);
+            self.say("The text of a node is not saved: save it or let it go, then close the window.");
+            return true;
+        }
+        let is_exporting = self.panels.export.running.is_some();
+        if is_exporting {
+            self.files.question = Some(Question::Exporting);
+        }
+        is_exporting
+    }
+
+    /// Closes the window as soon as textures are written, or without them.
+    fn exporting_question(&mut self, ui: &Ui) {
+        let mut answer = None;
+        let modal = Modal::new(egui::Id::new("exporting question")).show(ui.ctx(), |ui| {
+            ui.set_width(420.0);
+            ui.heading("Textures are being written");
+            ui.label("The window closes when they are done.");
+            ui.horizontal(|ui| {
+                if ui.button("Close without them").clicked() {
+                    answer = Some(true);
+                }
+                if ui.button("Stay").clicked() {
+                    answer = Some(false);
+                }
+            });
+        });
+        match answer {
+            Some(true) => self.panels.export.cancel(),
+            Some(false) => return,
+            None if modal.should_close() => return,
+            None => {}
+        }
+        // What was canceled ends soon, and leaves no half files then.
+        match self.panels.export.running {
+            Some(_) => self.files.question = Some(Question::Exporting),
+            None => self.go_on(Next::Close, ui),
+        }
+    }
+
+    /// Saves under a name, unless a file is there that is another graph's: then that is asked about.
+    fn save_unless_taken(&mut self, file: PathBuf) {
+        let whole = |path: &Path| path.canonicalize().ok();
+        let own = self.desk.session.file().and_then(whole);
+        match whole(&file) {
+            Some(found) if Some(&found) != own.as_ref() => self.files.question = Some(Question::Replace { file }),
+            _ => self.save_to(&file),
+        }
+    }
+
+    fn replace_question(&mut self, ui: &Ui, file: PathBuf) {
+        let mut answer = None;
+        let modal = Modal::new(egui::Id::new("replace question")).show(ui.ctx(), |ui| {
+            ui.set_width(460.0);
+            ui.heading("There is such a file already");
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            ui.label(format!(
+                "{} would be replaced, and stay beside it as {name}.bak.",
+                file.display()
+            ));
+            ui.horizontal(|ui| {
+                if ui.button("Replace it").clicked() {
+                    answer = Some(Some(()));
+                }
+                if ui.button("Another name…").clicked() {
+                    answer = Some(None);
+                }
+            });
+        });
+        match answer {
+            Some(Some(())) => self.save_to(&file),
+            Some(None) => self.files.ask_path(PathFor::Save, file.display().to_string()),
+            None if modal.should_close() => self.files.after_save = None,
+            None => self.files.question = Some(Question::Replace { file }),
+        }
+    }
+
     /// Does what was waiting for an answer.
     fn go_on(&mut self, next: Next, ui: &Ui) {
         match next {
@@ -232,6 +325,7 @@ impl Editor {
             Next::Open(path) => self.open_file(&path),
             Next::Example(at) => self.open_example(at),
             Next::Recover(at) => self.recover(at),
+            Next::Close if self.is_held_open() => {}
             Next::Close => {
                 self.files.may_close = true;
                 ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
@@ -242,10 +336,16 @@ impl Editor {
 
 /// A graph file ends in .sabi, whatever was typed.
 fn with_ending(path: PathBuf) -> PathBuf {
-    match path.extension() {
-        Some(_) => path,
-        None => path.with_extension(crate::desk::ENDING),
-    }
+    let is_graph = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case(crate::desk::ENDING));
+    let Some(name) = path.file_name().filter(|_| !is_graph) else {
+        return path;
+    };
+    let mut name = name.to_owned();
+    name.push(".");
+    name.push(crate::desk::ENDING);
+    path.with_file_name(name)
 }
 
 fn system_dialog(what: &PathFor, text: &str) -> Option<PathBuf> {

@@ -271,7 +271,7 @@ impl ModelView {
         };
         let view_from_working = model.placement.scale / model.prepared.working_from_model(&model.fit);
         let points = (length * view_from_working) as f32 / self.camera.height_at_target() * rect.height();
-        let width = points.clamp(1.0, rect.width() - 40.0);
+        let width = points.min(rect.width() - 40.0).max(1.0);
         let start = pos2(rect.left() + 20.0, rect.bottom() - 24.0);
         let end = start + egui::vec2(width, 0.0);
         let stroke = Stroke::new(2.0, theme.accent);

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use crate::command::Habit;
 use crate::dock::Layout;
-use crate::panels::export::ExportChoices;
+use crate::panels::export::{ExportChoices, ExportPlace};
 use crate::theme::Shade;
 
 const FILE: &str = "settings.json";
+const BACKUP: &str = "settings.json.bak";
 /// Files that are remembered.
 const MOST_RECENT: usize = 12;
 /// Models on the strip.
@@ -31,9 +32,9 @@ pub(crate) struct Settings {
     pub(crate) models: Vec<PathBuf>,
     /// Whether pictures on nodes show texture space.
     pub(crate) is_flat: bool,
-    /// Whether textures are exported again at every save.
-    pub(crate) exports_on_save: bool,
     pub(crate) export: ExportChoices,
+    /// Where textures of the graphs that were open go.
+    pub(crate) export_places: BTreeMap<PathBuf, ExportPlace>,
     /// Environment of the viewport: a built-in name, or a file.
     pub(crate) environment: String,
     pub(crate) layout: Option<Layout>,
@@ -51,8 +52,8 @@ impl Default for Settings {
             recent: Vec::new(),
             models: Vec::new(),
             is_flat: false,
-            exports_on_save: false,
             export: ExportChoices::default(),
+            export_places: BTreeMap::new(),
             environment: "studio".to_owned(),
             layout: None,
             favorites: Vec::new(),
@@ -69,8 +70,15 @@ impl Settings {
         match serde_json::from_str::<Settings>(&text) {
             Ok(settings) => (settings.sound(), None),
             Err(error) => {
-                let why =
-                    format!("The settings could not be read ({error}), so that those of a new installation are used.");
+                // What is kept from now on must not take its place: it may be of a newer version.
+                let aside = folder.map(|folder| fs::rename(folder.join(FILE), folder.join(BACKUP)));
+                let place = match aside {
+                    Some(Ok(())) => format!(" The others are in {BACKUP}."),
+                    _ => String::new(),
+                };
+                let why = format!(
+                    "The settings could not be read ({error}), so that those of a new installation are used.{place}"
+                );
                 (Settings::default(), Some(why))
             }
         }
@@ -93,6 +101,21 @@ impl Settings {
         self.recent.retain(|known| *known != whole);
         self.recent.insert(0, whole);
         self.recent.truncate(MOST_RECENT);
+    }
+
+    /// Where textures of a graph went.
+    pub(crate) fn export_place(&self, graph: &Path) -> ExportPlace {
+        let whole = fs::canonicalize(graph).unwrap_or_else(|_| graph.to_owned());
+        self.export_places.get(&whole).cloned().unwrap_or_default()
+    }
+
+    /// Remembers where textures of a graph go, as long as the graph is one of those that were open lately.
+    pub(crate) fn remember_export(&mut self, graph: &Path, place: &ExportPlace) {
+        let whole = fs::canonicalize(graph).unwrap_or_else(|_| graph.to_owned());
+        self.export_places.insert(whole.clone(), place.clone());
+        let recent = &self.recent;
+        self.export_places
+            .retain(|graph, _| *graph == whole || recent.contains(graph));
     }
 
     fn sound(mut self) -> Settings {

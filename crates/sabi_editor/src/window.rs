@@ -38,10 +38,16 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
         None => Session::new(folders.recovery.as_deref()),
     });
     for _ in 0..MOST_DEVICES {
-        // After a loss the work itself is in the handover.
-        let session = session.take().unwrap_or_else(|| Session::new(None));
+        // After a loss the work itself is in the handover, with its model.
+        let (session, model) = match session.take() {
+            Some(session) => {
+                let model = first_model(request, &session, &folders)?;
+                (session, model)
+            }
+            None => (Session::new(None), PathBuf::new()),
+        };
         let beginning = Beginning {
-            model: first_model(request, &session, &folders)?,
+            model,
             session,
             folders: folders.clone(),
             is_start: request.graph.is_none(),

@@ -62,12 +62,35 @@ pub fn check_node(kinds: &Kinds, folder: &Path, id: &str, text: &str) -> Vec<Nod
     told.collect()
 }
 
-/// Writes the file of a node: whole, or as it was before.
+/// The text of a node's file as it is now, faults and all.
 ///
 /// # Errors
-/// The folder cannot be written to.
-pub fn save_node(folder: &Path, id: &str, text: &str) -> Result<PathBuf, EngineError> {
+/// It cannot be read.
+pub fn read_node(folder: &Path, id: &str) -> Result<String, EngineError> {
     let file = file_of(folder, id);
+    fs::read_to_string(&file).map_err(|error| {
+        let why = format!("{} cannot be read: {error}; begin a new node from it", file.display());
+        EngineError::new(ErrorKind::BadInput, why)
+    })
+}
+
+/// Writes the file of a node in the place of what it is `known` to hold, if it is there: whole, or as it was before.
+///
+/// # Errors
+/// The file holds something else that somebody wrote meanwhile, or the folder cannot be written to.
+pub fn save_node(folder: &Path, id: &str, text: &str, known: Option<&str>) -> Result<PathBuf, EngineError> {
+    let file = file_of(folder, id);
+    let found = fs::read_to_string(&file).ok();
+    if found
+        .as_deref()
+        .is_some_and(|found| Some(found) != known && found != text)
+    {
+        let why = format!(
+            "{} was written by another program meanwhile; give this node another name, or close it and open the file anew",
+            file.display()
+        );
+        return Err(EngineError::new(ErrorKind::CannotWrite, why));
+    }
     let partial = file.with_extension("wgsl.part");
     let written = fs::create_dir_all(file.parent().unwrap_or(folder))
         .and_then(|()| fs::write(&partial, text))
@@ -182,14 +205,21 @@ mod tests {
         let graph = folder.path().join("worn.sabi");
         let nodes = new_node_folder(Some(&graph)).expect("a folder beside");
         assert_eq!(nodes, folder.path().join("nodes"));
-        let file = save_node(&nodes, "adjust/half", SOUND).expect("written");
+        let file = save_node(&nodes, "adjust/half", SOUND, None).expect("written");
         assert_eq!(file, nodes.join("adjust/half.wgsl"));
         let kinds = Kinds::beside(Some(&graph));
         assert!(kinds.library.kind("adjust/half").is_some(), "{:?}", kinds.faults);
         assert_eq!(kinds.own_folder(Some(&graph), "adjust/half"), Some(nodes.clone()));
         assert_eq!(kinds.own_folder(Some(&graph), "noise/simplex"), None);
         assert_eq!(why_no_node_id(&kinds, &nodes, "adjust/half"), None, "it is this one");
-        let told = save_node(&file, "adjust/half", SOUND).expect_err("a file is no folder");
+        let told = save_node(&file, "adjust/half", SOUND, None).expect_err("a file is no folder");
         assert!(told.to_string().contains("cannot be written"), "{told}");
+        // A fault is in the file, and not in the last version without one.
+        let broken = SOUND.replace("0.5", "hlaf");
+        save_node(&nodes, "adjust/half", &broken, Some(SOUND)).expect("written");
+        assert_eq!(read_node(&nodes, "adjust/half").ok(), Some(broken.clone()));
+        let told = save_node(&nodes, "adjust/half", "mine", Some(SOUND)).expect_err("somebody wrote it");
+        assert!(told.to_string().contains("was written by another program"), "{told}");
+        assert_eq!(read_node(&nodes, "adjust/half").ok(), Some(broken));
     }
 }

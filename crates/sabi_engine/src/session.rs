@@ -8,6 +8,7 @@ mod tests;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use sabi_export::Staging;
 use sabi_graph::{Document, Edit, EditError, History};
@@ -33,6 +34,11 @@ pub enum FileState {
     /// There is no such file any more, or none that can be read.
     Gone,
 }
+
+/// Where counting begins for each session of a process, so that no two of them are ever at the same revision.
+static FIRST_REVISION: AtomicU64 = AtomicU64::new(0);
+/// No session makes so many steps.
+const REVISIONS: u64 = 1 << 32;
 
 /// A graph that is being worked on.
 #[derive(Debug)]
@@ -73,7 +79,14 @@ impl Session {
     }
 
     /// What was kept of a graph when the program ended before it was saved: nothing of it is saved yet.
-    pub fn recover(recovery: Recovery) -> Result<Session, EngineError> {
+    ///
+    /// # Errors
+    /// What was kept cannot be read, or another window goes on with it.
+    pub fn recover(mut recovery: Recovery) -> Result<Session, EngineError> {
+        if !recovery.take() {
+            let why = "another window goes on with this graph already; close it there first";
+            return Err(EngineError::new(ErrorKind::Usage, why));
+        }
         let (text, file) = recovery.read()?;
         let name = file.clone().unwrap_or_else(|| PathBuf::from(UNTITLED));
         let document = Document::from_json(&text)
@@ -83,6 +96,7 @@ impl Session {
             None => Document::new("").to_json(),
         };
         let text = document.to_json();
+        let revision = FIRST_REVISION.fetch_add(REVISIONS, Ordering::Relaxed);
         Ok(Session {
             open: OpenGraph {
                 path: name,
@@ -93,14 +107,15 @@ impl Session {
             history: History::new(),
             file,
             saved,
-            text: (0, text),
-            revision: 0,
+            text: (revision, text),
+            revision,
             recovery: Some(recovery),
         })
     }
 
     fn of(open: OpenGraph, file: Option<PathBuf>, recovery_folder: Option<&Path>) -> Session {
         let text = open.document.to_json();
+        let revision = FIRST_REVISION.fetch_add(REVISIONS, Ordering::Relaxed);
         Session {
             history: History::new(),
             recovery: recovery_folder.map(|folder| Recovery::new(folder, file.as_deref())),
@@ -109,8 +124,8 @@ impl Session {
                 Some(_) => text.clone(),
                 None => Document::new("").to_json(),
             },
-            text: (0, text),
-            revision: 0,
+            text: (revision, text),
+            revision,
             file,
             open,
         }
@@ -131,7 +146,7 @@ impl Session {
         self.file.as_deref()
     }
 
-    /// Rises with everything that changes the document.
+    /// Rises with everything that changes the document; no other session of this process has the same ones.
     pub fn revision(&self) -> u64 {
         self.revision
     }

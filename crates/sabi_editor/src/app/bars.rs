@@ -40,14 +40,30 @@ impl Editor {
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         self.button(ui, icon::SLIDERS_HORIZONTAL, Command::UseView, actions);
                         ui.with_layout(Layout::centered_and_justified(egui::Direction::LeftToRight), |ui| {
-                            let mark = if self.desk.session.is_dirty() { " •" } else { "" };
-                            let name = self.desk.session.file().and_then(|file| file.file_name());
-                            let name = name.map_or("untitled".into(), |name| name.to_string_lossy());
-                            ui.label(RichText::new(format!("{name}{mark}")).color(self.theme.quiet));
+                            ui.label(RichText::new(self.marked_name()).color(self.theme.quiet));
                         });
                     });
                 });
             });
+    }
+
+    /// What the graph's file is called, with a mark where it does not hold what is here.
+    fn marked_name(&mut self) -> String {
+        let mark = if self.desk.session.is_dirty() { " •" } else { "" };
+        let name = self.desk.session.file().and_then(|file| file.file_name());
+        format!(
+            "{}{mark}",
+            name.map_or("untitled".into(), |name| name.to_string_lossy())
+        )
+    }
+
+    /// What the window is called, for the system's bar and its list of windows.
+    pub(super) fn name_window(&mut self, context: &egui::Context) {
+        let title = format!("{} – Sabi", self.marked_name());
+        if self.named != title {
+            context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.named = title;
+        }
     }
 
     fn button(&self, ui: &mut Ui, sign: &str, command: Command, actions: &mut Vec<Action>) {
@@ -102,7 +118,7 @@ impl Editor {
     fn window_menu(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         for panel in Panel::ALL {
             if ui.button(panel.title()).clicked() {
-                dock::bring_up(&mut self.layout, panel);
+                self.bring_up(panel);
             }
         }
         if ui.button("All panels where they were at first").clicked() {
@@ -224,7 +240,8 @@ impl Editor {
             .show_separator_line(false)
             .show(ui, |ui| {
                 ui.horizontal(|ui| {
-                    let quiet = |text: String| RichText::new(text).size(type_size::SMALL).color(self.theme.quiet);
+                    let theme = self.theme.clone();
+                    let quiet = |text: String| RichText::new(text).size(type_size::SMALL).color(theme.quiet);
                     let summary = self.stage.gpu().summary();
                     ui.label(quiet(format!("{} ({})", summary.name, summary.kind)));
                     if self.stage.is_busy() {
@@ -237,9 +254,9 @@ impl Editor {
                     let count = self.problem_count();
                     if count > 0 {
                         let text = format!("{} {count}", icon::WARNING);
-                        let problems = ui.link(RichText::new(text).color(self.theme.fault).size(type_size::SMALL));
+                        let problems = ui.link(RichText::new(text).color(theme.fault).size(type_size::SMALL));
                         if problems.clicked() {
-                            dock::bring_up(&mut self.layout, Panel::Problems);
+                            self.bring_up(Panel::Problems);
                         }
                     }
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

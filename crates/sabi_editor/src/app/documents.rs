@@ -3,17 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use egui::Ui;
-use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EngineError, Kinds, ModelOptions, Overrides, Seams,
-    Session, WorkpieceOptions, bake_graph, default_padding, needs_force,
-};
+use sabi_engine::{EngineError, Kinds, Session};
 use sabi_graph::Value;
 
 use super::Editor;
-use crate::action::{Action, New, Shelf};
+use crate::action::{Action, New, NodeText, Shelf};
 use crate::desk::Desk;
 use crate::files::examples;
-use crate::panels::export::{Running, folder_of};
 use crate::panels::library::KEPT_AS;
 
 /// Endings of pictures that nodes read.
@@ -67,8 +63,10 @@ impl Editor {
             .as_ref()
             .and_then(|preview| preview.mesh.clone());
         let model = named.map(|mesh| session.graph().folder().join(mesh));
+        self.remember_export();
         let before = std::mem::replace(&mut self.desk, Desk::new(session));
         before.session.close();
+        self.recall_export();
         self.keeping.revision = None;
         self.canvas = Default::default();
         self.shown = None;
@@ -109,77 +107,9 @@ impl Editor {
             Ok(()) => {
                 self.settings.remember(path);
                 self.say(format!("Saved to {}", path.display()));
-                if self.settings.exports_on_save {
-                    self.export();
-                }
+                self.export_after_save();
             }
             Err(error) => self.say(error.to_string()),
-        }
-    }
-
-    /// Writes the textures beside the window's work; asks first where the folder has files of somebody else.
-    pub(crate) fn export(&mut self) {
-        self.export_with(false);
-    }
-
-    /// Writes the textures into a folder whatever else it has.
-    pub(crate) fn export_into_any_folder(&mut self) {
-        self.export_with(true);
-    }
-
-    fn export_with(&mut self, force: bool) {
-        if self.panels.export.running.is_some() {
-            self.say("An export is being made already.");
-            return;
-        }
-        let Some(folder) = folder_of(&self.panels.export.folder, self.desk.session.file()) else {
-            let is_empty = self.panels.export.folder.trim().is_empty();
-            self.say(match is_empty {
-                true => "Name the folder for the textures first.",
-                false => {
-                    "Save the graph first, so that there is a folder beside it, or write the whole path of another."
-                }
-            });
-            return;
-        };
-        let request = self.bake_request(folder, force);
-        let (open, kinds) = (self.desk.session.graph().clone(), self.desk.kinds().0.clone());
-        self.panels.export.asks_force = needs_force(&open, &request);
-        if self.panels.export.asks_force {
-            return;
-        }
-        let context = self.context.clone();
-        let work = move |progress: &dyn sabi_engine::Progress| bake_graph(&open, &kinds, &request, progress);
-        self.panels.export.running = Some(Running::start(&context, work));
-    }
-
-    /// What the export panel says, for the model and the device of the window.
-    pub(super) fn bake_request(&self, output: PathBuf, force: bool) -> BakeRequest {
-        let export = &self.settings.export;
-        let mut model = ModelOptions::new(self.stage.model_file(), export.size);
-        model.cache_dir = self.stage.cache_dir().map(Path::to_owned);
-        BakeRequest {
-            graph: self.desk.session.graph().path.clone(),
-            workpiece: WorkpieceOptions {
-                model,
-                overrides: Overrides::default(),
-                fit: None,
-                adapter: AdapterChoice::Named(self.stage.gpu().summary().name.clone()),
-                caster: CasterChoice::Auto,
-                budget_bytes: DEFAULT_BUDGET_BYTES,
-            },
-            output,
-            presets: vec![export.preset.clone()],
-            names: Some(export.names.clone()).filter(|names| !names.is_empty()),
-            channels: export.channels.clone(),
-            material: None,
-            all_maps: export.all_maps,
-            padding: Some(default_padding(export.size)),
-            seams: Seams::default(),
-            fuse: true,
-            force,
-            model: export.has_model,
-            report: None,
         }
     }
 
@@ -227,18 +157,24 @@ impl Editor {
     }
 
     /// Writes the file of a node and takes it into use.
-    pub(super) fn save_node(&mut self, folder: &Path, id: &str, text: &str) {
-        match sabi_engine::save_node(folder, id, text) {
+    pub(super) fn save_node(&mut self, node: &NodeText) {
+        let NodeText {
+            folder,
+            id,
+            text,
+            known,
+        } = node;
+        match sabi_engine::save_node(folder, id, text, known.as_deref()) {
             Ok(file) => {
                 self.say(format!(
                     "'{id}' is in {}, and among the nodes that can be added.",
                     file.display()
                 ));
                 let mut kinds = Kinds::clone(self.desk.kinds().0);
-                kinds.reread(&[folder.to_owned()]);
+                kinds.reread(std::slice::from_ref(folder));
                 self.desk.take_kinds(kinds);
                 if let Some(draft) = &mut self.panels.page.draft {
-                    draft.is_saved = true;
+                    draft.was_saved();
                 }
             }
             Err(error) => self.say(error.to_string()),

@@ -5,7 +5,7 @@ use egui::{Context, Event, EventFilter, Id, Key, Modifiers, Ui};
 use super::Editor;
 use crate::action::Action;
 use crate::canvas::{Way, focus_id};
-use crate::command::Scope;
+use crate::command::{Command, Scope};
 use crate::dock::Panel;
 
 impl Editor {
@@ -13,8 +13,11 @@ impl Editor {
     pub(super) fn keys_pressed(&mut self, ui: &mut Ui) -> Vec<Action> {
         self.follow_pointer(ui);
         let context = ui.ctx().clone();
-        if context.text_edit_focused() || self.canvas.holds_keys() || self.question().is_some() || self.files.is_start {
+        if self.canvas.holds_keys() || self.question().is_some() || self.files.is_start {
             return Vec::new();
+        }
+        if context.text_edit_focused() {
+            return self.keys_beside_text(ui);
         }
         self.hold_focus(&context);
         // What is dragged is in the middle of a step, which has to end first.
@@ -42,6 +45,24 @@ impl Editor {
             }
         }
         actions
+    }
+
+    /// While a text is typed, keys of the window that mean nothing to a text are still its own.
+    fn keys_beside_text(&mut self, ui: &Ui) -> Vec<Action> {
+        let pressed = |event: &Event| match event {
+            Event::Key {
+                key,
+                pressed: true,
+                modifiers,
+                ..
+            } if modifiers.command || modifiers.alt || key.name().starts_with('F') && key.name().len() > 1 => {
+                self.keys.command(Scope::Window, *modifiers, *key)
+            }
+            _ => None,
+        };
+        let commands: Vec<Command> = ui.input(|input| input.events.iter().filter_map(pressed).collect());
+        let own = commands.into_iter().filter(|command| command.is_beside_text());
+        own.map(Action::Do).collect()
     }
 
     fn key(&mut self, key: Key, modifiers: Modifiers, ui: &Ui, actions: &mut Vec<Action>) {

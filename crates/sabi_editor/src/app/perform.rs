@@ -11,7 +11,8 @@ use super::Editor;
 use crate::action::{Action, FrameAsk, LayerAsk, New, WireAsk};
 use crate::command::Command;
 use crate::desk::{Align, Desk, KnobAt, Loose};
-use crate::dock::{self, Panel};
+use crate::dock::Panel;
+use crate::files::Next;
 use crate::knobs::KnobEvent;
 
 /// How much larger or smaller one step makes the interface.
@@ -29,7 +30,7 @@ impl Editor {
                 loose,
                 into,
             } => self.add(&kind, place, loose.as_ref(), into.as_ref()),
-            Action::SaveNode { folder, id, text } => self.save_node(&folder, &id, &text),
+            Action::SaveNode(node) => self.save_node(&node),
             Action::Shelve(shelf) => self.shelve_selected(shelf),
             Action::Replace { node, kind } => {
                 desk.replace(&node, &kind);
@@ -66,7 +67,7 @@ impl Editor {
             Action::Paste { text, place } => {
                 desk.paste(&text, place);
             }
-            Action::OpenFile(path) => self.open_file(&path),
+            Action::OpenFile(path) => self.files.ask_next(&mut self.desk, Next::Open(path)),
             Action::TakeModel(path) => self.take_model(&path),
             Action::Dropped(path) => self.take_dropped_file(&path, ui),
             Action::GoTo(node) => self.go_to(&node),
@@ -289,12 +290,12 @@ impl Editor {
             Command::Save => self.save(),
             Command::SaveAs => self.files.ask_save(&self.desk),
             Command::Export => {
-                dock::bring_up(&mut self.layout, Panel::Export);
+                self.bring_up(Panel::Export);
                 self.export();
             }
             Command::NextPanel => self.step_panel(true, ui.ctx()),
             Command::PreviousPanel => self.step_panel(false, ui.ctx()),
-            Command::Help => dock::bring_up(&mut self.layout, Panel::Page),
+            Command::Help => self.bring_up(Panel::Page),
             Command::Keys => self.files.shows_keys = !self.files.shows_keys,
             Command::UseView => self.toggle_use_view(),
             Command::Larger => self.scale_by(SCALE_STEP, ui),
@@ -356,7 +357,7 @@ impl Editor {
             }
         }
         self.desk.select([last.clone()]);
-        dock::bring_up(&mut self.layout, Panel::Canvas);
+        self.bring_up(Panel::Canvas);
         self.canvas.frame_nodes(&self.desk, [last].into_iter());
         self.look_at(last, None);
     }

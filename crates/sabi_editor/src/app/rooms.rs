@@ -56,6 +56,17 @@ impl Editor {
         };
     }
 
+    /// Brings a panel to the front; the view of model and knobs ends where it lacks that one.
+    pub(crate) fn bring_up(&mut self, panel: Panel) {
+        match &mut self.use_layout {
+            Some(layout) if dock::has(layout, panel) => dock::bring_up(layout, panel),
+            _ => {
+                self.use_layout = None;
+                dock::bring_up(&mut self.layout, panel);
+            }
+        }
+    }
+
     /// Draws what is in a panel.
     fn panel(&mut self, ui: &mut Ui, panel: Panel, actions: &mut Vec<Action>) {
         self.rects.insert(panel, ui.max_rect());

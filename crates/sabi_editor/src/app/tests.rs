@@ -10,6 +10,7 @@ mod hands;
 mod keyboard;
 mod knobs;
 mod layers;
+mod leaving;
 mod library;
 mod looking;
 mod lost;

@@ -8,6 +8,7 @@ use super::Handover;
 use crate::canvas::Canvas;
 use crate::desk::Desk;
 use crate::files::Files;
+use crate::panels::page::Draft;
 
 /// What is worked on.
 pub(super) struct Work {
@@ -15,6 +16,7 @@ pub(super) struct Work {
     pub(super) canvas: Canvas,
     pub(super) model: PathBuf,
     pub(super) files: Files,
+    pub(super) draft: Option<Draft>,
 }
 
 impl Work {
@@ -33,12 +35,14 @@ impl Work {
                 canvas: kept.canvas,
                 model: kept.model,
                 files: Files::new(false, None),
+                draft: kept.draft,
             },
             None => Work {
                 desk: Desk::new(session),
                 canvas: Canvas::default(),
                 model,
                 files: files(),
+                draft: None,
             },
         }
     }

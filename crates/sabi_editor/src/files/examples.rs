@@ -72,8 +72,11 @@ const MODELS: [(&str, &[u8]); 7] =
 /// Where graphs and models stand in the folder of examples, as they do in the project.
 const GRAPHS: &str = "graphs";
 const MESHES: &str = "assets/meshes";
+/// No more files of an example are looked at.
+const MOST_COPIES: usize = 1000;
 
-/// Writes an example with all models into a folder, and gives its file. What is there already and the same stays.
+/// Writes an example with all models into a folder, and gives its file. What is there already and the same stays; a graph that
+/// somebody worked on since stays, too, and the example is written beside it.
 pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
     let Some(example) = EXAMPLES.get(at) else {
         return Ok(None);
@@ -81,7 +84,16 @@ pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
     for (name, bytes) in MODELS {
         write_where_other(&folder.join(MESHES).join(name), bytes)?;
     }
-    let file = folder.join(GRAPHS).join(example.name);
+    let folder = folder.join(GRAPHS);
+    let stem = example.name.trim_end_matches(".sabi");
+    let others = (2..).map(|number| format!("{stem}-{number}.sabi"));
+    let files = std::iter::once(example.name.to_owned()).chain(others);
+    let is_free = |file: &PathBuf| match fs::read(file) {
+        Ok(bytes) => bytes == example.text.as_bytes(),
+        Err(error) => error.kind() == io::ErrorKind::NotFound,
+    };
+    let file = files.map(|name| folder.join(name)).take(MOST_COPIES).find(is_free);
+    let file = file.ok_or(io::ErrorKind::AlreadyExists)?;
     write_where_other(&file, example.text.as_bytes())?;
     Ok(Some(file))
 }
@@ -120,5 +132,18 @@ mod tests {
             let mesh = mesh.unwrap_or_else(|| panic!("{} names a model", example.name));
             assert!(open.folder().join(&mesh).is_file(), "{}: {mesh}", example.name);
         }
+    }
+
+    #[test]
+    fn an_example_that_was_worked_on_is_not_written_over() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let open = || unpack(folder.path(), 0).expect("written").expect("an example");
+        let first = open();
+        assert_eq!(open(), first, "nobody worked on it");
+        fs::write(&first, "mine").expect("a file");
+        let second = open();
+        assert_ne!(second, first);
+        assert_eq!(fs::read_to_string(&first).expect("a file"), "mine");
+        assert_eq!(fs::read_to_string(&second).expect("a file"), EXAMPLES[0].text);
     }
 }

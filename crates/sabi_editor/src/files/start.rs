@@ -1,5 +1,7 @@
 //! The start page: what was open, examples, and what was not saved when the program last ended.
 
+use std::time::SystemTime;
+
 use egui::{Align2, Color32, FontId, Modal, RichText, Sense, Ui, vec2};
 
 use egui_phosphor::regular as icon;
@@ -67,23 +69,46 @@ pub(super) fn show(editor: &mut Editor, ui: &Ui, actions: &mut Vec<Action>) {
     }
 }
 
-fn recoveries(editor: &Editor, ui: &mut Ui, theme: &Theme, next: &mut Option<Next>) {
+fn recoveries(editor: &mut Editor, ui: &mut Ui, theme: &Theme, next: &mut Option<Next>) {
     if editor.files.recoveries.is_empty() {
         return;
     }
     ui.colored_label(theme.warning, "The program ended before this was saved:");
+    let mut gone = None;
     for (at, recovery) in editor.files.recoveries.iter().enumerate() {
         let of = recovery
             .file()
             .map_or("a graph without a file".to_owned(), |file| file.display().to_string());
         ui.horizontal(|ui| {
             ui.label(of);
+            ui.colored_label(theme.quiet, recovery.when().map(told_age).unwrap_or_default());
             if ui.button("Recover").clicked() {
                 *next = Some(Next::Recover(at));
             }
+            ui.menu_button("Let it go", |ui| {
+                ui.label("It cannot be brought back.");
+                if ui.button("Let it go for good").clicked() {
+                    gone = Some(at);
+                }
+            });
         });
     }
+    if let Some(at) = gone {
+        editor.files.recoveries.remove(at).forget();
+    }
     ui.add_space(space::WIDE);
+}
+
+/// How long ago something was.
+fn told_age(when: SystemTime) -> String {
+    let minutes = when.elapsed().map_or(0, |age| age.as_secs() / 60);
+    match minutes {
+        0 => "just now".to_owned(),
+        1 => "a minute ago".to_owned(),
+        2..120 => format!("{minutes} minutes ago"),
+        120..2880 => format!("{} hours ago", minutes / 60),
+        _ => format!("{} days ago", minutes / 1440),
+    }
 }
 
 /// Something to click: a title and a sentence.

@@ -305,7 +305,7 @@ impl Bar<'_> {
                 .with_clip_rect(within.intersect(ui.clip_rect()))
                 .rect_filled(self.rect, space::CORNER, fill);
             // The end of it is what one looks at.
-            let x = end.clamp(self.rect.left() + 1.0, self.rect.right() - 1.0);
+            let x = end.min(self.rect.right() - 1.0).max(self.rect.left() + 1.0);
             let edge = ground.lerp_to_gamma(mix, 0.9);
             painter.vline(x, self.rect.shrink(3.0).y_range(), (1.5, edge));
         }

@@ -4,9 +4,10 @@ mod running;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
+use std::sync::mpsc::TryRecvError;
 
 use egui::{RichText, TextEdit, Ui};
-use sabi_engine::{DEFAULT_NAMES, Stage, export_channels, export_presets, why_no_names};
+use sabi_engine::{BakeReport, DEFAULT_NAMES, Stage, export_channels, export_presets, why_no_names};
 
 use crate::app::Editor;
 use crate::theme::{Theme, space};
@@ -60,28 +61,67 @@ impl ExportChoices {
     }
 }
 
+/// Where textures of a graph go; kept between runs.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct ExportPlace {
+    pub(crate) folder: String,
+    /// Whether they are written again at every save.
+    pub(crate) again: bool,
+}
+
 /// What the panel holds from frame to frame.
 #[derive(Default)]
 pub(crate) struct Export {
-    pub(crate) folder: String,
+    pub(crate) place: ExportPlace,
     pub(crate) running: Option<Running>,
+    /// Whether another one follows the running one, since the graph was saved meanwhile.
+    pub(crate) is_queued: bool,
     /// The folder has files of somebody else, and it is to be said whether maps go there all the same.
     pub(crate) asks_force: bool,
     /// What came of the last one.
-    told: Option<Result<Vec<String>, String>>,
+    told: Option<Result<Told, String>>,
+}
+
+/// What a bake wrote, and what it has to say.
+struct Told {
+    files: Vec<String>,
+    warnings: Vec<String>,
 }
 
 impl Export {
-    /// Takes what came of a running export.
-    pub(crate) fn poll(&mut self) {
-        let Some(done) = self.running.as_ref().and_then(|running| running.done.try_recv().ok()) else {
-            return;
+    /// Textures of another graph go elsewhere.
+    pub(crate) fn turn_to(&mut self, place: ExportPlace) {
+        self.place = place;
+        self.asks_force = false;
+        self.is_queued = false;
+        self.told = None;
+    }
+
+    /// Takes what came of a running export; says whether it is over.
+    pub(crate) fn poll(&mut self) -> bool {
+        let done = match self.running.as_ref().map(|running| running.done.try_recv()) {
+            None | Some(Err(TryRecvError::Empty)) => return false,
+            Some(Ok(done)) => done.map_err(|error| error.to_string()),
+            Some(Err(TryRecvError::Disconnected)) => Err(
+                "The export ended before its time, which is a mistake of the program; nothing was changed.".to_owned(),
+            ),
         };
         self.running = None;
-        self.told = Some(match done {
-            Ok(report) => Ok(report.files.iter().chain(&report.warnings).cloned().collect()),
-            Err(error) => Err(error.to_string()),
-        });
+        let told = |report: BakeReport| Told {
+            files: report.files,
+            warnings: report.warnings,
+        };
+        self.told = Some(done.map(told));
+        true
+    }
+
+    /// Lets a running export go.
+    pub(crate) fn cancel(&mut self) {
+        self.is_queued = false;
+        if let Some(running) = &self.running {
+            running.watch.is_canceled.store(true, Ordering::Relaxed);
+        }
     }
 }
 
@@ -166,14 +206,14 @@ fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
 fn folder(export: &mut Export, ui: &mut Ui) {
     let label = ui.label("Folder").id;
     ui.horizontal(|ui| {
-        let field = TextEdit::singleline(&mut export.folder).desired_width(ui.available_width() - 40.0);
+        let field = TextEdit::singleline(&mut export.place.folder).desired_width(ui.available_width() - 40.0);
         if ui.add(field).labelled_by(label).changed() {
             export.asks_force = false;
         }
         if ui.button("…").clicked()
             && let Some(folder) = rfd::FileDialog::new().pick_folder()
         {
-            export.folder = folder.display().to_string();
+            export.place.folder = folder.display().to_string();
             export.asks_force = false;
         }
     });
@@ -181,11 +221,11 @@ fn folder(export: &mut Export, ui: &mut Ui) {
 }
 
 fn switches(editor: &mut Editor, ui: &mut Ui) {
-    let settings = &mut editor.settings;
+    let export = &mut editor.settings.export;
     let all = [
-        (&mut settings.export.has_model, "The model with them"),
-        (&mut settings.export.all_maps, "Constant channels too"),
-        (&mut settings.exports_on_save, "Again at every save"),
+        (&mut export.has_model, "The model with them"),
+        (&mut export.all_maps, "Constant channels too"),
+        (&mut editor.panels.export.place.again, "Again at every save"),
     ];
     for (is_on, label) in all {
         ui.label("");
@@ -205,10 +245,11 @@ fn progress(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
                 .fill(theme.accent)
                 .desired_height(6.0),
         );
-        if ui.button("Cancel").clicked() {
-            watch.is_canceled.store(true, Ordering::Relaxed);
-        }
+        let is_canceled = ui.button("Cancel").clicked();
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(250));
+        if is_canceled {
+            editor.panels.export.cancel();
+        }
         return;
     }
     if editor.panels.export.asks_force {
@@ -228,15 +269,18 @@ fn told(editor: &Editor, ui: &mut Ui, theme: &Theme) {
     egui::ScrollArea::vertical()
         .auto_shrink(false)
         .show(ui, |ui| match &editor.panels.export.told {
-            Some(Ok(files)) if files.is_empty() => {
+            Some(Ok(told)) if told.files.is_empty() => {
                 let why = "Every channel is the same everywhere, so that there is nothing to write; switch on \"Constant \
                            channels too\" for maps all the same.";
                 ui.colored_label(theme.quiet, why);
             }
-            Some(Ok(files)) => {
+            Some(Ok(told)) => {
                 ui.colored_label(theme.good, "Written:");
-                for file in files {
+                for file in &told.files {
                     ui.colored_label(theme.quiet, file);
+                }
+                for warning in &told.warnings {
+                    ui.colored_label(theme.warning, warning);
                 }
             }
             Some(Err(why)) => {

@@ -11,7 +11,7 @@ use crate::action::Action;
 use crate::app::Editor;
 use crate::desk::Desk;
 use crate::theme::Theme;
-use draft::Draft;
+pub(crate) use draft::Draft;
 
 /// What the page holds from frame to frame.
 #[derive(Default)]
@@ -20,6 +20,13 @@ pub(crate) struct Page {
     shows_source: bool,
     /// The node file that is being written.
     pub(crate) draft: Option<Draft>,
+}
+
+impl Page {
+    /// Whether a node file is being written that nothing holds yet.
+    pub(crate) fn is_unsaved(&self) -> bool {
+        self.draft.as_ref().is_some_and(|draft| !draft.is_saved)
+    }
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
@@ -68,7 +75,10 @@ fn file(ui: &mut Ui, theme: &Theme, desk: &mut Desk, page: &mut Page, id: &str, 
                 .button("Change it")
                 .on_hover_text(format!("It lies in {}", own.display()));
             if change.clicked() {
-                page.draft = Draft::of_own(desk, id, text);
+                match Draft::of_own(desk, id) {
+                    Ok(draft) => page.draft = Some(draft),
+                    Err(why) => desk.say(why),
+                }
             }
         }
         let new = ui.button("New node from here");

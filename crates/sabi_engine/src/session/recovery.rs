@@ -1,6 +1,6 @@
 //! What is kept of a graph between saves, for the case that the program ends without asking.
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -16,7 +16,8 @@ static SESSIONS: AtomicU64 = AtomicU64::new(0);
 /// How names of kept files end.
 const ENDING: &str = "recovery";
 
-/// The file in which a session keeps what is not saved.
+/// The file in which a session keeps what is not saved. Beside it lies one that is locked as long as the session lives, so that
+/// others know that it is in use, whatever numbers processes have.
 #[derive(Debug)]
 pub struct Recovery {
     path: PathBuf,
@@ -24,6 +25,7 @@ pub struct Recovery {
     file: Option<PathBuf>,
     /// What was kept last.
     kept: Option<String>,
+    lock: Option<File>,
 }
 
 /// What is left in a folder of sessions that did not end in order, those of programs that still run left out; the newest
@@ -45,6 +47,7 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
         path,
         file: None,
         kept: None,
+        lock: None,
     });
     left.filter_map(|mut recovery| {
         let (text, file) = recovery.read().ok()?;
@@ -55,13 +58,15 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     .collect()
 }
 
-/// Whether the program that keeps a file still runs; where nobody can tell, it does not.
+/// What is locked while a file is in use.
+fn lock_of(path: &Path) -> PathBuf {
+    path.with_extension("lock")
+}
+
+/// Whether a session that lives keeps a file.
 fn is_in_use(path: &Path) -> bool {
-    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let Some(process) = name.split('-').next().and_then(|number| number.parse::<u32>().ok()) else {
-        return false;
-    };
-    process == std::process::id() || Path::new("/proc").join(process.to_string()).exists()
+    let lock = File::open(lock_of(path));
+    lock.is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
 }
 
 impl Recovery {
@@ -75,6 +80,7 @@ impl Recovery {
             path: folder.join(name),
             file: file.map(Path::to_owned),
             kept: None,
+            lock: None,
         }
     }
 
@@ -119,6 +125,7 @@ impl Recovery {
         let bytes = json!({ "file": file, "graph": text }).to_string();
         let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let mut staging = Staging::create(self.path.parent().unwrap_or(Path::new(".")))?;
+        self.take();
         staging.stage(&name, bytes.as_bytes())?;
         staging.commit()?;
         self.kept = Some(text.to_owned());
@@ -130,6 +137,28 @@ impl Recovery {
         if self.kept.take().is_some() {
             // One that is gone already is what is wanted.
             let _ = fs::remove_file(&self.path);
+        }
+        if self.lock.take().is_some() {
+            let _ = fs::remove_file(lock_of(&self.path));
+        }
+    }
+
+    /// Says to others that it is in use; says whether that was free to say.
+    pub(super) fn take(&mut self) -> bool {
+        if self.lock.is_some() {
+            return true;
+        }
+        let Ok(lock) = File::create(lock_of(&self.path)) else {
+            // Without a place to say so nobody is kept out.
+            return true;
+        };
+        match lock.try_lock() {
+            Err(TryLockError::WouldBlock) => false,
+            // Some shares have no locks.
+            Ok(()) | Err(TryLockError::Error(_)) => {
+                self.lock = Some(lock);
+                true
+            }
         }
     }
 }

@@ -67,7 +67,7 @@ fn maps_are_written_to_the_folder_that_was_named() {
         .rect()
         .center();
     window.click_at(switch);
-    assert!(window.editor().settings.exports_on_save);
+    assert!(window.editor().panels.export.place.again);
     window.open(Panel::Parameters);
     for detail in ["3", "4"] {
         window.click_at(window.title(&id("clouds")));
@@ -112,7 +112,7 @@ fn what_cannot_be_exported_says_why() {
     window.open(Panel::Export);
     window.press("Export");
     assert!(window.says("Name the folder for the textures first"));
-    window.harness.state_mut().panels.export.folder = "maps".to_owned();
+    window.harness.state_mut().panels.export.place.folder = "maps".to_owned();
     window.press("Export");
     window.until("the end", |editor| editor.panels.export.running.is_none());
     assert!(window.says("output"), "{:?}", window.labels());

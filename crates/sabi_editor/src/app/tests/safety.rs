@@ -9,11 +9,11 @@ use sabi_engine::Session;
 use super::Window;
 use super::hands::id;
 
-const CLOUDS: &str = r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#;
+pub(super) const CLOUDS: &str = r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#;
 
 impl Window {
     /// Types a path into the question for one, over what is there.
-    fn answer_path(&mut self, path: &std::path::Path) {
+    pub(super) fn answer_path(&mut self, path: &std::path::Path) {
         self.keys(Modifiers::COMMAND, Key::A);
         self.typed(&path.display().to_string());
         self.key(Key::Enter);
@@ -23,14 +23,14 @@ impl Window {
         self.harness.state_mut().desk.session.is_dirty()
     }
 
-    fn mute(&mut self) {
+    pub(super) fn mute(&mut self) {
         self.harness.state_mut().desk.select([id("clouds")]);
         self.point(self.on_canvas([0.9, 0.9]));
         self.key(Key::M);
     }
 
     /// Asks the window to close, as its frame does; tells whether it goes on to close.
-    fn asks_to_close(&mut self) -> bool {
+    pub(super) fn asks_to_close(&mut self) -> bool {
         let viewport = self.harness.input_mut().viewports.entry(ViewportId::ROOT).or_default();
         viewport.events.push(ViewportEvent::Close);
         self.harness.step();
@@ -176,11 +176,10 @@ fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
     let text = window.text();
     let unsaved = window.path("unsaved");
     let kept: Vec<_> = fs::read_dir(&unsaved).expect("a folder").flatten().collect();
-    assert_eq!(kept.len(), 1);
-    // The program ends without a word: what it left bears the number of a process that is no more.
+    assert_eq!(kept.len(), 2, "the work, and what says that it is in use");
+    // The program ends without a word.
     let Window { harness, folder, .. } = window;
-    std::mem::forget(harness.into_state().desk.session);
-    fs::rename(kept[0].path(), unsaved.join("4000000000-1-0.recovery")).expect("renamed");
+    drop(harness.into_state().desk.session);
     let mut window = Window::in_folder(folder, |_| Session::new(None));
     window.settle();
     assert!(window.says("The program ended before this was saved"));

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use egui::{RichText, TextEdit, Ui, WidgetInfo, WidgetType};
-use sabi_engine::{NodeTextFault, check_node, new_node_folder, node_text_like, why_no_node_id};
+use sabi_engine::{NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id};
 
 use super::code;
-use crate::action::Action;
+use crate::action::{Action, NodeText};
 use crate::desk::Desk;
 use crate::theme::{Theme, space};
 
@@ -20,6 +20,8 @@ pub(crate) struct Draft {
     /// Of this id and text.
     faults: Vec<NodeTextFault>,
     why_no_id: Option<String>,
+    /// What its file is known to hold; none before it is written for the first time.
+    known: Option<String>,
 }
 
 impl Draft {
@@ -34,10 +36,24 @@ impl Draft {
         Some(Draft::checked(desk, id, text, folder, false))
     }
 
-    /// The file of one of the artist's own nodes; none where it is none of those.
-    pub(super) fn of_own(desk: &Desk, id: &str, text: &str) -> Option<Draft> {
-        let folder = desk.kinds().0.own_folder(desk.session.file(), id)?;
-        Some(Draft::checked(desk, id.to_owned(), text.to_owned(), folder, true))
+    /// The file of one of the artist's own nodes, as it is by now, which need not be the last one without a fault.
+    ///
+    /// # Errors
+    /// A sentence: it is none of those, or cannot be read.
+    pub(super) fn of_own(desk: &Desk, id: &str) -> Result<Draft, String> {
+        let kinds = desk.kinds().0;
+        let folder = kinds.own_folder(desk.session.file(), id);
+        let folder = folder.ok_or_else(|| format!("'{id}' is no node of your own; begin a new one from it"))?;
+        let text = read_node(&folder, id).map_err(|error| error.to_string())?;
+        let mut draft = Draft::checked(desk, id.to_owned(), text, folder, true);
+        draft.known = Some(draft.text.clone());
+        Ok(draft)
+    }
+
+    /// The file has this text now.
+    pub(crate) fn was_saved(&mut self) {
+        self.is_saved = true;
+        self.known = Some(self.text.clone());
     }
 
     fn checked(desk: &Desk, id: String, text: String, folder: PathBuf, is_saved: bool) -> Draft {
@@ -48,6 +64,7 @@ impl Draft {
             is_saved,
             faults: Vec::new(),
             why_no_id: None,
+            known: None,
         };
         draft.check(desk);
         draft
@@ -81,11 +98,12 @@ impl Draft {
             let save = ui.add_enabled(can_save, egui::Button::new("Save node"));
             let place = self.folder.display().to_string();
             if save.on_hover_text(format!("Writes it into {place}")).clicked() {
-                actions.push(Action::SaveNode {
+                actions.push(Action::SaveNode(NodeText {
                     folder: self.folder.clone(),
                     id: self.id.clone(),
                     text: self.text.clone(),
-                });
+                    known: self.known.clone(),
+                }));
             }
             let before = self.id.clone();
             let field = TextEdit::singleline(&mut self.id).desired_width(ui.available_width() - space::USUAL);
@@ -93,6 +111,7 @@ impl Draft {
             field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Id of the node"));
             if field.changed() {
                 self.is_saved = false;
+                self.known = None;
                 // A title that nobody wrote follows the name.
                 if node_text_like(&self.text, &before) == self.text {
                     self.text = node_text_like(&self.text, &self.id);

@@ -1,0 +1,115 @@
+//! Textures are written beside the window's work.
+
+use std::path::{Path, PathBuf};
+
+use sabi_engine::{
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Seams, WorkpieceOptions,
+    bake_graph, default_padding, needs_force,
+};
+
+use super::Editor;
+use crate::panels::export::{Running, folder_of};
+
+impl Editor {
+    /// Turns the panel to where textures of the open graph went before.
+    pub(super) fn recall_export(&mut self) {
+        let file = self.desk.session.file();
+        let place = file.map(|file| self.settings.export_place(file)).unwrap_or_default();
+        self.panels.export.turn_to(place);
+    }
+
+    /// Keeps where textures of the open graph go.
+    pub(super) fn remember_export(&mut self) {
+        if let Some(file) = self.desk.session.file() {
+            self.settings.remember_export(file, &self.panels.export.place);
+        }
+    }
+
+    /// Takes what came of an export, and begins the one that waits for its end.
+    pub(super) fn follow_export(&mut self) {
+        let is_over = self.panels.export.poll();
+        if is_over && std::mem::take(&mut self.panels.export.is_queued) {
+            self.export();
+        }
+    }
+
+    /// Writes the textures again where that is wanted at every save.
+    pub(super) fn export_after_save(&mut self) {
+        let export = &mut self.panels.export;
+        if !export.place.again {
+            return;
+        }
+        if export.running.is_some() {
+            export.is_queued = true;
+        } else {
+            self.export();
+        }
+    }
+
+    /// Writes the textures beside the window's work; asks first where the folder has files of somebody else.
+    pub(crate) fn export(&mut self) {
+        self.export_with(false);
+    }
+
+    /// Writes the textures into a folder whatever else it has.
+    pub(crate) fn export_into_any_folder(&mut self) {
+        self.export_with(true);
+    }
+
+    fn export_with(&mut self, force: bool) {
+        if self.panels.export.running.is_some() {
+            self.say("An export is being made already.");
+            return;
+        }
+        let Some(folder) = folder_of(&self.panels.export.place.folder, self.desk.session.file()) else {
+            let is_empty = self.panels.export.place.folder.trim().is_empty();
+            self.say(match is_empty {
+                true => "Name the folder for the textures first.",
+                false => {
+                    "Save the graph first, so that there is a folder beside it, or write the whole path of another."
+                }
+            });
+            return;
+        };
+        let request = self.bake_request(folder, force);
+        let (open, kinds) = (self.desk.session.graph().clone(), self.desk.kinds().0.clone());
+        self.panels.export.asks_force = needs_force(&open, &request);
+        if self.panels.export.asks_force {
+            self.say("No textures were written: their folder has other files. The export panel asks what to do.");
+            return;
+        }
+        let context = self.context.clone();
+        let work = move |progress: &dyn sabi_engine::Progress| bake_graph(&open, &kinds, &request, progress);
+        self.panels.export.running = Some(Running::start(&context, work));
+    }
+
+    /// What the export panel says, for the model and the device of the window.
+    pub(super) fn bake_request(&self, output: PathBuf, force: bool) -> BakeRequest {
+        let export = &self.settings.export;
+        let mut model = ModelOptions::new(self.stage.model_file(), export.size);
+        model.cache_dir = self.stage.cache_dir().map(Path::to_owned);
+        BakeRequest {
+            graph: self.desk.session.graph().path.clone(),
+            workpiece: WorkpieceOptions {
+                model,
+                overrides: Overrides::default(),
+                fit: None,
+                adapter: AdapterChoice::Named(self.stage.gpu().summary().name.clone()),
+                caster: CasterChoice::Auto,
+                budget_bytes: DEFAULT_BUDGET_BYTES,
+            },
+            output,
+            presets: vec![export.preset.clone()],
+            names: Some(export.names.clone()).filter(|names| !names.is_empty()),
+            channels: export.channels.clone(),
+            material: None,
+            all_maps: export.all_maps,
+            padding: Some(default_padding(export.size)),
+            seams: Seams::default(),
+            fuse: true,
+            force,
+            model: export.has_model,
+            report: None,
+        }
+    }
+}

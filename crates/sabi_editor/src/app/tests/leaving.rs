@@ -1,0 +1,244 @@
+//! What else could be lost: by opening, by replacing, and by closing while something goes on.
+
+use std::fs;
+use std::time::Duration;
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+use sabi_engine::Session;
+
+use super::Window;
+use super::safety::CLOUDS;
+use crate::action::Shelf;
+use crate::dock::Panel;
+
+#[test]
+fn a_recent_file_is_opened_only_once_it_is_said_what_becomes_of_changes() {
+    let mut window = Window::opened(CLOUDS);
+    let other = window.path("other.sabi");
+    fs::write(&other, super::graph_text("")).expect("a graph");
+    window.harness.state_mut().settings.remember(&other);
+    window.mute();
+    window.press("File");
+    let recent = window.harness.get_by_label_contains("Recent").rect().center();
+    window.point(recent);
+    window.click_at(recent);
+    window.press(&other.canonicalize().expect("a file").display().to_string());
+    assert!(
+        window.says("There are changes that are not saved"),
+        "{:?}",
+        window.labels()
+    );
+    window.press("Let them go");
+    assert_eq!(window.desk().graph().len(), 0);
+}
+
+#[test]
+fn another_graph_is_evaluated_as_soon_as_it_is_opened() {
+    let mut window = Window::opened("");
+    window.until("rest", |editor| !editor.stage.is_busy() && editor.model_view.drawn > 0);
+    let other = window.path("other.sabi");
+    fs::write(&other, super::graph_text(CLOUDS)).expect("a graph");
+    window.harness.state_mut().open_file(&other);
+    let clouds = window.editor().reference(&super::hands::id("clouds"), None);
+    window.until("a picture of its node", |editor| {
+        editor.stage.thumbnail(&clouds).is_some()
+    });
+}
+
+#[test]
+fn the_file_of_another_graph_is_not_replaced_without_a_question() {
+    let mut window = Window::opened(CLOUDS);
+    let other = window.path("other.sabi");
+    fs::write(&other, "theirs").expect("a file");
+    let save_as = |window: &mut Window| {
+        window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+        window.answer_path(&other);
+    };
+    save_as(&mut window);
+    assert!(window.says("There is such a file already"));
+    assert_eq!(fs::read_to_string(&other).expect("a file"), "theirs");
+    window.press("Another name…");
+    assert!(window.says("Save the graph"), "the path can be changed");
+    window.key(Key::Escape);
+    save_as(&mut window);
+    window.press("Replace it");
+    assert_eq!(fs::read_to_string(&other).expect("a file"), window.text());
+    assert_eq!(
+        fs::read_to_string(window.path("other.sabi.bak")).expect("a file"),
+        "theirs"
+    );
+    // Its own file is no other's.
+    window.mute();
+    save_as(&mut window);
+    assert!(!window.says("There is such a file already"));
+}
+
+#[test]
+fn a_graph_never_takes_the_place_of_a_picture_by_its_name() {
+    let mut window = Window::opened(CLOUDS);
+    window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    window.answer_path(&window.path("wood.png"));
+    assert!(!window.path("wood.png").exists());
+    assert_eq!(window.desk().session.file(), Some(&*window.path("wood.png.sabi")));
+}
+
+#[test]
+fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
+    let mut window = Window::opened(CLOUDS);
+    window.harness.state_mut().desk.select([super::hands::id("clouds")]);
+    window.keys(Modifiers::COMMAND, Key::G);
+    let keep = |window: &mut Window| {
+        window.harness.state_mut().shelve_selected(Shelf::User);
+        window.settle();
+        fs::read_dir(window.path("library")).expect("a library").count()
+    };
+    assert_eq!(keep(&mut window), 1);
+    assert_eq!(keep(&mut window), 1, "the same is kept once");
+    let instance = window.desk().selected_one().cloned().expect("the group");
+    assert!(window.harness.state_mut().desk.enter(&instance));
+    window.harness.state_mut().desk.select_all();
+    window.harness.state_mut().desk.mute();
+    window.harness.state_mut().desk.leave();
+    window.harness.state_mut().desk.select([instance]);
+    assert_eq!(keep(&mut window), 2);
+}
+
+#[test]
+fn the_window_stays_until_textures_are_written() {
+    let mut window = Window::opened(
+        r##""clouds": { "kind": "noise/simplex" }, "layer": { "kind": "effect/layer", "inputs": { "mask": "clouds" },
+            "params": { "color": "#6b3a1e" } }, "out": { "kind": "output/material", "inputs": { "material": "layer" } }"##,
+    );
+    let editor = window.harness.state_mut();
+    editor.settings.export.size = 512;
+    editor.panels.export.place.folder = "maps".to_owned();
+    editor.export();
+    assert!(!window.asks_to_close());
+    assert!(window.says("Textures are being written"));
+    window.press("Stay");
+    assert!(!window.editor().files.may_close);
+    assert!(!window.asks_to_close());
+    window.until("the end", |editor| editor.files.may_close);
+    assert!(window.asks_to_close());
+    assert!(window.path("maps").is_dir());
+}
+
+#[test]
+fn a_save_while_textures_are_written_has_them_written_once_more() {
+    let mut window = Window::opened(
+        r#""clouds": { "kind": "noise/simplex" },
+        "out": { "kind": "output/mask", "inputs": { "source": "clouds" }, "params": { "name": "clouds" } }"#,
+    );
+    let editor = window.harness.state_mut();
+    editor.settings.export.size = 512;
+    editor.panels.export.place.folder = "maps".to_owned();
+    editor.panels.export.place.again = true;
+    editor.export();
+    editor.save();
+    assert!(window.editor().panels.export.is_queued);
+    window.until("both", |editor| {
+        editor.panels.export.running.is_none() && !editor.panels.export.is_queued
+    });
+}
+
+#[test]
+fn where_textures_go_is_known_for_each_graph_and_in_the_next_window() {
+    let mut window = Window::opened(CLOUDS);
+    let first = window.path("graph.sabi");
+    let other = window.path("other.sabi");
+    fs::write(&other, super::graph_text("")).expect("a graph");
+    let place = &mut window.harness.state_mut().panels.export.place;
+    (place.folder, place.again) = ("maps".to_owned(), true);
+    window.harness.state_mut().open_file(&other);
+    let place = &window.editor().panels.export.place;
+    assert!(place.folder.is_empty() && !place.again, "{place:?}");
+    window.harness.state_mut().open_file(&first);
+    assert_eq!(window.editor().panels.export.place.folder, "maps");
+    window.harness.state_mut().keeping.every = Duration::ZERO;
+    window.settle();
+    let folder = window.folder;
+    drop(window.harness);
+    let window = Window::in_folder(folder, |_| Session::open(&first, None).expect("a graph"));
+    assert_eq!(window.editor().panels.export.place.folder, "maps");
+}
+
+#[test]
+fn a_window_with_the_unsaved_text_of_a_node_stays() {
+    let mut window = Window::opened(CLOUDS);
+    window.harness.state_mut().desk.select([super::hands::id("clouds")]);
+    window.key(Key::F1);
+    window.press("New node from here");
+    assert!(!window.asks_to_close());
+    assert!(window.says("The text of a node is not saved"));
+}
+
+#[test]
+fn keys_of_the_window_are_heard_while_a_text_is_typed_and_letters_are_not() {
+    let mut window = Window::opened(CLOUDS);
+    window.mute();
+    let text = window.text();
+    window.open(Panel::Library);
+    let field = window.editor().rects[&Panel::Library];
+    let at = window.harness.get_by_label("Search the library").rect().center();
+    assert!(field.contains(at));
+    window.click_at(at);
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert_eq!(fs::read_to_string(window.path("graph.sabi")).expect("a file"), text);
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.text(), text, "the step is the text's");
+}
+
+#[test]
+fn asking_for_a_panel_that_the_use_view_lacks_leaves_it() {
+    let mut window = Window::opened(CLOUDS);
+    window.harness.state_mut().toggle_use_view();
+    window.settle();
+    window.harness.state_mut().bring_up(Panel::Export);
+    assert!(window.editor().is_use_view());
+    window.keys(Modifiers::NONE, Key::F1);
+    assert!(!window.editor().is_use_view());
+    assert!(window.editor().rects.contains_key(&Panel::Page));
+}
+
+#[test]
+fn what_was_kept_can_be_let_go_and_a_window_that_uses_it_keeps_it() {
+    let mut window = Window::opened(CLOUDS);
+    window.harness.state_mut().keeping.every = Duration::ZERO;
+    window.mute();
+    let unsaved = window.path("unsaved");
+    assert!(sabi_engine::recoveries(&unsaved).is_empty(), "it is in use");
+    let Window { harness, folder, .. } = window;
+    drop(harness.into_state().desk.session);
+    let mut window = Window::in_folder(folder, |_| Session::new(None));
+    window.settle();
+    assert!(window.says("graph.sabi"));
+    window.press("Let it go");
+    window.press("Let it go for good");
+    assert!(!window.says("The program ended before this was saved"));
+    assert!(sabi_engine::recoveries(&unsaved).is_empty());
+}
+
+#[test]
+fn settings_that_cannot_be_read_are_put_aside() {
+    let window = Window::opened(CLOUDS);
+    let Window { harness, folder, .. } = window;
+    drop(harness);
+    let settings = folder.path().join("settings");
+    fs::create_dir_all(&settings).expect("a folder");
+    fs::write(settings.join("settings.json"), r#"{ "shade": "Purple" }"#).expect("settings");
+    let mut window = Window::in_folder(folder, |_| Session::new(None));
+    window.settle();
+    assert!(window.says("The settings could not be read"), "{:?}", window.labels());
+    let aside = fs::read_to_string(settings.join("settings.json.bak")).expect("put aside");
+    assert!(aside.contains("Purple"));
+}
+
+#[test]
+fn the_window_is_called_after_its_graph() {
+    let mut window = Window::opened(CLOUDS);
+    window.settle();
+    assert_eq!(window.editor().named, "graph.sabi – Sabi");
+    window.mute();
+    assert_eq!(window.editor().named, "graph.sabi • – Sabi");
+}
