@@ -76,8 +76,10 @@ pub(crate) enum KnobEvent {
     Unexpose { knob: String },
     /// A drag begins: everything up to [`KnobEvent::Ended`] is one step to undo.
     Began,
-    /// The drag ends. Where Escape gave it up, what was set before has been asked for again.
+    /// The drag ends.
     Ended,
+    /// The drag is given up: nothing that was asked for since it began was meant.
+    GivenUp,
     /// To take a color from the screen.
     Eyedropper { knob: String },
     /// To have a file chosen.

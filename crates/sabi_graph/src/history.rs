@@ -14,6 +14,8 @@ pub struct History {
     redo: Vec<Step>,
     /// A group of edits in the making.
     open: Option<Step>,
+    /// What could be done again before the open group's first edit, and can be if that is canceled.
+    put_away: Vec<Step>,
 }
 
 /// One entry of a menu: its name, and the edits that take it back (or do it again), in the order to apply them.
@@ -35,7 +37,10 @@ impl History {
     /// The edit was refused; nothing changed.
     pub fn apply(&mut self, document: &mut Document, name: &str, edit: Edit) -> Result<(), EditError> {
         let inverse = document.apply(edit)?;
-        self.redo.clear();
+        let undone = std::mem::take(&mut self.redo);
+        if self.open.is_some() && !undone.is_empty() {
+            self.put_away = undone;
+        }
         match &mut self.open {
             // A drag sets the same knob again and again: the first inverse leads back past all of them.
             Some(step) if step.edits.last().is_some_and(|last| sets_the_same(last, &inverse)) => {}
@@ -68,6 +73,7 @@ impl History {
 
     /// Ends the open group, if there is one; a group without edits leaves no step.
     pub fn end(&mut self) {
+        self.put_away.clear();
         if let Some(mut step) = self.open.take()
             && !step.edits.is_empty()
         {
@@ -86,7 +92,11 @@ impl History {
             return Ok(());
         };
         step.edits.reverse();
-        document.apply(Edit::Batch(step.edits)).map(drop)
+        document.apply(Edit::Batch(step.edits))?;
+        if !self.put_away.is_empty() {
+            self.redo = std::mem::take(&mut self.put_away);
+        }
+        Ok(())
     }
 
     /// Takes the last step back; gives its name, or `None` when there is nothing to undo.

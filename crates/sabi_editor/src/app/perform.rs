@@ -175,7 +175,9 @@ impl Editor {
             }
             KnobEvent::Eyedropper { knob } => self.ask_for_color(KnobAt::of_node(node, knob)),
             KnobEvent::Browse { knob } => self.files.ask_for_picture(KnobAt::of_node(node, knob)),
-            KnobEvent::Began | KnobEvent::Ended | KnobEvent::ShowLength(_) => self.move_knob(&event),
+            KnobEvent::Began | KnobEvent::Ended | KnobEvent::GivenUp | KnobEvent::ShowLength(_) => {
+                self.move_knob(&event)
+            }
         }
     }
 

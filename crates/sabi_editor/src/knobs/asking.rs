@@ -42,11 +42,6 @@ struct Fault {
 pub(super) struct Drag {
     /// The widget.
     id: Id,
-    knob: String,
-    /// What was set before, to be set again if the drag is given up.
-    before: Option<Value>,
-    /// Nodes that differed cannot be brought back by one value.
-    differs: bool,
     has_changed: bool,
     /// Where the pointer was last.
     last: Pos2,
@@ -136,7 +131,6 @@ impl Asking<'_> {
     pub(super) fn pull(
         &mut self,
         response: &Response,
-        row: &KnobRow<'_>,
         grip: impl FnOnce(Pos2) -> Option<Grip>,
     ) -> Option<(Vec2, &mut Drag)> {
         let is_given_up = response.ctx.input(|input| input.key_pressed(Key::Escape));
@@ -147,7 +141,7 @@ impl Asking<'_> {
         {
             // The way to where the press became a drag counts too.
             let origin = place - response.total_drag_delta().unwrap_or_default();
-            self.begin(&response.ctx, response.id, row, grip(origin)?, origin);
+            self.begin(&response.ctx, response.id, grip(origin)?, origin);
         }
         let drag = self.memory.drag.as_mut().filter(|drag| drag.id == response.id)?;
         drag.seen = response.ctx.cumulative_pass_nr();
@@ -162,14 +156,11 @@ impl Asking<'_> {
     }
 
     /// Begins a drag by hand, where the widget that is dragged is another's.
-    pub(super) fn begin(&mut self, context: &Context, id: Id, row: &KnobRow<'_>, grip: Grip, origin: Pos2) {
+    pub(super) fn begin(&mut self, context: &Context, id: Id, grip: Grip, origin: Pos2) {
         self.forget_fault();
         self.events.push(KnobEvent::Began);
         self.memory.drag = Some(Drag {
             id,
-            knob: row.knob.name.clone(),
-            before: row.value.cloned(),
-            differs: row.differs,
             has_changed: false,
             last: origin,
             seen: context.cumulative_pass_nr(),
@@ -200,16 +191,13 @@ impl Asking<'_> {
         if is_seen && (!is_owner || is_down && !is_given_up) {
             return;
         }
-        if is_owner && is_given_up && drag.has_changed && !drag.differs {
-            let knob = drag.knob.clone();
-            self.events.push(match drag.before.clone() {
-                Some(value) => KnobEvent::Set { knob, value },
-                None => KnobEvent::Reset { knob },
-            });
+        if is_owner && is_given_up {
+            self.events.push(KnobEvent::GivenUp);
             // Nothing else is left or closed by it.
             context.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape));
+        } else {
+            self.events.push(KnobEvent::Ended);
         }
-        self.events.push(KnobEvent::Ended);
         self.memory.drag = None;
     }
 

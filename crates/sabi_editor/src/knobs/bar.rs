@@ -104,7 +104,7 @@ impl Bar<'_> {
     fn dragged(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) -> Option<f64> {
         let is_fine = ui.input(|input| input.modifiers.shift);
         let speed = if is_fine { FINE } else { 1.0 };
-        let (way, drag) = ask.pull(response, self.row, |_| Some(Grip::of([self.value, 0.0, 0.0])))?;
+        let (way, drag) = ask.pull(response, |_| Some(Grip::of([self.value, 0.0, 0.0])))?;
         let points = f64::from(self.rect.width()).max(LEAST_WAY);
         let exact = drag.grip.exact[0] + f64::from(way.x) / points * (self.ends[1] - self.ends[0]) * speed;
         drag.grip.exact[0] = self.clamped(exact);

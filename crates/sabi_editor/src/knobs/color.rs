@@ -101,10 +101,10 @@ pub(super) fn swatch(
         focus_ring(ui, ask, &response);
     }
     let popup = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    popup.show(|ui| pick(ui, ask, row, id, color))?.inner
+    popup.show(|ui| pick(ui, ask, id, color))?.inner
 }
 
-fn pick(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, color: Color32) -> Option<Color32> {
+fn pick(ui: &mut Ui, ask: &mut Asking<'_>, id: Id, color: Color32) -> Option<Color32> {
     ui.spacing_mut().slider_width = PICKER;
     // A gray has no hue of its own, so the picker's is kept as long as it stands for this color.
     let kept = ask.memory.picked.filter(|(of, kept)| *of == id && rgb(kept) == color);
@@ -118,7 +118,7 @@ fn pick(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, color: Col
     ask.memory.picked = Some((id, picked));
     if is_down && ask.memory.drag.is_none() {
         let origin = ui.input(|input| input.pointer.interact_pos()).unwrap_or_default();
-        ask.begin(ui.ctx(), id, row, Grip::default(), origin);
+        ask.begin(ui.ctx(), id, Grip::default(), origin);
     }
     Some(rgb(&picked))
 }

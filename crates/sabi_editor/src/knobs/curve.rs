@@ -141,7 +141,7 @@ impl Curve {
             })
         };
         let is_fine = response.ctx.input(|input| input.modifiers.shift);
-        let Some((way, drag)) = ask.pull(response, row, grip) else {
+        let Some((way, drag)) = ask.pull(response, grip) else {
             return false;
         };
         let speed = if is_fine { 0.1 } else { 1.0 };

@@ -124,7 +124,7 @@ fn turn(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, ball: Rect, di
     } else {
         1.0
     };
-    if let Some((way, drag)) = ask.pull(&response, row, |_| Some(Grip::of(direction.to_array()))) {
+    if let Some((way, drag)) = ask.pull(&response, |_| Some(Grip::of(direction.to_array()))) {
         let [right, down] = [way.x, way.y].map(|way| f64::from(way / sight.radius) * speed);
         let turned = sight.turned(DVec3::from(drag.grip.exact), right, down);
         drag.grip.exact = turned.to_array();

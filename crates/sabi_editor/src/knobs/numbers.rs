@@ -141,7 +141,7 @@ fn dial(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, face: Rect, de
         painter.line_segment([middle, middle + hand], (1.5, theme.text));
         painter.circle_filled(middle + hand, 2.0, theme.accent);
     }
-    let (way, drag) = ask.pull(&response, row, |_| Some(Grip::of([degrees, 0.0, 0.0])))?;
+    let (way, drag) = ask.pull(&response, |_| Some(Grip::of([degrees, 0.0, 0.0])))?;
     let now = drag.place() - middle;
     let turn = f64::from((now - way).angle() - now.angle());
     // The short way around, so that the hand can pass behind.

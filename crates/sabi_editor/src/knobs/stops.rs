@@ -132,7 +132,7 @@ impl Gradient {
                 all: Some(of_stops(&self.stops)),
             })
         };
-        let Some((way, drag)) = ask.pull(response, row, grip) else {
+        let Some((way, drag)) = ask.pull(response, grip) else {
             return false;
         };
         drag.grip.exact[0] += f64::from(way.x / ramp.0.width());

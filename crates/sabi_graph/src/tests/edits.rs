@@ -326,3 +326,23 @@ fn a_document_in_the_place_of_another_gives_way_to_it_again() {
     first.apply(inverse).unwrap();
     assert_eq!(first.to_json(), chain().to_json());
 }
+
+#[test]
+fn a_group_of_edits_that_is_canceled_leaves_what_can_be_done_again() {
+    let (mut document, mut history) = (chain(), History::new());
+    let seed = |seed| Edit::SetSeed { seed };
+    history.apply(&mut document, "Seed", seed(1)).unwrap();
+    history.undo(&mut document).unwrap();
+    history.begin("Drag");
+    history.apply(&mut document, "Seed", seed(2)).unwrap();
+    history.apply(&mut document, "Seed", seed(3)).unwrap();
+    history.cancel(&mut document).unwrap();
+    assert_eq!(document, chain());
+    assert_eq!(history.redo(&mut document).unwrap().as_deref(), Some("Seed"));
+    // One that is made forgets it, as any edit does.
+    history.undo(&mut document).unwrap();
+    history.begin("Drag");
+    history.apply(&mut document, "Seed", seed(2)).unwrap();
+    history.end();
+    assert_eq!(history.redo(&mut document).unwrap(), None);
+}

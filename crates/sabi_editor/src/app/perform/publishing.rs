@@ -37,7 +37,9 @@ impl Editor {
             KnobEvent::Unexpose { knob } => drop(desk.unexpose(&knob)),
             KnobEvent::Eyedropper { knob } => self.ask_for_color(KnobAt::Panel(knob)),
             KnobEvent::Browse { knob } => self.files.ask_for_picture(KnobAt::Panel(knob)),
-            KnobEvent::Began | KnobEvent::Ended | KnobEvent::ShowLength(_) => self.move_knob(&event),
+            KnobEvent::Began | KnobEvent::Ended | KnobEvent::GivenUp | KnobEvent::ShowLength(_) => {
+                self.move_knob(&event)
+            }
             // All that stand on the panel are published.
             KnobEvent::Expose { .. } => {}
         }
@@ -98,6 +100,10 @@ impl Editor {
             }
             KnobEvent::Ended => {
                 self.desk.session.end();
+                self.is_moving = false;
+            }
+            KnobEvent::GivenUp => {
+                self.desk.take_back();
                 self.is_moving = false;
             }
             KnobEvent::ShowLength(length) => self.panels.parameters.length = Some(*length),

@@ -138,3 +138,21 @@ fn a_number_on_a_wired_input_is_not_offered() {
     assert_eq!(window.param(&id("mix"), "below"), None);
     assert_eq!(window.steps(), 0);
 }
+
+#[test]
+fn a_drag_that_is_given_up_leaves_the_graph_and_what_can_be_done_again_as_they_were() {
+    let mut window = Window::opened(r#""blend": { "kind": "blend/mask", "pos": [0, 0] }"#);
+    let blend = id("blend");
+    window.click_at(window.title(&blend));
+    window.set_number("Opacity", "0.5");
+    window.undo(1);
+    let before = window.text();
+    let at = window.knob("Opacity");
+    window.pull(&[at, beside(at, [-30.0, 0.0])], PointerButton::Primary, Modifiers::NONE);
+    assert_ne!(window.text(), before);
+    window.key(Key::Escape);
+    window.button(beside(at, [-30.0, 0.0]), PointerButton::Primary, false);
+    assert_eq!(window.text(), before);
+    window.redo(1);
+    assert_eq!(window.param(&blend, "opacity").as_deref(), Some("0.5"));
+}

@@ -118,15 +118,13 @@ fn a_stop_that_is_dragged_away_is_taken_out_but_not_the_last_one() {
 }
 
 #[test]
-fn escape_brings_a_dragged_stop_back() {
-    let stops = r##"[[0, "#000000"], [1, "#ffffff"]]"##;
-    let mut board = gradient(stops);
+fn escape_gives_the_drag_of_a_stop_up() {
+    let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
     let at = handle(&board, 1.0);
     press(&mut board, at);
     pull(&mut board, at + Vec2::new(-50.0, 90.0));
     key(&mut board, Key::Escape);
-    assert_eq!(held(&board), json(stops));
-    assert_eq!(taken(&mut board).last(), Some(&KnobEvent::Ended));
+    assert_eq!(taken(&mut board).last(), Some(&KnobEvent::GivenUp));
 }
 
 #[test]

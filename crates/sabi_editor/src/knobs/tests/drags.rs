@@ -55,48 +55,18 @@ fn a_drag_goes_on_outside_the_window_and_ends_once() {
 }
 
 #[test]
-fn escape_sets_back_what_was_there_and_ends_the_drag() {
+fn escape_gives_a_drag_up() {
     let mut board = opacity();
     let at = middle(&board, "Opacity");
     press(&mut board, at);
     pull(&mut board, at + Vec2::new(30.0, 0.0));
     taken(&mut board);
     key(&mut board, Key::Escape);
-    assert_eq!(taken(&mut board), [set("opacity", 0.5), KnobEvent::Ended]);
+    assert_eq!(taken(&mut board), [KnobEvent::GivenUp]);
     // What the pointer does until it is released is no drag any more.
     pull(&mut board, at + Vec2::new(60.0, 0.0));
     release(&mut board, at + Vec2::new(60.0, 0.0));
     assert_eq!(taken(&mut board), []);
-}
-
-#[test]
-fn escape_resets_what_was_not_set_before() {
-    let mut board = board([knob("blend/mask.opacity")]);
-    let at = middle(&board, "Opacity");
-    press(&mut board, at);
-    pull(&mut board, at - Vec2::new(30.0, 0.0));
-    taken(&mut board);
-    key(&mut board, Key::Escape);
-    let knob = "opacity".to_owned();
-    assert_eq!(taken(&mut board), [KnobEvent::Reset { knob }, KnobEvent::Ended]);
-}
-
-#[test]
-fn nodes_that_differed_keep_what_the_drag_gave_them() {
-    let mut differing = knob("blend/mask.opacity");
-    differing.value = Some(Value::Number(0.5));
-    differing.differs = true;
-    let mut board = board([differing]);
-    let at = middle(&board, "Opacity");
-    press(&mut board, at);
-    pull(&mut board, at + Vec2::new(30.0, 0.0));
-    taken(&mut board);
-    key(&mut board, Key::Escape);
-    assert_eq!(
-        taken(&mut board),
-        [KnobEvent::Ended],
-        "one value cannot bring several back"
-    );
 }
 
 #[test]
