@@ -14,6 +14,7 @@ use sabi_surface::unwrap::{UnwrapReport, unwrap_cached};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::stages::{Progress, Stage};
+use crate::workpiece::stop_if_canceled;
 
 /// How a model is taken.
 #[derive(Clone, Debug)]
@@ -115,6 +116,7 @@ impl Prepared {
     pub fn open(options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
         let model = Prepared::load_model(options)?;
         progress.advance(Stage::Load, 1, 1);
+        stop_if_canceled(progress)?;
         Prepared::link(model, options, progress)
     }
 
@@ -139,6 +141,7 @@ impl Prepared {
         let mut unwrapped = None;
         if options.overlap == Overlap::Unwrap || needs_unwrapping(&mut model) {
             unwrapped = Some(unwrap_model(&mut model, options).map_err(refused)?);
+            stop_if_canceled(progress)?;
         }
         let cache_dir = options.cache_folder();
         let atlas_options = AtlasOptions::new(options.size);

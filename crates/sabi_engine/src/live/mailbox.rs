@@ -64,6 +64,13 @@ impl Mailbox {
         state.is_closed || state.wish.is_some()
     }
 
+    /// Whether loading this model is of no use any more: another one is wished for, or none.
+    fn is_other_wanted(&self, model_revision: u64) -> bool {
+        let state = self.lock();
+        let wished = state.wish.as_ref().map(|(wish, _)| wish.model_revision);
+        state.is_closed || wished.is_some_and(|wished| wished != model_revision)
+    }
+
     pub(super) fn is_busy(&self) -> bool {
         let state = self.lock();
         !state.is_closed && (state.is_working || state.wish.is_some())
@@ -129,5 +136,19 @@ impl Progress for Watch<'_> {
         } else {
             self.mailbox.is_closed()
         }
+    }
+}
+
+/// Stops loading a model that nobody wants any more.
+pub(super) struct LoadWatch<'m> {
+    pub(super) mailbox: &'m Mailbox,
+    pub(super) model_revision: u64,
+}
+
+impl Progress for LoadWatch<'_> {
+    fn advance(&self, _stage: Stage, _done: usize, _of: usize) {}
+
+    fn is_canceled(&self) -> bool {
+        self.mailbox.is_other_wanted(self.model_revision)
     }
 }

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::faults::Laid;
+use super::mailbox::LoadWatch;
 use super::news::News;
 use super::stage::Stage;
 use super::trouble::Trouble;
 use super::worker::{Job, Worker};
-use crate::error::EngineError;
+use crate::error::{EngineError, ErrorKind};
 use crate::prepare::{ModelOptions, Prepared};
-use crate::stages::Silent;
 
 /// A model, at one size or two.
 pub(super) struct Loaded {
@@ -62,7 +62,11 @@ impl Worker {
             cache_dir: self.options.cache_dir.clone(),
             ..(*wish.model).clone()
         };
-        let opened = Prepared::open(&options, &Silent).and_then(|prepared| {
+        let watch = LoadWatch {
+            mailbox: &self.mailbox,
+            model_revision: wish.model_revision,
+        };
+        let opened = Prepared::open(&options, &watch).and_then(|prepared| {
             let model = (Arc::new(prepared), wish.model_revision);
             Stage::new(&self.gpu, &self.options, wish, model, is_coarse)
         });
@@ -102,7 +106,11 @@ impl Worker {
             cache_dir: self.options.cache_dir.clone(),
             ..(*loaded.options).clone()
         };
-        let resized = coarse.model.prepared.resized(&options, &Silent);
+        let watch = LoadWatch {
+            mailbox: &self.mailbox,
+            model_revision: loaded.revision,
+        };
+        let resized = coarse.model.prepared.resized(&options, &watch);
         let stage = resized.and_then(|prepared| {
             let model = (Arc::new(prepared), loaded.revision);
             Stage::new(&self.gpu, &self.options, &job.wish, model, false)
@@ -116,7 +124,7 @@ impl Worker {
                 Ok(())
             }
             Err(error) => {
-                loaded.is_full_refused = true;
+                loaded.is_full_refused = error.kind != ErrorKind::Interrupted;
                 self.model_failed(job, error)
             }
         }
