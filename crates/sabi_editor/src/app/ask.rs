@@ -105,6 +105,7 @@ impl Editor {
         self.stage.ask(&self.desk, wanted);
         // A drag that ends outside of the window ends here.
         if self.is_moving && !context.input(|input| input.pointer.any_down()) {
+            self.desk.session.end();
             self.is_moving = false;
             context.request_repaint();
         }

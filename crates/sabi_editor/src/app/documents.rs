@@ -7,7 +7,7 @@ use sabi_engine::{EngineError, Kinds, Session};
 use sabi_graph::Value;
 
 use super::Editor;
-use crate::action::{Action, New, NodeText, Shelf};
+use crate::action::{Action, NodeText, Shelf};
 use crate::desk::Desk;
 use crate::files::examples;
 use crate::panels::library::KEPT_AS;
@@ -254,18 +254,15 @@ impl Editor {
 
     fn add_picture(&mut self, path: &Path, ui: &Ui) {
         let place = self.canvas.place_for_new(ui);
-        self.perform(
-            Action::Add {
-                kind: New::Kind("source/image".to_owned()),
-                place,
-                loose: None,
-                into: None,
-            },
-            ui,
-        );
-        if let Some(id) = self.desk.selected_one().cloned() {
-            let text = self.desk.relative(path);
-            self.desk.set_knob(&id, "file", Some(Value::Text(text)));
+        let text = self.desk.relative(path);
+        self.desk.session.begin("Add picture");
+        let added = self.desk.add("source/image", place, None);
+        if let Some(id) = &added {
+            self.desk.set_knob(id, "file", Some(Value::Text(text)));
+        }
+        self.desk.session.end();
+        if let Some(id) = added {
+            self.look_at(&id, None);
         }
     }
 }

@@ -98,7 +98,8 @@ impl Editor {
                 self.desk.session.begin("Turn a knob");
                 self.is_moving = true;
             }
-            KnobEvent::Ended => {
+            // Where its knob was gone it has ended already, and another step may be open by now.
+            KnobEvent::Ended if self.is_moving => {
                 self.desk.session.end();
                 self.is_moving = false;
             }

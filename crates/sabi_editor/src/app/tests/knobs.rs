@@ -156,3 +156,33 @@ fn a_drag_that_is_given_up_leaves_the_graph_and_what_can_be_done_again_as_they_w
     window.redo(1);
     assert_eq!(window.param(&blend, "opacity").as_deref(), Some("0.5"));
 }
+
+#[test]
+fn a_drag_whose_node_is_gone_ends_with_the_button_outside_of_the_window() {
+    let mut window = Window::opened(TWO);
+    let near = window.rect(&id("dots"));
+    let found = window.harness.query_all_by_label("Spacing");
+    let mut found = found.map(|node| node.rect().center());
+    let bar = found.find(|at| near.contains(*at)).expect("a knob on the node");
+    drop(found);
+    window.pull(
+        &[bar, beside(bar, [25.0, 0.0])],
+        PointerButton::Primary,
+        Modifiers::NONE,
+    );
+    assert!(window.editor().is_moving);
+    // Nodes are cards from so far.
+    window.wheel(beside(bar, [25.0, 0.0]), -900.0);
+    let outside = egui::pos2(-40.0, -40.0);
+    window.point(outside);
+    window.button(outside, PointerButton::Primary, false);
+    window.settle();
+    assert!(!window.editor().is_moving);
+    window.harness.state_mut().desk.select([id("clouds")]);
+    let empty = window.on_canvas([0.98, 0.02]);
+    window.point(empty);
+    window.key(Key::M);
+    assert_eq!(window.steps(), 2, "muting is no part of the drag");
+    window.undo(1);
+    assert!(window.param(&id("dots"), "spacing").is_some());
+}

@@ -186,3 +186,20 @@ fn a_dropped_folder_becomes_a_material() {
     let said = format!("{} holds no pictures", empty.display());
     assert!(window.harness.query_by_label(&said).is_some());
 }
+
+#[test]
+fn a_dropped_picture_is_a_node_in_one_step() {
+    let mut window = Window::of(GROUPED);
+    let before = window.text();
+    let dropped = egui::DroppedFile {
+        path: Some(window.path("rust.png")),
+        ..egui::DroppedFile::default()
+    };
+    window.harness.input_mut().dropped_files.push(dropped);
+    window.settle();
+    let added = window.editor().desk.selected_one().cloned().expect("the picture");
+    assert_eq!(window.param(&added, "file").as_deref(), Some("\"rust.png\""));
+    assert_eq!(window.steps(), 1);
+    window.undo(1);
+    assert_eq!(window.text(), before);
+}
