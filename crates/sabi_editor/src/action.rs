@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
 
+use crate::canvas::Way;
 use crate::command::Command;
 use crate::desk::{Loose, Merge, StackEnd};
 use crate::knobs::KnobEvent;
@@ -42,6 +43,8 @@ pub(crate) enum Action {
     TakeOut,
     /// Select these and nothing else.
     Select(Vec<NodeId>),
+    /// Go to the node or the port that an arrow key leads to.
+    Arrow(Way),
     /// Select one more, or one less.
     Toggle(NodeId),
     /// Show a node's result in the 2D view and on the model.

@@ -99,6 +99,7 @@ impl Canvas {
         if !self.was_framed {
             self.frame_all(around.desk);
         }
+        self.follow_selection(around.desk);
         self.snapshot.sync(around.desk);
         self.zoom_and_pan(ui, panel);
         draw_grid(ui, panel, &self.view, around.theme);
@@ -192,7 +193,7 @@ impl Canvas {
     pub(crate) fn let_go(&mut self) -> bool {
         let held = !matches!(self.gesture, Gesture::Idle) || self.port.is_some();
         self.gesture = Gesture::Idle;
-        self.port = None;
+        self.leave_port();
         held
     }
 
@@ -221,7 +222,7 @@ impl Canvas {
             None => self.was_framed = false,
         }
         self.gesture = Gesture::Idle;
-        self.port = None;
+        self.leave_port();
     }
 
     /// Shows all nodes.

@@ -93,10 +93,7 @@ impl Editor {
             Key::ArrowDown => Way::Down,
             _ => return,
         };
-        if let Some(id) = self.canvas.neighbor(&self.desk, way) {
-            actions.push(Action::Select(vec![id.clone()]));
-            actions.push(Action::Show { node: id, port: None });
-        }
+        actions.push(Action::Arrow(way));
     }
 
     /// The panel under the pointer is the one that keys are for, as soon as the pointer moves.

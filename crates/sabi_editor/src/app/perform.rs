@@ -46,6 +46,11 @@ impl Editor {
                 desk.take_out();
             }
             Action::Select(ids) => desk.select(ids),
+            Action::Arrow(way) => {
+                for action in self.canvas.arrow(desk, way) {
+                    self.perform(action, ui);
+                }
+            }
             Action::Toggle(id) => desk.toggle(&id),
             Action::Show { node, port } => self.look_at(&node, port),
             Action::Pin { node } => self.pin(&node),

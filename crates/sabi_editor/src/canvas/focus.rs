@@ -1,6 +1,6 @@
 //! The canvas by keys alone: from node to node, from port to port, and wires between them.
 
-use sabi_graph::NodeId;
+use sabi_graph::{NodeId, OutputRef};
 
 use super::gesture::Gesture;
 use super::ports::{self, Place};
@@ -27,11 +27,16 @@ pub(crate) enum Way {
 impl Canvas {
     pub(super) fn is_focused(&self, place: &Place) -> bool {
         let Some(port) = &self.port else { return false };
-        let node = match place {
-            Place::Input(slot) => &slot.node,
-            Place::Output(from) => &from.node,
-        };
-        *node == port.node && self.focused.as_ref() == Some(place)
+        *place.node() == port.node && self.focused.as_ref() == Some(place)
+    }
+
+    /// The port that keys are about, as `node.port`.
+    #[cfg(test)]
+    pub(crate) fn focused_port(&self) -> Option<String> {
+        Some(match self.focused.as_ref()? {
+            Place::Input(slot) => slot.to_string(),
+            Place::Output(from) => from.to_string(),
+        })
     }
 
     /// The port that keys are about.
@@ -72,8 +77,7 @@ impl Canvas {
             Gesture::Wire { loose, off, .. } => {
                 let at = self.panel.map_or(egui::Pos2::ZERO, |panel| panel.center());
                 self.tie(desk, loose, place, off, at, &mut actions);
-                self.port = None;
-                self.focused = None;
+                self.leave_port();
             }
             _ => {
                 self.gesture = Gesture::Wire {
@@ -81,15 +85,76 @@ impl Canvas {
                     off: None,
                     by_key: true,
                 };
-                self.port = None;
-                self.focused = None;
+                self.leave_port();
             }
         }
         actions
     }
 
+    /// Where an arrow key leads: up and down through the ports of a node once one of them has the focus, left and right along
+    /// its wire or to the ports on the other side; and from node to node otherwise, or with a wire in hand.
+    pub(crate) fn arrow(&mut self, desk: &Desk, way: Way) -> Vec<Action> {
+        let focused = self.port_place(desk);
+        let is_aside = matches!(way, Way::Left | Way::Right);
+        let is_in_hand = matches!(self.gesture, Gesture::Wire { .. });
+        match focused {
+            Some(_) if !is_aside => {
+                self.step_port(desk, way == Way::Down);
+                return Vec::new();
+            }
+            Some(place) if !is_in_hand => {
+                if let Some(next) = aside(desk, &place, way) {
+                    return self.go_to_port(desk, &next);
+                }
+            }
+            _ => {}
+        }
+        self.leave_port();
+        let Some(id) = self.neighbor(desk, way) else {
+            return Vec::new();
+        };
+        let shown = Action::Show {
+            node: id.clone(),
+            port: None,
+        };
+        vec![Action::Select(vec![id]), shown]
+    }
+
+    /// Gives a port the focus, and selects its node.
+    fn go_to_port(&mut self, desk: &Desk, place: &Place) -> Vec<Action> {
+        let node = place.node().clone();
+        let at = ports::places(desk, &node).iter().position(|(known, _)| known == place);
+        self.port = at.map(|at| PortAt { node: node.clone(), at });
+        self.focused = self.port_place(desk);
+        if desk.selected_one() == Some(&node) {
+            return Vec::new();
+        }
+        let shown = Action::Show {
+            node: node.clone(),
+            port: None,
+        };
+        vec![Action::Select(vec![node]), shown]
+    }
+
+    /// Keys are about no port any more.
+    pub(super) fn leave_port(&mut self) {
+        self.port = None;
+        self.focused = None;
+    }
+
+    /// A port of a node that is not the selected one has no focus.
+    pub(super) fn follow_selection(&mut self, desk: &Desk) {
+        if self
+            .port
+            .as_ref()
+            .is_some_and(|port| desk.selected_one() != Some(&port.node))
+        {
+            self.leave_port();
+        }
+    }
+
     /// The node to which an arrow key leads: of those that lie that way, the nearest.
-    pub(crate) fn neighbor(&self, desk: &Desk, way: Way) -> Option<NodeId> {
+    fn neighbor(&self, desk: &Desk, way: Way) -> Option<NodeId> {
         let from = desk.selected_one().and_then(|id| node_rect(desk, id));
         let Some(from) = from else {
             return desk.graph().ids().next().cloned();
@@ -108,5 +173,31 @@ impl Canvas {
         found
             .min_by(|(one, _), (other, _)| one.total_cmp(other))
             .map(|(_, id)| id.clone())
+    }
+}
+
+/// The port to the left or right of one: the other end of its wire, or the first port on the other side of its node. None
+/// where it has no wire on that side.
+fn aside(desk: &Desk, place: &Place, way: Way) -> Option<Place> {
+    let inside = |is_input: bool| {
+        let places = ports::places(desk, place.node()).into_iter();
+        let mut places = places.map(|(place, _)| place);
+        places.find(|place| matches!(place, Place::Input(_)) == is_input)
+    };
+    match (place, way) {
+        (Place::Input(slot), Way::Left) => {
+            let from = desk.wire_into(slot)?;
+            let port = desk.face(&from.node)?.output(from.port.as_deref())?;
+            Some(Place::Output(OutputRef {
+                node: from.node.clone(),
+                port: Some(port.name.clone()),
+            }))
+        }
+        (Place::Output(from), Way::Right) => {
+            let mut readers = desk.graph().readers(from.node.as_str()).into_iter();
+            readers.find(|slot| desk.reads(slot, from)).map(Place::Input)
+        }
+        (Place::Input(_), _) => inside(false),
+        (Place::Output(_), _) => inside(true),
     }
 }

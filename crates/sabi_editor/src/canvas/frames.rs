@@ -70,10 +70,12 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
                 .iter()
                 .filter_map(|id| Some((id.clone(), desk.node(id)?.pos)));
             let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(strip.center());
+            actions.push(Action::Frame(FrameAsk::Select(id.clone())));
             actions.push(Action::BeginMove);
             canvas.gesture = Gesture::Move {
                 from: places.collect::<BTreeMap<_, _>>(),
                 grabbed: canvas.view.place(panel, origin),
+                is_frame: true,
             };
         }
         response.context_menu(|ui| {

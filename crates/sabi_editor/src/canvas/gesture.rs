@@ -36,6 +36,8 @@ pub(super) enum Gesture {
     Move {
         from: BTreeMap<NodeId, [f32; 2]>,
         grabbed: [f32; 2],
+        /// A whole frame is moved, which goes into no wire and no other frame.
+        is_frame: bool,
     },
     /// A wire that is tied at one end; `off` is the input that it was taken off.
     Wire {
@@ -187,7 +189,7 @@ fn rest(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, wires: &[W
             Some(wire) if modifiers.alt => actions.push(Action::Wire(WireAsk::Cut(vec![wire.to.clone()]))),
             _ => actions.push(Action::Select(Vec::new())),
         }
-        canvas.port = None;
+        canvas.leave_port();
     } else if ground.secondary_clicked() && !modifiers.command && !modifiers.alt {
         let into = wires::under(wires, pointer).map(|wire| wire.to.clone());
         let purpose = Purpose {

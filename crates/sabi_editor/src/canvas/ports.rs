@@ -31,6 +31,13 @@ impl Place {
         }
     }
 
+    pub(super) fn node(&self) -> &NodeId {
+        match self {
+            Place::Input(slot) => &slot.node,
+            Place::Output(from) => &from.node,
+        }
+    }
+
     /// A wire that begins here.
     pub(super) fn loose(&self) -> Loose {
         match self {

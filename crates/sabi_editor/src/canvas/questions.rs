@@ -1,9 +1,9 @@
 //! Small questions on the canvas: how two masks become one, and what something is called.
 
-use egui::{Area, Frame, Id, Key, Order, Pos2, Ui};
+use egui::{Area, EventFilter, Frame, Id, Key, Order, Pos2, Ui, WidgetInfo, WidgetType};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
-use super::{Around, Canvas};
+use super::{Around, Canvas, focus_id};
 use crate::action::{Action, FrameAsk, WireAsk};
 use crate::desk::Merge;
 
@@ -12,8 +12,13 @@ pub(super) struct MergeQuestion {
     at: Pos2,
     from: OutputRef,
     to: SlotRef,
+    /// The answer that has the keyboard.
+    chosen: usize,
     is_new: bool,
 }
+
+/// Keys that answer at once, in the order of the answers.
+const ANSWERS: [Key; 5] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
 
 impl MergeQuestion {
     pub(super) fn new(at: Pos2, from: OutputRef, to: SlotRef) -> MergeQuestion {
@@ -21,8 +26,41 @@ impl MergeQuestion {
             at,
             from,
             to,
+            chosen: 0,
             is_new: true,
         }
+    }
+
+    /// Shows the answers; one is given by a click, by its number, or by arrows and Enter.
+    fn answers(&mut self, ui: &mut Ui) -> Option<Merge> {
+        let (down, up) = ui.input(|input| (input.key_pressed(Key::ArrowDown), input.key_pressed(Key::ArrowUp)));
+        if down {
+            self.chosen = (self.chosen + 1).min(Merge::OFFERED.len() - 1);
+        }
+        if up {
+            self.chosen = self.chosen.saturating_sub(1);
+        }
+        ui.label("There is a mask already");
+        let mut given = None;
+        for (at, ((name, how), key)) in Merge::OFFERED.into_iter().zip(ANSWERS).enumerate() {
+            let button = ui.add(egui::Button::new(name).shortcut_text(key.symbol_or_name()));
+            button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
+            if at == self.chosen {
+                button.request_focus();
+                // Arrows lead from answer to answer and nowhere else.
+                let filter = EventFilter {
+                    tab: true,
+                    vertical_arrows: true,
+                    horizontal_arrows: true,
+                    escape: true,
+                };
+                ui.memory_mut(|memory| memory.set_focus_lock_filter(button.id, filter));
+            }
+            if button.clicked() || ui.input(|input| input.key_pressed(key)) {
+                given = Some(how);
+            }
+        }
+        given
     }
 }
 
@@ -34,14 +72,7 @@ pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut
         .current_pos(asked.at)
         .constrain(true);
     let shown = area.show(ui.ctx(), |ui| {
-        Frame::popup(ui.style()).show(ui, |ui| {
-            ui.label("There is a mask already");
-            for (name, how) in Merge::OFFERED {
-                if ui.button(name).clicked() {
-                    chosen = Some(how);
-                }
-            }
-        });
+        Frame::popup(ui.style()).show(ui, |ui| chosen = asked.answers(ui));
     });
     let is_left = ui.input(|input| {
         let at = input.pointer.interact_pos();
@@ -58,6 +89,7 @@ pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut
     }
     if chosen.is_some() || is_left {
         *question = None;
+        ui.memory_mut(|memory| memory.request_focus(focus_id()));
     }
 }
 

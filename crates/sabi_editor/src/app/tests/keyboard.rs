@@ -4,6 +4,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable, by};
 
 use super::Window;
+use super::hands::id;
 use crate::dock::Panel;
 
 /// What has the keyboard, by name.
@@ -159,7 +160,7 @@ fn the_menu_is_gone_through_by_arrows() {
 #[test]
 fn what_is_typed_into_a_field_is_no_command() {
     let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
-    window.click_at(window.title(&super::hands::id("clouds")));
+    window.click_at(window.title(&id("clouds")));
     let field = window.harness.get_by_label("Search the library").rect().center();
     window.click_at(field);
     // The pointer is over the canvas again, and the field still has the keyboard.
@@ -176,7 +177,7 @@ fn what_is_typed_into_a_field_is_no_command() {
 fn keys_act_on_what_the_pointer_is_over_whatever_was_turned_before() {
     let mut window =
         Window::opened(r#""clouds": { "kind": "noise/simplex", "params": { "size": 0.5 }, "pos": [0, 0] }"#);
-    window.click_at(window.title(&super::hands::id("clouds")));
+    window.click_at(window.title(&id("clouds")));
     window.click_at(window.knob("Size"));
     window.point(window.on_canvas([0.8, 0.8]));
     window.key(Key::Delete);
@@ -185,4 +186,110 @@ fn keys_act_on_what_the_pointer_is_over_whatever_was_turned_before() {
         0,
         "the node is deleted, and not its knob reset"
     );
+}
+
+/// A second mask on its way to an input that has one, by keys alone.
+fn asked_about_masks() -> Window {
+    let mut window = Window::opened(
+        r#"
+        "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+        "dots": { "kind": "noise/dots", "pos": [0, 330] },
+        "invert": { "kind": "adjust/invert", "inputs": { "source": "clouds" }, "pos": [300, 0] }
+        "#,
+    );
+    window.harness.state_mut().desk.select([id("dots")]);
+    window.key(Key::K);
+    window.key(Key::W);
+    window.harness.state_mut().desk.select([id("invert")]);
+    window.key(Key::J);
+    window.key(Key::W);
+    assert!(window.says("There is a mask already"));
+    assert_eq!(focused(&window), "Multiply");
+    window
+}
+
+#[test]
+fn the_question_about_a_second_mask_is_answered_by_keys_alone() {
+    let mode = |window: &mut Window| {
+        assert!(!window.says("There is a mask already"));
+        assert_eq!(focused(window), "Canvas", "keys are for the canvas again");
+        let blend = window.desk().selected_one().expect("the blend").clone();
+        window.param(&blend, "mode")
+    };
+    let mut window = asked_about_masks();
+    window.key(Key::Enter);
+    assert_eq!(mode(&mut window).as_deref(), Some("\"multiply\""));
+    let mut window = asked_about_masks();
+    for key in [
+        Key::ArrowUp,
+        Key::ArrowDown,
+        Key::ArrowDown,
+        Key::ArrowDown,
+        Key::ArrowUp,
+    ] {
+        window.key(key);
+    }
+    assert_eq!(focused(&window), "Max");
+    window.key(Key::Enter);
+    assert_eq!(mode(&mut window).as_deref(), Some("\"max\""));
+    let mut window = asked_about_masks();
+    window.key(Key::Num4);
+    assert_eq!(mode(&mut window).as_deref(), Some("\"subtract\""));
+    let mut window = asked_about_masks();
+    window.key(Key::Escape);
+    assert!(!window.says("There is a mask already"));
+    assert_eq!(window.reads(&id("invert"), "source"), "clouds");
+    assert_eq!(focused(&window), "Canvas");
+    window.key(Key::M);
+    assert!(window.desk().node(&id("invert")).expect("a node").muted);
+}
+
+#[test]
+fn arrows_step_through_ports_follow_wires_and_leave_no_focus_behind() {
+    let mut window = Window::opened(
+        r#"
+        "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+        "dots": { "kind": "noise/dots", "pos": [0, 330] },
+        "mix": { "kind": "blend/mask", "inputs": { "above": "dots" }, "pos": [300, 100] }
+        "#,
+    );
+    let port = |window: &Window| {
+        let place = window.editor().canvas.focused_port();
+        place.unwrap_or_default()
+    };
+    let selected = |window: &Window| window.desk().selected_one().expect("a node").to_string();
+    window.harness.state_mut().desk.select([id("mix")]);
+    window.settle();
+    window.key(Key::J);
+    let first = port(&window);
+    window.key(Key::ArrowDown);
+    let second = port(&window);
+    assert!(first != second && second.starts_with("mix."), "{first} {second}");
+    window.key(Key::ArrowUp);
+    assert_eq!(port(&window), first);
+    while port(&window) != "mix.above" {
+        window.key(Key::ArrowDown);
+    }
+    window.key(Key::ArrowLeft);
+    assert_eq!(
+        (selected(&window), port(&window)),
+        ("dots".to_owned(), "dots.mask".to_owned())
+    );
+    window.key(Key::ArrowRight);
+    assert_eq!(
+        (selected(&window), port(&window)),
+        ("mix".to_owned(), "mix.above".to_owned())
+    );
+    window.key(Key::ArrowRight);
+    assert_eq!(port(&window), "mix.mask", "the other side of the node");
+    window.key(Key::ArrowLeft);
+    assert_eq!(port(&window), first);
+    while port(&window) != "mix.below" {
+        window.key(Key::ArrowDown);
+    }
+    window.key(Key::ArrowLeft);
+    assert_eq!((selected(&window), port(&window)), ("clouds".to_owned(), String::new()));
+    window.key(Key::W);
+    window.key(Key::ArrowDown);
+    assert_eq!(selected(&window), "dots", "between nodes, since no port has the focus");
 }

@@ -268,3 +268,51 @@ fn a_click_shows_a_node_a_port_its_result_and_ctrl_shift_pins() {
     window.click_with(window.title(&id("dots")), PointerButton::Primary, both);
     assert_eq!(seen(&window), ["cells.id", ""]);
 }
+
+#[test]
+fn a_frame_takes_only_its_own_nodes_along_whatever_is_selected() {
+    let mut window = Window::opened(FRAMED);
+    window.click_at(window.title(&id("clouds")));
+    window.click_with(window.title(&id("dots")), PointerButton::Primary, Modifiers::SHIFT);
+    window.key(Key::C);
+    window.click_at(window.title(&id("invert")));
+    window.key(Key::C);
+    let holds = |window: &Window| -> Vec<Vec<String>> {
+        let frames = window.desk().graph().frames().values();
+        let mut held: Vec<Vec<String>> = frames
+            .map(|frame| frame.nodes.iter().map(ToString::to_string).collect())
+            .collect();
+        held.sort();
+        held
+    };
+    let before = [vec!["clouds", "dots"], vec!["invert"]];
+    assert_eq!(holds(&window), before);
+    let grip = strip(&window);
+    window.drag_from(grip, beside(grip, [0.0, 20.0]));
+    assert_eq!(holds(&window), before, "what was selected beside it is not put into it");
+    assert_eq!(selected(&window), ["clouds", "dots"]);
+    let grip = strip(&window);
+    let other = window.rect(&id("invert")).center();
+    window.drag_from(grip, other);
+    assert_eq!(holds(&window), before, "no frame goes into another");
+}
+
+#[test]
+fn a_frame_takes_its_next_color_by_its_menu() {
+    let mut window = Window::opened(FRAMED);
+    window.click_at(window.title(&id("clouds")));
+    window.key(Key::C);
+    let color = |window: &Window| {
+        let frame = window.desk().graph().frames().values().next().cloned();
+        frame.and_then(|frame| frame.color).expect("a color")
+    };
+    let mut seen = vec![color(&window)];
+    for _ in 0..2 {
+        window.click_with(strip(&window), PointerButton::Secondary, Modifiers::NONE);
+        window.press("Next color");
+        seen.push(color(&window));
+    }
+    assert!(seen[0] != seen[1] && seen[1] != seen[2], "{seen:?}");
+    window.undo(1);
+    assert_eq!(color(&window), seen[1]);
+}

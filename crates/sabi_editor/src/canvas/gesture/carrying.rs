@@ -23,7 +23,9 @@ impl Gesture {
         let pointer = pointer.filter(|at| canvas.panel.is_some_and(|panel| panel.contains(*at)))?;
         match self {
             Gesture::Idle if !canvas.holds_keys() => wires::under(wires, pointer).map(|wire| &wire.to),
-            Gesture::Move { from, .. } if from.len() == 1 => {
+            Gesture::Move {
+                from, is_frame: false, ..
+            } if from.len() == 1 => {
                 let id = from.keys().next()?;
                 let rect = canvas.view.screen_rect(canvas.panel?, node_rect(desk, id)?);
                 let crossing = wires.iter().filter(|wire| {
@@ -65,6 +67,7 @@ impl Canvas {
         self.gesture = Gesture::Move {
             from,
             grabbed: self.view.place(panel, at),
+            is_frame: false,
         };
     }
 }
@@ -85,7 +88,12 @@ pub(super) fn drag(
         return;
     }
     pull(canvas, ui, panel, pointer);
-    let Gesture::Move { from, grabbed } = &canvas.gesture else {
+    let Gesture::Move {
+        from,
+        grabbed,
+        is_frame,
+    } = &canvas.gesture
+    else {
         return;
     };
     let (is_down, modifiers) = ui.input(|input| (input.pointer.primary_down(), input.modifiers));
@@ -112,7 +120,7 @@ pub(super) fn drag(
         let node = id.clone();
         actions.push(Action::Wire(WireAsk::Insert { node, into }));
     }
-    if let Some(frame) = frames::under(canvas, around.desk, pointer) {
+    if !is_frame && let Some(frame) = frames::under(canvas, around.desk, pointer) {
         actions.push(Action::Frame(FrameAsk::Fill(Some(frame))));
     }
     actions.push(Action::EndMove);
