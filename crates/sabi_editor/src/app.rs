@@ -72,8 +72,8 @@ pub(crate) struct Kept {
     pub(crate) desk: Desk,
     pub(crate) canvas: Canvas,
     pub(crate) model: PathBuf,
-    /// The node file that was being written.
-    pub(crate) draft: Option<Draft>,
+    /// Node files that were being written.
+    pub(crate) drafts: Vec<Draft>,
 }
 
 /// Where a window leaves what outlives it.
@@ -158,7 +158,7 @@ impl Editor {
             kept_settings: None,
             settings,
             files: work.files,
-            panels: panels::Panels::new(beginning.folders.cache.clone(), work.draft),
+            panels: panels::Panels::new(beginning.folders.cache.clone(), work.drafts),
             folders: beginning.folders,
             rects: BTreeMap::new(),
             active: Panel::Canvas,
@@ -273,7 +273,7 @@ impl Editor {
                 desk,
                 canvas: std::mem::take(&mut self.canvas),
                 model: self.stage.model_file().to_owned(),
-                draft: self.panels.page.draft.take(),
+                drafts: self.panels.page.take_drafts(),
             });
         }
         self.stage.lost = None;

@@ -237,7 +237,7 @@ impl Editor {
 
     /// Whether something else than the graph keeps the window from closing; what that is, is said.
     fn is_held_open(&mut self) -> bool {
-        if self.panels.page.is_unsaved() {
+        if self.panels.page.show_unsaved() {
             self.bring_up(Panel::Page);
             self.say("The text of a node is not saved: save it or let it go, then close the window.");
             return true;

@@ -29,13 +29,13 @@ pub(crate) struct Panels {
 }
 
 impl Panels {
-    /// Panels that keep small pictures in this folder, if there is one, and go on with a node file that is being written.
-    pub(crate) fn new(cache: Option<PathBuf>, draft: Option<page::Draft>) -> Panels {
+    /// Panels that keep small pictures in this folder, if there is one, and go on with node files that are being written.
+    pub(crate) fn new(cache: Option<PathBuf>, drafts: Vec<page::Draft>) -> Panels {
         let mut panels = Panels {
             keepsakes: keepsakes::Keepsakes::new(cache),
             ..Panels::default()
         };
-        panels.page.draft = draft;
+        panels.page.take_up(drafts);
         panels
     }
 }

@@ -173,9 +173,7 @@ impl Editor {
                 let mut kinds = Kinds::clone(self.desk.kinds().0);
                 kinds.reread(std::slice::from_ref(folder));
                 self.desk.take_kinds(kinds);
-                if let Some(draft) = &mut self.panels.page.draft {
-                    draft.was_saved();
-                }
+                self.panels.page.saved(folder, id);
             }
             Err(error) => self.say(error.to_string()),
         }

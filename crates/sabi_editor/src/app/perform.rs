@@ -9,6 +9,7 @@ use sabi_graph::{NodeId, SlotRef};
 
 use super::Editor;
 use crate::action::{Action, FrameAsk, LayerAsk, New, WireAsk};
+use crate::canvas::Way;
 use crate::command::Command;
 use crate::desk::{Align, Desk, KnobAt, Loose};
 use crate::dock::Panel;
@@ -46,11 +47,7 @@ impl Editor {
                 desk.take_out();
             }
             Action::Select(ids) => desk.select(ids),
-            Action::Arrow(way) => {
-                for action in self.canvas.arrow(desk, way) {
-                    self.perform(action, ui);
-                }
-            }
+            Action::Arrow(way) => self.follow_arrow(way, ui),
             Action::Toggle(id) => desk.toggle(&id),
             Action::Show { node, port } => self.look_at(&node, port),
             Action::Pin { node } => self.pin(&node),
@@ -81,6 +78,13 @@ impl Editor {
                     if steps < 0 { self.desk.undo() } else { self.desk.redo() }
                 }
             }
+        }
+    }
+
+    /// Goes to the node or the port that an arrow key leads to.
+    fn follow_arrow(&mut self, way: Way, ui: &Ui) {
+        for action in self.canvas.arrow(&self.desk, way) {
+            self.perform(action, ui);
         }
     }
 
@@ -302,7 +306,10 @@ impl Editor {
             }
             Command::NextPanel => self.step_panel(true, ui.ctx()),
             Command::PreviousPanel => self.step_panel(false, ui.ctx()),
-            Command::Help => self.bring_up(Panel::Page),
+            Command::Help => {
+                self.panels.page.show_node();
+                self.bring_up(Panel::Page);
+            }
             Command::Keys => self.files.shows_keys = !self.files.shows_keys,
             Command::UseView => self.toggle_use_view(),
             Command::Larger => self.scale_by(SCALE_STEP, ui),

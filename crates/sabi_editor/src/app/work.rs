@@ -16,7 +16,7 @@ pub(super) struct Work {
     pub(super) canvas: Canvas,
     pub(super) model: PathBuf,
     pub(super) files: Files,
-    pub(super) draft: Option<Draft>,
+    pub(super) drafts: Vec<Draft>,
 }
 
 impl Work {
@@ -35,14 +35,14 @@ impl Work {
                 canvas: kept.canvas,
                 model: kept.model,
                 files: Files::new(false, None),
-                draft: kept.draft,
+                drafts: kept.drafts,
             },
             None => Work {
                 desk: Desk::new(session),
                 canvas: Canvas::default(),
                 model,
                 files: files(),
-                draft: None,
+                drafts: Vec::new(),
             },
         }
     }

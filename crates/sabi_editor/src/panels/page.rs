@@ -3,8 +3,11 @@
 mod code;
 mod draft;
 
-use egui::{RichText, Ui};
+use std::path::Path;
+
+use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
+use egui_phosphor::regular as icon;
 use sabi_engine::catalog::{Entry, Port};
 
 use crate::action::Action;
@@ -12,32 +15,88 @@ use crate::app::Editor;
 use crate::desk::Desk;
 use crate::theme::Theme;
 pub(crate) use draft::Draft;
+use draft::Left;
 
 /// What the page holds from frame to frame.
 #[derive(Default)]
 pub(crate) struct Page {
     markdown: CommonMarkCache,
     shows_source: bool,
-    /// The node file that is being written.
-    pub(crate) draft: Option<Draft>,
+    /// Node files that are being written.
+    drafts: Vec<Draft>,
+    /// Which of them is shown, in the place of the selected node.
+    shown: Option<usize>,
 }
 
 impl Page {
-    /// Whether a node file is being written that nothing holds yet.
-    pub(crate) fn is_unsaved(&self) -> bool {
-        self.draft.as_ref().is_some_and(|draft| !draft.is_saved)
+    /// Shows the selected node; what is being written is kept.
+    pub(crate) fn show_node(&mut self) {
+        self.shown = None;
+    }
+
+    /// The file of a draft was written as the draft has it.
+    pub(crate) fn saved(&mut self, folder: &Path, id: &str) {
+        for draft in self.drafts.iter_mut().filter(|draft| draft.is_of(folder, id)) {
+            draft.was_saved();
+        }
+    }
+
+    /// Whether a node file is being written that nothing holds yet; the first such is shown.
+    pub(crate) fn show_unsaved(&mut self) -> bool {
+        let unsaved = self.drafts.iter().position(Draft::is_unsaved);
+        self.shown = unsaved.or(self.shown);
+        unsaved.is_some()
+    }
+
+    /// Node files that are being written.
+    pub(crate) fn take_drafts(&mut self) -> Vec<Draft> {
+        std::mem::take(&mut self.drafts)
+    }
+
+    /// Goes on with these.
+    pub(crate) fn take_up(&mut self, drafts: Vec<Draft>) {
+        self.drafts = drafts;
+    }
+
+    /// Shows a draft; one of the same node that is there already goes before it.
+    fn open(&mut self, draft: Draft) {
+        let known = self.drafts.iter().position(|known| known.is_like(&draft));
+        self.shown = Some(known.unwrap_or(self.drafts.len()));
+        if known.is_none() {
+            self.drafts.push(draft);
+        }
+    }
+
+    /// The ways to drafts that are not shown.
+    fn ways(&mut self, ui: &mut Ui) {
+        ui.horizontal_wrapped(|ui| {
+            for (at, draft) in self.drafts.iter().enumerate() {
+                let text = format!("{} {}", icon::PENCIL_SIMPLE, draft.id());
+                let way = ui.button(text).on_hover_text("A node file that is being written");
+                way.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Write on {}", draft.id())));
+                if way.clicked() {
+                    self.shown = Some(at);
+                }
+            }
+        });
     }
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
     let Editor { desk, panels, .. } = editor;
     let page = &mut panels.page;
-    if let Some(draft) = &mut page.draft {
-        if draft.show(ui, theme, desk, actions) {
-            page.draft = None;
+    if let Some((at, draft)) = page.shown.and_then(|at| Some((at, page.drafts.get_mut(at)?))) {
+        match draft.show(ui, theme, desk, actions) {
+            Left::No => {}
+            Left::Aside => page.shown = None,
+            Left::ForGood => {
+                page.drafts.remove(at);
+                page.shown = None;
+            }
         }
         return;
     }
+    page.ways(ui);
     let face = desk.selected_one().and_then(|id| desk.face(id)).cloned();
     let Some(face) = face else {
         ui.colored_label(theme.quiet, "Select a node to read what it does.");
@@ -76,16 +135,17 @@ fn file(ui: &mut Ui, theme: &Theme, desk: &mut Desk, page: &mut Page, id: &str, 
                 .on_hover_text(format!("It lies in {}", own.display()));
             if change.clicked() {
                 match Draft::of_own(desk, id) {
-                    Ok(draft) => page.draft = Some(draft),
+                    Ok(draft) => page.open(draft),
                     Err(why) => desk.say(why),
                 }
             }
         }
         let new = ui.button("New node from here");
         if new.on_hover_text("Copies the file to a node of your own").clicked() {
-            page.draft = Draft::like(desk, id, text);
-            if page.draft.is_none() {
-                desk.say("This system has no folder for nodes; save the graph first, so that there is one beside it.");
+            let missing = "This system has no folder for nodes; save the graph first, so that there is one beside it.";
+            match Draft::like(desk, id, text) {
+                Some(draft) => page.open(draft),
+                None => desk.say(missing),
             }
         }
     });

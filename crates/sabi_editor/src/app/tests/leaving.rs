@@ -169,6 +169,8 @@ fn a_window_with_the_unsaved_text_of_a_node_stays() {
     window.harness.state_mut().desk.select([super::hands::id("clouds")]);
     window.key(Key::F1);
     window.press("New node from here");
+    assert!(window.asks_to_close(), "nothing was written yet");
+    window.fill("Id of the node", "noise/mine");
     assert!(!window.asks_to_close());
     assert!(window.says("The text of a node is not saved"));
 }

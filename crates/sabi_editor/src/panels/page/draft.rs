@@ -1,8 +1,9 @@
 //! A node file that is being written, with what is wrong with it at every letter.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use egui::{RichText, TextEdit, Ui, WidgetInfo, WidgetType};
+use egui_phosphor::regular as icon;
 use sabi_engine::{NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id};
 
 use super::code;
@@ -16,7 +17,11 @@ pub(crate) struct Draft {
     text: String,
     folder: PathBuf,
     /// Whether the text is as the file has it.
-    pub(crate) is_saved: bool,
+    pub(super) is_saved: bool,
+    /// Whether something was written that no file has.
+    is_written: bool,
+    /// Whether it is asked if that may be lost.
+    asks: bool,
     /// Of this id and text.
     faults: Vec<NodeTextFault>,
     why_no_id: Option<String>,
@@ -24,7 +29,42 @@ pub(crate) struct Draft {
     known: Option<String>,
 }
 
+/// Whether a draft is left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Left {
+    No,
+    /// It is kept, and the selected node shown.
+    Aside,
+    ForGood,
+}
+
 impl Draft {
+    pub(super) fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// Whether it is of a node in a folder.
+    pub(super) fn is_of(&self, folder: &Path, id: &str) -> bool {
+        self.folder == folder && self.id == id
+    }
+
+    /// Whether something was written that its file does not hold.
+    pub(super) fn is_unsaved(&self) -> bool {
+        self.is_written && !self.is_saved
+    }
+
+    /// Whether another one is of the same node.
+    pub(super) fn is_like(&self, other: &Draft) -> bool {
+        self.is_of(&other.folder, &other.id)
+    }
+
+    /// The text changed.
+    fn written(&mut self, desk: &Desk) {
+        self.is_saved = false;
+        self.is_written = true;
+        self.check(desk);
+    }
+
     /// A new node that begins as another one is; none where there is no folder for it.
     pub(super) fn like(desk: &Desk, id: &str, text: &str) -> Option<Draft> {
         let folder = new_node_folder(desk.session.file())?;
@@ -51,7 +91,7 @@ impl Draft {
     }
 
     /// The file has this text now.
-    pub(crate) fn was_saved(&mut self) {
+    pub(super) fn was_saved(&mut self) {
         self.is_saved = true;
         self.known = Some(self.text.clone());
     }
@@ -62,6 +102,8 @@ impl Draft {
             text,
             folder,
             is_saved,
+            is_written: false,
+            asks: false,
             faults: Vec::new(),
             why_no_id: None,
             known: None,
@@ -76,24 +118,48 @@ impl Draft {
         self.faults = check_node(kinds, &self.folder, &self.id, &self.text);
     }
 
-    /// Shows it; says whether it is let go.
-    pub(super) fn show(&mut self, ui: &mut Ui, theme: &Theme, desk: &Desk, actions: &mut Vec<Action>) -> bool {
-        let is_left = self.head(ui, desk, actions);
+    /// Shows it; says whether it is left.
+    pub(super) fn show(&mut self, ui: &mut Ui, theme: &Theme, desk: &Desk, actions: &mut Vec<Action>) -> Left {
+        let mut left = self.head(ui, desk, actions);
+        let would_lose = self.is_unsaved();
+        if left == Left::ForGood && would_lose {
+            self.asks = true;
+            left = Left::No;
+        }
+        if self.asks && would_lose {
+            left = self.question(ui, theme, left);
+        }
         self.told(ui, theme);
         let faulty: Vec<u32> = self.faults.iter().map(|fault| fault.line).collect();
         ui.separator();
         if code::edit(ui, theme, &mut self.text, &faulty) {
-            self.is_saved = false;
-            self.check(desk);
+            self.written(desk);
         }
-        is_left
+        left
     }
 
-    fn head(&mut self, ui: &mut Ui, desk: &Desk, actions: &mut Vec<Action>) -> bool {
+    /// Whether what was written may be lost.
+    fn question(&mut self, ui: &mut Ui, theme: &Theme, left: Left) -> Left {
+        ui.horizontal_wrapped(|ui| {
+            let text = format!("What was written for '{}' is in no file.", self.id);
+            ui.colored_label(theme.warning, text);
+            if ui.button("Lose it").clicked() {
+                return Left::ForGood;
+            }
+            self.asks &= !ui.button("Keep it").clicked();
+            left
+        })
+        .inner
+    }
+
+    fn head(&mut self, ui: &mut Ui, desk: &Desk, actions: &mut Vec<Action>) -> Left {
         let row = egui::vec2(ui.available_width(), space::ROW);
         let layout = egui::Layout::right_to_left(egui::Align::Center);
         ui.allocate_ui_with_layout(row, layout, |ui| {
             let leave = ui.button(if self.is_saved { "Close" } else { "Let it go" });
+            let aside = ui.button(icon::ARROW_LEFT);
+            aside.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "To the selected node"));
+            let aside = aside.on_hover_text("Shows the page of the selected node; what is written here is kept");
             let can_save = self.why_no_id.is_none() && !self.is_saved;
             let save = ui.add_enabled(can_save, egui::Button::new("Save node"));
             let place = self.folder.display().to_string();
@@ -110,15 +176,18 @@ impl Draft {
             let field = ui.add(field);
             field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Id of the node"));
             if field.changed() {
-                self.is_saved = false;
                 self.known = None;
                 // A title that nobody wrote follows the name.
                 if node_text_like(&self.text, &before) == self.text {
                     self.text = node_text_like(&self.text, &self.id);
                 }
-                self.check(desk);
+                self.written(desk);
             }
-            leave.clicked()
+            match (leave.clicked(), aside.clicked()) {
+                (true, _) => Left::ForGood,
+                (false, true) => Left::Aside,
+                (false, false) => Left::No,
+            }
         })
         .inner
     }
