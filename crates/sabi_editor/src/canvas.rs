@@ -3,6 +3,7 @@
 //! zoom, wires, selection and menus are its own.
 
 mod add_menu;
+mod bend;
 mod body;
 mod card;
 mod focus;
@@ -14,7 +15,9 @@ mod nodes;
 mod port_menu;
 mod ports;
 mod questions;
+mod sides;
 mod snapshot;
+mod tips;
 mod view;
 mod wires;
 
@@ -25,8 +28,8 @@ use egui::{Pos2, Rect, Sense, Ui, pos2, vec2};
 use sabi_graph::NodeId;
 
 use crate::action::Action;
-use crate::command::Command;
-use crate::desk::{Desk, NODE_WIDTH};
+use crate::command::{Command, Habit};
+use crate::desk::Desk;
 use crate::search::Candidate;
 use crate::theme::Theme;
 use add_menu::{AddMenu, Outcome, Purpose};
@@ -40,7 +43,7 @@ pub(crate) use body::shown_time;
 pub(crate) use focus::Way;
 pub(crate) use snapshot::NodeState;
 
-/// Below this zoom nodes are cards with a picture and a name, whose ports cannot be taken.
+/// Below this zoom nodes are cards with a picture and a name, whose sides are taken for their ports.
 const CARD_ZOOM: f32 = 0.5;
 /// Between lines of the grid, canvas points.
 const GRID_STEP: f32 = 40.0;
@@ -65,6 +68,8 @@ pub(crate) struct Canvas {
     /// Nodes in the order in which they were touched: later ones lie above.
     touched: Vec<NodeId>,
     has_map: bool,
+    /// What is dragged here from another panel has been away from the edges.
+    is_brought: bool,
     /// The panel as it was last drawn.
     panel: Option<Rect>,
     /// Framed once there is something to frame.
@@ -81,6 +86,8 @@ pub(crate) struct Around<'a> {
     pub(crate) candidates: &'a [Candidate],
     /// The node that the 2D view shows.
     pub(crate) previewed: Option<&'a NodeId>,
+    /// What drags mean.
+    pub(crate) habit: Habit,
 }
 
 impl Canvas {
@@ -95,6 +102,7 @@ impl Canvas {
         let ground = ui.interact(panel, focus_id(), Sense::click_and_drag());
         ground.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Canvas"));
         self.panel = Some(panel);
+        self.is_brought &= ui.input(|input| input.pointer.any_down());
         self.follow_path(around.desk);
         if !self.was_framed {
             self.frame_all(around.desk);
@@ -319,10 +327,7 @@ pub(crate) fn focus_id() -> egui::Id {
 /// The rectangle of a node on the canvas.
 fn node_rect(desk: &Desk, id: &NodeId) -> Option<Rect> {
     let pos = desk.node(id)?.pos;
-    Some(Rect::from_min_size(
-        pos2(pos[0], pos[1]),
-        vec2(NODE_WIDTH, desk.height(id)),
-    ))
+    Some(Rect::from_min_size(pos2(pos[0], pos[1]), desk.size(id).into()))
 }
 
 fn draw_grid(ui: &Ui, panel: Rect, view: &View, theme: &Theme) {

@@ -12,6 +12,7 @@ mod grouping;
 mod groups;
 mod healing;
 mod heirs;
+mod inserting;
 mod instances;
 mod layered;
 mod layers;
@@ -42,7 +43,8 @@ use sabi_engine::{EngineError, Kinds, Session};
 use sabi_graph::{Body, Document, Edit, Graph, Node, NodeId, OutputRef, SlotRef};
 
 pub(crate) use arrange::{
-    Align, GRID, MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT, input_row, output_row, own_knobs,
+    Align, GRID, MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT, input_row, is_bend, output_row, own_knobs,
+    size_of,
 };
 pub(crate) use library::ENDING;
 pub(crate) use panel::PanelKnob;

@@ -10,6 +10,7 @@ mod files;
 mod flat_view;
 mod knobs;
 mod model_view;
+mod mouse;
 mod offscreen;
 mod panels;
 mod search;

@@ -12,7 +12,8 @@ use glam::Vec2;
 use sabi_engine::view::{Background, Camera, Lens, Lines, Picked, Shot, Viewpoint, Viewport, aspect_of, pick};
 use sabi_engine::{LiveModel, Seen};
 
-use crate::command::Command;
+use crate::command::{Command, Habit, Scope};
+use crate::mouse::{self, Drags};
 use crate::stage::Stage;
 use crate::theme::{Theme, type_size};
 use environment::Surroundings;
@@ -56,6 +57,8 @@ pub(crate) struct Subject<'a> {
     /// Whether a knob is being moved.
     pub(crate) is_moving: bool,
     pub(crate) theme: &'a Theme,
+    /// What drags mean.
+    pub(crate) habit: Habit,
 }
 
 /// What was done in the view.
@@ -116,7 +119,8 @@ impl ModelView {
         let picture = stage.picture(subject.seen).cloned();
         if let Some(picture) = &picture {
             self.frame_new(&picture.model, rect);
-            self.turn(ui, &response, rect, &picture.model, &mut done);
+            let drags = mouse::dragged(subject.habit, Scope::Viewport, &response);
+            self.turn(ui, &response, rect, drags, &picture.model, &mut done);
         }
         match (render, &picture) {
             (Some(render), Some(picture)) => self.paint(ui, rect, stage, render, picture, subject),
@@ -161,9 +165,16 @@ impl ModelView {
     }
 
     /// Turns, moves and zooms as the pointer wants.
-    fn turn(&mut self, ui: &Ui, response: &egui::Response, rect: Rect, model: &LiveModel, done: &mut Done) {
-        let (delta, modifiers, scroll) =
-            ui.input(|input| (input.pointer.delta(), input.modifiers, input.smooth_scroll_delta().y));
+    fn turn(
+        &mut self,
+        ui: &Ui,
+        response: &egui::Response,
+        rect: Rect,
+        drags: Option<Drags>,
+        model: &LiveModel,
+        done: &mut Done,
+    ) {
+        let (delta, scroll) = ui.input(|input| (input.pointer.delta(), input.smooth_scroll_delta().y));
         let size = Vec2::new(rect.width(), rect.height());
         let drag = Vec2::new(delta.x, delta.y);
         let by = |button| response.dragged_by(button) && delta != egui::Vec2::ZERO;
@@ -171,16 +182,16 @@ impl ModelView {
         if by(PointerButton::Primary) && self.is_on_wipe(response, rect) {
             let at = ui.input(|input| input.pointer.latest_pos()).unwrap_or(rect.center());
             self.wipe = Some(((at.x - rect.left()) / rect.width()).clamp(0.02, 0.98));
-        } else if by(PointerButton::Primary) && !modifiers.shift {
-            self.camera.orbit(drag, size);
-        } else if by(PointerButton::Middle) && modifiers.alt | !modifiers.any() || by(PointerButton::Primary) {
-            self.camera.pan(drag, size);
-        } else if by(PointerButton::Middle) {
-            self.camera.orbit(drag, size);
-        } else if by(PointerButton::Secondary) && modifiers.shift {
-            self.shot.environment_turn_degrees += delta.x / rect.width().max(1.0) * 360.0;
-        } else if by(PointerButton::Secondary) {
-            self.camera.zoom((-delta.y * 0.01).exp());
+        } else {
+            match drags.filter(|_| delta != egui::Vec2::ZERO) {
+                Some(Drags::Orbit) => self.camera.orbit(drag, size),
+                Some(Drags::Pan) => self.camera.pan(drag, size),
+                Some(Drags::Zoom) => self.camera.zoom((-delta.y * 0.01).exp()),
+                Some(Drags::Light) => {
+                    self.shot.environment_turn_degrees += delta.x / rect.width().max(1.0) * 360.0;
+                }
+                _ => {}
+            }
         }
         let pointer = response.hover_pos();
         if let Some(at) = pointer.filter(|_| scroll != 0.0 && response.contains_pointer()) {

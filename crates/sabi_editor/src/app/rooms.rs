@@ -143,6 +143,7 @@ impl Editor {
             state_of: &state_of,
             candidates: &self.candidates.1,
             previewed: previewed.as_ref(),
+            habit: self.settings.habit,
         };
         actions.extend(self.canvas.show(ui, &around));
     }
@@ -157,6 +158,7 @@ impl Editor {
             locked: locked.as_ref(),
             is_moving: self.is_moving,
             theme: &theme,
+            habit: self.settings.habit,
         };
         let render = self.render.clone();
         let done = self.model_view.show(ui, &self.stage, render.as_ref(), &subject);

@@ -1,5 +1,6 @@
 //! The window as somebody uses it: by clicks and keys, without a screen.
 
+mod bends;
 mod building;
 mod commands;
 mod design;
@@ -15,6 +16,7 @@ mod library;
 mod looking;
 mod lost;
 mod many;
+mod mouse;
 mod moving;
 mod panels;
 mod pictures;

@@ -100,7 +100,7 @@ impl AddMenu {
             .collect();
         let found = ranked(&fitting, &self.query);
         self.step(ui, found.len());
-        if self.purpose.loose.is_some() {
+        if self.purpose.loose.is_some() || self.purpose.into.is_some() {
             ui.horizontal(|ui| {
                 ui.colored_label(theme.quiet, "What fits the wire");
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -195,6 +195,9 @@ impl AddMenu {
         // Only kinds take the place of a node.
         if self.purpose.instead.is_some() && !matches!(candidate.new, New::Kind(_)) {
             return false;
+        }
+        if let Some(into) = &self.purpose.into {
+            return desk.may_insert_new(face, into);
         }
         match &self.purpose.loose {
             None => true,

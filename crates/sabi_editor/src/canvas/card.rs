@@ -1,6 +1,7 @@
 //! Nodes from afar: a picture, a color and, as long as it can be read, a name.
 
 use egui::{Align2, CornerRadius, FontId, Rect, Response, Ui};
+use egui_phosphor::regular as icon;
 
 use super::snapshot::Key;
 use super::{Around, Canvas, body, node_rect, nodes};
@@ -35,7 +36,13 @@ pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, k
         inside.min.y = strip.max.y;
     }
     let side = inside.width().min(inside.height());
-    if shown.state.picture.is_some() && side > 6.0 {
+    let state = &shown.state;
+    let badge = state.fault.as_ref().map(|_| theme.fault);
+    if let Some(color) = badge.or(state.waits.as_ref().map(|_| theme.warning)) {
+        let font = FontId::proportional((side * 0.5).round().max(LEAST_LETTERS));
+        let at = inside.center();
+        ui.painter().text(at, Align2::CENTER_CENTER, icon::WARNING, font, color);
+    } else if shown.state.picture.is_some() && side > 6.0 {
         let square = Rect::from_center_size(inside.center(), egui::Vec2::splat(side));
         body::picture(ui, theme, shown, square, zoom);
     }

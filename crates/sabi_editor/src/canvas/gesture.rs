@@ -5,7 +5,7 @@ mod marking;
 
 use std::collections::BTreeMap;
 
-use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
+use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
 use sabi_graph::{NodeId, SlotRef};
 
 use super::ports::Place;
@@ -13,12 +13,16 @@ use super::questions::MergeQuestion;
 use super::wires::{self, Wire};
 use super::{AddMenu, Around, Canvas, Purpose, ports};
 use crate::action::{Action, WireAsk};
+use crate::command::{Habit, Scope};
 use crate::desk::{Desk, Loose};
+use crate::mouse::{self, Drags};
 use carrying::drag;
 use marking::{end_box, end_line};
 
 /// So near an edge of the panel what is dragged pulls the canvas along, screen points.
-const EDGE: f32 = 28.0;
+pub(super) const EDGE: f32 = 28.0;
+/// So far a press and a release in one frame are apart that are a drag, screen points.
+const FLICK: f32 = 12.0;
 /// How fast at most, screen points a second.
 const PULL: f32 = 900.0;
 
@@ -28,10 +32,10 @@ pub(super) enum Gesture {
     /// Nothing.
     #[default]
     Idle,
-    /// The canvas.
-    Pan,
-    /// The zoom, as in Substance: up is larger.
-    Zoom { around: Pos2 },
+    /// The canvas, by a button.
+    Pan { button: PointerButton },
+    /// The zoom, by a button: up is larger.
+    Zoom { around: Pos2, button: PointerButton },
     /// Nodes: where each stood, and where on the canvas the pointer took them.
     Move {
         from: BTreeMap<NodeId, [f32; 2]>,
@@ -94,24 +98,28 @@ pub(super) fn advance(
     actions: &mut Vec<Action>,
 ) {
     let Some(panel) = canvas.panel else { return };
-    begin(canvas, ui, ground, panel);
+    if flick(canvas, ui, around, panel, actions) {
+        return;
+    }
+    begin(canvas, ui, ground, panel, around.habit);
     let pointer = ui.input(|input| input.pointer.latest_pos());
     let Some(pointer) = pointer else { return };
     let (delta, modifiers) = ui.input(|input| (input.pointer.delta(), input.modifiers));
     let is_down = |button| ui.input(|input| input.pointer.button_down(button));
     match &mut canvas.gesture {
         Gesture::Idle => rest(canvas, ui, ground, panel, wires, actions),
-        Gesture::Pan => {
+        Gesture::Pan { button } => {
+            let button = *button;
             canvas.view.pan += delta;
             ui.set_cursor_icon(CursorIcon::Grabbing);
-            if !is_down(PointerButton::Middle) && !is_down(PointerButton::Primary) {
+            if !is_down(button) {
                 canvas.gesture = Gesture::Idle;
             }
         }
-        Gesture::Zoom { around } => {
-            let around = *around;
+        Gesture::Zoom { around, button } => {
+            let (around, button) = (*around, *button);
             canvas.view.zoom_at(panel, around, (-delta.y * 0.01).exp());
-            if !is_down(PointerButton::Secondary) {
+            if !is_down(button) {
                 canvas.gesture = Gesture::Idle;
             }
         }
@@ -140,36 +148,66 @@ pub(super) fn advance(
     }
 }
 
+/// Ties a wire that was pulled from a port and dropped between two frames, as a quick hand does where frames are slow.
+fn flick(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, panel: Rect, actions: &mut Vec<Action>) -> bool {
+    if !matches!(canvas.gesture, Gesture::Idle) || canvas.holds_keys() {
+        return false;
+    }
+    let button = |event: &Event, is_press: bool| match event {
+        Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            ..
+        } if *pressed == is_press => Some(*pos),
+        _ => None,
+    };
+    let ends = ui.input(|input| {
+        let at = input.events.iter().position(|event| button(event, true).is_some())?;
+        let from = button(&input.events[at], true)?;
+        let to = input.events[at..].iter().find_map(|event| button(event, false))?;
+        Some((from, to))
+    });
+    let Some((from, to)) = ends.filter(|(from, to)| panel.contains(*from) && from.distance(*to) > FLICK) else {
+        return false;
+    };
+    let is_ours = ui.ctx().layer_id_at(from).is_none_or(|layer| layer == ui.layer_id());
+    let Some(place) = ports::at(canvas, around.desk, panel, from).filter(|_| is_ours) else {
+        return false;
+    };
+    canvas.gesture = ports::taken(around.desk, &place);
+    drop_wire(canvas, around, panel, to, actions);
+    true
+}
+
 /// Takes the canvas, a box, a lasso or a knife.
-fn begin(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect) {
+fn begin(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, habit: Habit) {
     if !matches!(canvas.gesture, Gesture::Idle) || canvas.holds_keys() {
         return;
     }
-    let (pressed, at, modifiers) = ui.input(|input| {
-        let pressed = [PointerButton::Middle, PointerButton::Secondary].map(|it| input.pointer.button_pressed(it));
-        (pressed, input.pointer.interact_pos(), input.modifiers)
-    });
+    let (at, modifiers) = ui.input(|input| (input.pointer.interact_pos(), input.modifiers));
     let Some(at) = at.filter(|at| panel.contains(*at)) else {
         return;
     };
     let is_ours = ui.ctx().layer_id_at(at).is_none_or(|layer| layer == ui.layer_id());
-    let [middle, secondary] = pressed;
-    if middle && is_ours {
-        canvas.gesture = Gesture::Pan;
-    } else if secondary && is_ours && modifiers.command {
-        canvas.gesture = Gesture::Cut { line: vec![at] };
-    } else if secondary && is_ours && modifiers.alt {
-        canvas.gesture = Gesture::Zoom { around: at };
-    } else if ground.drag_started_by(PointerButton::Primary) {
-        let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
-        canvas.gesture = match (modifiers.alt, modifiers.shift && modifiers.command) {
-            (true, _) => Gesture::Lasso { line: vec![origin] },
-            (_, true) => Gesture::Pan,
-            _ => Gesture::Box {
-                from: canvas.view.place(panel, origin),
-            },
-        };
-    }
+    // These two mean the canvas wherever they are pressed on it, the first one only beside nodes.
+    let pressed = [PointerButton::Middle, PointerButton::Secondary].into_iter();
+    let mut pressed = pressed.filter(|it| is_ours && ui.input(|input| input.pointer.button_pressed(*it)));
+    let dragged = ground.drag_started_by(PointerButton::Primary);
+    let Some(button) = pressed.next().or(dragged.then_some(PointerButton::Primary)) else {
+        return;
+    };
+    let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
+    canvas.gesture = match mouse::meant(habit, Scope::Canvas, modifiers, button) {
+        Some(Drags::Pan) => Gesture::Pan { button },
+        Some(Drags::Zoom) => Gesture::Zoom { around: origin, button },
+        Some(Drags::Cut) => Gesture::Cut { line: vec![origin] },
+        Some(Drags::Lasso) => Gesture::Lasso { line: vec![origin] },
+        Some(Drags::Box) => Gesture::Box {
+            from: canvas.view.place(panel, origin),
+        },
+        Some(Drags::Orbit | Drags::Light) | None => Gesture::Idle,
+    };
 }
 
 /// Clicks beside nodes, with nothing in hand.
@@ -202,7 +240,7 @@ fn rest(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, wires: &[W
 }
 
 /// What is held at an edge pulls the canvas along.
-fn pull(canvas: &mut Canvas, ui: &Ui, panel: Rect, pointer: Pos2) {
+pub(super) fn pull(canvas: &mut Canvas, ui: &Ui, panel: Rect, pointer: Pos2) {
     let over = |at: f32, low: f32, high: f32| {
         let below = (low + EDGE - at).clamp(0.0, EDGE);
         let above = (at - high + EDGE).clamp(0.0, EDGE);

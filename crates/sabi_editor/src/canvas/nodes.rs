@@ -6,8 +6,9 @@ use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
 use sabi_graph::NodeId;
 
 use super::snapshot::{Hand, Key};
-use super::{Around, CARD_ZOOM, Canvas, body, card, node_rect, ports};
+use super::{Around, CARD_ZOOM, Canvas, bend, body, card, node_rect, ports, sides, tips};
 use crate::action::{Action, FrameAsk};
+use crate::desk::{TITLE_HEIGHT, is_bend};
 use crate::knobs::KnobEvent;
 
 /// The shape that a node's backdrop takes among those that its widget begins with: an outline, then what is behind it.
@@ -27,7 +28,10 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
         let shown = &mut canvas.snapshot.graph[key].user_data;
         shown.state = (around.state_of)(id);
         shown.is_previewed = around.previewed == Some(id);
-        let response = if is_card {
+        let is_bend = is_bend(&shown.face);
+        let response = if is_bend {
+            bend::show(canvas, ui, panel, around, key)
+        } else if is_card {
             card::show(canvas, ui, panel, around, key)
         } else {
             widget(canvas, ui, panel, around, key, actions)
@@ -44,7 +48,14 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
         }
         touched(canvas, id, &response, around, actions);
         context_menu(canvas, ui, id, &response, around, actions);
-        if !is_card {
+        let title = response
+            .rect
+            .with_max_y(response.rect.top() + TITLE_HEIGHT * canvas.view.zoom);
+        let told_of = if is_card || is_bend { response.rect } else { title };
+        tips::show(ui, around, &canvas.snapshot.graph[key].user_data, &response, told_of);
+        if is_card {
+            sides::show(canvas, ui, panel, around, id, actions);
+        } else {
             ports::show(canvas, ui, panel, around, id, actions);
         }
     }
@@ -220,7 +231,7 @@ fn zoomed(style: &egui::Style, zoom: f32) -> egui::Style {
     style
 }
 
-/// A node's rectangle on the screen, sensed as a whole: for cards, which have no widgets in them.
+/// A node's rectangle on the screen, sensed as a whole: for cards and bends, which have no widgets in them.
 pub(super) fn sensed(ui: &Ui, key: Key, rect: Rect) -> Response {
     ui.interact(rect, window_id(ui, key), Sense::click_and_drag())
 }
@@ -285,13 +296,14 @@ mod tests {
     #[test]
     fn ports_of_every_kind_are_where_its_wires_end_at_every_zoom() {
         let mut desk = Desk::new(Session::new(None));
-        let kinds: Vec<String> = desk.catalog().entries().map(|entry| entry.id.clone()).collect();
+        let drawn_by_widget = desk.catalog().entries().filter(|entry| !is_bend(entry));
+        let kinds: Vec<String> = drawn_by_widget.map(|entry| entry.id.clone()).collect();
         for (at, kind) in kinds.iter().enumerate() {
             let id = desk.add(kind, [0.0, 0.0], None).expect("a kind of the catalog");
             let face = desk.face(&id).expect("a node").clone();
             for zoom in [[1.0, 0.6], [1.7, 1.0], [0.6, 3.0]][at % 3] {
                 let (ports, rect) = drawn(&desk, &id, zoom);
-                let inputs = (0..face.inputs.len()).map(|row| (true, pos2(0.0, input_row(row))));
+                let inputs = (0..face.inputs.len()).map(|row| (true, pos2(0.0, input_row(&face, row))));
                 let outputs = (0..face.outputs.len()).map(|row| (false, pos2(NODE_WIDTH, output_row(&face, row))));
                 for (is_input, place) in inputs.chain(outputs) {
                     let expected = (place.to_vec2() * zoom).to_pos2();
@@ -300,7 +312,7 @@ mod tests {
                     });
                     assert!(is_there, "{kind} at {zoom}: {expected:?} in {ports:?}");
                 }
-                let size = vec2(NODE_WIDTH, desk.height(&id)) * zoom;
+                let size = vec2(NODE_WIDTH, desk.size(&id)[1]) * zoom;
                 assert!(
                     (rect.size() - size).length() < 1.5,
                     "{kind} at {zoom}: {rect:?}, and we say {size:?}"

@@ -1,6 +1,6 @@
 //! Ports: their dots, by color and form, and taking a wire at them.
 
-use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetType, pos2, vec2};
 use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, OutputRef, PortType, SlotRef};
 
@@ -11,9 +11,11 @@ use crate::desk::{Desk, Loose};
 use crate::theme::Theme;
 
 /// Half the width of a dot, canvas points.
-const DOT: f32 = 5.0;
+pub(super) const DOT: f32 = 5.0;
 /// How near the pointer has to be to take one, screen points at least.
 const REACH: f32 = 9.0;
+/// At most so much of a node's width is taken for the ports at each of its sides.
+pub(super) const INSIDE: f32 = 0.3;
 
 /// A port of a node that is seen.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,8 +87,11 @@ pub(super) fn show(
         let Some(at) = place.on_canvas(desk) else { continue };
         let center = canvas.view.screen(panel, at);
         let reach = (DOT * 1.6 * zoom).max(REACH);
-        let rect = Rect::from_center_size(center, Vec2::splat(2.0 * reach));
         let is_input = matches!(place, Place::Input(_));
+        // Of a small node enough is left to take it itself.
+        let inside = reach.min(desk.size(id)[0] * zoom * INSIDE);
+        let [left, right] = if is_input { [reach, inside] } else { [inside, reach] };
+        let rect = Rect::from_min_max(center - vec2(left, reach), center + vec2(right, reach));
         let widget = ui.id().with(("port", id, &port.name, is_input));
         let response = ui.interact(rect, widget, Sense::click_and_drag());
         let name = accessible(&title, &port, is_input);
@@ -108,19 +113,23 @@ pub(super) fn show(
             canvas.gesture = taken(desk, &place);
         }
         if response.clicked() {
-            actions.push(Action::Select(vec![id.clone()]));
-            if let Place::Output(from) = &place {
-                actions.push(Action::Show {
-                    node: from.node.clone(),
-                    port: from.port.clone(),
-                });
-            }
+            clicked(&place, actions);
         }
         port_menu::mark(ui.painter(), around.theme, desk, &place, center, zoom);
         port_menu::show(canvas, &response, &place, desk, actions);
         if matches!(canvas.gesture, Gesture::Idle) {
             response.on_hover_ui(|ui| tooltip(ui, around.theme, &port));
         }
+    }
+}
+
+pub(super) fn clicked(place: &Place, actions: &mut Vec<Action>) {
+    actions.push(Action::Select(vec![place.node().clone()]));
+    if let Place::Output(from) = place {
+        actions.push(Action::Show {
+            node: from.node.clone(),
+            port: from.port.clone(),
+        });
     }
 }
 
@@ -131,7 +140,7 @@ fn accessible(title: &str, port: &Port, is_input: bool) -> String {
     format!("{title}, {side} {}, {carries}", port.label)
 }
 
-fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port) {
+pub(super) fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port) {
     ui.set_max_width(260.0);
     let carries = port.ty.map_or("anything".to_owned(), |ty| ty.to_string());
     ui.horizontal(|ui| {
@@ -162,7 +171,7 @@ pub(super) fn is_wired(desk: &Desk, place: &Place) -> bool {
 }
 
 /// What is in hand once a port was taken: a wire from it; or, of an input that has one, that wire, taken off it.
-fn taken(desk: &Desk, place: &Place) -> Gesture {
+pub(super) fn taken(desk: &Desk, place: &Place) -> Gesture {
     if let Place::Input(slot) = place
         && let Some(from) = desk.wire_into(slot)
     {
@@ -197,6 +206,22 @@ pub(super) fn dot(
         Some(PortType::Vector) => polygon(&[(-0.9, -1.1), (1.2, 0.0), (-0.9, 1.1)]),
         Some(PortType::Material) => polygon(&[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]),
     });
+}
+
+/// The port under a place of the screen.
+pub(super) fn at(canvas: &Canvas, desk: &Desk, panel: Rect, pointer: Pos2) -> Option<Place> {
+    let reach = (DOT * 1.6 * canvas.view.zoom).max(REACH);
+    let near = |id: &&NodeId| {
+        let rect = super::node_rect(desk, id).map(|rect| canvas.view.screen_rect(panel, rect));
+        rect.is_some_and(|rect| rect.expand(reach).contains(pointer))
+    };
+    let places = desk.graph().ids().filter(near).flat_map(|id| places(desk, id));
+    let found = places.filter_map(|(place, _)| {
+        let center = canvas.view.screen(panel, place.on_canvas(desk)?);
+        Some((center.distance(pointer), place)).filter(|(distance, _)| *distance < reach)
+    });
+    let nearest = found.min_by(|(one, _), (other, _)| one.total_cmp(other));
+    nearest.map(|(_, place)| place)
 }
 
 /// The port that a wire would be dropped at: the nearest that takes it, or on a node's body its first one that does.

@@ -4,7 +4,7 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, epaint::CubicBezie
 use sabi_graph::{OutputRef, PortType, SlotRef};
 
 use super::view::View;
-use crate::desk::{Desk, NODE_WIDTH, TITLE_HEIGHT, input_row, output_row};
+use crate::desk::{Desk, TITLE_HEIGHT, input_row, output_row, size_of};
 use crate::theme::Theme;
 
 /// Straight pieces that a curve is taken for where distances are measured.
@@ -14,9 +14,9 @@ const NEAR: f32 = 7.0;
 
 /// A wire on the screen.
 #[derive(Clone, Debug)]
-pub(super) struct Wire {
+pub(crate) struct Wire {
     pub(super) from: OutputRef,
-    pub(super) to: SlotRef,
+    pub(crate) to: SlotRef,
     pub(super) carries: Option<PortType>,
     /// What it ends in takes another type, so that it is converted on the way.
     pub(super) is_converted: bool,
@@ -94,7 +94,7 @@ pub(super) fn start_of(desk: &Desk, from: &OutputRef) -> Option<[f32; 2]> {
         None => (!face.outputs.is_empty()).then_some(0),
     };
     let down = row.map_or(TITLE_HEIGHT / 2.0, |row| output_row(face, row));
-    Some([node.pos[0] + NODE_WIDTH, node.pos[1] + down])
+    Some([node.pos[0] + size_of(face)[0], node.pos[1] + down])
 }
 
 /// Where a wire into an input ends, on the canvas; at the title where there is no such input.
@@ -102,7 +102,7 @@ pub(super) fn end_of(desk: &Desk, to: &SlotRef) -> Option<[f32; 2]> {
     let node = desk.node(&to.node)?;
     let face = desk.face(&to.node)?;
     let row = face.inputs.iter().position(|port| port.name == to.name);
-    let down = row.map_or(TITLE_HEIGHT / 2.0, input_row);
+    let down = row.map_or(TITLE_HEIGHT / 2.0, |row| input_row(face, row));
     Some([node.pos[0], node.pos[1] + down])
 }
 

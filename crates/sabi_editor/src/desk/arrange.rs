@@ -3,12 +3,14 @@
 use std::collections::BTreeMap;
 
 use sabi_engine::catalog::{Entry, Knob, KnobRole};
-use sabi_graph::{Edit, NodeId};
+use sabi_graph::{Edit, NodeId, REROUTE_KIND};
 
 use super::Desk;
 
 /// Width of a node, canvas points.
 pub(crate) const NODE_WIDTH: f32 = 200.0;
+/// Width and height of a bend in a wire, which has a port at each end.
+pub(super) const BEND_SIZE: [f32; 2] = [36.0, 18.0];
 /// Height of the strip with a node's title.
 pub(crate) const TITLE_HEIGHT: f32 = 28.0;
 /// Height of a port or a knob.
@@ -35,15 +37,23 @@ pub(crate) fn own_knobs(entry: &Entry) -> impl Iterator<Item = &Knob> {
     own.filter(is_small).take(MOST_KNOBS)
 }
 
-/// Rows below a node's title, and whether there is a picture of a result.
-pub(crate) fn height_of(entry: &Entry) -> f32 {
+/// Whether a node is a mere bend in a wire, which is drawn as a dot.
+pub(crate) fn is_bend(entry: &Entry) -> bool {
+    entry.id == REROUTE_KIND
+}
+
+/// Width and height of a node: a title, rows, and a picture where there is a result.
+pub(crate) fn size_of(entry: &Entry) -> [f32; 2] {
+    if is_bend(entry) {
+        return BEND_SIZE;
+    }
     let rows = entry.inputs.len() + entry.outputs.len() + own_knobs(entry).count();
     let picture = if entry.outputs.is_empty() && entry.category() != "output" {
         0.0
     } else {
         PICTURE_SIDE + MARGIN
     };
-    TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + MARGIN
+    [NODE_WIDTH, TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + MARGIN]
 }
 
 /// What some nodes are brought in line by.
@@ -56,9 +66,9 @@ pub(crate) enum Align {
 }
 
 impl Desk {
-    /// Height of a node that is seen, canvas points.
-    pub(crate) fn height(&self, id: &NodeId) -> f32 {
-        self.face(id).map_or(TITLE_HEIGHT, |face| height_of(face))
+    /// Width and height of a node that is seen, canvas points.
+    pub(crate) fn size(&self, id: &NodeId) -> [f32; 2] {
+        self.face(id).map_or([NODE_WIDTH, TITLE_HEIGHT], |face| size_of(face))
     }
 
     /// Moves nodes by so much; those that are dragged move within one step, which the caller begins and ends.
@@ -88,11 +98,12 @@ impl Desk {
     /// Brings the selected nodes in line.
     pub(crate) fn align(&mut self, by: Align) -> bool {
         let mut places = self.places();
-        let heights: BTreeMap<NodeId, f32> = places.keys().map(|id| (id.clone(), self.height(id))).collect();
+        let sizes: BTreeMap<NodeId, [f32; 2]> = places.keys().map(|id| (id.clone(), self.size(id))).collect();
         let ends = places.iter().map(|(id, pos)| match by {
-            Align::Left | Align::Right => pos[0],
+            Align::Left => pos[0],
+            Align::Right => pos[0] + sizes[id][0],
             Align::Top => pos[1],
-            Align::Bottom => pos[1] + heights[id],
+            Align::Bottom => pos[1] + sizes[id][1],
         });
         let end = match by {
             Align::Left | Align::Top => ends.fold(f32::INFINITY, f32::min),
@@ -100,9 +111,10 @@ impl Desk {
         };
         for (id, pos) in &mut places {
             match by {
-                Align::Left | Align::Right => pos[0] = end,
+                Align::Left => pos[0] = end,
+                Align::Right => pos[0] = end - sizes[id][0],
                 Align::Top => pos[1] = end,
-                Align::Bottom => pos[1] = end - heights[id],
+                Align::Bottom => pos[1] = end - sizes[id][1],
             }
         }
         self.move_to("Align", places)
@@ -130,7 +142,7 @@ impl Desk {
                 .position(|port| Some(&port.name) == from.port.as_ref())
                 .unwrap_or(0);
             let level = places[&from.node][1] + output_row(source, out);
-            let own = level - input_row(row);
+            let own = level - input_row(face, row);
             if let Some(pos) = places.get_mut(&id) {
                 pos[1] = own;
             }
@@ -140,11 +152,14 @@ impl Desk {
 }
 
 /// Where the wire of an input ends, from the node's upper edge: rows of inputs come first.
-pub(crate) fn input_row(row: usize) -> f32 {
+pub(crate) fn input_row(entry: &Entry, row: usize) -> f32 {
+    if is_bend(entry) {
+        return BEND_SIZE[1] / 2.0;
+    }
     TITLE_HEIGHT + (row as f32 + 0.5) * ROW_HEIGHT
 }
 
 /// Where the wire of an output begins, from the node's upper edge.
 pub(crate) fn output_row(entry: &Entry, row: usize) -> f32 {
-    input_row(entry.inputs.len() + own_knobs(entry).count() + row)
+    input_row(entry, entry.inputs.len() + own_knobs(entry).count() + row)
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use sabi_graph::NodeId;
 
-use super::arrange::{GRID, NODE_WIDTH};
+use super::arrange::GRID;
 use super::layered::{Boxed, lay_out};
 use super::{Desk, FRAME_AROUND, FRAME_STRIP};
 
@@ -78,14 +78,15 @@ impl Desk {
     fn cluster(&self, ids: Vec<NodeId>, is_framed: bool) -> Cluster {
         let boxes: Vec<Boxed> = ids
             .iter()
-            .map(|id| Boxed {
-                width: NODE_WIDTH,
-                height: self.height(id),
-                reads: self
-                    .neighbors(id, true)
-                    .iter()
-                    .filter_map(|from| ids.binary_search(from).ok())
-                    .collect(),
+            .map(|id| {
+                let [width, height] = self.size(id);
+                let sources = self.neighbors(id, true);
+                let reads = sources.iter().filter_map(|from| ids.binary_search(from).ok());
+                Boxed {
+                    width,
+                    height,
+                    reads: reads.collect(),
+                }
             })
             .collect();
         let mut places = lay_out(&boxes);

@@ -5,6 +5,7 @@ mod copying;
 mod frames;
 mod grouping;
 mod healing;
+mod inserting;
 mod layers;
 mod nodes;
 mod panel;

@@ -8,7 +8,7 @@ use sabi_engine::catalog::readable;
 use sabi_graph::{Edit, Node, NodeId, OutputRef, Value};
 
 use super::Desk;
-use super::arrange::{NODE_WIDTH, height_of};
+use super::arrange::{NODE_WIDTH, size_of};
 use super::map_names::{Map, MapName};
 
 const IMAGE: &str = "source/image";
@@ -130,7 +130,7 @@ impl Adding<'_> {
     }
 
     fn height(&self, kind: &str) -> f32 {
-        self.desk.catalog().entry(kind).map_or(0.0, |entry| height_of(entry))
+        self.desk.catalog().entry(kind).map_or(0.0, |entry| size_of(entry)[1])
     }
 }
 

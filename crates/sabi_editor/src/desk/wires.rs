@@ -1,10 +1,11 @@
-//! Wires: connecting, cutting, inserting, healing.
+//! Wires: connecting, cutting, bending, healing.
 
 use std::collections::BTreeSet;
 
 use sabi_engine::catalog::{Entry, Port};
 use sabi_graph::{Edit, GROUP_KIND, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef, Value};
 
+use super::arrange::{BEND_SIZE, NODE_WIDTH};
 use super::{Desk, Loose};
 
 /// How a second mask is put together with the first one.
@@ -187,7 +188,7 @@ impl Desk {
         let Some(reader) = self.node(&to.node) else {
             return false;
         };
-        let pos = [reader.pos[0] - 2.0 * BESIDE - super::arrange::NODE_WIDTH, reader.pos[1]];
+        let pos = [reader.pos[0] - 2.0 * BESIDE - NODE_WIDTH, reader.pos[1]];
         let (id, mut node) = self.fresh("blend/mask", pos);
         node.inputs.insert("below".to_owned(), first);
         node.inputs.insert("above".to_owned(), self.shortest(from));
@@ -210,7 +211,8 @@ impl Desk {
         let is_free = |port: &Port| own.is_none_or(|inputs| !inputs.contains_key(&port.name));
         match loose {
             Loose::From(from) => {
-                let carried = self.face(&from.node)?.output(from.port.as_deref())?.ty;
+                self.face(&from.node)?.output(from.port.as_deref())?;
+                let carried = self.carried(from);
                 let exact = face.inputs.iter().find(|port| port.ty == carried && is_free(port));
                 let input = exact.or_else(|| face.inputs.iter().find(|port| port.accepts(carried) && is_free(port)))?;
                 let to = SlotRef {
@@ -234,35 +236,8 @@ impl Desk {
         }
     }
 
-    /// Puts a node into the wire that leads to an input: it reads what the input read, and the input reads it.
-    pub(crate) fn insert(&mut self, id: &NodeId, to: &SlotRef) -> bool {
-        match self.inserting(id, to) {
-            Some(edits) => self.edit("Insert", edits),
-            None => self.refuse(
-                "only a node that nobody reads yet, with a free input and a result that fit, can be put into a wire",
-            ),
-        }
-    }
-
-    /// Whether a node may be put into a wire, for showing it beforehand.
-    pub(crate) fn may_insert(&self, id: &NodeId, to: &SlotRef) -> bool {
-        self.inserting(id, to).is_some()
-    }
-
-    fn inserting(&self, id: &NodeId, to: &SlotRef) -> Option<Vec<Edit>> {
-        let from = self.wire_into(to)?.clone();
-        let is_read = !self.graph().readers(id.as_str()).is_empty();
-        if from.node == *id || is_read || self.is_made_from(id, &to.node) {
-            return None;
-        }
-        let face = self.face(id)?.clone();
-        let into = self.tie_loose(&Loose::From(from), id, &face)?;
-        let out = self.tie_loose(&Loose::Into(to.clone()), id, &face)?;
-        Some(vec![into, out])
-    }
-
     /// Whether a node is another one, or made from it.
-    fn is_made_from(&self, id: &NodeId, source: &NodeId) -> bool {
+    pub(super) fn is_made_from(&self, id: &NodeId, source: &NodeId) -> bool {
         let mut seen = BTreeSet::from([id.clone()]);
         let mut next = vec![id.clone()];
         while let Some(id) = next.pop() {
@@ -278,12 +253,13 @@ impl Desk {
         false
     }
 
-    /// Puts a bend into the wire that leads to an input.
+    /// Puts a bend into the wire that leads to an input, with its middle at a place.
     pub(crate) fn reroute(&mut self, to: &SlotRef, pos: [f32; 2]) -> bool {
         let Some(from) = self.wire_into(to).cloned() else {
             return false;
         };
-        let (id, mut node) = self.fresh(REROUTE_KIND, pos);
+        let corner = [pos[0] - BEND_SIZE[0] / 2.0, pos[1] - BEND_SIZE[1] / 2.0];
+        let (id, mut node) = self.fresh(REROUTE_KIND, corner);
         node.inputs.insert("source".to_owned(), from);
         let bend = OutputRef {
             node: id.clone(),

@@ -1,9 +1,10 @@
-//! All keys, by where they act; each can be bound anew.
+//! All keys, by where they act, each of which can be bound anew; and what is dragged with the mouse.
 
 use egui::{Event, RichText, Ui, Window};
 
 use crate::app::Editor;
 use crate::command::{Chord, Command, Scope};
+use crate::mouse::grips;
 
 const SCOPES: [(Scope, &str); 4] = [
     (Scope::Window, "Anywhere"),
@@ -47,6 +48,11 @@ pub(super) fn show(editor: &mut Editor, ui: &Ui) {
                         .show(ui, |ui| {
                             for command in Command::ALL.iter().filter(|command| command.scope() == scope) {
                                 has_changed |= row(editor, ui, *command);
+                                ui.end_row();
+                            }
+                            for grip in grips(editor.settings.habit, scope) {
+                                ui.label(grip.drags.title());
+                                ui.monospace(grip.text());
                                 ui.end_row();
                             }
                         });

@@ -9,7 +9,7 @@ use super::bar::Bar;
 use super::curve::View;
 use super::lettering::write;
 use super::values::{Held, Stop, code_of, read, step_of, text_of};
-use super::{KnobEvent, KnobRow, Lengths, choice, color, numbers};
+use super::{KnobEvent, KnobRow, Lengths, choice, color, doc, numbers};
 use crate::desk::ROW_HEIGHT;
 use crate::theme::{Theme, space, type_size};
 
@@ -54,6 +54,9 @@ pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: 
     if let Some(sentence) = ask.fault_of(id) {
         let below = ui.interact(rect, id.with("fault"), Sense::hover());
         below.show_tooltip_text(egui::RichText::new(sentence).color(theme.fault));
+    } else if zoom >= LEGIBLE {
+        let over = ui.interact(rect, id.with("told"), Sense::hover());
+        over.on_hover_ui(|ui| doc::show(ui, theme, row));
     }
     let events = ask.events;
     ui.data_mut(|data| data.insert_temp(kept, memory));

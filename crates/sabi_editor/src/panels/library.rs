@@ -86,7 +86,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
     let number = |candidate: &Candidate| favorites.iter().position(|known| *known == candidate.new.key());
     // Favorites come first in their own order; sorting keeps that of the others.
     found.sort_by_key(|candidate| number(candidate).unwrap_or(usize::MAX));
-    let mut toggled = None;
+    let (mut toggled, mut dragged) = (None, None);
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 1.0;
         let mut section = String::new();
@@ -111,11 +111,16 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
                 number,
                 picture,
             };
-            if shown.show(ui, theme, editor, actions) {
+            let touched = shown.show(ui, theme, editor, actions);
+            if touched.is_starred {
                 toggled = Some(candidate.new.key());
             }
+            dragged = dragged.or(touched.dragged);
         }
     });
+    if let Some(at) = dragged {
+        editor.canvas.bring(ui, at);
+    }
     if let Some(key) = toggled {
         match editor.settings.favorites.iter().position(|known| *known == key) {
             Some(at) => drop(editor.settings.favorites.remove(at)),

@@ -140,7 +140,7 @@ fn on_places(command: Command) -> Option<Proof> {
         Command::AlignRight => (&["clouds", "dots"], |window, _| window.place("clouds")[0] == 10.0),
         Command::AlignTop => (&["clouds", "mix"], |window, _| window.place("mix")[1] == 0.0),
         Command::AlignBottom => (&["clouds", "mix"], |window, before| {
-            let bottom = |node: &str| window.place(node)[1] + window.desk().height(&id(node));
+            let bottom = |node: &str| window.place(node)[1] + window.desk().size(&id(node))[1];
             (bottom("clouds") - bottom("mix")).abs() < 1.0 && window.places() != before.places
         }),
         Command::Straighten => (&["clouds", "mix"], |window, _| {
@@ -181,7 +181,8 @@ fn of_looks(command: Command) -> Option<Proof> {
         Command::FrameAll => (&[], |window, before| {
             let at = window.on_canvas([0.5, 0.5]);
             window.wheel(at, 300.0);
-            window.key(Key::A);
+            let key = window.editor().keys().shown(Command::FrameAll);
+            window.chord(&key);
             (window.screen([0.0, 0.0]) - before.screen).length() < 1.0
         }),
         Command::Preview => (&["mix"], |window, _| {

@@ -6,7 +6,7 @@ use egui_kittest::kittest::{NodeT, Queryable, by};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::Window;
-use crate::desk::{NODE_WIDTH, TITLE_HEIGHT};
+use crate::desk::TITLE_HEIGHT;
 use crate::dock::Panel;
 
 /// The pointer.
@@ -165,7 +165,7 @@ impl Window {
     /// The rectangle of a node on the screen.
     pub(super) fn rect(&self, id: &NodeId) -> Rect {
         let pos = self.desk().node(id).expect("a node").pos;
-        let size = vec2(NODE_WIDTH, self.desk().height(id)) * self.zoom();
+        let size = Vec2::from(self.desk().size(id)) * self.zoom();
         Rect::from_min_size(self.screen(pos), size)
     }
 
@@ -199,7 +199,7 @@ impl Window {
     }
 
     /// Where a port is, found by what is said of it to those who do not see it.
-    fn port_at(&self, node: &NodeId, side: &str, name: &str) -> Pos2 {
+    pub(super) fn port_at(&self, node: &NodeId, side: &str, name: &str) -> Pos2 {
         let desk = self.desk();
         let face = desk.face(node).expect("a node");
         let port = match side {

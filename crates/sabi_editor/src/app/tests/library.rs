@@ -203,3 +203,86 @@ fn a_dropped_picture_is_a_node_in_one_step() {
     window.undo(1);
     assert_eq!(window.text(), before);
 }
+
+#[test]
+fn an_entry_that_is_dropped_on_a_wire_is_put_into_it_where_it_fits() {
+    let mut window = Window::opened(
+        r#"
+        "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+        "invert": { "kind": "adjust/invert", "inputs": { "source": "clouds" }, "pos": [500, 0] }
+        "#,
+    );
+    let [clouds, invert] = ["clouds", "invert"].map(super::hands::id);
+    let middle = super::hands::between(window.port(&clouds, "mask"), window.port(&invert, "source"));
+    let entry = window.harness.get_by_label("Levels").rect().center();
+    window.drag(entry, middle, PointerButton::Primary, Modifiers::NONE);
+    let added = window.editor().desk.selected_one().cloned().expect("the node");
+    assert_eq!(window.reads(&added, "source"), "clouds");
+    assert_eq!(window.reads(&invert, "source"), added.to_string());
+    assert_eq!(window.steps(), 1);
+    window.undo(1);
+    window.harness.state_mut().settings.favorites = vec!["source/material".to_owned()];
+    window.settle();
+    let paint = window
+        .editor()
+        .desk
+        .catalog()
+        .entry("source/material")
+        .expect("a kind")
+        .label
+        .clone();
+    let paint = window.harness.get_by_label(&paint).rect().center();
+    window.drag(paint, middle, PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(
+        window.reads(&invert, "source"),
+        "clouds",
+        "what does not fit lies beside it"
+    );
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn an_entry_that_is_dragged_to_the_far_edge_pulls_the_canvas() {
+    let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
+    let entry = window.harness.get_by_label("Levels").rect().center();
+    let still = window.screen([0.0, 0.0]);
+    let edge = window.on_canvas([0.5, 0.995]);
+    let way = [entry, window.on_canvas([0.5, 0.5]), edge];
+    window.pull(&way, PointerButton::Primary, Modifiers::NONE);
+    window.harness.run_steps(30);
+    window.button(edge, PointerButton::Primary, false);
+    window.settle();
+    let moved = window.screen([0.0, 0.0]) - still;
+    assert!(moved.y < -100.0, "the canvas went by: {moved:?}");
+    assert_eq!(kinds(&window).len(), 2);
+}
+
+#[test]
+fn f1_shows_the_selected_node_while_a_draft_is_kept_and_lost_only_when_that_is_said() {
+    let mut window = Window::of(GROUPED);
+    window.add([0.3, 0.6], "levels");
+    window.key(Key::F1);
+    window.click("New node from here");
+    window.fill("Id of the node", "adjust/mine");
+    window.add([0.6, 0.6], "threshold");
+    window.key(Key::F1);
+    assert!(window.harness.query_by_label("adjust/threshold").is_some());
+    assert!(window.harness.query_by_label("Text of the node").is_none());
+    window.click("Write on adjust/mine");
+    assert!(window.harness.query_by_label("Text of the node").is_some());
+    window.click("Let it go");
+    assert!(
+        window
+            .harness
+            .query_by_label("What was written for 'adjust/mine' is in no file.")
+            .is_some()
+    );
+    window.click("Keep it");
+    assert!(window.harness.query_by_label("Lose it").is_none());
+    window.click("To the selected node");
+    window.click("Write on adjust/mine");
+    window.click("Let it go");
+    window.click("Lose it");
+    assert!(window.harness.query_by_label("adjust/threshold").is_some());
+    assert!(window.harness.query_by_label("Write on adjust/mine").is_none());
+}

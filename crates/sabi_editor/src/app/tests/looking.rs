@@ -94,3 +94,23 @@ fn nodes_are_told_to_those_who_do_not_see_them_at_every_zoom() {
         );
     }
 }
+
+#[test]
+fn the_wheel_moves_the_canvas_aside_with_shift() {
+    let mut window = Window::opened(TWO);
+    let at = window.on_canvas([0.3, 0.6]);
+    let (zoom, still) = (window.zoom(), window.screen([0.0, 0.0]));
+    window.point(at);
+    window.hold(Modifiers::SHIFT);
+    window.harness.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, 80.0),
+        phase: egui::TouchPhase::Move,
+        modifiers: Modifiers::SHIFT,
+    });
+    window.harness.run_steps(30);
+    window.hold(Modifiers::NONE);
+    let moved = window.screen([0.0, 0.0]) - still;
+    assert!((moved.length() - 80.0).abs() < 2.0, "{moved:?}");
+    assert_eq!(window.zoom(), zoom);
+}

@@ -231,3 +231,23 @@ fn ports_stand_beside_the_rows_that_name_them() {
     );
     window.point(base);
 }
+
+#[test]
+fn a_wire_that_is_pulled_and_dropped_within_one_slow_frame_is_tied() {
+    let mut window = Window::opened(LOOSE);
+    let ends = [window.port(&id("clouds"), "mask"), window.port(&id("layer"), "mask")];
+    window.pause();
+    window.point(ends[0]);
+    for (at, pressed) in [(ends[0], true), (ends[1], false)] {
+        window.harness.event(egui::Event::PointerMoved(at));
+        window.harness.event(egui::Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    window.settle();
+    assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
+    assert_eq!(window.steps(), 1);
+}

@@ -30,7 +30,7 @@ fn nodes_are_brought_in_line() {
     assert_eq!(all(&desk).map(|pos| pos[1]), [0.0; 3]);
     desk.undo();
     step(&mut desk, |desk| desk.align(Align::Bottom));
-    let ends = ["n", "w", "m"].map(|name| pos(&desk, name)[1] + desk.height(&id(name)));
+    let ends = ["n", "w", "m"].map(|name| pos(&desk, name)[1] + desk.size(&id(name))[1]);
     assert!(ends.iter().all(|end| (end - ends[0]).abs() < 1e-3), "{ends:?}");
     assert_eq!(pos(&desk, "out"), [0.0, 0.0], "what is not selected stays");
 }
@@ -52,7 +52,7 @@ fn slant(desk: &Desk, input: &str) -> f32 {
         .position(|port| port.name == output.name)
         .expect("a result");
     let [end, begin] = [&input.node, &wire.node].map(|id| pos(desk, id.as_str())[1]);
-    (end + input_row(row)) - (begin + output_row(source, out))
+    (end + input_row(reader, row)) - (begin + output_row(source, out))
 }
 
 #[test]
@@ -85,8 +85,8 @@ fn a_layout_reads_from_left_to_right_without_overlaps_and_is_the_same_again() {
         for other in ids.iter().filter(|other| *other != one) {
             let [[x, y], [other_x, other_y]] = [one, other].map(|id| pos(&desk, id.as_str()));
             let is_apart = (x - other_x).abs() >= NODE_WIDTH
-                || y + desk.height(one) <= other_y
-                || other_y + desk.height(other) <= y;
+                || y + desk.size(one)[1] <= other_y
+                || other_y + desk.size(other)[1] <= y;
             assert!(is_apart, "{one} and {other}");
         }
         assert!(pos(&desk, one.as_str()).iter().all(|at| at % GRID == 0.0));

@@ -81,7 +81,7 @@ fn each_set_of_a_folder_is_a_material_and_none_lies_over_another() {
     let placed: Vec<([f32; 2], f32)> = desk
         .graph()
         .nodes()
-        .map(|(id, node)| (node.pos, desk.height(id)))
+        .map(|(id, node)| (node.pos, desk.size(id)[1]))
         .collect();
     for (at, (one, height)) in placed.iter().enumerate() {
         for (other, _) in placed[at + 1..].iter().filter(|(other, _)| other[0] == one[0]) {

@@ -1,6 +1,6 @@
 //! One entry of the library: a click adds it in the middle of the canvas, a drag where it is dropped.
 
-use egui::{Align2, Color32, FontId, Rect, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
 use egui_phosphor::regular as icon;
 
 use crate::action::Action;
@@ -23,9 +23,17 @@ pub(super) struct Shown<'a> {
     pub(super) picture: Option<TextureId>,
 }
 
+/// What is done with an entry.
+pub(super) struct Touched {
+    /// It becomes a favorite, or is one no longer.
+    pub(super) is_starred: bool,
+    /// Where it is dragged.
+    pub(super) dragged: Option<Pos2>,
+}
+
 impl Shown<'_> {
-    /// Shows it; says whether it becomes a favorite, or is one no longer.
-    pub(super) fn show(&self, ui: &mut Ui, theme: &Theme, editor: &Editor, actions: &mut Vec<Action>) -> bool {
+    /// Shows it; says what is done with it besides adding it.
+    pub(super) fn show(&self, ui: &mut Ui, theme: &Theme, editor: &Editor, actions: &mut Vec<Action>) -> Touched {
         let face = &self.candidate.face;
         let height = if self.picture.is_some() { WITH_PICTURE } else { HEIGHT };
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
@@ -39,25 +47,25 @@ impl Shown<'_> {
         if ui.is_rect_visible(rect) {
             self.paint(ui, theme, editor, rect, response.hovered(), star.hovered());
         }
-        if response.dragged()
-            && let Some(at) = ui.input(|input| input.pointer.latest_pos())
-        {
-            editor.canvas.ghost(ui, theme, face, at);
+        let at = ui.input(|input| input.pointer.latest_pos());
+        let dragged = at.filter(|_| response.dragged());
+        if let Some(at) = dragged {
+            editor.canvas.ghost(ui, theme, &editor.desk, face, at);
         }
-        let place = if response.clicked() {
-            Some(editor.canvas.middle())
-        } else if response.drag_stopped() {
-            let at = ui.input(|input| input.pointer.latest_pos());
-            at.and_then(|at| editor.canvas.place_at(at))
+        let (place, into) = if response.clicked() {
+            (Some(editor.canvas.middle()), None)
+        } else if let Some(at) = at.filter(|_| response.drag_stopped()) {
+            let wire = editor.canvas.wire_for(&editor.desk, face, at);
+            (editor.canvas.place_at(at), wire.map(|wire| wire.to))
         } else {
-            None
+            (None, None)
         };
         if let Some(place) = place {
             actions.push(Action::Add {
                 kind: self.candidate.new.clone(),
                 place,
                 loose: None,
-                into: None,
+                into,
             });
         }
         if !response.dragged() {
@@ -67,7 +75,10 @@ impl Shown<'_> {
             Some(_) => "No favorite any more",
             None => "A favorite; the first nine are added by the keys 1 to 9",
         };
-        star.on_hover_text(told).clicked()
+        Touched {
+            is_starred: star.on_hover_text(told).clicked(),
+            dragged,
+        }
     }
 
     fn paint(&self, ui: &Ui, theme: &Theme, editor: &Editor, rect: Rect, is_hovered: bool, is_on_star: bool) {
@@ -75,7 +86,7 @@ impl Shown<'_> {
         if is_hovered || is_on_star {
             painter.rect_filled(rect, space::CORNER, theme.raised);
         }
-        let write = |at: egui::Pos2, align: Align2, text: &str, size: f32, color: Color32| {
+        let write = |at: Pos2, align: Align2, text: &str, size: f32, color: Color32| {
             painter.text(at, align, text, FontId::proportional(size), color)
         };
         let star = match (self.number.is_some(), is_on_star) {

@@ -1,0 +1,129 @@
+//! The sides of cards, whose ports are too small to be taken one by one: a wire is taken at the nearest.
+
+use egui::{PointerButton, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, pos2};
+use sabi_engine::catalog::{Entry, Port};
+use sabi_graph::NodeId;
+
+use super::gesture::Gesture;
+use super::ports::{self, DOT, INSIDE, Place};
+use super::{Around, Canvas, node_rect};
+use crate::action::Action;
+use crate::desk::{Desk, input_row, output_row};
+
+/// How near the pointer has to be to a side, screen points.
+const REACH: f32 = 7.0;
+/// Smaller dots are left out, screen points.
+const LEAST_DOT: f32 = 1.4;
+
+/// The inputs or the outputs of a card.
+struct Side<'a> {
+    id: &'a NodeId,
+    face: &'a Entry,
+    is_input: bool,
+    /// Of the whole card, on the screen.
+    rect: Rect,
+    zoom: f32,
+}
+
+/// Draws the ports of a card and takes wires at its sides.
+pub(super) fn show(
+    canvas: &mut Canvas,
+    ui: &Ui,
+    panel: Rect,
+    around: &Around<'_>,
+    id: &NodeId,
+    actions: &mut Vec<Action>,
+) {
+    let Some((face, rect)) = around.desk.face(id).zip(node_rect(around.desk, id)) else {
+        return;
+    };
+    for is_input in [true, false] {
+        let side = Side {
+            id,
+            face,
+            is_input,
+            rect: canvas.view.screen_rect(panel, rect),
+            zoom: canvas.view.zoom,
+        };
+        if !side.ports().is_empty() {
+            side.draw(ui, around);
+            side.touched(canvas, ui, around, actions);
+        }
+    }
+}
+
+impl Side<'_> {
+    fn ports(&self) -> &[Port] {
+        if self.is_input {
+            &self.face.inputs
+        } else {
+            &self.face.outputs
+        }
+    }
+
+    fn x(&self) -> f32 {
+        if self.is_input {
+            self.rect.left()
+        } else {
+            self.rect.right()
+        }
+    }
+
+    /// Where the port of a row is, up and down.
+    fn y(&self, row: usize) -> f32 {
+        let down = match self.is_input {
+            true => input_row(self.face, row),
+            false => output_row(self.face, row),
+        };
+        self.rect.top() + down * self.zoom
+    }
+
+    fn draw(&self, ui: &Ui, around: &Around<'_>) {
+        let size = DOT * self.zoom;
+        for (row, port) in self.ports().iter().enumerate().filter(|_| size > LEAST_DOT) {
+            let center = pos2(self.x(), self.y(row));
+            ui.painter().circle_filled(center, size, around.theme.port(port.ty));
+        }
+    }
+
+    /// The port that is nearest to a place.
+    fn nearest(&self, desk: &Desk, at: Pos2) -> Option<(Place, Port)> {
+        let rows = 0..self.ports().len();
+        let away = |row: &usize| (self.y(*row) - at.y).abs();
+        let row = rows.min_by(|one, other| away(one).total_cmp(&away(other)))?;
+        let before = if self.is_input { 0 } else { self.face.inputs.len() };
+        ports::places(desk, self.id).into_iter().nth(before + row)
+    }
+
+    fn touched(&self, canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
+        let desk = around.desk;
+        let inside = REACH.min(self.rect.width() * INSIDE);
+        let [left, right] = if self.is_input {
+            [REACH, inside]
+        } else {
+            [inside, REACH]
+        };
+        let area = Rect::from_x_y_ranges(self.x() - left..=self.x() + right, self.rect.y_range());
+        let widget = ui.id().with(("side", self.id, self.is_input));
+        let response = ui.interact(area, widget, Sense::click_and_drag());
+        response.widget_info(|| {
+            let what = if self.is_input { "inputs" } else { "outputs" };
+            WidgetInfo::labeled(WidgetType::Button, true, format!("{}, {what}", desk.title(self.id)))
+        });
+        let nearest = |at: Pos2| self.nearest(desk, at);
+        if response.drag_started_by(PointerButton::Primary) {
+            let origin = ui.input(|input| input.pointer.press_origin());
+            if let Some((place, _)) = origin.and_then(nearest) {
+                canvas.gesture = ports::taken(desk, &place);
+            }
+        } else if response.clicked() {
+            if let Some((place, _)) = response.interact_pointer_pos().and_then(nearest) {
+                ports::clicked(&place, actions);
+            }
+        } else if let Some((_, port)) = response.hover_pos().and_then(nearest)
+            && matches!(canvas.gesture, Gesture::Idle)
+        {
+            response.on_hover_ui(|ui| ports::tooltip(ui, around.theme, &port));
+        }
+    }
+}
