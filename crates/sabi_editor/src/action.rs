@@ -47,10 +47,12 @@ pub(crate) enum Action {
     Arrow(Way),
     /// Select one more, or one less.
     Toggle(NodeId),
-    /// Show a node's result in the 2D view and on the model.
+    /// Show a node's result in the 2D view, and on the model where that follows: of an output, or the one chosen last.
     Show { node: NodeId, port: Option<String> },
     /// Show a node's result in the 2D view always.
     Pin { node: NodeId },
+    /// Change what the model and the 2D view show.
+    Look(LookAsk),
     /// Go into a group.
     Enter(NodeId),
     /// Go so far up.
@@ -91,6 +93,23 @@ pub(crate) struct NodeText {
     pub(crate) text: String,
     /// What the file is known to hold, which this takes the place of.
     pub(crate) known: Option<String>,
+}
+
+/// Something that is asked of what is shown where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LookAsk {
+    /// Have the model show what the outputs make of it.
+    Outputs,
+    /// Have the model show the node that is clicked.
+    Follow,
+    /// Have the model show the node that was clicked last whatever is clicked from now on.
+    Lock,
+    /// Let the locked node go.
+    Release,
+    /// Show the locked node beside what the model shows, or no longer.
+    Compare,
+    /// Have the 2D view show the node that is clicked again.
+    Unpin,
 }
 
 /// Something that is asked of wires.

@@ -4,8 +4,10 @@ mod ask;
 mod bars;
 mod documents;
 mod exports;
+mod eyedropper;
 mod keeping;
 mod keys;
+mod looks;
 mod perform;
 mod rooms;
 #[cfg(test)]
@@ -23,6 +25,7 @@ use sabi_engine::{Gpu, Session};
 use sabi_graph::NodeRef;
 
 pub(crate) use documents::model_of;
+pub(crate) use eyedropper::Taken;
 
 use crate::canvas::Canvas;
 use crate::command::{Command, KeyMap};
@@ -101,12 +104,12 @@ pub(crate) struct Editor {
     candidates: (Option<(u64, u64)>, Vec<Candidate>),
     /// The node that is looked at, and the output of it.
     shown: Option<NodeRef>,
+    /// The node that the model shows while it follows clicks; none once a click went beside all nodes.
+    followed: Option<NodeRef>,
     /// Kept in the 2D view whatever is clicked.
     pinned: Option<NodeRef>,
     /// Kept on the model whatever is clicked.
     locked: Option<NodeRef>,
-    /// Whether the model shows the node that is looked at, and not the outputs.
-    pub(crate) follows: bool,
     /// Outputs of nodes other than the first that thumbnails show, by the full id of the node.
     ports: BTreeMap<String, String>,
     /// Whether a knob is being moved.
@@ -149,7 +152,7 @@ impl Editor {
         faults.extend(fault.map(|error| error.to_string()));
         let stage = Stage::new(gpu, &work.model, beginning.folders.cache.clone(), context);
         let mut editor = Editor {
-            model_view: ModelView::new(&settings.environment),
+            model_view: ModelView::new(&settings.environment, &settings.view),
             flat_view: FlatView::default(),
             layout: dock::sound(settings.layout.clone()),
             use_layout: None,
@@ -164,9 +167,9 @@ impl Editor {
             active: Panel::Canvas,
             candidates: (None, Vec::new()),
             shown: None,
+            followed: None,
             pinned: None,
             locked: None,
-            follows: false,
             ports: BTreeMap::new(),
             is_moving: false,
             knob_memory: KnobMemory::default(),
@@ -221,6 +224,7 @@ impl Editor {
             return;
         }
         self.follow_files();
+        self.put_down_eyedropper(&context);
         let mut actions = self.keys_pressed(ui);
         self.take_dropped(&context, &mut actions);
         self.refresh_candidates();
@@ -315,9 +319,7 @@ impl eframe::App for Editor {
 impl Editor {
     /// The picture of a node's result, if there is one.
     pub(crate) fn thumbnail_of(&self, id: &sabi_graph::NodeId) -> Option<egui::TextureId> {
-        let node = self.desk.full_id(id);
-        let port = self.ports.get(&node).cloned();
-        self.picture_of(&NodeRef { node, port })
+        self.picture_of(&self.chosen(id))
     }
 
     /// The picture of a result, if there is one.

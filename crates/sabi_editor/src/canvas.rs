@@ -67,7 +67,6 @@ pub(crate) struct Canvas {
     focused: Option<ports::Place>,
     /// Nodes in the order in which they were touched: later ones lie above.
     touched: Vec<NodeId>,
-    has_map: bool,
     /// What is dragged here from another panel has been away from the edges.
     is_brought: bool,
     /// The panel as it was last drawn.
@@ -88,6 +87,10 @@ pub(crate) struct Around<'a> {
     pub(crate) previewed: Option<&'a NodeId>,
     /// What drags mean.
     pub(crate) habit: Habit,
+    /// The node that the 2D view shows whatever is clicked.
+    pub(crate) pinned: Option<&'a NodeId>,
+    /// Whether the whole graph is shown in a corner.
+    pub(crate) has_map: bool,
 }
 
 impl Canvas {
@@ -118,7 +121,7 @@ impl Canvas {
         nodes::show(self, ui, panel, around, &mut actions);
         gesture::advance(self, ui, &ground, around, &wires, &mut actions);
         gesture::draw(self, ui, panel, around);
-        if self.has_map {
+        if around.has_map {
             mini_map::show(self, ui, panel, around);
         }
         self.show_questions(ui, around, &mut actions);
@@ -138,10 +141,6 @@ impl Canvas {
             }
             Command::FrameSelected => {
                 self.frame_nodes(desk, desk.selection().iter());
-                Vec::new()
-            }
-            Command::MiniMap => {
-                self.has_map = !self.has_map;
                 Vec::new()
             }
             Command::Rename => {

@@ -173,6 +173,7 @@ commands! {
     Enter "enter" "Go into the group" Canvas ["Enter"] blender ["Tab", "Enter"];
     Leave "leave" "Go out of the group" Canvas ["Escape"];
     Preview "preview" "Show in the 2D view and on the model" Canvas ["V", "R"] blender ["R"];
+    Follow "follow" "The model follows clicks, or shows the outputs" Canvas ["Shift+V"];
     Lock "lock" "Keep showing this node on the model" Canvas ["P"];
     Flat "flat" "Pictures on nodes flat or on the model" Canvas ["T"];
     MiniMap "mini_map" "Mini map" Canvas ["N"];

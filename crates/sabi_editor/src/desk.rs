@@ -22,6 +22,7 @@ mod map_names;
 mod names;
 mod nodes;
 mod panel;
+mod paths;
 mod ports;
 mod replacing;
 mod selecting;

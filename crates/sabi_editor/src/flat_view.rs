@@ -1,5 +1,6 @@
 //! One result in texture space: exact values, channels, how they are spread.
 
+mod eyedropper;
 mod picture;
 
 use std::sync::Arc;
@@ -8,9 +9,11 @@ use egui::{
     Align2, Color32, FontId, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2,
     WidgetInfo, WidgetType, pos2, vec2,
 };
+use egui_phosphor::regular as icon;
 use sabi_engine::{Inspected, LiveModel};
 use sabi_graph::NodeRef;
 
+use crate::app::Taken;
 use crate::command::Command;
 use crate::stage::Stage;
 use crate::theme::{Theme, space, type_size};
@@ -43,6 +46,28 @@ struct Shown {
     histogram: Histogram,
 }
 
+/// What is shown.
+pub(crate) struct Subject<'a> {
+    /// The result; none where none was clicked yet.
+    pub(crate) wanted: Option<&'a NodeRef>,
+    /// What it is called.
+    pub(crate) title: &'a str,
+    /// Whether it is shown whatever is clicked.
+    pub(crate) is_pinned: bool,
+    /// Whether a click takes the color that is seen.
+    pub(crate) is_taking_color: bool,
+    pub(crate) theme: &'a Theme,
+}
+
+/// What was done in the view.
+#[derive(Default)]
+pub(crate) struct Done {
+    /// Whether what is pinned shall be no longer.
+    pub(crate) unpins: bool,
+    /// The color that was clicked, where one is wanted.
+    pub(crate) taken: Option<Taken>,
+}
+
 impl Default for FlatView {
     fn default() -> FlatView {
         FlatView {
@@ -60,8 +85,15 @@ impl Default for FlatView {
 
 impl FlatView {
     /// Draws the result of the inspected node.
-    pub(crate) fn show(&mut self, ui: &mut Ui, stage: &Stage, theme: &Theme, wanted: Option<&NodeRef>, title: &str) {
-        let Some((_, values)) = stage.inspected.as_ref().filter(|(node, _)| Some(node) == wanted) else {
+    pub(crate) fn show(&mut self, ui: &mut Ui, stage: &Stage, subject: &Subject<'_>) -> Done {
+        let mut done = Done::default();
+        let Subject {
+            wanted, theme, title, ..
+        } = *subject;
+        let values = stage.inspected.as_ref().filter(|(node, _)| Some(node) == wanted);
+        let values = values.map(|(_, values)| values.clone());
+        done.unpins = self.bar(ui, subject, values.as_deref());
+        let Some(values) = values else {
             let fault = wanted.and_then(|node| stage.fault(&node.node).or(stage.waits(&node.node)));
             let sentence = match (wanted, fault) {
                 (_, Some(fault)) => fault,
@@ -69,20 +101,18 @@ impl FlatView {
                 (None, None) => "Click a node to see its result as a texture.",
             };
             ui.centered_and_justified(|ui| ui.colored_label(theme.quiet, sentence));
-            return;
+            return done;
         };
-        let values = values.clone();
-        self.bar(ui, theme, &values, title);
         let rect = ui.available_rect_before_wrap();
         if !rect.is_positive() {
-            return;
+            return done;
         }
         self.refresh(ui, &values);
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Image, true, format!("Texture of {title}")));
         let painter = ui.painter().with_clip_rect(rect);
         painter.rect_filled(rect, 0.0, theme.ground);
-        let Some(shown) = &self.shown else { return };
+        let Some(shown) = &self.shown else { return done };
         let side = values.size as f32 * self.scale(rect, values.size);
         let square = Rect::from_center_size(rect.center() + self.pan, Vec2::splat(side));
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -109,6 +139,10 @@ impl FlatView {
         if let Some(shown) = &self.shown {
             shown.histogram.draw(&painter, rect, theme);
         }
+        if subject.is_taking_color {
+            done.taken = self.clicked_color(&response, square, &values);
+        }
+        done
     }
 
     /// Does what a key means here.
@@ -122,36 +156,51 @@ impl FlatView {
         }
     }
 
-    fn bar(&mut self, ui: &mut Ui, theme: &Theme, values: &Inspected, title: &str) {
+    /// What stands above the picture; says whether it shall not be pinned any more.
+    fn bar(&mut self, ui: &mut Ui, subject: &Subject<'_>, values: Option<&Inspected>) -> bool {
+        let mut unpins = false;
         ui.horizontal(|ui| {
-            ui.strong(title);
-            self.plane = self.plane.min(values.planes.len().saturating_sub(1));
-            if values.planes.len() > 1 {
-                let name = |at: usize| match values.planes[at].name.trim_end_matches('.') {
-                    "" => "color",
-                    name => name,
-                };
-                egui::ComboBox::from_id_salt("plane")
-                    .selected_text(name(self.plane))
-                    .show_ui(ui, |ui| {
-                        for at in 0..values.planes.len() {
-                            ui.selectable_value(&mut self.plane, at, name(at));
-                        }
-                    });
+            if subject.is_pinned {
+                let pin = ui.selectable_label(true, icon::PUSH_PIN);
+                let pin = pin.on_hover_text("Pinned whatever is clicked; a click here lets it go");
+                pin.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, true, "Unpin"));
+                unpins = pin.clicked();
             }
-            let components = values.planes.get(self.plane).map_or(0, |plane| plane.components);
-            if components > 1 {
-                ui.selectable_value(&mut self.component, None, "RGB");
-                for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(components) {
-                    ui.selectable_value(&mut self.component, Some(at), *name);
-                }
-            }
+            ui.strong(subject.title);
+            let Some(values) = values else { return };
+            self.planes(ui, values);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ui.toggle_value(&mut self.has_wires, "UV");
                 ui.toggle_value(&mut self.is_tiled, "Tile");
-                ui.colored_label(theme.quiet, format!("{0} × {0}", values.size));
+                ui.colored_label(subject.theme.quiet, format!("{0} × {0}", values.size));
             });
         });
+        unpins
+    }
+
+    /// Which plane is shown, and which number of it.
+    fn planes(&mut self, ui: &mut Ui, values: &Inspected) {
+        self.plane = self.plane.min(values.planes.len().saturating_sub(1));
+        if values.planes.len() > 1 {
+            let name = |at: usize| match values.planes[at].name.trim_end_matches('.') {
+                "" => "color",
+                name => name,
+            };
+            egui::ComboBox::from_id_salt("plane")
+                .selected_text(name(self.plane))
+                .show_ui(ui, |ui| {
+                    for at in 0..values.planes.len() {
+                        ui.selectable_value(&mut self.plane, at, name(at));
+                    }
+                });
+        }
+        let components = values.planes.get(self.plane).map_or(0, |plane| plane.components);
+        if components > 1 {
+            ui.selectable_value(&mut self.component, None, "RGB");
+            for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(components) {
+                ui.selectable_value(&mut self.component, Some(at), *name);
+            }
+        }
     }
 
     /// Makes the picture anew where it is of something else.
@@ -210,18 +259,12 @@ impl FlatView {
     /// The exact values under the pointer.
     fn probe(&self, ui: &Ui, response: &egui::Response, square: Rect, values: &Inspected, theme: &Theme) {
         let Some(at) = response.hover_pos() else { return };
-        let share = (at - square.min) / square.size();
-        let inside = |share: f32| if self.is_tiled { share.rem_euclid(1.0) } else { share };
-        let [x, y] = [inside(share.x), inside(share.y)].map(|share| (share * values.size as f32).floor());
-        let limits = 0.0..values.size as f32;
-        let Some(plane) = values
-            .planes
-            .get(self.plane)
-            .filter(|_| limits.contains(&x) && limits.contains(&y))
-        else {
+        let Some(([x, y], texel)) = self.texel_at(at, square, values.size) else {
             return;
         };
-        let texel = y as usize * values.size as usize + x as usize;
+        let Some(plane) = values.planes.get(self.plane) else {
+            return;
+        };
         let numbers = &plane.values[texel * plane.components..(texel + 1) * plane.components];
         let numbers: Vec<String> = numbers.iter().map(|number| format!("{number}")).collect();
         let where_to = if values.is_on_surface[texel] {
@@ -232,10 +275,23 @@ impl FlatView {
         let text = format!("{x}, {y}   {}{where_to}", numbers.join("  "));
         let font = FontId::monospace(type_size::SMALL);
         let corner = response.rect.left_bottom() + vec2(space::USUAL, -space::USUAL);
-        let galley = ui.painter().layout_no_wrap(text, font, theme.text);
+        let galley = ui.painter().layout_no_wrap(text.clone(), font, theme.text);
         let rect = Align2::LEFT_BOTTOM.anchor_size(corner, galley.size());
         ui.painter().rect_filled(rect.expand(3.0), space::CORNER, theme.panel);
         ui.painter().galley(rect.min, galley, theme.text);
+        let told = ui.interact(rect, ui.id().with("probe"), Sense::hover());
+        told.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &text));
+    }
+
+    /// The texel under a place, by column and row and by its place in the values; none beside the picture.
+    fn texel_at(&self, at: Pos2, square: Rect, size: u32) -> Option<([usize; 2], usize)> {
+        let share = (at - square.min) / square.size();
+        let inside = |share: f32| if self.is_tiled { share.rem_euclid(1.0) } else { share };
+        let [x, y] = [inside(share.x), inside(share.y)].map(|share| (share * size as f32).floor());
+        let limits = 0.0..size as f32;
+        let is_inside = limits.contains(&x) && limits.contains(&y);
+        let place = [x as usize, y as usize];
+        is_inside.then(|| (place, place[1] * size as usize + place[0]))
     }
 
     fn draw_wires(&mut self, painter: &egui::Painter, model: &LiveModel, square: Rect, theme: &Theme) {

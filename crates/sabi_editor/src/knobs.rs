@@ -80,7 +80,7 @@ pub(crate) enum KnobEvent {
     Ended,
     /// The drag is given up: nothing that was asked for since it began was meant.
     GivenUp,
-    /// To take a color from the screen.
+    /// To take a color from where it is seen.
     Eyedropper { knob: String },
     /// To have a file chosen.
     Browse { knob: String },

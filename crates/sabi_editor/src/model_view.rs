@@ -1,27 +1,40 @@
 //! The model in the light, as one turns it about.
 
+mod choices;
 mod environment;
+mod eyedropper;
 mod menu;
 mod painting;
+mod showing;
 
 use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Align2, FontId, PointerButton, Rect, Sense, Stroke, TextureId, Ui, WidgetInfo, WidgetType, pos2};
+use egui::{
+    Align2, CursorIcon, FontId, PointerButton, Rect, Response, Sense, Stroke, TextureId, Ui, WidgetInfo, WidgetType,
+    pos2, vec2,
+};
 use glam::Vec2;
-use sabi_engine::view::{Background, Camera, Lens, Lines, Picked, Shot, Viewpoint, Viewport, aspect_of, pick};
+use sabi_engine::view::{Camera, Lens, Lines, Picked, Shot, Viewpoint, Viewport, aspect_of, pick};
 use sabi_engine::{LiveModel, Seen};
 
-use crate::command::{Command, Habit, Scope};
+use crate::action::Action;
+use crate::app::Taken;
+use crate::command::{Command, Habit, KeyMap, Scope};
+use crate::knobs::Lengths;
 use crate::mouse::{self, Drags};
-use crate::stage::Stage;
+use crate::stage::{Picture, Stage};
 use crate::theme::{Theme, type_size};
+pub(crate) use choices::ViewChoices;
 use environment::Surroundings;
+pub(crate) use showing::Showing;
 
 /// After the last movement the picture rests.
 const REST: Duration = Duration::from_millis(180);
 /// Samples of a picture at rest.
 const SAMPLES: u32 = 8;
+/// So near the line between two pictures the line is taken, points.
+const REACH: f32 = 8.0;
 
 /// One picture on the screen: what draws it, and by which name the window knows it.
 struct Screen {
@@ -40,6 +53,10 @@ pub(crate) struct ModelView {
     pub(crate) shot: Shot,
     /// Where the picture of the locked node begins, as a share of the width; none without comparison.
     pub(crate) wipe: Option<f32>,
+    /// Whether the drag that goes on took the line between two pictures.
+    holds_wipe: bool,
+    /// What was shown last, until what is wanted has come.
+    last: Option<Picture>,
     moved: Option<Instant>,
     /// Why there is no picture.
     fault: Option<String>,
@@ -54,39 +71,51 @@ pub(crate) struct Subject<'a> {
     pub(crate) seen: &'a Seen,
     /// What it is compared with.
     pub(crate) locked: Option<&'a Seen>,
+    /// Both in words.
+    pub(crate) showing: &'a Showing,
+    /// Whether a click takes the color that is seen.
+    pub(crate) is_taking_color: bool,
     /// Whether a knob is being moved.
     pub(crate) is_moving: bool,
     pub(crate) theme: &'a Theme,
     /// What drags mean.
     pub(crate) habit: Habit,
+    pub(crate) keys: &'a KeyMap,
 }
 
 /// What was done in the view.
 #[derive(Default)]
 pub(crate) struct Done {
-    /// The surface that was clicked.
-    pub(crate) picked: Option<Picked>,
+    /// The color that was clicked, where one is wanted.
+    pub(crate) taken: Option<Taken>,
     /// The environment that was chosen.
     pub(crate) environment: Option<String>,
+    /// What menus ask for.
+    pub(crate) asked: Vec<Action>,
 }
 
 impl ModelView {
-    pub(crate) fn new(environment: &str) -> ModelView {
+    /// A view in this environment, as it was chosen to be.
+    pub(crate) fn new(environment: &str, choices: &ViewChoices) -> ModelView {
         let camera = Camera::seen_from(
             Viewpoint::THREE_QUARTER,
             [glam::Vec3::splat(-0.5), glam::Vec3::splat(0.5)],
             1.0,
         );
+        let mut shot = Shot {
+            samples: SAMPLES,
+            ..Shot::new(camera)
+        };
+        choices.give(&mut shot);
         ModelView {
             screens: [None, None],
-            shot: Shot {
-                samples: SAMPLES,
-                ..Shot::new(camera)
-            },
+            shot,
             camera,
             framed: None,
             surroundings: Surroundings::new(environment),
             wipe: None,
+            holds_wipe: false,
+            last: None,
             moved: None,
             fault: None,
             length: None,
@@ -116,11 +145,13 @@ impl ModelView {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Model"));
         ui.painter().rect_filled(rect, 0.0, subject.theme.ground);
-        let picture = stage.picture(subject.seen).cloned();
+        // What is evaluated for the first time takes a while, and an empty view in between would be a flash.
+        let picture = stage.picture(subject.seen).or(self.last.as_ref()).cloned();
         if let Some(picture) = &picture {
             self.frame_new(&picture.model, rect);
             let drags = mouse::dragged(subject.habit, Scope::Viewport, &response);
-            self.turn(ui, &response, rect, drags, &picture.model, &mut done);
+            self.turn(ui, &response, rect, drags);
+            done.taken = self.clicked_color(&response, rect, stage, picture, subject);
         }
         match (render, &picture) {
             (Some(render), Some(picture)) => self.paint(ui, rect, stage, render, picture, subject),
@@ -135,11 +166,13 @@ impl ModelView {
                 self.say(ui, rect, subject.theme, why);
             }
         }
+        self.last = picture;
         if let Some(fault) = &self.fault {
             self.say(ui, rect, subject.theme, fault);
         }
         self.draw_length(ui, rect, stage, subject.theme);
-        done.environment = menu::show(self, ui, rect, stage, subject);
+        showing::label(self, ui, rect, stage, subject);
+        done.environment = menu::show(self, ui, rect, stage, subject, &mut done.asked);
         done
     }
 
@@ -165,33 +198,21 @@ impl ModelView {
     }
 
     /// Turns, moves and zooms as the pointer wants.
-    fn turn(
-        &mut self,
-        ui: &Ui,
-        response: &egui::Response,
-        rect: Rect,
-        drags: Option<Drags>,
-        model: &LiveModel,
-        done: &mut Done,
-    ) {
+    fn turn(&mut self, ui: &Ui, response: &Response, rect: Rect, drags: Option<Drags>) {
         let (delta, scroll) = ui.input(|input| (input.pointer.delta(), input.smooth_scroll_delta().y));
         let size = Vec2::new(rect.width(), rect.height());
         let drag = Vec2::new(delta.x, delta.y);
-        let by = |button| response.dragged_by(button) && delta != egui::Vec2::ZERO;
         let before = (self.camera, self.shot.environment_turn_degrees);
-        if by(PointerButton::Primary) && self.is_on_wipe(response, rect) {
-            let at = ui.input(|input| input.pointer.latest_pos()).unwrap_or(rect.center());
-            self.wipe = Some(((at.x - rect.left()) / rect.width()).clamp(0.02, 0.98));
-        } else {
-            match drags.filter(|_| delta != egui::Vec2::ZERO) {
-                Some(Drags::Orbit) => self.camera.orbit(drag, size),
-                Some(Drags::Pan) => self.camera.pan(drag, size),
-                Some(Drags::Zoom) => self.camera.zoom((-delta.y * 0.01).exp()),
-                Some(Drags::Light) => {
-                    self.shot.environment_turn_degrees += delta.x / rect.width().max(1.0) * 360.0;
-                }
-                _ => {}
+        // While the line between two pictures goes with the pointer, the model stays.
+        let is_free = !self.moves_wipe(ui, response, rect) && delta != egui::Vec2::ZERO;
+        match drags.filter(|_| is_free) {
+            Some(Drags::Orbit) => self.camera.orbit(drag, size),
+            Some(Drags::Pan) => self.camera.pan(drag, size),
+            Some(Drags::Zoom) => self.camera.zoom((-delta.y * 0.01).exp()),
+            Some(Drags::Light) => {
+                self.shot.environment_turn_degrees += delta.x / rect.width().max(1.0) * 360.0;
             }
+            _ => {}
         }
         let pointer = response.hover_pos();
         if let Some(at) = pointer.filter(|_| scroll != 0.0 && response.contains_pointer()) {
@@ -201,23 +222,28 @@ impl ModelView {
         if before != (self.camera, self.shot.environment_turn_degrees) {
             self.moved = Some(Instant::now());
         }
-        if response.clicked()
-            && let Some(at) = response.interact_pointer_pos()
-        {
-            done.picked = self.picked(model, rect, at);
-        }
     }
 
-    fn is_on_wipe(&self, response: &egui::Response, rect: Rect) -> bool {
-        let origin = response.ctx.input(|input| input.pointer.press_origin());
-        let at = self.wipe.map(|wipe| rect.left() + wipe * rect.width());
-        at.zip(origin).is_some_and(|(at, origin)| {
-            let grabbed = response
-                .ctx
-                .input(|input| input.pointer.latest_pos())
-                .map_or(f32::INFINITY, |now| (now.x - at).abs());
-            (origin.x - at).abs() < 8.0 || grabbed < 8.0
-        })
+    /// Moves the line between two pictures, where the drag that goes on took it when it began; the cursor says what would be
+    /// taken.
+    fn moves_wipe(&mut self, ui: &Ui, response: &Response, rect: Rect) -> bool {
+        let Some(line) = self.wipe.map(|wipe| rect.left() + wipe * rect.width()) else {
+            self.holds_wipe = false;
+            return false;
+        };
+        let (origin, at) = ui.input(|input| (input.pointer.press_origin(), input.pointer.latest_pos()));
+        let is_near = |at: Option<egui::Pos2>| at.is_some_and(|at| (at.x - line).abs() < REACH);
+        if response.drag_started_by(PointerButton::Primary) {
+            self.holds_wipe = is_near(origin);
+        }
+        self.holds_wipe &= response.dragged_by(PointerButton::Primary);
+        if self.holds_wipe || !response.dragged() && is_near(response.hover_pos()) {
+            ui.set_cursor_icon(CursorIcon::ResizeHorizontal);
+        }
+        if let Some(at) = at.filter(|_| self.holds_wipe) {
+            self.wipe = Some(((at.x - rect.left()) / rect.width()).clamp(0.02, 0.98));
+        }
+        self.holds_wipe
     }
 
     /// What is under a place of the screen.
@@ -237,7 +263,8 @@ impl ModelView {
         rect: Rect,
         pointer: Option<egui::Pos2>,
     ) {
-        let Some(model) = stage.picture(seen).map(|picture| picture.model.clone()) else {
+        let picture = stage.picture(seen).or(self.last.as_ref());
+        let Some(model) = picture.map(|picture| picture.model.clone()) else {
             return;
         };
         let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
@@ -275,8 +302,8 @@ impl ModelView {
         }
     }
 
-    /// A bar as long as a length on the model, at the distance that is looked at.
-    fn draw_length(&self, ui: &Ui, rect: Rect, stage: &Stage, theme: &Theme) {
+    /// A bar as long as a length on the model, at the distance that is looked at, and how long that is.
+    fn draw_length(&self, ui: &mut Ui, rect: Rect, stage: &Stage, theme: &Theme) {
         let (Some(length), Some(model)) = (self.length, &stage.shown_model) else {
             return;
         };
@@ -284,22 +311,17 @@ impl ModelView {
         let points = (length * view_from_working) as f32 / self.camera.height_at_target() * rect.height();
         let width = points.min(rect.width() - 40.0).max(1.0);
         let start = pos2(rect.left() + 20.0, rect.bottom() - 24.0);
-        let end = start + egui::vec2(width, 0.0);
+        let end = start + vec2(width, 0.0);
         let stroke = Stroke::new(2.0, theme.accent);
         ui.painter().line_segment([start, end], stroke);
         for at in [start, end] {
             ui.painter()
-                .line_segment([at - egui::vec2(0.0, 5.0), at + egui::vec2(0.0, 5.0)], stroke);
+                .line_segment([at - vec2(0.0, 5.0), at + vec2(0.0, 5.0)], stroke);
         }
+        let words = Lengths::on(Some(model)).in_both(length);
+        showing::told(ui, theme, start - vec2(0.0, 16.0), Align2::LEFT_CENTER, &words);
     }
 }
-
-/// How a background is called.
-pub(crate) const BACKGROUNDS: [(&str, Background); 3] = [
-    ("Out of focus", Background::Blurred),
-    ("Sharp", Background::Environment),
-    ("Plain", Background::Plain([0.028, 0.029, 0.032])),
-];
 
 fn aspect(rect: Rect) -> f32 {
     aspect_of(Vec2::new(rect.width(), rect.height()))

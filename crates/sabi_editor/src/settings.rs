@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::command::Habit;
 use crate::dock::Layout;
+use crate::model_view::ViewChoices;
 use crate::panels::export::{ExportChoices, ExportPlace};
 use crate::theme::Shade;
 
@@ -37,6 +38,11 @@ pub(crate) struct Settings {
     pub(crate) export_places: BTreeMap<PathBuf, ExportPlace>,
     /// Environment of the viewport: a built-in name, or a file.
     pub(crate) environment: String,
+    /// Light and picture of the viewport.
+    pub(crate) view: ViewChoices,
+    /// Whether the model shows the node that is clicked, and not only the outputs.
+    pub(crate) follows: bool,
+    pub(crate) has_mini_map: bool,
     pub(crate) layout: Option<Layout>,
     /// Node kinds and library files that are shown first.
     pub(crate) favorites: Vec<String>,
@@ -55,6 +61,9 @@ impl Default for Settings {
             export: ExportChoices::default(),
             export_places: BTreeMap::new(),
             environment: "studio".to_owned(),
+            view: ViewChoices::default(),
+            follows: true,
+            has_mini_map: false,
             layout: None,
             favorites: Vec::new(),
         }
@@ -127,6 +136,7 @@ impl Settings {
         self.models.truncate(MOST_MODELS);
         self.recent.truncate(MOST_RECENT);
         self.export = self.export.sound();
+        self.view = self.view.sound();
         self
     }
 }

@@ -20,6 +20,9 @@ const COARSE: u32 = 256;
 /// Texels of full pictures where the graph names no size: what software drivers do in a blink, and what graphics cards do.
 const FULL: [u32; 2] = [512, 1024];
 
+/// Pictures of the model that are kept besides those that are wanted, since one goes back to what one has just seen.
+const KEPT_PICTURES: usize = 6;
+
 /// What a viewport shows of one thing.
 #[derive(Clone)]
 pub(crate) struct Picture {
@@ -177,6 +180,7 @@ impl Stage {
         if !is_same_graph {
             self.graph = Arc::new(desk.session.graph().clone());
         }
+        self.let_go(desk, &wanted);
         self.wishes += 1;
         self.live.ask(Wish {
             revision: self.wishes,
@@ -273,10 +277,49 @@ impl Stage {
         self.faults = faults;
     }
 
-    /// Lets go of pictures of nodes that are no more.
-    pub(crate) fn forget(&mut self, known: &BTreeSet<String>) {
-        self.thumbnails.retain(|node, _| known.contains(&node.node));
-        self.times.retain(|node, _| known.contains(node));
+    /// Lets go of what nobody wants and nobody will want soon: of nodes that are gone, of other models, of long ago.
+    fn let_go(&mut self, desk: &Desk, wanted: &Wanted) {
+        let mut numbers: Vec<u64> = self.pictures.values().map(|picture| picture.number).collect();
+        numbers.sort_unstable();
+        let oldest = numbers.len().saturating_sub(KEPT_PICTURES + wanted.seen.len());
+        let oldest = numbers.get(oldest).copied().unwrap_or_default();
+        let revision = self.model_revision;
+        let is_kept = |seen: &Seen, picture: &Picture| {
+            let is_there = match seen {
+                Seen::Outputs => true,
+                Seen::Node(node) => desk.has(&node.node),
+            };
+            is_there && picture.number >= oldest && picture.model.model_revision == revision
+        };
+        let gone = self.pictures.iter();
+        let gone = gone.filter(|(seen, picture)| !wanted.seen.contains(seen) && !is_kept(seen, picture));
+        let gone: Vec<Seen> = gone.map(|(seen, _)| seen.clone()).collect();
+        let nodes = self.thumbnails.keys();
+        let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !desk.has(&node.node));
+        let nodes: Vec<NodeRef> = nodes.cloned().collect();
+        self.times.retain(|node, _| desk.has(node));
+        self.forget(gone, nodes);
+    }
+
+    /// Lets go of all pictures of nodes, since another graph is opened.
+    pub(crate) fn forget_nodes(&mut self) {
+        let seen = self.pictures.keys().filter(|seen| **seen != Seen::Outputs);
+        let (seen, nodes) = (seen.cloned().collect(), self.thumbnails.keys().cloned().collect());
+        self.times.clear();
+        self.forget(seen, nodes);
+    }
+
+    /// Lets go of pictures, which come again once they are wanted again.
+    fn forget(&mut self, seen: Vec<Seen>, nodes: Vec<NodeRef>) {
+        for seen in &seen {
+            self.pictures.remove(seen);
+        }
+        for node in &nodes {
+            self.thumbnails.remove(node);
+        }
+        if !seen.is_empty() || !nodes.is_empty() {
+            self.live.forget(seen, nodes);
+        }
     }
 
     /// What a viewport shows; while nothing came of it yet, nothing.
@@ -303,6 +346,12 @@ impl Stage {
 
     pub(crate) fn time(&self, node: &str) -> Option<Duration> {
         self.times.get(node).copied()
+    }
+
+    /// How many pictures of the model, pictures of nodes and times are held.
+    #[cfg(test)]
+    pub(crate) fn held(&self) -> [usize; 3] {
+        [self.pictures.len(), self.thumbnails.len(), self.times.len()]
     }
 
     /// How long each node took when it was last evaluated.

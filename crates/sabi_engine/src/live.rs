@@ -21,9 +21,10 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use sabi_gpu::Gpu;
+use sabi_graph::NodeRef;
 
 use crate::error::{EngineError, ErrorKind};
-use mailbox::Mailbox;
+use mailbox::{Forgotten, Mailbox};
 pub use news::{Faults, Inspected, LiveModel, LiveTimes, News, NodeFault, Waiting};
 pub use wish::{LiveOptions, Seen, Wish};
 use worker::Worker;
@@ -56,6 +57,12 @@ impl Live {
     /// Wishes for something else than before. Work that is of no use any more ends at its next step.
     pub fn ask(&self, wish: Wish) {
         self.mailbox.ask(wish);
+    }
+
+    /// Says that pictures were let go of: where they are wished for again, they are told again. What is told once is otherwise
+    /// not told a second time as long as it looks the same.
+    pub fn forget(&self, seen: Vec<Seen>, thumbnails: Vec<NodeRef>) {
+        self.mailbox.forget(Forgotten { seen, thumbnails });
     }
 
     /// What came since the last call, oldest first.

@@ -69,11 +69,7 @@ impl Editor {
         self.recall_export();
         self.keeping.revision = None;
         self.canvas = Default::default();
-        self.shown = None;
-        self.pinned = None;
-        self.locked = None;
-        self.ports.clear();
-        self.stage.forget(&Default::default());
+        self.look_at_nothing();
         if let Some(model) = model.filter(|model| model != self.stage.model_file()) {
             self.take_model(&model);
         }

@@ -46,11 +46,12 @@ impl Editor {
             Action::TakeOut => {
                 desk.take_out();
             }
-            Action::Select(ids) => desk.select(ids),
+            Action::Select(ids) => self.select(ids),
             Action::Arrow(way) => self.follow_arrow(way, ui),
             Action::Toggle(id) => desk.toggle(&id),
             Action::Show { node, port } => self.look_at(&node, port),
             Action::Pin { node } => self.pin(&node),
+            Action::Look(asked) => self.look(asked),
             Action::Enter(id) => {
                 desk.enter(&id);
             }
@@ -73,11 +74,14 @@ impl Editor {
             Action::TakeModel(path) => self.take_model(&path),
             Action::Dropped(path) => self.take_dropped_file(&path, ui),
             Action::GoTo(node) => self.go_to(&node),
-            Action::Steps(steps) => {
-                for _ in 0..steps.unsigned_abs() {
-                    if steps < 0 { self.desk.undo() } else { self.desk.redo() }
-                }
-            }
+            Action::Steps(steps) => self.go_steps(steps),
+        }
+    }
+
+    /// Takes back so many steps, or does them again.
+    fn go_steps(&mut self, steps: i32) {
+        for _ in 0..steps.unsigned_abs() {
+            if steps < 0 { self.desk.undo() } else { self.desk.redo() }
         }
     }
 
@@ -104,12 +108,6 @@ impl Editor {
         if let Some(id) = added {
             self.look_at(&id, None);
         }
-    }
-
-    /// Keeps a node in the 2D view, or lets it go where it is kept.
-    fn pin(&mut self, node: &NodeId) {
-        let reference = Some(self.reference(node, None));
-        self.pinned = if self.pinned == reference { None } else { reference };
     }
 
     fn change_wires(&mut self, asked: WireAsk) {
@@ -261,36 +259,10 @@ impl Editor {
                     self.desk.leave();
                 }
             }
-            Command::Preview | Command::Lock | Command::Flat => self.command_of_looks(command),
+            Command::Preview | Command::Follow | Command::Lock | Command::Flat | Command::MiniMap => {
+                self.command_of_looks(command);
+            }
             _ => self.command_of_window(command, ui),
-        }
-    }
-
-    fn command_of_looks(&mut self, command: Command) {
-        let selected = self.desk.selected_one().cloned();
-        match command {
-            Command::Flat => self.settings.is_flat = !self.settings.is_flat,
-            Command::Preview => {
-                self.follows = !self.follows;
-                if let Some(id) = selected {
-                    let port = self.ports.get(&self.desk.full_id(&id)).cloned();
-                    self.look_at(&id, port);
-                }
-                let follows = self.follows;
-                self.say(if follows {
-                    "The model shows the node that is clicked"
-                } else {
-                    "The model shows the outputs"
-                });
-            }
-            Command::Lock => {
-                let chosen = selected.map(|id| {
-                    let port = self.ports.get(&self.desk.full_id(&id)).cloned();
-                    self.reference(&id, port)
-                });
-                self.locked = if self.locked == chosen { None } else { chosen };
-            }
-            _ => {}
         }
     }
 

@@ -5,9 +5,10 @@ use sabi_graph::NodeRef;
 
 use super::Editor;
 use super::keys::anchor_id;
-use crate::action::Action;
+use crate::action::{Action, LookAsk};
 use crate::canvas::{Around, NodeState, focus_id};
 use crate::dock::{self, Docked, Layout, Panel};
+use crate::flat_view;
 use crate::model_view::Subject;
 use crate::panels;
 
@@ -17,6 +18,7 @@ impl Editor {
         let theme = self.theme.clone();
         let problems = self.problem_count();
         self.rects.clear();
+        self.model_view.length = self.panels.parameters.length.take();
         let mut docked = Docked {
             theme: &theme,
             problems,
@@ -48,8 +50,9 @@ impl Editor {
         self.use_layout = match self.use_layout.take() {
             Some(_) => None,
             None => {
-                // The panel of the whole graph is meant, and keys are for nothing that is not seen.
+                // The whole graph is meant, its panel and its outputs, and keys are for nothing that is not seen.
                 self.desk.leave_to(0);
+                self.followed = None;
                 self.active = Panel::Viewport;
                 Some(dock::use_layout())
             }
@@ -78,15 +81,7 @@ impl Editor {
         match panel {
             Panel::Canvas => self.canvas_panel(ui, actions),
             Panel::Viewport => self.model_panel(ui, actions),
-            Panel::Flat => {
-                let wanted = self.pinned.clone().or(self.shown.clone());
-                let title = wanted.as_ref().map_or_else(String::new, |node| self.title_of(node));
-                self.padded(ui, |editor, ui| {
-                    editor
-                        .flat_view
-                        .show(ui, &editor.stage, &editor.theme.clone(), wanted.as_ref(), &title);
-                });
-            }
+            Panel::Flat => self.padded(ui, |editor, ui| editor.flat_panel(ui, actions)),
             _ => self.padded(ui, |editor, ui| editor.side_panel(ui, panel, actions)),
         }
     }
@@ -100,7 +95,7 @@ impl Editor {
             Panel::Export => panels::export::show(self, ui, &theme),
             Panel::History => panels::history::show(self, ui, &theme, actions),
             Panel::Problems => panels::problems::show(self, ui, &theme, actions),
-            Panel::Performance => panels::performance::show(self, ui, &theme),
+            Panel::Performance => panels::performance::show(self, ui, &theme, actions),
             Panel::Page => panels::page::show(self, ui, &theme, actions),
             Panel::Canvas | Panel::Viewport | Panel::Flat => {}
         }
@@ -117,26 +112,21 @@ impl Editor {
 
     fn canvas_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         self.breadcrumb(ui, actions);
-        let (stage, desk, ports) = (&self.stage, &self.desk, &self.ports);
+        // It is drawn from what is around it.
+        let mut canvas = std::mem::take(&mut self.canvas);
+        let (stage, desk) = (&self.stage, &self.desk);
         let state_of = |id: &sabi_graph::NodeId| {
-            let node = desk.full_id(id);
-            let reference = NodeRef {
-                port: ports.get(&node).cloned(),
-                node,
-            };
+            let result = self.chosen(id);
             NodeState {
-                picture: stage.thumbnail(&reference).map(egui::TextureHandle::id),
-                time: stage.time(&reference.node),
-                fault: stage.fault(&reference.node).cloned(),
-                waits: stage.waits(&reference.node).cloned(),
+                picture: stage.thumbnail(&result).map(egui::TextureHandle::id),
+                time: stage.time(&result.node),
+                fault: stage.fault(&result.node).cloned(),
+                waits: stage.waits(&result.node).cloned(),
             }
         };
-        let looked_at = self.pinned.as_ref().or(self.shown.as_ref());
-        let previewed = looked_at.and_then(|node| {
-            let own = node.node.rsplit('/').next()?;
-            let id = own.parse::<sabi_graph::NodeId>().ok()?;
-            (desk.full_id(&id) == node.node).then_some(id)
-        });
+        let here = |node: &NodeRef| desk.seen_at(&node.node);
+        let previewed = self.inspected().and_then(here);
+        let pinned = self.pinned.as_ref().and_then(here);
         let around = Around {
             desk,
             theme: &self.theme,
@@ -144,8 +134,11 @@ impl Editor {
             candidates: &self.candidates.1,
             previewed: previewed.as_ref(),
             habit: self.settings.habit,
+            pinned: pinned.as_ref(),
+            has_map: self.settings.has_mini_map,
         };
-        actions.extend(self.canvas.show(ui, &around));
+        actions.extend(canvas.show(ui, &around));
+        self.canvas = canvas;
     }
 
     fn model_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
@@ -156,17 +149,41 @@ impl Editor {
         let subject = Subject {
             seen: &seen,
             locked: locked.as_ref(),
+            showing: &self.showing(),
             is_moving: self.is_moving,
+            is_taking_color: self.is_taking_color(),
             theme: &theme,
             habit: self.settings.habit,
+            keys: &self.keys,
         };
         let render = self.render.clone();
         let done = self.model_view.show(ui, &self.stage, render.as_ref(), &subject);
         if let Some(environment) = done.environment {
             self.settings.environment = environment;
         }
-        if let Some(picked) = done.picked {
-            self.take_picked(&picked);
+        actions.extend(done.asked);
+        if let Some(taken) = done.taken {
+            self.take_color(taken);
+        }
+    }
+
+    fn flat_panel(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let wanted = self.inspected().cloned();
+        let title = wanted.as_ref().map_or_else(String::new, |node| self.title_of(node));
+        let theme = self.theme.clone();
+        let subject = flat_view::Subject {
+            wanted: wanted.as_ref(),
+            title: &title,
+            is_pinned: self.pinned.is_some(),
+            is_taking_color: self.is_taking_color(),
+            theme: &theme,
+        };
+        let done = self.flat_view.show(ui, &self.stage, &subject);
+        if done.unpins {
+            actions.push(Action::Look(LookAsk::Unpin));
+        }
+        if let Some(taken) = done.taken {
+            self.take_color(taken);
         }
     }
 }

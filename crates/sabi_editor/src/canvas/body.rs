@@ -32,12 +32,12 @@ pub(super) fn title_row(ui: &mut Ui, hand: &Hand, shown: &Shown) {
     let rect = rect.expand2(vec2(SIDE - 8.0, 0.0) * zoom);
     let theme = &hand.theme;
     let badge = badge(shown).map(|(text, color)| (text, color.unwrap_or(theme.text.gamma_multiply(0.75))));
+    let pin = shown.is_pinned.then(|| (icon::PUSH_PIN.to_owned(), theme.text));
     let mut right = rect.right();
-    if let Some((text, color)) = badge {
+    for (text, color) in [badge, pin].into_iter().flatten() {
         let font = FontId::proportional(type_size::SMALL * zoom);
-        let drawn = ui
-            .painter()
-            .text(rect.right_center(), Align2::RIGHT_CENTER, text, font, color);
+        let at = pos2(right, rect.center().y);
+        let drawn = ui.painter().text(at, Align2::RIGHT_CENTER, text, font, color);
         right = drawn.left() - space::TIGHT * zoom;
     }
     let font = FontId::proportional(type_size::BODY * zoom);

@@ -28,6 +28,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
         let shown = &mut canvas.snapshot.graph[key].user_data;
         shown.state = (around.state_of)(id);
         shown.is_previewed = around.previewed == Some(id);
+        shown.is_pinned = around.pinned == Some(id);
         let is_bend = is_bend(&shown.face);
         let response = if is_bend {
             bend::show(canvas, ui, panel, around, key)
@@ -40,9 +41,10 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
         let title = &canvas.snapshot.graph[key].user_data.title;
         let is_selected = around.desk.is_selected(id);
         response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, title));
-        let state = &canvas.snapshot.graph[key].user_data.state;
-        if let Some(sentence) = state.fault.as_ref().or(state.waits.as_ref()) {
-            let said = sentence.as_str();
+        let shown = &canvas.snapshot.graph[key].user_data;
+        let sentence = shown.state.fault.as_ref().or(shown.state.waits.as_ref());
+        let pinned = shown.is_pinned.then_some("pinned to the 2D view");
+        if let Some(said) = sentence.map(String::as_str).or(pinned) {
             ui.ctx()
                 .accesskit_node_builder(response.id, |node| node.set_description(said));
         }

@@ -44,6 +44,8 @@ pub(super) struct Shown {
     pub(super) state: NodeState,
     /// Whether the 2D view shows it.
     pub(super) is_previewed: bool,
+    /// Whether it does so whatever is clicked.
+    pub(super) is_pinned: bool,
     /// Values of the knobs that are rows of the node, by name; those that are not here have their defaults.
     pub(super) values: BTreeMap<String, Value>,
 }
@@ -211,6 +213,7 @@ impl Snapshot {
             is_muted: false,
             state: NodeState::default(),
             is_previewed: false,
+            is_pinned: false,
             values: BTreeMap::new(),
         };
         let key = self.graph.add_node(String::new(), shown, |graph, key| {

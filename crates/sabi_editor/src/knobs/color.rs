@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id,
     if let Some(color) = asked {
         ask.set(row, Value::Text(code_of(color)));
     }
-    let name = format!("{label}: take from the screen");
+    let name = format!("{label}: take from the model or the texture");
     if sign_button(ui, ask, id.with("dropper"), drop, icon::EYEDROPPER, &name).clicked() {
         let knob = row.knob.name.clone();
         ask.events.push(KnobEvent::Eyedropper { knob });

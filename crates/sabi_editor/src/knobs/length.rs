@@ -1,5 +1,7 @@
 //! What lengths of a graph are on the model that is open.
 
+use sabi_engine::LiveModel;
+
 use super::expression::Units;
 use super::values::text_of;
 
@@ -21,6 +23,25 @@ const UNITS: [(&str, f64, f64); 4] = [
 ];
 
 impl Lengths {
+    /// How long things are on a model; as in the graph while there is none.
+    pub(crate) fn on(model: Option<&LiveModel>) -> Lengths {
+        Lengths {
+            model_units_per_working: model.map_or(1.0, |model| 1.0 / model.prepared.working_from_model(&model.fit)),
+            // glTF counts in metres.
+            metres_per_model_unit: 1.0,
+        }
+    }
+
+    /// A length as the graph has it and as it is on the model.
+    pub(crate) fn in_both(&self, working: f64) -> String {
+        let step = 10.0_f64.powf(working.abs().max(1e-9).log10().floor());
+        let written = text_of(working, step);
+        match self.text(working) {
+            Some(real) => format!("{written} = {real}"),
+            None => written,
+        }
+    }
+
     fn metres(&self) -> Option<f64> {
         let metres = self.model_units_per_working * self.metres_per_model_unit;
         (metres.is_normal() && metres > 0.0).then_some(metres)
@@ -108,6 +129,7 @@ mod tests {
         ] {
             assert_eq!(lengths.text(working).as_deref(), Some(expected), "{working}");
         }
+        assert_eq!(lengths.in_both(0.0123456), "0.0123 = 2.1 cm");
     }
 
     #[test]
@@ -118,6 +140,7 @@ mod tests {
                 metres_per_model_unit,
             };
             assert_eq!(lengths.text(0.1), None);
+            assert_eq!(lengths.in_both(0.1), "0.1");
             assert!(lengths.units().iter().all(|(_, factor)| factor.is_finite()));
         }
     }

@@ -1,11 +1,14 @@
 //! What stands in the corner of the view: how the model is shown, and in which light.
 
-use egui::{Rect, Ui, UiBuilder, vec2};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{PopupCloseBehavior, Rect, Ui, UiBuilder, vec2};
 use egui_phosphor::regular as icon;
 use sabi_engine::built_in_environments;
-use sabi_engine::view::{Lines, Mode, ViewTransform};
+use sabi_engine::view::{Lines, Mode};
 
-use super::{BACKGROUNDS, ModelView, Subject};
+use super::choices::{BACKGROUNDS, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
+use super::{ModelView, Subject, showing};
+use crate::action::Action;
 use crate::stage::Stage;
 
 /// What the model can be shown as, with what it is called.
@@ -26,13 +29,14 @@ const MODES: [(&str, Mode); 14] = [
     ("Clay", Mode::Clay),
 ];
 
-/// Draws the menus; answers with an environment that was chosen.
+/// Draws the menus; answers with an environment that was chosen, and asks for what others do.
 pub(super) fn show(
     view: &mut ModelView,
     ui: &mut Ui,
     rect: Rect,
     stage: &Stage,
     subject: &Subject<'_>,
+    asked: &mut Vec<Action>,
 ) -> Option<String> {
     let strip = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(rect.width() - 12.0, 24.0));
     let mut chosen = None;
@@ -42,13 +46,21 @@ pub(super) fn show(
                 .iter()
                 .find(|(_, mode)| *mode == view.shot.mode)
                 .map_or("Material", |(name, _)| name);
+            ui.menu_button(format!("{} Shown", icon::CROSSHAIR), |ui| {
+                showing::menu(view, ui, subject, asked)
+            });
+            ui.menu_button(format!("{} View", icon::VIDEO_CAMERA), |ui| {
+                showing::viewpoints(ui, subject, asked)
+            });
             ui.menu_button(format!("{} {mode}", icon::SPHERE), |ui| {
                 for (name, mode) in MODES {
                     ui.selectable_value(&mut view.shot.mode, mode, name);
                 }
             });
-            ui.menu_button(format!("{} Light", icon::SUN), |ui| chosen = light(view, ui));
-            ui.menu_button(format!("{} Show", icon::EYE), |ui| more(view, ui, stage));
+            let light_menu = MenuButton::new(format!("{} Light", icon::SUN)).config(staying());
+            light_menu.ui(ui, |ui| chosen = light(view, ui));
+            let more_menu = MenuButton::new(format!("{} Show", icon::EYE)).config(staying());
+            more_menu.ui(ui, |ui| more(view, ui, stage));
             if view.wipe.is_some() && subject.locked.is_none() {
                 ui.colored_label(subject.theme.warning, "Lock a node (P) to compare with it");
             }
@@ -58,6 +70,11 @@ pub(super) fn show(
         view.surroundings.choose(choice);
     }
     chosen
+}
+
+/// A menu in which one tries several things before it closes.
+fn staying() -> MenuConfig {
+    MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside)
 }
 
 fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
@@ -73,18 +90,14 @@ fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
     }
     ui.separator();
     ui.add(
-        egui::Slider::new(&mut view.shot.environment_turn_degrees, -180.0..=180.0)
+        egui::Slider::new(&mut view.shot.environment_turn_degrees, TURN_DEGREES)
             .text("Turn")
             .suffix("°"),
     );
-    ui.add(egui::Slider::new(&mut view.shot.environment_strength, 0.0..=4.0).text("Strength"));
-    ui.add(egui::Slider::new(&mut view.shot.exposure_stops, -6.0..=6.0).text("Exposure"));
+    ui.add(egui::Slider::new(&mut view.shot.environment_strength, STRENGTH).text("Strength"));
+    ui.add(egui::Slider::new(&mut view.shot.exposure_stops, EXPOSURE_STOPS).text("Exposure"));
     ui.separator();
-    for (name, transform) in [
-        ("AgX", ViewTransform::AgX),
-        ("ACES", ViewTransform::Aces),
-        ("Standard", ViewTransform::Standard),
-    ] {
+    for (_, name, transform) in TRANSFORMS {
         ui.selectable_value(&mut view.shot.transform, transform, name);
     }
     chosen
@@ -99,7 +112,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, stage: &Stage) {
     }
     ui.checkbox(&mut view.shot.has_relief, "Relief");
     ui.separator();
-    for (name, background) in BACKGROUNDS {
+    for (_, name, background) in BACKGROUNDS {
         ui.selectable_value(&mut view.shot.background, background, name);
     }
     let quality = sabi_engine::view::Quality::of(stage.gpu().summary().kind);

@@ -65,7 +65,8 @@ impl ModelView {
     ) -> Option<TextureId> {
         let scale = ui.ctx().pixels_per_point();
         let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
-        let drawn = self.draw(at, stage, picture, size, is_moving);
+        let shot = self.shot_of(picture);
+        let drawn = self.draw(at, stage, picture, &shot, size, is_moving);
         match drawn {
             Ok(has_drawn) => {
                 self.fault = None;
@@ -101,11 +102,27 @@ impl ModelView {
         Some(id)
     }
 
-    fn draw(
+    /// How something is shown as one looks at it now.
+    pub(super) fn shot_of(&self, picture: &Picture) -> Shot {
+        Shot {
+            camera: self.camera,
+            mode: if picture.shown.is_lit {
+                self.shot.mode
+            } else {
+                Mode::Node
+            },
+            height_range: picture.shown.height_range,
+            ..self.shot.clone()
+        }
+    }
+
+    /// Draws one screen as far as it has to be, and says whether it had to.
+    pub(super) fn draw(
         &mut self,
         at: usize,
         stage: &Stage,
         picture: &Picture,
+        shot: &Shot,
         size: [u32; 2],
         is_moving: bool,
     ) -> Result<bool, EngineError> {
@@ -129,18 +146,8 @@ impl ModelView {
             environment,
             lights: &[],
         };
-        let shot = Shot {
-            camera: self.camera,
-            mode: if picture.shown.is_lit {
-                self.shot.mode
-            } else {
-                Mode::Node
-            },
-            height_range: picture.shown.height_range,
-            ..self.shot.clone()
-        };
         // An environment that was changed is another picture too.
         let revision = picture.number ^ (self.surroundings.number() << 48);
-        Ok(screen.viewport.show(gpu, &scene, revision, &shot, size, is_moving)?)
+        Ok(screen.viewport.show(gpu, &scene, revision, shot, size, is_moving)?)
     }
 }

@@ -13,16 +13,15 @@ use crate::theme::Theme;
 /// What the panel holds from frame to frame.
 #[derive(Default)]
 pub(crate) struct Parameters {
-    /// The knob that takes a color from the model.
+    /// The knob that takes a color from what is clicked.
     pub(crate) eyedropper: Option<KnobAt>,
-    /// A length that is turned, working units.
+    /// A length that is pointed at or turned, working units.
     pub(crate) length: Option<f64>,
     published: published::Published,
     variants: variants::Variants,
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
-    editor.model_view.length = editor.panels.parameters.length.take();
     if editor.is_use_view() || editor.desk.selection().is_empty() {
         of_graph(editor, ui, theme, actions);
         return;
@@ -34,7 +33,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
             let sentence =
                 format!("{count} nodes of several kinds are selected; those of one kind are turned together.");
             ui.add(egui::Label::new(egui::RichText::new(sentence).color(theme.quiet)).wrap());
-            let lengths = lengths(editor);
+            let lengths = Lengths::on(editor.stage.shown_model.as_deref());
             knobs_ui(ui, theme, editor.knob_memory(), &[], &lengths);
         }
     }
@@ -44,7 +43,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
 fn of_graph(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
     let around = published::Around {
         theme,
-        lengths: lengths(editor),
+        lengths: Lengths::on(editor.stage.shown_model.as_deref()),
         is_use: editor.is_use_view(),
     };
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -69,7 +68,7 @@ fn alike(desk: &Desk) -> Option<NodeId> {
 }
 
 fn of_node(editor: &mut Editor, ui: &mut Ui, theme: &Theme, id: &NodeId, actions: &mut Vec<Action>) {
-    let lengths = lengths(editor);
+    let lengths = Lengths::on(editor.stage.shown_model.as_deref());
     let (Some(face), Some(node)) = (editor.desk.face(id).cloned(), editor.desk.node(id).cloned()) else {
         return;
     };
@@ -120,14 +119,4 @@ fn of_node(editor: &mut Editor, ui: &mut Ui, theme: &Theme, id: &NodeId, actions
 fn differs(desk: &Desk, knob: &str, value: Option<&Value>) -> bool {
     let mut selected = desk.selection().iter().filter_map(|other| desk.node(other));
     selected.any(|other| other.params.get(knob) != value)
-}
-
-/// How long 1 is on the model that is shown.
-fn lengths(editor: &Editor) -> Lengths {
-    let model = editor.stage.shown_model.as_ref();
-    Lengths {
-        model_units_per_working: model.map_or(1.0, |model| 1.0 / model.prepared.working_from_model(&model.fit)),
-        // glTF counts in metres.
-        metres_per_model_unit: 1.0,
-    }
 }

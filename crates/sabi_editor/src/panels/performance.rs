@@ -1,12 +1,13 @@
-//! What everything takes: time by node, steps, memory, frames.
+//! What everything takes: time by node, steps, memory, frames; a click on a node goes there.
 
 use egui::{RichText, Ui};
 
+use crate::action::Action;
 use crate::app::Editor;
 use crate::canvas::shown_time;
 use crate::theme::Theme;
 
-pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
+pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
     let last = &editor.stage.last;
     let frames = &editor.frame_times;
     let middle = {
@@ -42,12 +43,16 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
     let share = last.texture_bytes as f32 / last.budget_bytes.max(1) as f32;
     ui.add(egui::ProgressBar::new(share).desired_height(4.0).fill(theme.accent));
     ui.separator();
-    let mut times: Vec<_> = editor.stage.times().iter().collect();
+    let desk = &editor.desk;
+    // Times may come of nodes that are gone by then.
+    let mut times: Vec<_> = editor.stage.times().iter().filter(|(node, _)| desk.has(node)).collect();
     times.sort_by(|(_, one), (_, other)| other.cmp(one));
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::Grid::new("times").num_columns(2).striped(true).show(ui, |ui| {
             for (node, time) in times.into_iter().take(100) {
-                ui.label(node);
+                if ui.link(desk.title_at(node)).on_hover_text("Goes to the node").clicked() {
+                    actions.push(Action::GoTo(node.clone()));
+                }
                 ui.label(RichText::new(shown_time(*time)).monospace());
                 ui.end_row();
             }

@@ -3,8 +3,10 @@
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
+use sabi_graph::NodeRef;
+
 use super::news::News;
-use super::wish::Wish;
+use super::wish::{Seen, Wish};
 use crate::stages::{Progress, Stage};
 
 /// A wish, and when it was made.
@@ -21,8 +23,16 @@ pub(super) struct Mailbox {
 struct State {
     wish: Option<Asked>,
     news: Vec<News>,
+    forgotten: Forgotten,
     is_working: bool,
     is_closed: bool,
+}
+
+/// Pictures that the window had and has let go of.
+#[derive(Default)]
+pub(super) struct Forgotten {
+    pub(super) seen: Vec<Seen>,
+    pub(super) thumbnails: Vec<NodeRef>,
 }
 
 impl Mailbox {
@@ -30,6 +40,18 @@ impl Mailbox {
     pub(super) fn ask(&self, wish: Wish) {
         self.lock().wish = Some((wish, Instant::now()));
         self.changed.notify_one();
+    }
+
+    /// Remembers that the window has let go of pictures, until the worker asks.
+    pub(super) fn forget(&self, forgotten: Forgotten) {
+        let known = &mut self.lock().forgotten;
+        known.seen.extend(forgotten.seen);
+        known.thumbnails.extend(forgotten.thumbnails);
+    }
+
+    /// What the window has let go of since the last call.
+    pub(super) fn take_forgotten(&self) -> Forgotten {
+        std::mem::take(&mut self.lock().forgotten)
     }
 
     /// Waits for a wish; none once nobody wishes any more.

@@ -121,6 +121,7 @@ impl Worker {
     /// Answers one wish; an error is the loss of the device.
     fn answer(&mut self, wish: Wish, asked: Instant) -> Result<(), EngineError> {
         let revision = wish.revision;
+        self.forget_told();
         let mut job = Job {
             wish,
             asked,
@@ -147,6 +148,17 @@ impl Worker {
             Err(Trouble::Node { why, .. }) => self.fail(revision, EngineError::new(ErrorKind::BadInput, why)),
         }
         Ok(())
+    }
+
+    /// Takes what the window has let go of for something that it was never told.
+    fn forget_told(&mut self) {
+        let forgotten = self.mailbox.take_forgotten();
+        for seen in &forgotten.seen {
+            self.sent.shown.remove(seen);
+        }
+        for node in &forgotten.thumbnails {
+            self.sent.thumbnails.remove(node);
+        }
     }
 
     /// Ends a wish that could not be answered.

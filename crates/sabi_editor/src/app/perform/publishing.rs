@@ -107,14 +107,10 @@ impl Editor {
                 self.desk.take_back();
                 self.is_moving = false;
             }
-            KnobEvent::ShowLength(length) => self.panels.parameters.length = Some(*length),
+            KnobEvent::ShowLength(length) => {
+                self.panels.parameters.length = Some(*length).filter(|length| length.is_finite());
+            }
             _ => {}
         }
-    }
-
-    /// The next click on the model takes a color for a knob.
-    pub(super) fn ask_for_color(&mut self, knob: KnobAt) {
-        self.panels.parameters.eyedropper = Some(knob);
-        self.say("Click the model where the color is.");
     }
 }

@@ -2,6 +2,7 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
+use sabi_engine::Seen;
 use sabi_graph::NodeId;
 
 use super::Window;
@@ -186,10 +187,14 @@ fn of_looks(command: Command) -> Option<Proof> {
             (window.screen([0.0, 0.0]) - before.screen).length() < 1.0
         }),
         Command::Preview => (&["mix"], |window, _| {
-            let follows = window.editor().follows;
-            let shown = window.editor().shown.as_ref().is_some_and(|node| node.node == "mix");
-            window.harness.state_mut().follows = false;
-            follows && shown
+            let editor = window.harness.state_mut();
+            let is_shown = editor.shown.as_ref().is_some_and(|node| node.node == "mix");
+            is_shown && editor.settings.follows && editor.seen() == Seen::Node(editor.chosen(&id("mix")))
+        }),
+        Command::Follow => (&["mix"], |window, _| {
+            let follows = window.editor().settings.follows;
+            window.harness.state_mut().settings.follows = true;
+            !follows
         }),
         Command::Lock => (&["mix"], |window, _| {
             let locked = window.harness.state_mut().locked.take();

@@ -47,6 +47,16 @@ fn another_graph_is_evaluated_as_soon_as_it_is_opened() {
 }
 
 #[test]
+fn a_graph_that_is_opened_again_shows_its_pictures_again() {
+    let mut window = Window::opened(CLOUDS);
+    let clouds = window.editor().reference(&super::hands::id("clouds"), None);
+    window.until("a picture", |editor| editor.stage.thumbnail(&clouds).is_some());
+    let file = window.path("graph.sabi");
+    window.harness.state_mut().open_file(&file);
+    window.until("the picture again", |editor| editor.stage.thumbnail(&clouds).is_some());
+}
+
+#[test]
 fn the_file_of_another_graph_is_not_replaced_without_a_question() {
     let mut window = Window::opened(CLOUDS);
     let other = window.path("other.sabi");

@@ -1,4 +1,12 @@
-//! How one looks at the graph: zoom, pan, the edge, the mini map.
+//! How one looks: at the graph (zoom, pan, the edge, the mini map), and at results.
+
+mod around;
+mod eyedropper;
+mod flat;
+mod kept;
+mod lists;
+mod shown;
+mod wipe;
 
 use egui::{Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;

@@ -10,7 +10,7 @@ use crate::command::{Command, Habit, Scope};
 
 impl Window {
     /// Whether a switch is on, told to those who do not see it.
-    fn is_on(&self, label: &str) -> bool {
+    pub(super) fn is_on(&self, label: &str) -> bool {
         let mut found = self.harness.query_all(
             by().label(label)
                 .predicate(|node| node.toggled() == Some(egui::accesskit::Toggled::True)),

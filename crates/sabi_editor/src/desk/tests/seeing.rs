@@ -25,6 +25,30 @@ fn one_goes_into_groups_and_back_to_where_one_came_from() {
 }
 
 #[test]
+fn a_node_is_found_and_called_by_the_way_to_it() {
+    let mut desk = opened(GROUPS, NODES);
+    for (path, title) in [
+        ("n", Some("Grains")),
+        ("g/i", Some("Wear › inner")),
+        ("g/i/g", Some("Wear › inner › Cells")),
+        ("g/n", None),
+        ("n/n", None),
+        ("gone", None),
+    ] {
+        assert_eq!(desk.has(path), title.is_some(), "{path}");
+        assert!(
+            title.is_none_or(|title| desk.title_at(path) == title),
+            "{path}: {}",
+            desk.title_at(path)
+        );
+    }
+    assert_eq!(desk.title_at("gone"), "gone", "what is not there goes by its id");
+    desk.enter(&id("g"));
+    assert_eq!(desk.seen_at("g/i"), Some(id("i")));
+    assert_eq!(desk.seen_at("i"), None);
+}
+
+#[test]
 fn an_edit_inside_is_one_in_all_instances() {
     let mut desk = opened(GROUPS, NODES);
     desk.enter(&id("g"));

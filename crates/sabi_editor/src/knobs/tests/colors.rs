@@ -29,7 +29,7 @@ fn what_is_no_color_changes_nothing_and_is_told() {
 #[test]
 fn a_color_can_be_taken_from_the_screen() {
     let mut board = board([knob("effect/layer.color")]);
-    click(&mut board, "Color: take from the screen");
+    click(&mut board, "Color: take from the model or the texture");
     let knob = "color".to_owned();
     assert_eq!(taken(&mut board), [KnobEvent::Eyedropper { knob }]);
 }

@@ -1,0 +1,138 @@
+//! What stands around the model: the strip of models, light and mode, and how long a length is.
+
+use egui::accesskit::Role;
+use egui::{Key, PointerButton, Pos2, pos2};
+use egui_kittest::kittest::Queryable;
+use egui_phosphor::regular as icon;
+use sabi_engine::view::{Mode, ViewTransform};
+
+use super::super::Window;
+use super::super::hands::id;
+use crate::dock::Panel;
+use crate::settings::MOST_MODELS;
+
+impl Window {
+    fn add_model(&mut self, path: &str) {
+        self.press("Add a model");
+        self.typed(path);
+        self.key(Key::Enter);
+    }
+
+    /// Names on the strip of models.
+    fn strip(&self) -> Vec<String> {
+        let models = self.editor().settings.models.iter();
+        models
+            .map(|model| model.file_stem().unwrap_or_default().to_string_lossy().into_owned())
+            .collect()
+    }
+
+    /// The entry of a model on the strip.
+    fn entry(&self, name: &str) -> Pos2 {
+        let label = format!("{} {name}", icon::CUBE);
+        self.harness.get_by_label(&label).rect().center()
+    }
+}
+
+#[test]
+fn models_are_added_to_the_strip_switched_and_taken_off() {
+    let mut window = Window::empty();
+    window.until_model();
+    let sphere = window.path("sphere.glb");
+    std::fs::write(&sphere, include_bytes!("../../../../../../assets/meshes/sphere.glb")).expect("a model");
+    window.add_model(&sphere.display().to_string());
+    assert_eq!(window.strip(), ["cube", "sphere"]);
+    let file = |editor: &crate::app::Editor| editor.stage.model_file().to_owned();
+    assert_eq!(file(window.editor()), sphere);
+    window.until("the sphere", |editor| editor.stage.loaded_model().1);
+    window.click_at(window.entry("cube"));
+    assert!(file(window.editor()).ends_with("cube.glb"));
+    window.until("the cube", |editor| editor.stage.loaded_model().1);
+    window.click_with(window.entry("sphere"), PointerButton::Secondary, egui::Modifiers::NONE);
+    window.press("Take off the strip");
+    assert_eq!(window.strip(), ["cube"]);
+}
+
+#[test]
+fn the_strip_holds_six_models_and_the_oldest_makes_room() {
+    let mut window = Window::empty();
+    for at in 0..MOST_MODELS {
+        let file = window.path(&format!("model{at}.glb"));
+        std::fs::write(&file, include_bytes!("../../../../../../assets/meshes/cube.glb")).expect("a model");
+        window.add_model(&file.display().to_string());
+    }
+    let expected: Vec<String> = (0..MOST_MODELS).map(|at| format!("model{at}")).collect();
+    assert_eq!(window.strip(), expected);
+}
+
+#[test]
+fn menus_choose_the_mode_the_environment_and_the_light() {
+    let mut window = Window::empty();
+    window.until_model();
+    window.open_menu(icon::SPHERE, "Material");
+    window.press("Roughness");
+    assert_eq!(window.editor().model_view.shot.mode, Mode::Roughness);
+    window.key(Key::Escape);
+    window.open_menu(icon::SUN, "Light");
+    let other = sabi_engine::built_in_environments()
+        .find(|name| *name != window.editor().settings.environment)
+        .expect("another environment");
+    window.press(&other.replace('_', " "));
+    assert_eq!(window.editor().settings.environment, other);
+    window.press("ACES");
+    assert_eq!(window.editor().model_view.shot.transform, ViewTransform::Aces);
+    let bar = window.harness.get_by_role_and_label(Role::Slider, "Exposure").rect();
+    window.click_at(pos2(bar.right() - 2.0, bar.center().y));
+    assert!(window.editor().model_view.shot.exposure_stops > 5.0);
+    window.key(Key::Escape);
+    window.open_menu(icon::EYE, "Show");
+    window.harness.get_by_role_and_label(Role::CheckBox, "Relief").click();
+    window.settle();
+    assert!(window.editor().model_view.shot.has_relief);
+    window.press("Plain");
+    assert!(matches!(
+        window.editor().model_view.shot.background,
+        sabi_engine::view::Background::Plain(_)
+    ));
+}
+
+const LENGTHS: &str = r#"
+    "blur": { "kind": "filter/blur", "params": { "radius": 0.05 }, "inputs": { "source": "dots" }, "pos": [300, 0] },
+    "dots": { "kind": "noise/dots", "params": { "size": 0.25 }, "pos": [0, 0] }
+"#;
+
+#[test]
+fn a_length_that_is_pointed_at_is_a_bar_on_the_model_with_its_length_in_both_units() {
+    let mut window = Window::opened(LENGTHS);
+    window.until_model();
+    window.click_at(window.title(&id("blur")));
+    let says = |window: &Window| window.says("0.05 = ");
+    assert!(!says(&window));
+    window.point(window.knob("Radius"));
+    window.settle();
+    assert!(says(&window) && window.editor().model_view.length == Some(0.05));
+    window.point(window.on_canvas([0.5, 0.97]));
+    window.settle();
+    assert!(!says(&window) && window.editor().model_view.length.is_none());
+}
+
+#[test]
+fn a_length_on_a_node_is_shown_too_while_another_panel_is_in_front() {
+    let mut window = Window::opened(LENGTHS);
+    window.until_model();
+    window.open(Panel::Stack);
+    let near = window.rect(&id("dots"));
+    let found = window
+        .harness
+        .query_all_by_label_contains("Size")
+        .map(|node| node.rect().center());
+    let bar = found
+        .into_iter()
+        .find(|at| near.contains(*at))
+        .expect("a knob on the node");
+    window.point(bar);
+    window.settle();
+    assert_eq!(window.editor().model_view.length, Some(0.25));
+    window.point(window.on_canvas([0.5, 0.97]));
+    window.settle();
+    assert_eq!(window.editor().model_view.length, None);
+}

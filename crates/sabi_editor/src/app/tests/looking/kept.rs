@@ -1,0 +1,68 @@
+//! What is kept: choices between runs, and of pictures no more than are of use.
+
+use egui::Modifiers;
+use sabi_engine::Session;
+use sabi_engine::view::{Background, ViewTransform};
+
+use super::super::Window;
+use super::super::hands::id;
+
+/// So many nodes of a kind that looks different by its seed.
+fn many(count: usize) -> String {
+    let node = |at: usize| {
+        let place = at * 260;
+        format!(r#""n{at}": {{ "kind": "noise/white", "params": {{ "seed": {at} }}, "pos": [{place}, 0] }}"#)
+    };
+    (0..count).map(node).collect::<Vec<_>>().join(",")
+}
+
+#[test]
+fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
+    const COUNT: usize = 12;
+    let mut window = Window::opened(&many(COUNT));
+    window.until_model();
+    for at in 0..COUNT {
+        window.harness.state_mut().look_at(&id(&format!("n{at}")), None);
+        window.until("its picture", |editor| {
+            editor.stage.picture(&editor.seen()).is_some() && !editor.stage.is_busy()
+        });
+    }
+    let [pictures, thumbnails, times] = window.editor().stage.held();
+    assert!(pictures <= 8, "{pictures} pictures of the model");
+    assert!(thumbnails <= COUNT && times <= COUNT, "{thumbnails} {times}");
+    let all = (0..COUNT).map(|at| id(&format!("n{at}")));
+    let desk = &mut window.harness.state_mut().desk;
+    desk.select(all.skip(1));
+    desk.delete(false);
+    window.until("the end of it", |editor| {
+        let [pictures, thumbnails, times] = editor.stage.held();
+        pictures <= 2 && thumbnails <= 1 && times <= 1 && !editor.stage.is_busy()
+    });
+    window.undo(1);
+    window.until("the pictures that were let go of", |editor| {
+        (0..COUNT).all(|at| editor.thumbnail_of(&id(&format!("n{at}"))).is_some())
+    });
+}
+
+#[test]
+fn choices_of_looking_are_there_again_in_the_next_run() {
+    let mut window = Window::untitled();
+    let editor = window.harness.state_mut();
+    let shot = &mut editor.model_view.shot;
+    shot.exposure_stops = 1.5;
+    shot.transform = ViewTransform::Standard;
+    shot.background = Background::Environment;
+    shot.has_relief = true;
+    window.point(window.on_canvas([0.5, 0.5]));
+    window.key(egui::Key::N);
+    window.keys(Modifiers::SHIFT, egui::Key::V);
+    window.harness.state_mut().keep_settings();
+    let Window { harness, folder, .. } = window;
+    drop(harness);
+    let again = Window::in_folder(folder, |folders| Session::new(folders.recovery.as_deref()));
+    let editor = again.editor();
+    let shot = &editor.model_view.shot;
+    assert_eq!((shot.exposure_stops, shot.transform), (1.5, ViewTransform::Standard));
+    assert!(shot.background == Background::Environment && shot.has_relief);
+    assert!(editor.settings.has_mini_map && !editor.settings.follows);
+}

@@ -1,0 +1,46 @@
+//! Lists that lead to nodes and steps: what nodes took, and what was done.
+
+use egui_kittest::kittest::Queryable;
+
+use super::super::Window;
+use super::super::hands::{beside, id};
+use super::shown::NODES;
+use crate::dock::Panel;
+
+#[test]
+fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
+    let mut window = Window::opened(NODES);
+    window.until("times of both", |editor| {
+        ["cells", "dots"].iter().all(|node| editor.stage.time(node).is_some())
+    });
+    window.open(Panel::Performance);
+    let panel = window.editor().rects[&Panel::Performance];
+    let row = |window: &Window, title: &str| {
+        let found = window
+            .harness
+            .query_all_by_label(title)
+            .map(|node| node.rect().center());
+        found.into_iter().find(|at| panel.contains(*at))
+    };
+    window.click_at(row(&window, "Spots").expect("a row"));
+    assert_eq!(window.desk().selected_one(), Some(&id("dots")));
+    window.harness.state_mut().desk.delete(false);
+    window.settle();
+    assert!(row(&window, "Spots").is_none() && row(&window, "Tiles").is_some());
+}
+
+#[test]
+fn a_click_in_the_history_goes_there() {
+    let mut window = Window::opened(NODES);
+    let before = window.text();
+    for way in [[40.0, 0.0], [0.0, 60.0]] {
+        let at = window.title(&id("dots"));
+        window.drag_from(at, beside(at, way));
+    }
+    let after = window.text();
+    window.open(Panel::History);
+    window.press("As it was opened");
+    assert_eq!(window.text(), before);
+    window.press("Move");
+    assert_eq!(window.text(), after, "the last of two that are called so");
+}

@@ -1,0 +1,200 @@
+//! Which result is shown where: clicks, locks, pins, and the menu on the picture.
+
+use egui::{Key, Modifiers, PointerButton};
+use egui_kittest::kittest::{NodeT, Queryable};
+use egui_phosphor::regular as icon;
+use sabi_engine::Seen;
+use sabi_graph::NodeRef;
+
+use super::super::Window;
+use super::super::hands::id;
+use crate::dock::Panel;
+
+pub(super) const NODES: &str = r#"
+    "cells": { "kind": "noise/cells", "label": "Tiles", "pos": [0, 0] },
+    "dots": { "kind": "noise/dots", "label": "Spots", "pos": [300, 0] }
+"#;
+
+/// A result, as a graph file names it; empty for the outputs.
+fn name(seen: &Seen) -> String {
+    match seen {
+        Seen::Outputs => String::new(),
+        Seen::Node(node) => named(node),
+    }
+}
+
+fn named(node: &NodeRef) -> String {
+    let port = node.port.as_ref().map(|port| format!(".{port}"));
+    format!("{}{}", node.node, port.unwrap_or_default())
+}
+
+impl Window {
+    /// What the model shows, as a graph file names it; empty for the outputs.
+    pub(super) fn on_model(&self) -> String {
+        name(&self.editor().seen())
+    }
+
+    fn in_flat(&self) -> String {
+        self.editor().inspected().map(named).unwrap_or_default()
+    }
+
+    /// Opens a menu on the picture of the model.
+    pub(super) fn open_menu(&mut self, sign: &str, name: &str) {
+        self.press(&format!("{sign} {name}"));
+    }
+
+    /// Waits until the model is there, so that there is something to say of it.
+    pub(super) fn until_model(&mut self) {
+        self.until("the model", |editor| {
+            editor.model_view.drawn > 0 && editor.stage.loaded_model().1 && !editor.stage.is_busy()
+        });
+    }
+}
+
+#[test]
+fn a_click_shows_a_node_on_the_model_and_one_beside_all_nodes_the_outputs() {
+    let mut window = Window::opened(NODES);
+    window.until_model();
+    assert!(window.on_model().is_empty() && window.says("Outputs"));
+    window.click_at(window.title(&id("cells")));
+    assert_eq!((window.on_model(), window.in_flat()), ("cells".into(), "cells".into()));
+    assert!(window.says("Follows: Tiles"));
+    window.click_at(window.on_canvas([0.9, 0.9]));
+    assert!(window.on_model().is_empty() && window.says("Outputs"));
+    assert_eq!(window.in_flat(), "cells", "the 2D view keeps what it has");
+}
+
+#[test]
+fn a_locked_node_stays_on_the_model_whatever_is_clicked() {
+    let mut window = Window::opened(NODES);
+    window.until_model();
+    window.click_at(window.title(&id("cells")));
+    window.key(Key::P);
+    window.click_at(window.title(&id("dots")));
+    assert_eq!((window.on_model(), window.in_flat()), ("cells".into(), "dots".into()));
+    assert!(window.says("Locked: Tiles"));
+    window.click_at(window.on_canvas([0.9, 0.9]));
+    assert_eq!(window.on_model(), "cells");
+}
+
+#[test]
+fn a_second_node_that_is_shown_takes_the_place_of_the_first() {
+    let mut window = Window::opened(NODES);
+    for node in ["cells", "dots", "dots"] {
+        window.harness.state_mut().desk.select([id(node)]);
+        window.point(window.on_canvas([0.9, 0.9]));
+        window.key(Key::V);
+        assert_eq!(window.on_model(), node);
+    }
+    window.keys(Modifiers::SHIFT, Key::V);
+    assert!(
+        window.on_model().is_empty(),
+        "another key has the model show the outputs"
+    );
+    window.click_at(window.title(&id("cells")));
+    assert!(window.on_model().is_empty());
+    window.keys(Modifiers::SHIFT, Key::V);
+    assert_eq!(window.on_model(), "cells");
+}
+
+#[test]
+fn the_menu_on_the_picture_says_and_chooses_what_the_model_shows() {
+    let mut window = Window::opened(NODES);
+    window.until_model();
+    window.click_at(window.title(&id("cells")));
+    let choose = |window: &mut Window, entry: &str| {
+        window.open_menu(icon::CROSSHAIR, "Shown");
+        window.press(entry);
+        window.key(Key::Escape);
+    };
+    choose(&mut window, "Outputs");
+    assert!(window.on_model().is_empty());
+    choose(&mut window, "Follow the node that is clicked");
+    assert_eq!(window.on_model(), "cells");
+    choose(&mut window, "Lock on Tiles");
+    window.click_at(window.title(&id("dots")));
+    assert_eq!(window.on_model(), "cells");
+    choose(&mut window, "Compare with Tiles");
+    assert_eq!(window.on_model(), "dots");
+    assert!(window.says("A  Follows: Spots") && window.says("B  Locked: Tiles"));
+    choose(&mut window, "Compare with Tiles");
+    choose(&mut window, "Lock on Spots");
+    window.click_at(window.title(&id("cells")));
+    assert_eq!(window.on_model(), "dots");
+    choose(&mut window, "Locked on Spots");
+    assert_eq!(window.on_model(), "cells", "it is let go");
+    choose(&mut window, "Lock on Tiles");
+    choose(&mut window, "Outputs");
+    assert!(window.on_model().is_empty(), "nothing is locked any more");
+}
+
+#[test]
+fn the_menu_of_views_looks_from_where_its_entries_say() {
+    let mut window = Window::opened(NODES);
+    window.until_model();
+    let mut looks = Vec::new();
+    for entry in [
+        "From the front",
+        "From the right",
+        "From above",
+        "Perspective or parallel",
+        "Show all of the model",
+    ] {
+        window.harness.state_mut().model_view.camera.zoom(1.1);
+        let before = window.editor().model_view.camera;
+        window.open_menu(icon::VIDEO_CAMERA, "View");
+        window.press(entry);
+        let camera = window.editor().model_view.camera;
+        assert_ne!(camera, before, "{entry}");
+        looks.push((camera.yaw_degrees, camera.pitch_degrees));
+    }
+    assert_eq!(looks[..3], [(0.0, 0.0), (90.0, 0.0), (0.0, 90.0)]);
+}
+
+#[test]
+fn a_click_on_a_node_keeps_the_output_that_was_chosen_and_a_pin_takes_it() {
+    let mut window = Window::opened(NODES);
+    window.click_at(window.port(&id("cells"), "id"));
+    window.click_at(window.title(&id("dots")));
+    window.click_at(window.title(&id("cells")));
+    assert_eq!(window.in_flat(), "cells.id");
+    let both = Modifiers::COMMAND | Modifiers::SHIFT;
+    window.click_with(window.title(&id("cells")), PointerButton::Primary, both);
+    window.click_at(window.port(&id("cells"), "mask"));
+    assert_eq!(window.in_flat(), "cells.id", "it is pinned");
+    assert_eq!(
+        window.on_model(),
+        "cells",
+        "the first output is one to choose like others"
+    );
+}
+
+#[test]
+fn a_pin_is_seen_on_its_node_and_above_the_texture_where_it_is_taken_off() {
+    let mut window = Window::opened(NODES);
+    assert!(!window.has("Unpin"));
+    let both = Modifiers::COMMAND | Modifiers::SHIFT;
+    window.click_with(window.title(&id("cells")), PointerButton::Primary, both);
+    window.click_at(window.title(&id("dots")));
+    assert_eq!(window.in_flat(), "cells");
+    let panel = window.editor().rects[&Panel::Canvas];
+    let pinned = |window: &Window| {
+        let nodes = window.harness.query_all_by_label("Tiles");
+        let mut nodes = nodes.filter(|node| panel.contains(node.rect().center()));
+        nodes.any(|node| node.accesskit_node().description().as_deref() == Some("pinned to the 2D view"))
+    };
+    assert!(pinned(&window));
+    window.press("Unpin");
+    assert_eq!(window.in_flat(), "dots");
+    assert!(!window.has("Unpin") && !pinned(&window));
+}
+
+#[test]
+fn what_cannot_be_shown_says_why_on_the_picture() {
+    let mut window = Window::opened(r#""blur": { "kind": "filter/blur", "pos": [0, 0] }"#);
+    window.until_model();
+    window.click_at(window.title(&id("blur")));
+    window.until("the fault", |editor| editor.stage.fault("blur").is_some());
+    let fault = window.editor().stage.fault("blur").expect("a sentence").clone();
+    assert!(window.says(&format!("Follows: Blur — {fault}")));
+}

@@ -1,0 +1,91 @@
+//! The line between two pictures of the model, and what a drag takes.
+
+use egui::{CursorIcon, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
+
+use super::super::Window;
+use super::super::hands::{beside, id};
+use super::shown::NODES;
+use crate::dock::Panel;
+
+impl Window {
+    /// A place on the picture of the model, `[0, 0]` being its upper left corner.
+    pub(super) fn at_model(&self, share: [f32; 2]) -> Pos2 {
+        let rect = self.editor().rects[&Panel::Viewport];
+        rect.min + vec2(share[0] * rect.width(), share[1] * rect.height())
+    }
+
+    /// The line between two pictures.
+    fn line(&self) -> Pos2 {
+        let share = self.editor().model_view.wipe.expect("a line");
+        let rect = self.editor().rects[&Panel::Viewport];
+        pos2(rect.left() + share * rect.width(), rect.center().y)
+    }
+}
+
+/// Two nodes beside each other.
+fn compared() -> Window {
+    let mut window = Window::opened(NODES);
+    window.until_model();
+    window.click_at(window.title(&id("cells")));
+    window.key(Key::P);
+    window.click_at(window.title(&id("dots")));
+    window.point(window.at_model([0.3, 0.9]));
+    window.key(Key::C);
+    window
+}
+
+#[test]
+fn a_fast_drag_of_the_line_moves_it_and_turns_nothing() {
+    let mut window = compared();
+    let camera = window.editor().model_view.camera;
+    let line = window.line();
+    let end = beside(line, [-150.0, 30.0]);
+    window.drag_from(line, end);
+    assert!((window.line().x - end.x).abs() < 1.0, "{:?} {end:?}", window.line());
+    assert_eq!(window.editor().model_view.camera, camera);
+}
+
+#[test]
+fn a_drag_that_crosses_the_line_turns_the_model_and_leaves_the_line() {
+    let mut window = compared();
+    let camera = window.editor().model_view.camera;
+    let line = window.line();
+    let way = [
+        beside(line, [-60.0, 0.0]),
+        beside(line, [-2.0, 0.0]),
+        beside(line, [70.0, 0.0]),
+    ];
+    window.drag_along(&way, PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(window.line(), line);
+    assert_ne!(window.editor().model_view.camera.yaw_degrees, camera.yaw_degrees);
+}
+
+#[test]
+fn the_cursor_says_that_the_line_would_be_taken() {
+    let mut window = compared();
+    let cursor = |window: &Window| window.harness.output().platform_output.cursor_icon;
+    window.point(beside(window.line(), [5.0, 0.0]));
+    window.harness.step();
+    assert_eq!(cursor(&window), CursorIcon::ResizeHorizontal);
+    window.point(beside(window.line(), [30.0, 0.0]));
+    window.harness.step();
+    assert_eq!(cursor(&window), CursorIcon::Default);
+}
+
+#[test]
+fn the_key_f_looks_at_what_is_under_the_pointer() {
+    let mut window = Window::opened(NODES);
+    window.until_model();
+    let before = window.editor().model_view.camera;
+    window.point(window.at_model([0.02, 0.98]));
+    window.key(Key::F);
+    assert_eq!(
+        window.editor().model_view.camera,
+        before,
+        "there is nothing beside the model"
+    );
+    window.point(window.at_model([0.55, 0.55]));
+    window.key(Key::F);
+    let camera = window.editor().model_view.camera;
+    assert!(camera.target.length() > 0.1, "a place of the surface: {camera:?}");
+}

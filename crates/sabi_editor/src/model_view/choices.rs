@@ -1,0 +1,144 @@
+//! What was chosen about light and picture of the view, to be kept between runs.
+
+use sabi_engine::view::{Background, Shot, ViewTransform};
+
+/// Limits of what the menus set.
+pub(super) const TURN_DEGREES: std::ops::RangeInclusive<f32> = -180.0..=180.0;
+pub(super) const STRENGTH: std::ops::RangeInclusive<f32> = 0.0..=4.0;
+pub(super) const EXPOSURE_STOPS: std::ops::RangeInclusive<f32> = -6.0..=6.0;
+
+/// What is behind the model: its name in settings, what it is called, and what it is.
+pub(super) const BACKGROUNDS: [(&str, &str, Background); 3] = [
+    ("blurred", "Out of focus", Background::Blurred),
+    ("environment", "Sharp", Background::Environment),
+    ("plain", "Plain", Background::Plain([0.028, 0.029, 0.032])),
+];
+
+/// From light to what a display shows, likewise.
+pub(super) const TRANSFORMS: [(&str, &str, ViewTransform); 3] = [
+    ("agx", "AgX", ViewTransform::AgX),
+    ("aces", "ACES", ViewTransform::Aces),
+    ("standard", "Standard", ViewTransform::Standard),
+];
+
+/// What was chosen about light and picture.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct ViewChoices {
+    environment_turn_degrees: f32,
+    environment_strength: f32,
+    exposure_stops: f32,
+    transform: String,
+    background: String,
+    has_relief: bool,
+}
+
+impl Default for ViewChoices {
+    fn default() -> ViewChoices {
+        ViewChoices {
+            environment_turn_degrees: 0.0,
+            environment_strength: 1.0,
+            exposure_stops: 0.0,
+            transform: TRANSFORMS[0].0.to_owned(),
+            background: BACKGROUNDS[0].0.to_owned(),
+            has_relief: false,
+        }
+    }
+}
+
+impl ViewChoices {
+    /// What a shot has of it.
+    pub(crate) fn of(shot: &Shot) -> ViewChoices {
+        let transform = TRANSFORMS.iter().find(|(.., known)| *known == shot.transform);
+        let background = BACKGROUNDS.iter().find(|(.., known)| *known == shot.background);
+        let usual = ViewChoices::default();
+        ViewChoices {
+            // The pointer turns it round and round.
+            environment_turn_degrees: (shot.environment_turn_degrees + 180.0).rem_euclid(360.0) - 180.0,
+            environment_strength: shot.environment_strength,
+            exposure_stops: shot.exposure_stops,
+            transform: transform.map_or(usual.transform, |(name, ..)| (*name).to_owned()),
+            background: background.map_or(usual.background, |(name, ..)| (*name).to_owned()),
+            has_relief: shot.has_relief,
+        }
+        .sound()
+    }
+
+    /// Gives a shot all of it.
+    pub(super) fn give(&self, shot: &mut Shot) {
+        shot.environment_turn_degrees = self.environment_turn_degrees;
+        shot.environment_strength = self.environment_strength;
+        shot.exposure_stops = self.exposure_stops;
+        shot.has_relief = self.has_relief;
+        for (name, _, transform) in TRANSFORMS {
+            if name == self.transform {
+                shot.transform = transform;
+            }
+        }
+        for (name, _, background) in BACKGROUNDS {
+            if name == self.background {
+                shot.background = background;
+            }
+        }
+    }
+
+    /// What of it can be used: files of settings may have been written by hand.
+    pub(crate) fn sound(mut self) -> ViewChoices {
+        let usual = ViewChoices::default();
+        for (number, limits, usual) in [
+            (
+                &mut self.environment_turn_degrees,
+                TURN_DEGREES,
+                usual.environment_turn_degrees,
+            ),
+            (&mut self.environment_strength, STRENGTH, usual.environment_strength),
+            (&mut self.exposure_stops, EXPOSURE_STOPS, usual.exposure_stops),
+        ] {
+            *number = match number.is_finite() {
+                true => number.clamp(*limits.start(), *limits.end()),
+                false => usual,
+            };
+        }
+        if !TRANSFORMS.iter().any(|(name, ..)| *name == self.transform) {
+            self.transform = usual.transform;
+        }
+        if !BACKGROUNDS.iter().any(|(name, ..)| *name == self.background) {
+            self.background = usual.background;
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_engine::view::Camera;
+
+    use super::*;
+
+    #[test]
+    fn what_was_chosen_comes_back_and_nonsense_does_not() {
+        let mut shot = Shot::new(Camera::default());
+        assert_eq!(ViewChoices::of(&shot), ViewChoices::default());
+        shot.exposure_stops = -1.5;
+        shot.environment_turn_degrees = 400.0;
+        shot.transform = ViewTransform::Standard;
+        shot.background = BACKGROUNDS[2].2;
+        shot.has_relief = true;
+        let kept = ViewChoices::of(&shot);
+        let text = serde_json::to_string(&kept).expect("text");
+        let read: ViewChoices = serde_json::from_str(&text).expect("choices");
+        let mut other = Shot::new(Camera::default());
+        read.sound().give(&mut other);
+        shot.environment_turn_degrees = 40.0;
+        assert_eq!(other, shot);
+        let nonsense =
+            r#"{ "exposure_stops": 900, "environment_strength": -3, "transform": "sepia", "background": "" }"#;
+        let read: ViewChoices = serde_json::from_str(nonsense).expect("choices");
+        let expected = ViewChoices {
+            exposure_stops: 6.0,
+            environment_strength: 0.0,
+            ..ViewChoices::default()
+        };
+        assert_eq!(read.sound(), expected);
+    }
+}

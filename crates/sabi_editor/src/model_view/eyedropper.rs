@@ -1,0 +1,81 @@
+//! The color that is seen under the pointer, exactly as the model has it there and without the light on it.
+
+use egui::{CursorIcon, Pos2, Rect, Response};
+use sabi_engine::view::{Background, Mode, NodeType, Shot};
+
+use super::{ModelView, Subject};
+use crate::app::Taken;
+use crate::stage::{Picture, Stage};
+
+impl ModelView {
+    /// The color that was clicked, while one is wanted.
+    pub(super) fn clicked_color(
+        &mut self,
+        response: &Response,
+        rect: Rect,
+        stage: &Stage,
+        picture: &Picture,
+        subject: &Subject<'_>,
+    ) -> Option<Taken> {
+        if !subject.is_taking_color {
+            return None;
+        }
+        response.clone().on_hover_cursor(CursorIcon::Crosshair);
+        let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
+        if stage.picture(subject.seen).is_none() {
+            return Some(Err(
+                "What the model shows is not evaluated yet; click again in a moment.".to_owned(),
+            ));
+        }
+        let line = self.wipe.map(|share| rect.left() + share * rect.width());
+        let other = subject.locked.and_then(|seen| stage.picture(seen));
+        Some(match other.filter(|_| line.is_some_and(|line| at.x >= line)) {
+            Some(other) => self.color_at(1, at, rect, stage, &other.clone()),
+            None => self.color_at(0, at, rect, stage, picture),
+        })
+    }
+
+    /// Draws the colors alone and reads the pixel: so every texture set, every size and every side of a seam is right.
+    fn color_at(&mut self, screen: usize, at: Pos2, rect: Rect, stage: &Stage, picture: &Picture) -> Taken {
+        let holds = picture.shown.looks.last().and_then(|look| look.node.as_ref());
+        let what = match holds.map(|node| node.holds) {
+            None | Some(NodeType::Color) => None,
+            Some(NodeType::Mask) => Some("a mask"),
+            Some(NodeType::Vector) => Some("a vector"),
+        };
+        if let Some(what) = what {
+            return Err(format!(
+                "The model shows {what}, which has no color; have it show the outputs or a node that gives a color."
+            ));
+        }
+        let shot = Shot {
+            mode: if picture.shown.is_lit {
+                Mode::BaseColor
+            } else {
+                Mode::Node
+            },
+            background: Background::Clear,
+            lines: Vec::new(),
+            samples: 1,
+            ..self.shot_of(picture)
+        };
+        let size = [rect.width(), rect.height()].map(|side| side.round().max(1.0) as u32);
+        let failed = |error: &dyn std::fmt::Display| format!("The color cannot be read: {error}");
+        self.draw(screen, stage, picture, &shot, size, false)
+            .map_err(|error| failed(&error))?;
+        let target = self.screens[screen]
+            .as_ref()
+            .and_then(|screen| screen.viewport.picture());
+        let pixels = target.map(|target| target.read(stage.gpu()));
+        let Some(pixels) = pixels.transpose().map_err(|error| failed(&error))? else {
+            return Err("The model is not drawn yet; click again in a moment.".to_owned());
+        };
+        let [x, y] = [at.x - rect.left(), at.y - rect.top()].map(|at| at.max(0.0) as usize);
+        let [width, height] = pixels.size.map(|side| side as usize);
+        let pixel = 4 * (y.min(height - 1) * width + x.min(width - 1));
+        match pixels.rgba[pixel..pixel + 4] {
+            [red, green, blue, alpha] if alpha > 0 => Ok([red, green, blue]),
+            _ => Err("There is no surface under the pointer to take a color from.".to_owned()),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! What the model shows, in words: chosen in a menu, and said on the picture.
+
+use egui::{Align2, Color32, FontId, Pos2, Rect, RichText, Ui, WidgetInfo, WidgetType, vec2};
+use egui_phosphor::regular as icon;
+
+use super::{ModelView, Subject};
+use crate::action::{Action, LookAsk};
+use crate::command::Command;
+use crate::stage::Stage;
+use crate::theme::{Theme, space, type_size};
+
+/// What the model shows, in words.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Showing {
+    /// What is shown, and what it is compared with.
+    pub(crate) words: String,
+    pub(crate) other: Option<String>,
+    /// Why what is shown cannot be seen.
+    pub(crate) fault: Option<String>,
+    /// Whether the model follows clicks.
+    pub(crate) follows: bool,
+    /// The node that was clicked last, by name.
+    pub(crate) clicked: Option<String>,
+    /// The locked node, by name.
+    pub(crate) locked: Option<String>,
+}
+
+/// The menu that chooses it.
+pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Action>) {
+    let showing = subject.showing;
+    let is_compared = view.wipe.is_some();
+    let is_locked = showing.locked.is_some() && !is_compared;
+    let mut choice = |ui: &mut Ui, is_on: bool, words: String, meant: LookAsk| {
+        if ui.selectable_label(is_on, words).clicked() {
+            asked.push(Action::Look(meant));
+        }
+    };
+    choice(
+        ui,
+        !showing.follows && !is_locked,
+        "Outputs".to_owned(),
+        LookAsk::Outputs,
+    );
+    choice(
+        ui,
+        showing.follows && !is_locked,
+        "Follow the node that is clicked".to_owned(),
+        LookAsk::Follow,
+    );
+    if let Some(locked) = &showing.locked {
+        choice(ui, is_locked, format!("Locked on {locked}"), LookAsk::Release);
+    }
+    match &showing.clicked {
+        clicked if *clicked == showing.locked && clicked.is_some() => {}
+        Some(clicked) => choice(ui, false, format!("Lock on {clicked}"), LookAsk::Lock),
+        None => drop(ui.weak("Click a node to lock on it")),
+    }
+    ui.separator();
+    match showing.locked.as_ref().or(showing.clicked.as_ref()) {
+        Some(other) => choice(ui, is_compared, format!("Compare with {other}"), LookAsk::Compare),
+        None if is_compared => choice(ui, true, "Compare".to_owned(), LookAsk::Compare),
+        None => drop(ui.weak("Click a node to compare with it")),
+    }
+    ui.separator();
+    for command in [Command::Follow, Command::Lock, Command::Wipe] {
+        ui.weak(format!("{}  {}", subject.keys.shown(command), command.title()));
+    }
+}
+
+/// Views from the sides, each with its key.
+pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Action>) {
+    ui.set_min_width(200.0);
+    for command in [
+        Command::FrameModel,
+        Command::Front,
+        Command::Right,
+        Command::Top,
+        Command::Lens,
+    ] {
+        let keys = subject.keys.shown(command);
+        let entry = ui.add(egui::Button::new(command.title()).shortcut_text(keys));
+        entry.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, command.title()));
+        if entry.clicked() {
+            asked.push(Action::Do(command));
+        }
+    }
+    let look = subject.keys.shown(Command::FocusModel);
+    ui.weak(format!("{look}  {}", Command::FocusModel.title()));
+}
+
+/// Says on the picture what it shows; of two pictures, on either side of the line between them.
+pub(super) fn label(view: &ModelView, ui: &mut Ui, rect: Rect, stage: &Stage, subject: &Subject<'_>) {
+    let showing = subject.showing;
+    let theme = subject.theme;
+    if stage.shown_model.is_none() {
+        return;
+    }
+    let state = match &showing.fault {
+        Some(fault) => format!(" — {fault}"),
+        None if stage.picture(subject.seen).is_none() => " (evaluating)".to_owned(),
+        None => String::new(),
+    };
+    let words = format!("{}{state}", showing.words);
+    let row = rect.bottom() - 10.0;
+    match (&showing.other, view.wipe) {
+        (Some(other), Some(share)) => {
+            let line = rect.left() + share * rect.width();
+            let at = Pos2::new(line, row);
+            told(
+                ui,
+                theme,
+                at - vec2(space::USUAL, 0.0),
+                Align2::RIGHT_CENTER,
+                &format!("A  {words}"),
+            );
+            told(
+                ui,
+                theme,
+                at + vec2(space::USUAL, 0.0),
+                Align2::LEFT_CENTER,
+                &format!("B  {other}"),
+            );
+        }
+        _ => told(
+            ui,
+            theme,
+            Pos2::new(rect.right() - 10.0, row),
+            Align2::RIGHT_CENTER,
+            &words,
+        ),
+    }
+    if subject.is_taking_color {
+        let words = format!("{} Click the color to take. Escape gives it up.", icon::EYEDROPPER);
+        let at = Pos2::new(rect.center().x, rect.top() + 48.0);
+        told(ui, theme, at, Align2::CENTER_CENTER, &words);
+    }
+}
+
+/// Small quiet words on a picture, which nobody can click.
+pub(super) fn told(ui: &mut Ui, theme: &Theme, at: Pos2, align: Align2, words: &str) {
+    let text = RichText::new(words).size(type_size::SMALL).color(theme.text);
+    let font = FontId::proportional(type_size::SMALL);
+    let size = ui
+        .painter()
+        .layout_no_wrap(words.to_owned(), font, Color32::PLACEHOLDER)
+        .size();
+    let room = ui.clip_rect();
+    let place = align.anchor_size(at, size + vec2(1.0, 0.0)).intersect(room);
+    if !place.is_positive() {
+        return;
+    }
+    ui.painter().rect_filled(
+        place.expand2(vec2(4.0, 2.0)),
+        space::CORNER,
+        theme.ground.gamma_multiply(0.6),
+    );
+    ui.put(place, egui::Label::new(text).selectable(false).truncate());
+}
