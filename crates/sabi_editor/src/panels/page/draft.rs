@@ -140,9 +140,9 @@ impl Draft {
 
     /// Whether what was written may be lost.
     fn question(&mut self, ui: &mut Ui, theme: &Theme, left: Left) -> Left {
-        ui.horizontal_wrapped(|ui| {
-            let text = format!("What was written for '{}' is in no file.", self.id);
-            ui.colored_label(theme.warning, text);
+        let text = format!("What was written for '{}' is in no file.", self.id);
+        ui.add(egui::Label::new(RichText::new(text).color(theme.warning)).wrap());
+        ui.horizontal(|ui| {
             if ui.button("Lose it").clicked() {
                 return Left::ForGood;
             }
