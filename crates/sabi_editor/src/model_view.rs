@@ -303,7 +303,7 @@ impl ModelView {
     }
 
     /// A bar as long as a length on the model, at the distance that is looked at, and how long that is.
-    fn draw_length(&self, ui: &mut Ui, rect: Rect, stage: &Stage, theme: &Theme) {
+    fn draw_length(&self, ui: &Ui, rect: Rect, stage: &Stage, theme: &Theme) {
         let (Some(length), Some(model)) = (self.length, &stage.shown_model) else {
             return;
         };
@@ -319,7 +319,8 @@ impl ModelView {
                 .line_segment([at - vec2(0.0, 5.0), at + vec2(0.0, 5.0)], stroke);
         }
         let words = Lengths::on(Some(model)).in_both(length);
-        showing::told(ui, theme, start - vec2(0.0, 16.0), Align2::LEFT_CENTER, &words);
+        let above = start - vec2(0.0, 16.0);
+        showing::told(ui, theme, "length", above, Align2::LEFT_CENTER, &words);
     }
 }
 

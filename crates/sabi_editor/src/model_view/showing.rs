@@ -1,6 +1,7 @@
 //! What the model shows, in words: chosen in a menu, and said on the picture.
 
-use egui::{Align2, Color32, FontId, Pos2, Rect, RichText, Ui, WidgetInfo, WidgetType, vec2};
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{Align2, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
 
 use super::{ModelView, Subject};
@@ -89,7 +90,7 @@ pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Act
 }
 
 /// Says on the picture what it shows; of two pictures, on either side of the line between them.
-pub(super) fn label(view: &ModelView, ui: &mut Ui, rect: Rect, stage: &Stage, subject: &Subject<'_>) {
+pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, stage: &Stage, subject: &Subject<'_>) {
     let showing = subject.showing;
     let theme = subject.theme;
     if stage.shown_model.is_none() {
@@ -104,55 +105,36 @@ pub(super) fn label(view: &ModelView, ui: &mut Ui, rect: Rect, stage: &Stage, su
     let row = rect.bottom() - 10.0;
     match (&showing.other, view.wipe) {
         (Some(other), Some(share)) => {
-            let line = rect.left() + share * rect.width();
-            let at = Pos2::new(line, row);
-            told(
-                ui,
-                theme,
-                at - vec2(space::USUAL, 0.0),
-                Align2::RIGHT_CENTER,
-                &format!("A  {words}"),
-            );
-            told(
-                ui,
-                theme,
-                at + vec2(space::USUAL, 0.0),
-                Align2::LEFT_CENTER,
-                &format!("B  {other}"),
-            );
+            let at = Pos2::new(rect.left() + share * rect.width(), row);
+            let beside = vec2(space::USUAL, 0.0);
+            let [one, other] = [format!("A  {words}"), format!("B  {other}")];
+            told(ui, theme, "shown", at - beside, Align2::RIGHT_CENTER, &one);
+            told(ui, theme, "compared", at + beside, Align2::LEFT_CENTER, &other);
         }
-        _ => told(
-            ui,
-            theme,
-            Pos2::new(rect.right() - 10.0, row),
-            Align2::RIGHT_CENTER,
-            &words,
-        ),
+        _ => {
+            let at = Pos2::new(rect.right() - 10.0, row);
+            told(ui, theme, "shown", at, Align2::RIGHT_CENTER, &words);
+        }
     }
     if subject.is_taking_color {
         let words = format!("{} Click the color to take. Escape gives it up.", icon::EYEDROPPER);
         let at = Pos2::new(rect.center().x, rect.top() + 48.0);
-        told(ui, theme, at, Align2::CENTER_CENTER, &words);
+        told(ui, theme, "eyedropper", at, Align2::CENTER_CENTER, &words);
     }
 }
 
-/// Small quiet words on a picture, which nobody can click.
-pub(super) fn told(ui: &mut Ui, theme: &Theme, at: Pos2, align: Align2, words: &str) {
-    let text = RichText::new(words).size(type_size::SMALL).color(theme.text);
+/// Small quiet words on a picture, which nobody can click. They go by a name of their own, so that what stands beside them is
+/// the same whether they are there or not.
+pub(super) fn told(ui: &Ui, theme: &Theme, name: &str, at: Pos2, align: Align2, words: &str) {
     let font = FontId::proportional(type_size::SMALL);
-    let size = ui
-        .painter()
-        .layout_no_wrap(words.to_owned(), font, Color32::PLACEHOLDER)
-        .size();
-    let room = ui.clip_rect();
-    let place = align.anchor_size(at, size + vec2(1.0, 0.0)).intersect(room);
-    if !place.is_positive() {
-        return;
-    }
-    ui.painter().rect_filled(
-        place.expand2(vec2(4.0, 2.0)),
-        space::CORNER,
-        theme.ground.gamma_multiply(0.6),
-    );
-    ui.put(place, egui::Label::new(text).selectable(false).truncate());
+    let mut job = LayoutJob::simple_singleline(words.to_owned(), font, theme.text);
+    job.wrap = TextWrapping::truncate_at_width((ui.clip_rect().width() - 2.0 * space::USUAL).max(1.0));
+    let text = ui.painter().layout_job(job);
+    let place = align.anchor_size(at, text.size());
+    let ground = place.expand2(vec2(4.0, 2.0));
+    ui.painter()
+        .rect_filled(ground, space::CORNER, theme.ground.gamma_multiply(0.6));
+    ui.painter().galley(place.min, text, theme.text);
+    let response = ui.interact(place, ui.id().with(("told", name)), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, words));
 }

@@ -110,6 +110,10 @@ fn a_length_that_is_pointed_at_is_a_bar_on_the_model_with_its_length_in_both_uni
     window.point(window.knob("Radius"));
     window.settle();
     assert!(says(&window) && window.editor().model_view.length == Some(0.05));
+    // What is told on the picture comes and goes, and the menus beside it are the same.
+    window.open_menu(icon::EYE, "Show");
+    window.harness.get_by_role_and_label(Role::CheckBox, "Relief");
+    window.key(Key::Escape);
     window.point(window.on_canvas([0.5, 0.97]));
     window.settle();
     assert!(!says(&window) && window.editor().model_view.length.is_none());

@@ -22,7 +22,12 @@ fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
             .map(|node| node.rect().center());
         found.into_iter().find(|at| panel.contains(*at))
     };
-    window.click_at(row(&window, "Spots").expect("a row"));
+    let at = row(&window, "Spots").expect("a row");
+    let times = window.harness.query_all_by_label_contains(" ms");
+    let times: Vec<_> = times.map(|time| time.rect().center()).collect();
+    let is_beside = |time: &egui::Pos2| (time.y - at.y).abs() < 8.0 && time.x > at.x;
+    assert!(times.iter().any(is_beside), "its time");
+    window.click_at(at);
     assert_eq!(window.desk().selected_one(), Some(&id("dots")));
     window.harness.state_mut().desk.delete(false);
     window.settle();
