@@ -11,7 +11,7 @@ use sabi_engine::{
     EngineError, Faults, Gpu, Inspected, Live, LiveModel, LiveOptions, LiveTimes, ModelOptions, News, OpenGraph, Seen,
     Shown, Wish,
 };
-use sabi_graph::NodeRef;
+use sabi_graph::{Document, NodeRef};
 
 use crate::desk::Desk;
 
@@ -51,6 +51,12 @@ pub(crate) struct Stage {
     model_revision: u64,
     asked: Option<(Asked, Wanted)>,
     graph: Arc<OpenGraph>,
+    /// Rises with the graph.
+    graph_number: u64,
+    /// The graph's document without what no result hangs on.
+    bare: Document,
+    /// Revisions of the graph and of its files that were looked at last.
+    taken: Option<(u64, u64)>,
     wishes: u64,
     pictures: BTreeMap<Seen, Picture>,
     thumbnails: BTreeMap<NodeRef, (TextureHandle, Pixels)>,
@@ -97,6 +103,9 @@ impl Stage {
             model_revision: 0,
             asked: None,
             graph: Arc::new(sabi_engine::Session::new(None).graph().clone()),
+            graph_number: 0,
+            bare: Document::default(),
+            taken: None,
             wishes: 0,
             pictures: BTreeMap::new(),
             thumbnails: BTreeMap::new(),
@@ -160,8 +169,9 @@ impl Stage {
             self.model_revision += 1;
         }
         let (kinds, kinds_revision) = desk.kinds();
+        self.take_graph(desk);
         let asked = Asked {
-            document: desk.session.revision(),
+            document: self.graph_number,
             kinds: kinds_revision,
             model: self.model_revision,
             files: desk.files_revision(),
@@ -172,13 +182,6 @@ impl Stage {
             .is_some_and(|(before, looks)| *before == asked && *looks == wanted)
         {
             return;
-        }
-        let is_same_graph = self
-            .asked
-            .as_ref()
-            .is_some_and(|(before, _)| (before.document, before.files) == (asked.document, asked.files));
-        if !is_same_graph {
-            self.graph = Arc::new(desk.session.graph().clone());
         }
         self.let_go(desk, &wanted);
         self.wishes += 1;
@@ -197,6 +200,23 @@ impl Stage {
             is_moving: wanted.is_moving,
         });
         self.asked = Some((asked, wanted));
+    }
+
+    /// Takes the graph where something changed that results hang on; where nodes stand is nothing of that.
+    fn take_graph(&mut self, desk: &Desk) {
+        let now = (desk.session.revision(), desk.files_revision());
+        if self.taken == Some(now) {
+            return;
+        }
+        let graph = desk.session.graph();
+        let bare = graph.document.without_places();
+        let has_other_files = self.taken.is_none_or(|(_, files)| files != now.1);
+        if has_other_files || graph.path != self.graph.path || bare != self.bare {
+            self.graph = Arc::new(graph.clone());
+            self.graph_number += 1;
+            self.bare = bare;
+        }
+        self.taken = Some(now);
     }
 
     fn wanted_size(&self, desk: &Desk) -> u32 {

@@ -44,6 +44,20 @@ impl Document {
         crate::read::document(text)
     }
 
+    /// This document without what only its picture on a canvas needs: where nodes stand, and frames. Two that are equal then
+    /// give the same results.
+    pub fn without_places(&self) -> Document {
+        let mut bare = self.clone();
+        let groups = bare.groups.values_mut().map(|group| &mut group.graph);
+        for graph in groups.chain([&mut bare.graph]) {
+            graph.frames.clear();
+            for (_, node) in graph.net.node_weights_mut() {
+                node.pos = [0.0; 2];
+            }
+        }
+        bare
+    }
+
     /// The canonical text: the same document gives the same bytes, and reading them gives this document.
     pub fn to_json(&self) -> String {
         crate::save::document(self)

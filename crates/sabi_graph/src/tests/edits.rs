@@ -346,3 +346,25 @@ fn a_group_of_edits_that_is_canceled_leaves_what_can_be_done_again() {
     history.end();
     assert_eq!(history.redo(&mut document).unwrap(), None);
 }
+
+#[test]
+fn documents_that_differ_by_places_alone_are_equal_without_them() {
+    let first = chain();
+    let moved = |edit: Edit| {
+        let mut other = first.clone();
+        other.apply(edit).unwrap();
+        other.without_places() == first.without_places()
+    };
+    let node = first.graph.ids().next().unwrap().clone();
+    let body = Body::Main;
+    assert!(moved(Edit::Move {
+        body: body.clone(),
+        node: node.clone(),
+        pos: [5.0, 7.0],
+    }));
+    assert!(!moved(Edit::SetMuted {
+        body,
+        node,
+        muted: true
+    }));
+}
