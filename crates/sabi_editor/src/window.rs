@@ -37,6 +37,7 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
         Some(graph) => Session::open(graph, folders.recovery.as_deref())?,
         None => Session::new(folders.recovery.as_deref()),
     });
+    refuse_without_display()?;
     for _ in 0..MOST_DEVICES {
         // After a loss the work itself is in the handover, with its model.
         let (session, model) = match session.take() {
@@ -60,6 +61,17 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
     }
     let why = "the graphics device was lost again and again; what is not saved is offered at the next start. Update the \
                driver, or choose --adapter cpu";
+    Err(EngineError::new(ErrorKind::NoAdapter, why))
+}
+
+/// Where the system has no screen, the libraries below only say so in their own words.
+fn refuse_without_display() -> Result<(), EngineError> {
+    let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    if !cfg!(target_os = "linux") || ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"].iter().any(is_set) {
+        return Ok(());
+    }
+    let why = "there is no display to open a window on: neither WAYLAND_DISPLAY nor DISPLAY is set; use sabi bake, preview \
+               and render, which need none";
     Err(EngineError::new(ErrorKind::NoAdapter, why))
 }
 

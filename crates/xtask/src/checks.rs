@@ -22,10 +22,22 @@ const CLIPPY: Check = (
         "warnings",
     ],
 );
-const NEXTEST: Check = ("Tests (nextest)", &["nextest", "run", "--workspace", "--locked"]);
+// One run shows everything that there is to mend.
+const NEXTEST: Check = (
+    "Tests (nextest)",
+    &["nextest", "run", "--workspace", "--locked", "--no-fail-fast"],
+);
 const TESTS: Check = (
     "Tests",
-    &["test", "--workspace", "--locked", "--lib", "--bins", "--tests"],
+    &[
+        "test",
+        "--workspace",
+        "--locked",
+        "--no-fail-fast",
+        "--lib",
+        "--bins",
+        "--tests",
+    ],
 );
 const DOC_TESTS: Check = ("Doc tests", &["test", "--doc", "--workspace", "--locked"]);
 const DOCUMENTATION: Check = ("Documentation", &["doc", "--workspace", "--no-deps", "--locked"]);

@@ -62,9 +62,26 @@ fn a_command_line_that_makes_no_sense_ends_with_2() {
         assert!(run.stderr.starts_with("error: "), "{}", run.stderr);
         assert!(!place.path("out").exists());
     }
-    for nothing in [&[][..], &["bake"], &["paint"], &["check"]] {
-        assert_eq!(place.sabi(nothing).fails(2).stdout, "");
+    for nothing in ["bake", "check", "render"] {
+        assert_eq!(place.sabi(&[nothing]).fails(2).stdout, "");
     }
+}
+
+#[test]
+fn a_word_that_is_no_command_is_taken_for_a_graph() {
+    let run = Place::new().sabi(&["paint"]).fails(66);
+    assert_eq!(run.stderr, "error: paint: there is no such file; check the path\n");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn without_a_display_the_editor_says_what_can_be_done() {
+    let run = Place::new().sabi(&[]).fails(4);
+    assert_eq!(
+        run.stderr,
+        "error: there is no display to open a window on: neither WAYLAND_DISPLAY nor DISPLAY is set; use sabi bake, preview \
+         and render, which need none\n"
+    );
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The nodes that are seen; what lies outside costs nothing.
 
+use std::collections::BTreeMap;
+
 use egui::layers::ShapeIdx;
 use egui::{Rect, Response, Sense, Shape, Ui, WidgetInfo, WidgetType, vec2};
 use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
@@ -69,10 +71,11 @@ fn in_order(canvas: &mut Canvas, around: &Around<'_>, seen: Rect) -> Vec<NodeId>
     let graph = around.desk.graph();
     canvas.touched.retain(|id| graph.node(id.as_str()).is_some());
     let is_seen = |id: &&NodeId| node_rect(around.desk, id).is_some_and(|rect| rect.intersects(seen));
-    let untouched = graph.ids().filter(|id| !canvas.touched.contains(id));
-    let in_turn = untouched.chain(&canvas.touched).filter(is_seen);
-    let (selected, others): (Vec<NodeId>, Vec<NodeId>) = in_turn.cloned().partition(|id| around.desk.is_selected(id));
-    others.into_iter().chain(selected).collect()
+    let turns: BTreeMap<&NodeId, usize> = canvas.touched.iter().zip(1..).collect();
+    let mut in_turn: Vec<NodeId> = graph.ids().filter(is_seen).cloned().collect();
+    // Those that were never touched stay as the graph has them, below the others.
+    in_turn.sort_by_key(|id| (around.desk.is_selected(id), turns.get(id).copied().unwrap_or_default()));
+    in_turn
 }
 
 /// Draws one node with the canvas crate's widget.

@@ -6,9 +6,9 @@ use crate::action::Action;
 use crate::app::Editor;
 use crate::theme::Theme;
 
-pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
-    let done: Vec<String> = editor.desk.session.undo_names().map(str::to_owned).collect();
-    let undone: Vec<String> = editor.desk.session.redo_names().rev().map(str::to_owned).collect();
+pub(crate) fn show(editor: &Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
+    let done: Vec<&str> = editor.desk.session.undo_names().collect();
+    let undone: Vec<&str> = editor.desk.session.redo_names().rev().collect();
     if done.is_empty() && undone.is_empty() {
         ui.colored_label(theme.quiet, "Nothing was changed yet.");
         return;
@@ -19,8 +19,8 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
         for at in rows {
             let (name, is_done) = match at.checked_sub(1) {
                 None => ("As it was opened", true),
-                Some(at) if at < done.len() => (done[at].as_str(), true),
-                Some(at) => (undone[at - done.len()].as_str(), false),
+                Some(at) if at < done.len() => (done[at], true),
+                Some(at) => (undone[at - done.len()], false),
             };
             let text = RichText::new(name).color(if is_done { theme.text } else { theme.quiet });
             if ui.selectable_label(at == done.len(), text).clicked() {
