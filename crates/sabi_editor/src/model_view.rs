@@ -92,6 +92,8 @@ pub(crate) struct Done {
     pub(crate) environment: Option<String>,
     /// What menus ask for.
     pub(crate) asked: Vec<Action>,
+    /// Why an environment cannot be had.
+    pub(crate) fault: Option<String>,
 }
 
 impl ModelView {
@@ -136,8 +138,10 @@ impl ModelView {
         render: Option<&RenderState>,
         subject: &Subject<'_>,
     ) -> Done {
-        let mut done = Done::default();
-        self.surroundings.poll(stage, ui.ctx());
+        let mut done = Done {
+            fault: self.surroundings.poll(stage, ui.ctx()),
+            ..Done::default()
+        };
         let rect = ui.available_rect_before_wrap();
         if !rect.is_positive() {
             return done;

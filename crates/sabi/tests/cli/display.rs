@@ -32,9 +32,20 @@ impl Display {
     pub(crate) fn new() -> Display {
         let folder = tempfile::tempdir().unwrap();
         let screen = format!("{}x{}x24", SIZE[0], SIZE[1]);
-        // The server looks for a free number itself, and writes it where it is told to.
+        // The server looks for a free number itself, and writes it where it is told to. Without `-noreset` it would begin
+        // anew whenever whoever looks for the window leaves, and take along a program that has just come.
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", &screen, "-nolisten", "tcp", "-fbdir"])
+            .args([
+                "-noreset",
+                "-displayfd",
+                "1",
+                "-screen",
+                "0",
+                &screen,
+                "-nolisten",
+                "tcp",
+                "-fbdir",
+            ])
             .arg(folder.path())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -87,7 +98,7 @@ impl Display {
     /// Waits for the window and gives it the keys, since there is nobody else who would.
     pub(crate) fn take_window(&self) {
         self.until("a window", || {
-            let found = self.hands(&["search", "--name", "^Sabi$"]);
+            let found = self.hands(&["search", "--name", "Sabi$"]);
             let Some(window) = found.lines().next_back() else {
                 return false;
             };

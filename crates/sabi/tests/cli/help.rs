@@ -5,12 +5,15 @@ use crate::place::Place;
 #[test]
 fn every_help_starts_from_examples() {
     let place = Place::new();
-    for command in ["", "bake", "preview", "check", "nodes", "mesh", "doctor"] {
+    for command in [
+        "", "bake", "edit", "preview", "render", "check", "nodes", "mesh", "doctor",
+    ] {
         for flag in ["--help", "-h"] {
             let arguments: Vec<&str> = [command, flag].into_iter().filter(|word| !word.is_empty()).collect();
             let help = place.sabi(&arguments).good();
             assert!(
-                help.stdout.starts_with(&format!("Examples:\n  sabi {command}")),
+                help.stdout
+                    .starts_with(format!("Examples:\n  sabi {command}").trim_end()),
                 "{command}: {}",
                 help.stdout
             );
@@ -23,7 +26,7 @@ fn every_help_starts_from_examples() {
 #[test]
 fn the_examples_of_the_help_are_command_lines_that_are_understood() {
     let place = Place::new();
-    for command in ["bake", "preview", "check", "nodes", "mesh", "doctor"] {
+    for command in ["bake", "edit", "preview", "render", "check", "nodes", "mesh", "doctor"] {
         let help = place.sabi(&[command, "--help"]).good().stdout;
         let examples = help.lines().skip(1).take_while(|line| line.starts_with("  sabi "));
         for example in examples {

@@ -161,6 +161,9 @@ impl Editor {
         if let Some(environment) = done.environment {
             self.settings.environment = environment;
         }
+        if let Some(fault) = done.fault {
+            self.say(fault);
+        }
         actions.extend(done.asked);
         if let Some(taken) = done.taken {
             self.take_color(taken);

@@ -1,11 +1,11 @@
 //! The light from all around, loaded beside the window.
 
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
 use egui::Context;
 use sabi_engine::view::Environment;
-use sabi_engine::{EngineError, load_environment};
+use sabi_engine::{EngineError, built_in_environments, load_environment};
 
 use crate::stage::Stage;
 
@@ -19,6 +19,8 @@ pub(super) struct Surroundings {
     coming: Option<Receiver<Loaded>>,
     environment: Option<Environment>,
     number: u64,
+    /// Whether one stands in for another that could not be had.
+    is_stand_in: bool,
     /// Why the last choice is not shown.
     pub(super) fault: Option<String>,
 }
@@ -31,6 +33,7 @@ impl Surroundings {
             coming: None,
             environment: None,
             number: 0,
+            is_stand_in: false,
             fault: None,
         }
     }
@@ -41,6 +44,7 @@ impl Surroundings {
     }
 
     pub(super) fn choose(&mut self, choice: &str) {
+        self.is_stand_in = false;
         choice.clone_into(&mut self.choice);
     }
 
@@ -53,8 +57,9 @@ impl Surroundings {
         self.number
     }
 
-    /// Begins to load what was chosen, and takes what has come.
-    pub(super) fn poll(&mut self, stage: &Stage, context: &Context) {
+    /// Begins to load what was chosen, and takes what has come. Gives the sentence for what cannot be had; while there is no
+    /// environment at all, one that comes with the program takes its place.
+    pub(super) fn poll(&mut self, stage: &Stage, context: &Context) -> Option<String> {
         if self.asked.as_ref() != Some(&self.choice) {
             self.asked = Some(self.choice.clone());
             let (sender, coming) = channel();
@@ -71,17 +76,31 @@ impl Surroundings {
             });
             self.coming = Some(coming);
         }
-        let Some(loaded) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) else {
-            return;
+        let loaded = match self.coming.as_ref().map(|coming| coming.try_recv()) {
+            None | Some(Err(TryRecvError::Empty)) => return None,
+            Some(Ok(loaded)) => loaded.map_err(|error| error.to_string()),
+            Some(Err(TryRecvError::Disconnected)) => Err(format!("'{}' could not be read to its end", self.choice)),
         };
         self.coming = None;
         match loaded {
             Ok((environment, remarks)) => {
                 self.environment = Some(environment);
                 self.number += 1;
-                self.fault = remarks.into_iter().next();
+                self.fault = remarks
+                    .into_iter()
+                    .next()
+                    .or(self.fault.take().filter(|_| self.is_stand_in));
+                None
             }
-            Err(error) => self.fault = Some(error.to_string()),
+            Err(why) => {
+                let first = built_in_environments().next();
+                if let Some(first) = first.filter(|first| self.environment.is_none() && self.choice != *first) {
+                    self.choose(first);
+                    self.is_stand_in = true;
+                }
+                self.fault = Some(why.clone());
+                Some(why)
+            }
         }
     }
 }

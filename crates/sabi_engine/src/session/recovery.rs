@@ -1,11 +1,11 @@
 //! What is kept of a graph between saves, for the case that the program ends without asking.
 
 use std::fs::{self, File, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use sabi_export::Staging;
 use serde_json::{Value as Json, json};
 
 use crate::error::{EngineError, ErrorKind};
@@ -123,11 +123,19 @@ impl Recovery {
         }
         let file = self.file.as_ref().map(|file| file.to_string_lossy());
         let bytes = json!({ "file": file, "graph": text }).to_string();
-        let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let mut staging = Staging::create(self.path.parent().unwrap_or(Path::new(".")))?;
+        let folder = self.path.parent().unwrap_or(Path::new("."));
+        let refused = |error: io::Error| {
+            let why = format!("{} cannot be written: {error}; free some space there", folder.display());
+            EngineError::new(ErrorKind::CannotWrite, why)
+        };
+        fs::create_dir_all(folder).map_err(refused)?;
+        // Whole or not at all for whoever reads it after a crash of the program. The disk is not waited for, since a window is
+        // at work meanwhile.
+        let partial = self.path.with_extension("part");
+        fs::write(&partial, bytes)
+            .and_then(|()| fs::rename(&partial, &self.path))
+            .map_err(refused)?;
         self.take();
-        staging.stage(&name, bytes.as_bytes())?;
-        staging.commit()?;
         self.kept = Some(text.to_owned());
         Ok(true)
     }

@@ -65,6 +65,23 @@ fn the_strip_holds_six_models_and_the_oldest_makes_room() {
 }
 
 #[test]
+fn an_environment_that_is_gone_is_told_and_another_stands_in_for_it() {
+    let mut window = Window::empty();
+    let gone = window.path("gone.hdr").display().to_string();
+    let environment = gone.clone();
+    let editor = window.harness.state_mut();
+    editor.settings.environment.clone_from(&environment);
+    editor.model_view = crate::model_view::ModelView::new(&environment, &editor.settings.view);
+    window.until("a picture", |editor| editor.model_view.drawn > 0);
+    assert!(window.says("gone.hdr"), "{:?}", window.labels());
+    assert_eq!(
+        window.editor().settings.environment,
+        gone,
+        "it may be there the next time"
+    );
+}
+
+#[test]
 fn menus_choose_the_mode_the_environment_and_the_light() {
     let mut window = Window::empty();
     window.until_model();
