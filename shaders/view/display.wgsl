@@ -13,7 +13,7 @@ struct Display {
     is_summed: f32,
 }
 
-@group(0) @binding(0) var<uniform> display: Display;
+@group(0) @binding(0) var<storage, read> display: Display;
 @group(0) @binding(1) var light: texture_2d<f32>;
 // The sum of the samples before this one, display-referred and linear, alpha premultiplied.
 @group(0) @binding(2) var earlier: texture_2d<f32>;

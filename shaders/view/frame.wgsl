@@ -42,7 +42,7 @@ struct Frame {
     pad_2: f32,
 }
 
-@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(0) var<storage, read> frame: Frame;
 @group(0) @binding(1) var smooth_sampler: sampler;
 @group(0) @binding(2) var reflections: texture_cube<f32>;
 @group(0) @binding(3) var directional_albedo: texture_2d<f32>;

@@ -12,7 +12,7 @@ struct Material {
     pad_1: u32,
 }
 
-@group(1) @binding(0) var<uniform> material: Material;
+@group(1) @binding(0) var<storage, read> material: Material;
 // Where a node's own result is shown, it is in the place of the colors.
 @group(1) @binding(1) var colors: texture_2d_array<f32>;
 @group(1) @binding(2) var surfaces: texture_2d_array<f32>;

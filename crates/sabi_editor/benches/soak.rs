@@ -37,7 +37,7 @@ fn main() {
     let render = egui_kittest::wgpu::create_render_state(Offscreen::setup(&adapter), Default::default());
     let mut window = Offscreen::open(&graph.display().to_string(), model, render, [1600.0, 900.0]).unwrap();
     window.rest();
-    println!("| edits | nodes | memory | a thousand edits took |\n|---|---|---|---|");
+    println!("| edits | nodes | memory | of it results | a thousand edits took |\n|---|---|---|---|---|");
     let mut walk = Walk::new(1);
     let mut began = Instant::now();
     for at in 0..=edits {
@@ -45,7 +45,9 @@ fn main() {
             window.rest();
             let memory = resident_mib().map_or("unknown".to_owned(), |mib| format!("{mib:.0} MiB"));
             let nodes = window.document().graph.len();
-            println!("| {at} | {nodes} | {memory} | {:.1} s |", began.elapsed().as_secs_f64());
+            let results = window.kept_bytes()[0] >> 20;
+            let seconds = began.elapsed().as_secs_f64();
+            println!("| {at} | {nodes} | {memory} | {results} MiB | {seconds:.1} s |");
             began = Instant::now();
         }
         match walk.next(window.document()) {

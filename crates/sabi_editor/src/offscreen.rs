@@ -166,6 +166,12 @@ impl Offscreen {
         )
     }
 
+    /// Bytes of results that are kept, and that may be kept.
+    pub fn kept_bytes(&self) -> [u64; 2] {
+        let last = &self.editor.stage.last;
+        [last.texture_bytes, last.budget_bytes]
+    }
+
     /// Waits until the device has drawn everything.
     ///
     /// # Errors

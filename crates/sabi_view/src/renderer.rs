@@ -204,7 +204,7 @@ impl Renderer {
         Ok(buffer_of(
             gpu,
             "the numbers of a picture",
-            wgpu::BufferUsages::UNIFORM,
+            wgpu::BufferUsages::STORAGE,
             bytes,
         )?)
     }
