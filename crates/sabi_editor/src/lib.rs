@@ -6,6 +6,7 @@ mod canvas;
 mod command;
 mod desk;
 mod dock;
+mod errand;
 mod files;
 mod flat_view;
 mod knobs;

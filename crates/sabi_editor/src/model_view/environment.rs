@@ -1,12 +1,10 @@
 //! The light from all around, loaded beside the window.
 
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::thread;
-
 use egui::Context;
 use sabi_engine::view::Environment;
 use sabi_engine::{EngineError, built_in_environments, load_environment};
 
+use crate::errand::{Errand, Failed};
 use crate::stage::Stage;
 
 type Loaded = Result<(Environment, Vec<String>), EngineError>;
@@ -16,7 +14,9 @@ pub(super) struct Surroundings {
     choice: String,
     /// What was asked for last.
     asked: Option<String>,
-    coming: Option<Receiver<Loaded>>,
+    coming: Option<Errand<Loaded>>,
+    /// Those that nobody waits for any more, as long as they are at work.
+    former: Vec<Errand<Loaded>>,
     environment: Option<Environment>,
     number: u64,
     /// Whether one stands in for another that could not be had.
@@ -31,6 +31,7 @@ impl Surroundings {
             choice: choice.to_owned(),
             asked: None,
             coming: None,
+            former: Vec::new(),
             environment: None,
             number: 0,
             is_stand_in: false,
@@ -62,24 +63,20 @@ impl Surroundings {
     pub(super) fn poll(&mut self, stage: &Stage, context: &Context) -> Option<String> {
         if self.asked.as_ref() != Some(&self.choice) {
             self.asked = Some(self.choice.clone());
-            let (sender, coming) = channel();
             let (gpu, choice, cache) = (
                 stage.gpu().clone(),
                 self.choice.clone(),
                 stage.cache_dir().map(ToOwned::to_owned),
             );
-            let woken = context.clone();
-            thread::spawn(move || {
-                // Nobody waits any more where another was chosen meanwhile.
-                let _ = sender.send(load_environment(&gpu, &choice, cache.as_deref()));
-                woken.request_repaint();
-            });
-            self.coming = Some(coming);
+            self.former.extend(self.coming.take());
+            self.coming = Some(Errand::start(context, move || {
+                load_environment(&gpu, &choice, cache.as_deref())
+            }));
         }
-        let loaded = match self.coming.as_ref().map(|coming| coming.try_recv()) {
-            None | Some(Err(TryRecvError::Empty)) => return None,
-            Some(Ok(loaded)) => loaded.map_err(|error| error.to_string()),
-            Some(Err(TryRecvError::Disconnected)) => Err(format!("'{}' could not be read to its end", self.choice)),
+        self.former.retain(|errand| !errand.is_over());
+        let loaded = match self.coming.as_ref()?.poll()? {
+            Ok(loaded) => loaded.map_err(|error| error.to_string()),
+            Err(Failed) => Err(format!("'{}' could not be read to its end", self.choice)),
         };
         self.coming = None;
         match loaded {

@@ -4,12 +4,12 @@ mod running;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
-use std::sync::mpsc::TryRecvError;
 
 use egui::{RichText, TextEdit, Ui};
 use sabi_engine::{BakeReport, DEFAULT_NAMES, Stage, export_channels, export_presets, why_no_names};
 
 use crate::app::Editor;
+use crate::errand::Failed;
 use crate::theme::{Theme, space};
 
 pub(crate) use running::Running;
@@ -100,10 +100,12 @@ impl Export {
 
     /// Takes what came of a running export; says whether it is over.
     pub(crate) fn poll(&mut self) -> bool {
-        let done = match self.running.as_ref().map(|running| running.done.try_recv()) {
-            None | Some(Err(TryRecvError::Empty)) => return false,
-            Some(Ok(done)) => done.map_err(|error| error.to_string()),
-            Some(Err(TryRecvError::Disconnected)) => Err(
+        let Some(done) = self.running.as_ref().and_then(|running| running.errand.poll()) else {
+            return false;
+        };
+        let done = match done {
+            Ok(done) => done.map_err(|error| error.to_string()),
+            Err(Failed) => Err(
                 "The export ended before its time, which is a mistake of the program; nothing was changed.".to_owned(),
             ),
         };

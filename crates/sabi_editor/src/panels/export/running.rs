@@ -1,16 +1,16 @@
 //! An export that is made beside the window's work.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex};
-use std::thread;
 
 use sabi_engine::{BakeReport, EngineError, Progress, Stage};
 
-/// An export that is being made.
+use crate::errand::Errand;
+
+/// An export that is being made. Dropping it cancels it and waits for that.
 pub(crate) struct Running {
     pub(super) watch: Arc<Watch>,
-    pub(super) done: Receiver<Result<BakeReport, EngineError>>,
+    pub(super) errand: Errand<Result<BakeReport, EngineError>>,
 }
 
 /// How far it is.
@@ -50,13 +50,14 @@ impl Running {
         work: impl FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + Send + 'static,
     ) -> Running {
         let watch = Arc::new(Watch::default());
-        let (sender, done) = channel();
-        let (watched, woken) = (watch.clone(), context.clone());
-        thread::spawn(move || {
-            // A window that was closed meanwhile does not listen.
-            let _ = sender.send(work(watched.as_ref()));
-            woken.request_repaint();
-        });
-        Running { watch, done }
+        let watched = watch.clone();
+        let errand = Errand::start(context, move || work(watched.as_ref()));
+        Running { watch, errand }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.watch.is_canceled.store(true, Ordering::Relaxed);
     }
 }
