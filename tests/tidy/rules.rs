@@ -48,28 +48,9 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 12] = [
 pub(crate) const ALSO: [(&str, &str); 3] = [("xtask", "png"), ("sabi_view", "wgpu"), ("sabi_editor", "wgpu")];
 
 /// Outside crates with one owner. Anything else is free to use.
-pub(crate) const OWNED: [&str; 20] = [
-    "petgraph",
-    "naga",
-    "gltf",
-    "obvhs",
-    "uvunwrap",
-    "image",
-    "png",
-    "exr",
-    "wgpu",
-    "notify",
-    "clap",
-    "indicatif",
-    "eframe",
-    "egui",
-    "egui_phosphor",
-    "egui_wgpu",
-    "egui_commonmark",
-    "egui_node_graph",
-    "egui_tiles",
-    "rfd",
-];
+pub(crate) fn owned() -> impl Iterator<Item = &'static str> {
+    MAY_NAME.iter().flat_map(|(_, _, outside)| outside.iter().copied())
+}
 
 /// Files that may be longer, each with its reason.
 pub(crate) const LONGER_FILES: [(&str, &str); 0] = [];

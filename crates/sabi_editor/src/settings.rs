@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use sabi_engine::write_whole;
+
 use crate::command::Habit;
 use crate::dock::Layout;
 use crate::model_view::ViewChoices;
@@ -98,10 +100,7 @@ impl Settings {
         let told =
             |error: &dyn std::fmt::Display| format!("the settings cannot be kept in {}: {error}", folder.display());
         let text = serde_json::to_string_pretty(self).map_err(|error| told(&error))?;
-        fs::create_dir_all(folder).map_err(|error| told(&error))?;
-        let partial = folder.join(format!("{FILE}.part"));
-        fs::write(&partial, text).map_err(|error| told(&error))?;
-        fs::rename(&partial, folder.join(FILE)).map_err(|error| told(&error))
+        write_whole(&folder.join(FILE), text.as_bytes()).map_err(|error| told(&error))
     }
 
     /// Remembers a file as the last one that was open.

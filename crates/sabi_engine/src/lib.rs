@@ -44,6 +44,7 @@ mod source;
 mod stages;
 mod thumbnail;
 mod watch;
+mod whole_file;
 mod workpiece;
 
 pub use bake::{bake, bake_graph, needs_force};
@@ -80,3 +81,4 @@ pub use sabi_graph::{Fit, NodeRef, Overrides, nearest};
 pub use sabi_surface::load::Up;
 /// What is seen of a model, and how.
 pub use sabi_view as view;
+pub use whole_file::{free_graph_file, write_whole};

@@ -8,6 +8,7 @@ use sabi_nodes::{SourceFile, read_kind};
 use crate::catalog::readable;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
+use crate::whole_file::write_whole;
 
 /// One thing that is wrong with the text of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -91,15 +92,9 @@ pub fn save_node(folder: &Path, id: &str, text: &str, known: Option<&str>) -> Re
         );
         return Err(EngineError::new(ErrorKind::CannotWrite, why));
     }
-    let partial = file.with_extension("wgsl.part");
-    let written = fs::create_dir_all(file.parent().unwrap_or(folder))
-        .and_then(|()| fs::write(&partial, text))
-        .and_then(|()| fs::rename(&partial, &file));
-    match written {
+    match write_whole(&file, text.as_bytes()) {
         Ok(()) => Ok(file),
         Err(error) => {
-            // It may never have come to be; the first error is the one to tell.
-            let _ = fs::remove_file(&partial);
             let why = format!("{} cannot be written: {error}", file.display());
             Err(EngineError::new(ErrorKind::CannotWrite, why))
         }

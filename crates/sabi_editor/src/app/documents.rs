@@ -57,12 +57,7 @@ impl Editor {
 
     /// Puts another graph on the desk, on the model that it names.
     pub(crate) fn take_session(&mut self, session: Session) {
-        let named = session
-            .document()
-            .preview
-            .as_ref()
-            .and_then(|preview| preview.mesh.clone());
-        let model = named.map(|mesh| session.graph().folder().join(mesh));
+        let model = super::model_of(&session);
         self.remember_export();
         let before = std::mem::replace(&mut self.desk, Desk::new(session));
         before.session.close();

@@ -1,30 +1,15 @@
 //! Groups that are kept to be used in other graphs: each a graph file of its own.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::OpenGraph;
+use sabi_engine::{OpenGraph, free_graph_file, write_whole};
 use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
 
 use super::{Desk, Loose, bringing};
 
 /// What graph files end in.
 pub(crate) const ENDING: &str = "sabi";
-
-/// Groups of one name in a library.
-const MOST_OF_A_NAME: usize = 1000;
-
-/// A file for a group that nobody else's group is in.
-fn free_file(folder: &Path, stem: &str, text: &str) -> Option<PathBuf> {
-    let others = (2..=MOST_OF_A_NAME).map(|number| format!("{stem}-{number}"));
-    let files = std::iter::once(stem.to_owned()).chain(others);
-    let is_free = |file: &PathBuf| match fs::read(file) {
-        Ok(bytes) => bytes == text.as_bytes(),
-        Err(error) => error.kind() == std::io::ErrorKind::NotFound,
-    };
-    files.map(|stem| folder.join(format!("{stem}.{ENDING}"))).find(is_free)
-}
 
 impl Desk {
     /// Writes the group of the selected instance into a folder, as a graph file that other graphs can use.
@@ -44,19 +29,14 @@ impl Desk {
             }
         };
         let text = document.to_json();
-        let Some(file) = free_file(folder, &file_stem(&name), &text) else {
+        let Some(file) = free_graph_file(folder, &file_stem(&name), text.as_bytes()) else {
             self.say(format!(
                 "{} has too many groups of that name; give this one another",
                 folder.display()
             ));
             return None;
         };
-        let written = fs::create_dir_all(folder).and_then(|()| {
-            let partial = file.with_extension("part");
-            fs::write(&partial, text)?;
-            fs::rename(&partial, &file)
-        });
-        match written {
+        match write_whole(&file, text.as_bytes()) {
             Ok(()) => {
                 let called = file.file_name().unwrap_or_default().to_string_lossy();
                 self.say(format!("'{name}' is in the library now, as {called}."));

@@ -5,6 +5,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use sabi_engine::{free_graph_file, write_whole};
+
 /// An example: what it is called, its file, and the model that it is on.
 pub(crate) struct Example {
     pub(crate) title: &'static str,
@@ -72,8 +74,6 @@ const MODELS: [(&str, &[u8]); 7] =
 /// Where graphs and models stand in the folder of examples, as they do in the project.
 const GRAPHS: &str = "graphs";
 const MESHES: &str = "assets/meshes";
-/// No more files of an example are looked at.
-const MOST_COPIES: usize = 1000;
 
 /// Writes an example with all models into a folder, and gives its file. What is there already and the same stays; a graph that
 /// somebody worked on since stays, too, and the example is written beside it.
@@ -84,17 +84,9 @@ pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
     for (name, bytes) in MODELS {
         write_where_other(&folder.join(MESHES).join(name), bytes)?;
     }
-    let folder = folder.join(GRAPHS);
-    let stem = example.name.trim_end_matches(".sabi");
-    let others = (2..).map(|number| format!("{stem}-{number}.sabi"));
-    let files = std::iter::once(example.name.to_owned()).chain(others);
-    let is_free = |file: &PathBuf| match fs::read(file) {
-        Ok(bytes) => bytes == example.text.as_bytes(),
-        Err(error) => error.kind() == io::ErrorKind::NotFound,
-    };
-    let file = files.map(|name| folder.join(name)).take(MOST_COPIES).find(is_free);
-    let file = file.ok_or(io::ErrorKind::AlreadyExists)?;
-    write_where_other(&file, example.text.as_bytes())?;
+    let (stem, text) = (example.name.trim_end_matches(".sabi"), example.text.as_bytes());
+    let file = free_graph_file(&folder.join(GRAPHS), stem, text).ok_or(io::ErrorKind::AlreadyExists)?;
+    write_where_other(&file, text)?;
     Ok(Some(file))
 }
 
@@ -110,12 +102,7 @@ fn write_where_other(file: &Path, bytes: &[u8]) -> io::Result<()> {
     if fs::read(file).is_ok_and(|known| known == bytes) {
         return Ok(());
     }
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder)?;
-    }
-    let partial = file.with_extension("part");
-    fs::write(&partial, bytes)?;
-    fs::rename(&partial, file)
+    write_whole(file, bytes)
 }
 
 #[cfg(test)]

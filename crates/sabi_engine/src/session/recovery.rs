@@ -9,6 +9,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use serde_json::{Value as Json, json};
 
 use crate::error::{EngineError, ErrorKind};
+use crate::whole_file::write_whole;
 
 /// Tells two sessions of one process apart.
 static SESSIONS: AtomicU64 = AtomicU64::new(0);
@@ -128,13 +129,9 @@ impl Recovery {
             let why = format!("{} cannot be written: {error}; free some space there", folder.display());
             EngineError::new(ErrorKind::CannotWrite, why)
         };
-        fs::create_dir_all(folder).map_err(refused)?;
         // Whole or not at all for whoever reads it after a crash of the program. The disk is not waited for, since a window is
         // at work meanwhile.
-        let partial = self.path.with_extension("part");
-        fs::write(&partial, bytes)
-            .and_then(|()| fs::rename(&partial, &self.path))
-            .map_err(refused)?;
+        write_whole(&self.path, bytes.as_bytes()).map_err(refused)?;
         self.take();
         self.kept = Some(text.to_owned());
         Ok(true)

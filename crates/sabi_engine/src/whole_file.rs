@@ -1,0 +1,39 @@
+//! Files that are there whole or as they were before.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// No more files of one name are looked at.
+const MOST_OF_A_NAME: usize = 1000;
+
+/// Writes a file under a name of its own and puts it in place then, so that nobody ever reads half of it. Folders are made.
+///
+/// # Errors
+/// The folder cannot be written to; the file is as it was before.
+pub fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    let mut name = file.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    let partial = file.with_file_name(name);
+    let written = fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, file));
+    if written.is_err() {
+        // It may never have come to be; the first error is the one to tell.
+        let _ = fs::remove_file(&partial);
+    }
+    written
+}
+
+/// The first of `stem.sabi`, `stem-2.sabi` and so on that is not there, or that holds these very bytes; none where there are
+/// too many.
+pub fn free_graph_file(folder: &Path, stem: &str, bytes: &[u8]) -> Option<PathBuf> {
+    let others = (2..=MOST_OF_A_NAME).map(|number| format!("{stem}-{number}"));
+    let files = std::iter::once(stem.to_owned()).chain(others);
+    let is_free = |file: &PathBuf| match fs::read(file) {
+        Ok(known) => known == bytes,
+        Err(error) => error.kind() == io::ErrorKind::NotFound,
+    };
+    files.map(|stem| folder.join(format!("{stem}.sabi"))).find(is_free)
+}
