@@ -17,11 +17,20 @@ fn cover(@builtin(vertex_index) index: u32) -> Behind {
 
 @fragment
 fn paint(behind: Behind) -> @location(0) vec4f {
+    let light = textureSampleLevel(panorama, round_sampler, panorama_place(towards_behind(behind)), 0.0).xyz;
+    return shown_behind(light);
+}
+
+@fragment
+fn paint_blurred(behind: Behind) -> @location(0) vec4f {
+    return shown_behind(textureSampleLevel(reflections, smooth_sampler, towards_behind(behind), frame.blur).xyz);
+}
+
+fn towards_behind(behind: Behind) -> vec3f {
     let near = frame.view_from_clip * vec4f(behind.at, 1.0, 1.0);
-    let towards = in_environment(ray_through(near.xyz / near.w));
-    var light = textureSampleLevel(reflections, smooth_sampler, towards, frame.backdrop.w).xyz;
-    if frame.backdrop.w < 0.0 {
-        light = textureSampleLevel(panorama, round_sampler, panorama_place(towards), 0.0).xyz;
-    }
+    return in_environment(ray_through(near.xyz / near.w));
+}
+
+fn shown_behind(light: vec3f) -> vec4f {
     return vec4f(min(light * frame.environment.z, vec3f(65504.0)), 1.0);
 }

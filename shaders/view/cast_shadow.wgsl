@@ -4,7 +4,7 @@ struct Caster {
     clip_from_view: mat4x4f,
 }
 
-@group(0) @binding(0) var<storage, read> caster: Caster;
+@group(0) @binding(0) var<uniform> caster: Caster;
 
 @vertex
 fn place_corner(@location(0) position: vec3f) -> @builtin(position) vec4f {

@@ -5,15 +5,16 @@ struct Display {
     backdrop: vec4f,
     // Light is multiplied by it first.
     exposure: f32,
-    // 0 none but sRGB's curve, 1 AgX, 2 ACES; 3 for pictures that are encoded already.
-    transform: u32,
     // Samples that are in the sum, this one included.
     samples: f32,
-    // Whether the sum holds this sample, too.
-    is_summed: f32,
+    pad_0: f32,
+    pad_1: f32,
 }
 
-@group(0) @binding(0) var<storage, read> display: Display;
+// 0 none but sRGB's curve, 1 AgX, 2 ACES; 3 for pictures that are encoded already. See `switches.wgsl`.
+override TRANSFORM: u32 = 0u;
+
+@group(0) @binding(0) var<uniform> display: Display;
 @group(0) @binding(1) var light: texture_2d<f32>;
 // The sum of the samples before this one, display-referred and linear, alpha premultiplied.
 @group(0) @binding(2) var earlier: texture_2d<f32>;
@@ -74,7 +75,7 @@ fn code_of(linear: vec3f) -> vec3f {
 fn shown_at(pixel: vec2i) -> vec4f {
     let seen = textureLoad(light, pixel, 0);
     var color = seen.xyz;
-    switch display.transform {
+    switch TRANSFORM {
         case 0u: { color = clamp(color * display.exposure, vec3f(0.0), vec3f(1.0)); }
         case 1u: { color = agx(color * display.exposure); }
         case 2u: { color = aces(color * display.exposure); }
@@ -91,10 +92,14 @@ fn gather(@builtin(position) at: vec4f) -> @location(0) vec4f {
 
 @fragment
 fn encode(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    var sum = textureLoad(earlier, vec2i(at.xy), 0);
-    if display.is_summed < 0.5 {
-        sum = shown_at(vec2i(at.xy));
-    }
-    let alpha = sum.w / display.samples;
-    return vec4f(code_of(sum.xyz / max(sum.w, 1e-6)), alpha);
+    return encoded_mean(shown_at(vec2i(at.xy)));
+}
+
+@fragment
+fn encode_sum(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    return encoded_mean(textureLoad(earlier, vec2i(at.xy), 0));
+}
+
+fn encoded_mean(sum: vec4f) -> vec4f {
+    return vec4f(code_of(sum.xyz / max(sum.w, 1e-6)), sum.w / display.samples);
 }

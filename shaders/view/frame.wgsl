@@ -6,7 +6,7 @@ struct Light {
     // Where it is, w 1; or for one that is far away the direction towards it, w 0.
     place: vec4f,
     // Radiance times solid angle of one that is far away, intensity of one that is near; linear RGB. w is the first layer of
-    // its shadow, −1 where it throws none.
+    // its shadow, where it throws one.
     color: vec4f,
 }
 
@@ -22,14 +22,10 @@ struct Frame {
     shadow_from_view: array<mat4x4f, 24>,
     // Cosine and sine of the environment's turn about +Y, its strength, and the last level of its reflections.
     environment: vec4f,
-    // Display-referred color behind the model, and how it is shown: 0 that color, 1 the environment, 2 blurred.
-    backdrop: vec4f,
-    light_count: u32,
-    // What is shown, see `modes.wgsl`.
-    mode: u32,
-    // Number of the picture's sample, and a pixel's share of the picture's height.
+    // Number of the picture's sample.
     sample: u32,
-    pixel: f32,
+    // The level of the reflections that stands behind the model where it is blurred.
+    blur: f32,
     // Texels for one unit of UV, and the texels along a unit of view space that count as even.
     texels_of_uv: f32,
     even_density: f32,
@@ -37,12 +33,10 @@ struct Frame {
     heights: vec2f,
     // View units in a working unit.
     view_from_working: f32,
-    pad_0: f32,
-    pad_1: f32,
-    pad_2: f32,
+    pad: f32,
 }
 
-@group(0) @binding(0) var<storage, read> frame: Frame;
+@group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(1) var smooth_sampler: sampler;
 @group(0) @binding(2) var reflections: texture_cube<f32>;
 @group(0) @binding(3) var directional_albedo: texture_2d<f32>;

@@ -48,7 +48,7 @@ fn from_environment(spot: Spot, mirror: vec3f, made: Substance, lobe: vec2f, to_
 
 fn from_lights(spot: Spot, pixel: Pixel, made: Substance, lobe: vec2f, to_eye: vec3f, has_relief: bool) -> vec3f {
     var sum = vec3f(0.0);
-    for (var index = 0u; index < frame.light_count; index++) {
+    for (var index = 0u; index < LIGHT_COUNT; index++) {
         let light = frame.lights[index];
         let away = light.place.xyz - pixel.position * light.place.w;
         let to_light = unit_or(away, vec3f(0.0, 1.0, 0.0));
@@ -57,7 +57,10 @@ fn from_lights(spot: Spot, pixel: Pixel, made: Substance, lobe: vec2f, to_eye: v
         // A light behind the surface itself does not shine through bumps.
         let is_above = cosine > 0.0 && dot(spot.smooth_normal, to_light) > -0.1;
         if is_above {
-            var reaches = unshadowed(light, pixel.position, spot.smooth_normal, to_light);
+            var reaches = 1.0;
+            if ((SHADOWS_OF >> index) & 1u) != 0u {
+                reaches = unshadowed(light, pixel.position, spot.smooth_normal, to_light);
+            }
             if has_relief && reaches > 0.0 {
                 reaches *= through_relief(pixel.place, spot.smooth_normal, to_light);
             }

@@ -9,7 +9,7 @@ struct LineStyle {
     pad: f32,
 }
 
-@group(1) @binding(0) var<storage, read> style: LineStyle;
+@group(1) @binding(0) var<uniform> style: LineStyle;
 
 @vertex
 fn place_end(

@@ -5,14 +5,9 @@ struct Material {
     // What channels are where nothing sets them: base color and alpha; roughness, metallic, occlusion.
     color: vec4f,
     surface: vec4f,
-    // Which maps there are: 1 color, 2 surface, 4 emission, 8 normal, 16 height; and of what type a node's own result is, see `show.wgsl`.
-    maps: u32,
-    shown_type: u32,
-    pad_0: u32,
-    pad_1: u32,
 }
 
-@group(1) @binding(0) var<storage, read> material: Material;
+@group(1) @binding(0) var<uniform> material: Material;
 // Where a node's own result is shown, it is in the place of the colors.
 @group(1) @binding(1) var colors: texture_2d_array<f32>;
 @group(1) @binding(2) var surfaces: texture_2d_array<f32>;
@@ -47,8 +42,4 @@ fn value_at(map: texture_2d_array<f32>, place: Place) -> vec4f {
     let top = (b - a) * weight.x;
     let bottom = (c - a) + (d - c) * weight.x;
     return a + top + (bottom - top) * weight.y;
-}
-
-fn has_map(bit: u32) -> bool {
-    return (material.maps & bit) != 0u;
 }

@@ -37,10 +37,10 @@ struct Laid {
 fn laid(seen: Seen, place: vec2f, chart: u32, normal: vec3f, tangent: vec3f, is_front: bool) -> Laid {
     let code = 2u * chart + select(0u, 1u, is_front);
     var packed = packed_vector(tangent);
-    if frame.mode == DENSITY {
+    if MODE == DENSITY {
         packed = vec2u(bitcast<u32>(density(seen.texel, seen.position)), 0u);
     }
-    if frame.mode == SHIFT {
+    if MODE == SHIFT {
         packed = bitcast<vec2u>(place - seen.texel);
     }
     return Laid(vec4u(bitcast<vec2u>(place), code, packed.x), vec4u(bitcast<vec3u>(normal), packed.y));
@@ -72,7 +72,8 @@ fn page_of(chart: u32) -> i32 {
 
 fn is_clear(place: Place, pixel: vec2f) -> bool {
     let alpha = select(material.color.w, value_at(colors, place).w, has_map(1u));
-    return alpha < 1.0 && alpha <= veil(pixel) && (frame.mode == 0u || frame.mode == CLAY);
+    // One condition, see `switches.wgsl`: without a map, the first half asks a uniform buffer alone.
+    return (alpha < 1.0) & (alpha <= veil(pixel));
 }
 
 @fragment
@@ -90,10 +91,19 @@ fn lay_veiled(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
 
 @fragment
 fn lay_relief(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
+    return laid_at(seen, met(seen, Place(seen.texel, page_of(seen.chart)), ray_through(seen.position)), is_front);
+}
+
+@fragment
+fn lay_veiled_relief(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
     let hit = met(seen, Place(seen.texel, page_of(seen.chart)), ray_through(seen.position));
     if is_clear(Place(hit.texel, hit.page), seen.clip.xy) {
         discard;
     }
+    return laid_at(seen, hit, is_front);
+}
+
+fn laid_at(seen: Seen, hit: Stand, is_front: bool) -> Laid {
     let basis = basis_there(hit, Basis(seen.normal, seen.tangent, seen.chart));
     return laid(seen, hit.texel, basis.chart, basis.normal, basis.tangent, is_front);
 }

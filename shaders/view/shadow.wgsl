@@ -9,11 +9,8 @@ fn layer_of(light: Light, away: vec3f) -> i32 {
     return i32(light.color.w) + select(0, face, light.place.w > 0.5);
 }
 
-// Share of a light that reaches a place: four comparisons, each between four depths.
+// Share of a light with a shadow that reaches a place: four comparisons, each between four depths.
 fn unshadowed(light: Light, position: vec3f, normal: vec3f, to_light: vec3f) -> f32 {
-    if light.color.w < 0.0 {
-        return 1.0;
-    }
     // Off the surface, the more the flatter the light falls: a depth covers a whole texel.
     let slant = 1.0 - clamp(dot(normal, to_light), 0.0, 1.0);
     let from_surface = position + normal * (0.002 + 0.006 * slant);

@@ -35,7 +35,7 @@ fn density_color(density: f32) -> vec3f {
 
 fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
     let to_eye = -ray_through(pixel.position);
-    switch frame.mode {
+    switch MODE {
         case BASE_COLOR: { return encoded(spot.base_color); }
         case OPACITY: { return vec3f(spot.alpha); }
         case ROUGHNESS: { return vec3f(spot.roughness); }
@@ -50,10 +50,10 @@ fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
         case EMISSION: { return encoded(spot.emission); }
         case NODE: {
             let value = value_at(colors, pixel.place);
-            if material.shown_type == SHOWN_COLOR {
+            if SHOWN_TYPE == SHOWN_COLOR {
                 return encoded(value.xyz);
             }
-            return select(vec3f(value.x), value.xyz * 0.5 + 0.5, material.shown_type == SHOWN_VECTOR);
+            return select(vec3f(value.x), value.xyz * 0.5 + 0.5, SHOWN_TYPE == SHOWN_VECTOR);
         }
         case CHECKER: { return checker(pixel.place.texel - chart_row(pixel.chart).xy) * shade_of(spot.smooth_normal, to_eye); }
         case DENSITY: { return density_color(pixel.extra.x) * shade_of(spot.smooth_normal, to_eye); }

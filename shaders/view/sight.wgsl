@@ -16,7 +16,8 @@ fn met(seen: Seen, place: Place, towards: vec3f) -> Stand {
     let reach = frame.heights * frame.view_from_working;
     let depth = reach.y - reach.x;
     let up = unit_or(seen.normal, vec3f(0.0, 1.0, 0.0));
-    if !has_map(16u) || depth <= 0.0 || abs(determinant) < 1e-20 {
+    // One condition, see `switches.wgsl`: its first half asks a uniform buffer alone.
+    if (depth <= 0.0) | (abs(determinant) < 1e-20) {
         return start;
     }
     let slope = texels_a_climb(along_u, along_v, up, towards, depth, SIGHT_STEPS);

@@ -1,5 +1,6 @@
 //! `cargo bench --bench window`: what frames of the window take of the processor, how soon it shows something, and how soon it
-//! shows what a slider does. Medians and the worst of some frames; nothing here asserts.
+//! shows what a slider does. Medians and the worst of some frames; nothing here asserts. `-- slider`, `-- frames` and `-- start`
+//! measure that alone.
 
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
@@ -225,20 +226,33 @@ fn main() {
         Ok(name) => name.parse().unwrap(),
         Err(_) => AdapterChoice::Auto,
     };
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    let is_wanted = |part: &str| wanted.is_empty() || wanted.iter().any(|word| word == part);
     let folder = tempfile::tempdir().unwrap();
     println!("| what | the middle one | the worst | aim |\n|---|---|---|---|");
-    start(&adapter);
-    for (count, aim) in [(60, "≤ 8 ms"), (500, "≤ 16 ms")] {
-        let cube = root().join("assets/meshes/cube.glb");
-        let mut window = opened(&adapter, &graph(folder.path(), count, 64), cube);
-        window.rest();
-        frames_of(&mut window, &format!("{count} nodes, all seen"), aim);
-        let middle = window.canvas().unwrap().center();
-        for _ in 0..24 {
-            window.frame(wheel(middle, vec2(0.0, 60.0), egui::Modifiers::NONE));
-        }
-        window.rest();
-        frames_of(&mut window, &format!("{count} nodes, some seen"), aim);
+    if is_wanted("start") {
+        start(&adapter);
     }
-    slider(&adapter, folder.path());
+    if is_wanted("frames") {
+        for (count, aim) in [(60, "≤ 8 ms"), (500, "≤ 16 ms")] {
+            all_frames(&adapter, folder.path(), count, aim);
+        }
+    }
+    if is_wanted("slider") {
+        slider(&adapter, folder.path());
+    }
+}
+
+/// Frames of a graph that is seen whole, and of one that is not.
+fn all_frames(adapter: &AdapterChoice, folder: &Path, count: usize, aim: &str) {
+    let cube = root().join("assets/meshes/cube.glb");
+    let mut window = opened(adapter, &graph(folder, count, 64), cube);
+    window.rest();
+    frames_of(&mut window, &format!("{count} nodes, all seen"), aim);
+    let middle = window.canvas().unwrap().center();
+    for _ in 0..24 {
+        window.frame(wheel(middle, vec2(0.0, 60.0), egui::Modifiers::NONE));
+    }
+    window.rest();
+    frames_of(&mut window, &format!("{count} nodes, some seen"), aim);
 }

@@ -57,9 +57,12 @@ impl Offscreen {
         let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone())?;
         let context = Context::default();
         let (wake, woken) = channel();
-        context.set_request_repaint_callback(move |_| {
-            // Nobody listens once the window is closed.
-            let _ = wake.send(());
+        context.set_request_repaint_callback(move |asked| {
+            // What is asked for later is not waited for: a window sleeps until then.
+            if asked.delay.is_zero() {
+                // Nobody listens once the window is closed.
+                let _ = wake.send(());
+            }
         });
         let beginning = Beginning {
             session: Session::open(graph.as_ref(), None)?,

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
 
 use crate::camera::Lens;
-use crate::scene::{Background, Light, LightPlace, MOST_LIGHTS, Scene, Shot};
+use crate::scene::{Light, LightPlace, MOST_LIGHTS, Scene, Shot};
 use crate::shadows::{LAYERS, layers_of, shadow_matrices};
 
 #[repr(C)]
@@ -25,16 +25,13 @@ pub(crate) struct Frame {
     lights: [LightRow; MOST_LIGHTS],
     shadow_from_view: [[[f32; 4]; 4]; LAYERS],
     environment: [f32; 4],
-    backdrop: [f32; 4],
-    light_count: u32,
-    mode: u32,
     sample: u32,
-    pixel: f32,
+    blur: f32,
     texels_of_uv: f32,
     even_density: f32,
     heights: [f32; 2],
     view_from_working: f32,
-    pad: [f32; 3],
+    pad: f32,
 }
 
 /// Level of the reflections that a blurred background is read at, as a share of all.
@@ -60,10 +57,6 @@ impl Frame {
         }
         let (sin, cos) = shot.environment_turn_degrees.to_radians().sin_cos();
         let last_level = scene.environment.specular_levels().saturating_sub(1) as f32;
-        let level = match shot.background {
-            Background::Blurred => BLUR * last_level,
-            Background::Environment | Background::Plain(_) | Background::Clear => -1.0,
-        };
         Frame {
             clip_from_view: clip_from_view.to_cols_array_2d(),
             view_from_clip: clip_from_view.inverse().to_cols_array_2d(),
@@ -72,16 +65,13 @@ impl Frame {
             lights: rows,
             shadow_from_view,
             environment: [cos, sin, shot.environment_strength, last_level],
-            backdrop: [0.0, 0.0, 0.0, level],
-            light_count: lights.len() as u32,
-            mode: shot.mode.number(),
             sample,
-            pixel: 1.0 / height as f32,
+            blur: BLUR * last_level,
             texels_of_uv: scene.model.texels_of_uv,
             even_density: scene.model.even_density,
             heights: shot.height_range,
             view_from_working: scene.model.view_from_working,
-            pad: [0.0; 3],
+            pad: 0.0,
         }
     }
 }
@@ -102,7 +92,7 @@ fn light_row(light: &Light, first_layer: usize) -> LightRow {
     };
     LightRow {
         place: place.to_array(),
-        color: [r, g, b, if light.has_shadow { first_layer as f32 } else { -1.0 }],
+        color: [r, g, b, first_layer as f32],
     }
 }
 

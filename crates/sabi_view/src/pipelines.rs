@@ -2,6 +2,7 @@
 
 mod layouts;
 mod recipe;
+mod switches;
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -14,6 +15,7 @@ use crate::shadows::SHADOW;
 use crate::target::{LIGHT, SEEN, SHOWN, SUM};
 pub(crate) use layouts::Layouts;
 use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, pipeline, rows_of, text_of};
+pub(crate) use switches::Switches;
 
 /// A pipeline by what it does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,19 +24,28 @@ pub(crate) enum Draws {
     Raster {
         is_double_sided: bool,
         ground: Ground,
+        switches: Switches,
     },
     /// Light, for each pixel that sees the model.
-    Paint(Paint),
-    /// What is behind the model.
-    Background,
+    Paint(Paint, Switches),
+    /// The environment behind the model.
+    Background {
+        is_blurred: bool,
+    },
     Lines,
     /// The model as a light sees it.
     Shadow,
     /// Adds a sample to the sum of those before.
-    Gather,
+    Gather(Transform),
+    /// Encodes the only sample.
+    Encode(Transform),
     /// Encodes the mean of the samples.
-    Encode,
+    EncodeSum,
 }
+
+/// From light to what a display shows: `TRANSFORM` of `display.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Transform(pub(crate) u32);
 
 /// What a raster has to look at to know what a pixel sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,8 +54,10 @@ pub(crate) enum Ground {
     Plain,
     /// Where they are clear.
     Veiled,
-    /// The heights on them, too.
+    /// The heights on them.
     Relief,
+    /// Both.
+    VeiledRelief,
 }
 
 /// How the model is painted.
@@ -94,18 +107,29 @@ impl Pipelines {
             Draws::Raster {
                 is_double_sided,
                 ground,
-            } => self.raster(device, is_double_sided, ground),
-            Draws::Paint(paint) => self.paint(device, paint),
-            Draws::Background => self.background(device),
+                switches,
+            } => self.raster(device, is_double_sided, ground, switches),
+            Draws::Paint(paint, switches) => self.paint(device, paint, switches),
+            Draws::Background { is_blurred } => self.background(device, is_blurred),
             Draws::Lines => self.lines(device),
             Draws::Shadow => self.shadow(device),
-            Draws::Gather => self.display(device, "gather", SUM),
-            Draws::Encode => self.display(device, "encode", SHOWN),
+            Draws::Gather(transform) => self.display(device, "gather", SUM, transform),
+            Draws::Encode(transform) => self.display(device, "encode", SHOWN, transform),
+            // The sum went through the transform already.
+            Draws::EncodeSum => self.display(device, "encode_sum", SHOWN, Transform(0)),
         }
     }
 
-    fn raster(&self, device: &wgpu::Device, is_double_sided: bool, ground: Ground) -> wgpu::RenderPipeline {
-        let parts = ["raster", "sight", "relief", "modes", "maps", "frame", "atlas"];
+    fn raster(
+        &self,
+        device: &wgpu::Device,
+        is_double_sided: bool,
+        ground: Ground,
+        switches: Switches,
+    ) -> wgpu::RenderPipeline {
+        let parts = [
+            "raster", "sight", "relief", "modes", "switches", "maps", "frame", "atlas",
+        ];
         let Layouts {
             frame,
             material,
@@ -117,6 +141,7 @@ impl Pipelines {
             Ground::Plain => ("lay", &groups[..3]),
             Ground::Veiled => ("lay_veiled", &groups[..3]),
             Ground::Relief => ("lay_relief", &groups[..]),
+            Ground::VeiledRelief => ("lay_veiled_relief", &groups[..]),
         };
         pipeline(
             device,
@@ -124,6 +149,7 @@ impl Pipelines {
                 label: "raster",
                 text: &text_of(&parts),
                 entries: ("place_corner", Some(entry)),
+                switches: &switches.named(),
                 groups,
                 corners: &[rows_of::<Corner>(&CORNER, wgpu::VertexStepMode::Vertex)],
                 targets: &[SEEN; 2],
@@ -137,7 +163,7 @@ impl Pipelines {
         )
     }
 
-    fn paint(&self, device: &wgpu::Device, paint: Paint) -> wgpu::RenderPipeline {
+    fn paint(&self, device: &wgpu::Device, paint: Paint, switches: Switches) -> wgpu::RenderPipeline {
         let parts = [
             "seen",
             "lighting",
@@ -147,6 +173,7 @@ impl Pipelines {
             "irradiance",
             "show",
             "modes",
+            "switches",
             "maps",
             "frame",
             "atlas",
@@ -166,6 +193,7 @@ impl Pipelines {
                 label: "paint",
                 text: &text_of(&parts),
                 entries: ("cover", Some(entry)),
+                switches: &switches.named(),
                 groups: &groups,
                 corners: &[],
                 targets: &[LIGHT],
@@ -179,13 +207,15 @@ impl Pipelines {
         )
     }
 
-    fn background(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+    fn background(&self, device: &wgpu::Device, is_blurred: bool) -> wgpu::RenderPipeline {
+        let paint = if is_blurred { "paint_blurred" } else { "paint" };
         pipeline(
             device,
             &Recipe {
                 label: "background",
                 text: &text_of(&["background", "panorama", "frame"]),
-                entries: ("cover", Some("paint")),
+                entries: ("cover", Some(paint)),
+                switches: &[],
                 groups: &[&self.layouts.frame, &self.layouts.panorama],
                 corners: &[],
                 targets: &[LIGHT],
@@ -206,6 +236,7 @@ impl Pipelines {
                 label: "lines",
                 text: &text_of(&["lines", "frame"]),
                 entries: ("place_end", Some("paint")),
+                switches: &[],
                 groups: &[&self.layouts.frame, &self.layouts.numbers],
                 corners: &[rows_of::<Line>(&ENDS, wgpu::VertexStepMode::Instance)],
                 targets: &[LIGHT],
@@ -226,6 +257,7 @@ impl Pipelines {
                 label: "shadow",
                 text: &text_of(&["cast_shadow"]),
                 entries: ("place_corner", None),
+                switches: &[],
                 groups: &[&self.layouts.numbers],
                 corners: &[rows_of::<Corner>(&PLACE_ONLY, wgpu::VertexStepMode::Vertex)],
                 targets: &[],
@@ -241,13 +273,20 @@ impl Pipelines {
         )
     }
 
-    fn display(&self, device: &wgpu::Device, paint: &str, target: wgpu::TextureFormat) -> wgpu::RenderPipeline {
+    fn display(
+        &self,
+        device: &wgpu::Device,
+        paint: &str,
+        target: wgpu::TextureFormat,
+        Transform(transform): Transform,
+    ) -> wgpu::RenderPipeline {
         pipeline(
             device,
             &Recipe {
                 label: "display",
                 text: &text_of(&["display"]),
                 entries: ("cover", Some(paint)),
+                switches: &[("TRANSFORM", f64::from(transform))],
                 groups: &[&self.layouts.display],
                 corners: &[],
                 targets: &[target],

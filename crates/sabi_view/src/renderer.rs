@@ -13,7 +13,7 @@ use sabi_gpu::Gpu;
 use crate::dfg::dfg_texture;
 use crate::error::ViewError;
 use crate::frame::Frame;
-use crate::pipelines::{Draws, Layouts, Pipelines};
+use crate::pipelines::{Draws, Layouts, Pipelines, Transform};
 use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
 use crate::shadows::ShadowMaps;
 use crate::target::{SUM, Target};
@@ -40,9 +40,8 @@ pub struct Renderer {
 struct Display {
     backdrop: [f32; 4],
     exposure: f32,
-    transform: u32,
     samples: f32,
-    is_summed: f32,
+    pad: [f32; 2],
 }
 
 /// What all samples of a picture share.
@@ -167,16 +166,16 @@ impl Renderer {
         let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
         if shot.samples <= 1 {
             let views = [&light, &self.no_sum, &shown];
-            return self.display(gpu, encoder, Draws::Encode, views, display(shot, 1, false));
+            return self.display(gpu, encoder, Draws::Encode(transform(shot)), views, display(shot, 1));
         }
         let sums = target.sums(gpu)?;
         let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
         let earlier = if sample == 0 { &self.no_sum } else { &sums[before] };
-        let numbers = display(shot, sample + 1, false);
-        self.display(gpu, encoder, Draws::Gather, [&light, earlier, &sums[now]], numbers)?;
+        let numbers = display(shot, sample + 1);
+        let gather = Draws::Gather(transform(shot));
+        self.display(gpu, encoder, gather, [&light, earlier, &sums[now]], numbers)?;
         if is_shown {
-            let numbers = display(shot, sample + 1, true);
-            self.display(gpu, encoder, Draws::Encode, [&light, &sums[now], &shown], numbers)?;
+            self.display(gpu, encoder, Draws::EncodeSum, [&light, &sums[now], &shown], numbers)?;
         }
         Ok(())
     }
@@ -204,7 +203,7 @@ impl Renderer {
         Ok(buffer_of(
             gpu,
             "the numbers of a picture",
-            wgpu::BufferUsages::STORAGE,
+            wgpu::BufferUsages::UNIFORM,
             bytes,
         )?)
     }
@@ -239,8 +238,16 @@ impl Renderer {
     }
 }
 
-fn display(shot: &Shot, samples: u32, is_summed: bool) -> Display {
-    let is_lit = shot.mode == Mode::Material;
+fn transform(shot: &Shot) -> Transform {
+    Transform(match shot.transform {
+        _ if shot.mode != Mode::Material => 3,
+        ViewTransform::Standard => 0,
+        ViewTransform::AgX => 1,
+        ViewTransform::Aces => 2,
+    })
+}
+
+fn display(shot: &Shot, samples: u32) -> Display {
     let backdrop = match shot.background {
         Background::Plain([r, g, b]) => [r, g, b, 1.0],
         Background::Clear => [0.0; 4],
@@ -250,13 +257,7 @@ fn display(shot: &Shot, samples: u32, is_summed: bool) -> Display {
     Display {
         backdrop,
         exposure: shot.exposure_stops.exp2(),
-        transform: match shot.transform {
-            _ if !is_lit => 3,
-            ViewTransform::Standard => 0,
-            ViewTransform::AgX => 1,
-            ViewTransform::Aces => 2,
-        },
         samples: samples as f32,
-        is_summed: f32::from(u8::from(is_summed)),
+        pad: [0.0; 2],
     }
 }

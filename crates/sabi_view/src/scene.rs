@@ -40,6 +40,27 @@ pub struct MaterialLook {
     pub node: Option<NodeLook>,
 }
 
+impl MaterialLook {
+    /// The node's own result where that is shown.
+    pub(crate) fn shown_node(&self, mode: Mode) -> Option<&NodeLook> {
+        self.node.as_ref().filter(|_| mode == Mode::Node)
+    }
+
+    /// What is bound as the maps of `maps.wgsl`, in their order. A node's own result takes the place of the colors.
+    pub(crate) fn bound_maps(&self, mode: Mode) -> [Option<&wgpu::Texture>; 5] {
+        let DeviceMaps {
+            color,
+            surface,
+            emission,
+            height,
+            normal,
+        } = &self.maps;
+        let first = self.shown_node(mode).map(|node| &node.texture).or(color.as_ref());
+        let [surface, emission, normal, height] = [surface, emission, normal, height].map(Option::as_ref);
+        [first, surface, emission, normal, height]
+    }
+}
+
 /// A node's own result on the linked atlas.
 #[derive(Clone, Debug)]
 pub struct NodeLook {

@@ -27,13 +27,11 @@ fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
-/// Constants of a picture. No uniform buffer: Mesa's software driver builds a shader anew for every value that its branches ask
-/// one for, and never lets the old ones go.
-fn constants(binding: u32) -> wgpu::BindGroupLayoutEntry {
+fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
     entry(
         binding,
         wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            ty: wgpu::BufferBindingType::Uniform,
             has_dynamic_offset: false,
             min_binding_size: None,
         },
@@ -74,7 +72,7 @@ impl Layouts {
             frame: layout(
                 "picture",
                 &[
-                    constants(0),
+                    uniform(0),
                     sampler(1, wgpu::SamplerBindingType::Filtering),
                     sampled(2, SMOOTH, Cube),
                     sampled(3, SMOOTH, D2),
@@ -82,7 +80,7 @@ impl Layouts {
                     sampler(5, wgpu::SamplerBindingType::Comparison),
                 ],
             ),
-            material: layout("material", &[constants(0), map(1), map(2), map(3), map(4), map(5)]),
+            material: layout("material", &[uniform(0), map(1), map(2), map(3), map(4), map(5)]),
             charts: layout("charts", &[sampled(0, EXACT, D2)]),
             seen: layout(
                 "what is seen",
@@ -96,8 +94,8 @@ impl Layouts {
                 "panorama",
                 &[sampled(0, SMOOTH, D2), sampler(1, wgpu::SamplerBindingType::Filtering)],
             ),
-            numbers: layout("numbers", &[constants(0)]),
-            display: layout("display", &[constants(0), sampled(1, EXACT, D2), sampled(2, EXACT, D2)]),
+            numbers: layout("numbers", &[uniform(0)]),
+            display: layout("display", &[uniform(0), sampled(1, EXACT, D2), sampled(2, EXACT, D2)]),
         }
     }
 }

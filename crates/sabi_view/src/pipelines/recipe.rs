@@ -3,7 +3,7 @@
 use crate::target::DEPTH;
 
 /// The files of `shaders/view/` that draw.
-const SHADERS: [(&str, &str); 18] = [
+const SHADERS: [(&str, &str); 19] = [
     ("background", include_str!("../../../../shaders/view/background.wgsl")),
     ("brdf", include_str!("../../../../shaders/view/brdf.wgsl")),
     ("cast_shadow", include_str!("../../../../shaders/view/cast_shadow.wgsl")),
@@ -21,6 +21,7 @@ const SHADERS: [(&str, &str); 18] = [
     ("shadow", include_str!("../../../../shaders/view/shadow.wgsl")),
     ("show", include_str!("../../../../shaders/view/show.wgsl")),
     ("sight", include_str!("../../../../shaders/view/sight.wgsl")),
+    ("switches", include_str!("../../../../shaders/view/switches.wgsl")),
     // The surface as kernels know it, at the last place for what is bound.
     ("atlas", include_str!("../../../../shaders/lib/atlas.wgsl")),
 ];
@@ -44,6 +45,8 @@ pub(super) struct Recipe<'r> {
     pub(super) text: &'r str,
     /// Entry points: of corners, and of pixels where any are written.
     pub(super) entries: (&'r str, Option<&'r str>),
+    /// Values of the shaders' switches.
+    pub(super) switches: &'r [(&'r str, f64)],
     pub(super) groups: &'r [&'r wgpu::BindGroupLayout],
     pub(super) corners: &'r [wgpu::VertexBufferLayout<'r>],
     pub(super) targets: &'r [wgpu::TextureFormat],
@@ -92,13 +95,17 @@ pub(super) fn pipeline(device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::Rend
     let target = |format: &wgpu::TextureFormat| Some(wgpu::ColorTargetState::from(*format));
     let targets: Vec<_> = recipe.targets.iter().map(target).collect();
     let (place, paint) = recipe.entries;
+    let options = wgpu::PipelineCompilationOptions {
+        constants: recipe.switches,
+        ..Default::default()
+    };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(recipe.label),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some(place),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: options.clone(),
             buffers: recipe.corners,
         },
         primitive: wgpu::PrimitiveState {
@@ -110,7 +117,7 @@ pub(super) fn pipeline(device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::Rend
         fragment: paint.map(|paint| wgpu::FragmentState {
             module: &module,
             entry_point: Some(paint),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: options.clone(),
             targets: &targets,
         }),
         multiview_mask: None,

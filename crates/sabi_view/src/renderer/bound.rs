@@ -1,13 +1,13 @@
 //! What is bound to draw a scene.
 
 use bytemuck::{Pod, Zeroable};
-use sabi_gpu::{DeviceMaps, Gpu};
+use sabi_gpu::Gpu;
 
 use super::Renderer;
 use crate::error::ViewError;
 use crate::frame::Frame;
-use crate::pipelines::{Draws, Ground, Paint};
-use crate::scene::{Background, Lines, MaterialLook, Mode, NodeType, Scene, Shot};
+use crate::pipelines::{Draws, Ground, Paint, Switches};
+use crate::scene::{Background, Lines, MaterialLook, Mode, Scene, Shot};
 use crate::shadows::ShadowMaps;
 use crate::target::Sight;
 
@@ -17,9 +17,6 @@ use crate::target::Sight;
 struct Material {
     color: [f32; 4],
     surface: [f32; 4],
-    maps: u32,
-    shown_type: u32,
-    pad: [u32; 2],
 }
 
 /// As `LineStyle` in `lines.wgsl`.
@@ -40,13 +37,18 @@ pub(super) struct Drawn {
     pub(super) look: usize,
 }
 
+/// A look that is bound, and what paints it.
+pub(super) struct Bearing {
+    pub(super) material: wgpu::BindGroup,
+    pub(super) paint: wgpu::RenderPipeline,
+}
+
 /// What is bound for all samples of a picture.
 pub(super) struct Bound {
-    pub(super) looks: Vec<wgpu::BindGroup>,
+    pub(super) looks: Vec<Bearing>,
     pub(super) drawn: Vec<Drawn>,
     pub(super) charts: wgpu::BindGroup,
     pub(super) panorama: wgpu::BindGroup,
-    pub(super) paint: wgpu::RenderPipeline,
     pub(super) background: Option<wgpu::RenderPipeline>,
     pub(super) lines: Vec<(Lines, wgpu::BindGroup, wgpu::RenderPipeline)>,
 }
@@ -95,7 +97,10 @@ impl Renderer {
         let is_lit = shot.mode == Mode::Material;
         let has_background = is_lit && matches!(shot.background, Background::Environment | Background::Blurred);
         let background = has_background
-            .then(|| self.pipelines.get(gpu, Draws::Background))
+            .then(|| {
+                let is_blurred = shot.background == Background::Blurred;
+                self.pipelines.get(gpu, Draws::Background { is_blurred })
+            })
             .transpose()?;
         let paint = match shot.has_relief {
             _ if !is_lit => Paint::Shown,
@@ -110,8 +115,14 @@ impl Renderer {
         Ok(Bound {
             looks: looks
                 .iter()
-                .map(|look| self.look_group(gpu, look, shot.mode))
-                .collect::<Result<_, _>>()?,
+                .map(|look| {
+                    let paint = Draws::Paint(paint, Switches::of_paint(look, scene, shot));
+                    Ok(Bearing {
+                        material: self.look_group(gpu, look, shot.mode)?,
+                        paint: self.pipelines.get(gpu, paint)?,
+                    })
+                })
+                .collect::<Result<_, ViewError>>()?,
             drawn: self.drawn(gpu, scene, shot)?,
             charts: self.bind(gpu, &self.layouts().charts, [charts]),
             panorama: self.bind(
@@ -119,7 +130,6 @@ impl Renderer {
                 &self.layouts().panorama,
                 [view(&panorama), wgpu::BindingResource::Sampler(&self.round)],
             ),
-            paint: self.pipelines.get(gpu, Draws::Paint(paint))?,
             background,
             lines: shot.lines.iter().map(lines).collect::<Result<_, _>>()?,
         })
@@ -133,13 +143,19 @@ impl Renderer {
             let Some((index, look)) = look.and_then(|&index| Some((index, scene.looks.get(index)?))) else {
                 continue;
             };
+            let ground = match (
+                shot.has_relief && look.maps.height.is_some(),
+                has_veils(look, shot.mode),
+            ) {
+                (false, false) => Ground::Plain,
+                (false, true) => Ground::Veiled,
+                (true, false) => Ground::Relief,
+                (true, true) => Ground::VeiledRelief,
+            };
             let draws = Draws::Raster {
                 is_double_sided: part.is_double_sided,
-                ground: match look.is_opaque {
-                    _ if shot.has_relief && look.maps.height.is_some() => Ground::Relief,
-                    true => Ground::Plain,
-                    false => Ground::Veiled,
-                },
+                ground,
+                switches: Switches::of_raster(look, shot.mode, ground),
             };
             drawn.push(Drawn {
                 pipeline: self.pipelines.get(gpu, draws)?,
@@ -151,33 +167,13 @@ impl Renderer {
     }
 
     fn look_group(&self, gpu: &Gpu, look: &MaterialLook, mode: Mode) -> Result<wgpu::BindGroup, ViewError> {
-        let DeviceMaps {
-            color,
-            surface,
-            emission,
-            height,
-            normal,
-        } = &look.maps;
-        // A node's own result takes the place of the colors.
-        let node = look.node.as_ref().filter(|_| mode == Mode::Node);
-        let first = node.map(|node| &node.texture).or(color.as_ref());
-        let [surface, emission, normal, height] = [surface, emission, normal, height].map(Option::as_ref);
-        let maps = [first, surface, emission, normal, height];
-        let has = maps.iter().zip(0..).filter(|(map, _)| map.is_some());
         let [roughness, metallic, occlusion] = look.surface;
         let numbers = Material {
             color: look.color,
             surface: [roughness, metallic, occlusion, 0.0],
-            maps: has.map(|(_, bit)| 1 << bit).sum(),
-            shown_type: match node.map(|node| node.holds) {
-                None | Some(NodeType::Mask) => 0,
-                Some(NodeType::Color) => 1,
-                Some(NodeType::Vector) => 2,
-            },
-            pad: [0; 2],
         };
         let numbers = self.numbers(gpu, &numbers)?;
-        let views = maps.map(|map| match map {
+        let views = look.bound_maps(mode).map(|map| match map {
             Some(map) => map.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
                 ..Default::default()
@@ -188,6 +184,11 @@ impl Renderer {
         let resources = std::iter::once(numbers.as_entire_binding()).chain(resources);
         Ok(self.bind(gpu, &self.layouts().material, resources))
     }
+}
+
+/// Whether one can see through what is clear in a look: not where its channels are looked at one by one.
+fn has_veils(look: &MaterialLook, mode: Mode) -> bool {
+    !look.is_opaque && matches!(mode, Mode::Material | Mode::Clay)
 }
 
 fn line_style(lines: Lines, shot: &Shot, [width, height]: [u32; 2]) -> LineStyle {

@@ -79,7 +79,7 @@ pub(super) fn draw_raster(
     pass.set_index_buffer(scene.model.indices.slice(..), wgpu::IndexFormat::Uint32);
     for drawn in &bound.drawn {
         pass.set_pipeline(&drawn.pipeline);
-        pass.set_bind_group(1, &bound.looks[drawn.look], &[]);
+        pass.set_bind_group(1, &bound.looks[drawn.look].material, &[]);
         pass.set_stencil_reference(drawn.look as u32 + 1);
         pass.draw_indexed(drawn.indices.clone(), 0, 0..1);
     }
@@ -110,10 +110,10 @@ pub(super) fn draw_light(
     pass.set_bind_group(0, frame, &[]);
     pass.set_bind_group(2, seen, &[]);
     pass.set_bind_group(3, &scene.model.surface, &[]);
-    pass.set_pipeline(&bound.paint);
     for (index, look) in bound.looks.iter().enumerate() {
         pass.set_stencil_reference(index as u32 + 1);
-        pass.set_bind_group(1, look, &[]);
+        pass.set_pipeline(&look.paint);
+        pass.set_bind_group(1, &look.material, &[]);
         pass.draw(0..3, 0..1);
     }
     if let Some(background) = &bound.background {

@@ -1,0 +1,71 @@
+//! What pipelines of the model are made for.
+
+use super::Ground;
+use crate::scene::{MOST_LIGHTS, MaterialLook, Mode, NodeType, Scene, Shot};
+
+/// The bit of the colors in `MAPS`.
+const COLORS: u32 = 1;
+
+/// What shaders are made for, as in `switches.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Switches {
+    pub(crate) mode: u32,
+    pub(crate) maps: u32,
+    pub(crate) shown_type: u32,
+    pub(crate) light_count: u32,
+    pub(crate) shadows_of: u32,
+}
+
+impl Switches {
+    /// What a raster looks at.
+    pub(crate) fn of_raster(look: &MaterialLook, mode: Mode, ground: Ground) -> Switches {
+        let is_veiled = matches!(ground, Ground::Veiled | Ground::VeiledRelief);
+        Switches {
+            // Others make no difference to where a place is seen.
+            mode: match mode {
+                Mode::Density | Mode::Shift => mode.number(),
+                _ => Mode::Material.number(),
+            },
+            maps: if is_veiled { bits_of(look, mode) & COLORS } else { 0 },
+            ..Switches::default()
+        }
+    }
+
+    /// What a painted pixel looks at.
+    pub(crate) fn of_paint(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Switches {
+        let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
+        let shadows = lights.iter().zip(0..).filter(|(light, _)| light.has_shadow);
+        let (light_count, shadows_of) = match shot.mode {
+            Mode::Material => (lights.len() as u32, shadows.map(|(_, bit)| 1 << bit).sum()),
+            _ => (0, 0),
+        };
+        Switches {
+            mode: shot.mode.number(),
+            maps: bits_of(look, shot.mode),
+            shown_type: match look.shown_node(shot.mode).map(|node| node.holds) {
+                None | Some(NodeType::Mask) => 0,
+                Some(NodeType::Color) => 1,
+                Some(NodeType::Vector) => 2,
+            },
+            light_count,
+            shadows_of,
+        }
+    }
+
+    /// The values by their names.
+    pub(super) fn named(self) -> [(&'static str, f64); 5] {
+        [
+            ("MODE", self.mode),
+            ("MAPS", self.maps),
+            ("SHOWN_TYPE", self.shown_type),
+            ("LIGHT_COUNT", self.light_count),
+            ("SHADOWS_OF", self.shadows_of),
+        ]
+        .map(|(name, value)| (name, f64::from(value)))
+    }
+}
+
+fn bits_of(look: &MaterialLook, mode: Mode) -> u32 {
+    let maps = look.bound_maps(mode).into_iter().zip(0..);
+    maps.filter(|(map, _)| map.is_some()).map(|(_, bit)| 1 << bit).sum()
+}
