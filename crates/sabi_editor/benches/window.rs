@@ -133,6 +133,13 @@ fn frames_of(window: &mut Offscreen, what: &str, aim: &str) {
     };
     tell("a knob is turned", frames(window, turn));
     window.turn("cut_0", "at", 0.5, false);
+    window.rest();
+    let painted = (0..FRAMES).map(|at| ms(window.paint(vec![Event::PointerMoved(around(at))]).unwrap()));
+    row(
+        &format!("{what}: painted on a screen, too"),
+        painted.collect(),
+        "≤ 50 ms",
+    );
 }
 
 /// Milliseconds from a move of a knob until the first picture of it, and until the full one, was drawn.

@@ -302,6 +302,10 @@ impl eframe::App for Editor {
         self.frame(ui);
     }
 
+    fn clear_color(&self, _: &egui::Visuals) -> [f32; 4] {
+        self.theme.ground.to_normalized_gamma_f32()
+    }
+
     fn on_exit(&mut self) {
         self.keep_settings();
         if !self.is_leaving {

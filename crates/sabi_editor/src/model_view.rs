@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{
-    Align2, CursorIcon, FontId, PointerButton, Rect, Response, Sense, Stroke, TextureId, Ui, WidgetInfo, WidgetType,
-    pos2, vec2,
+    Align2, CursorIcon, FontId, PointerButton, Rect, Response, Sense, Shape, Stroke, TextureId, Ui, WidgetInfo,
+    WidgetType, pos2, vec2,
 };
 use glam::Vec2;
 use sabi_engine::view::{Camera, Lens, Lines, Picked, Shot, Viewpoint, Viewport, aspect_of, pick};
@@ -148,7 +148,7 @@ impl ModelView {
         }
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Model"));
-        ui.painter().rect_filled(rect, 0.0, subject.theme.ground);
+        let ground = ui.painter().add(Shape::Noop);
         // What is evaluated for the first time takes a while, and an empty view in between would be a flash.
         let picture = stage.picture(subject.seen).or(self.last.as_ref()).cloned();
         if let Some(picture) = &picture {
@@ -157,18 +157,20 @@ impl ModelView {
             self.turn(ui, &response, rect, drags);
             done.taken = self.clicked_color(&response, rect, stage, picture, subject);
         }
-        match (render, &picture) {
+        let is_covered = match (render, &picture) {
             (Some(render), Some(picture)) => self.paint(ui, rect, stage, render, picture, subject),
-            (None, _) => self.say(
-                ui,
-                rect,
-                subject.theme,
-                "This window has no graphics device to draw the model with.",
-            ),
-            (_, None) => {
-                let why = stage.model_failure.as_deref().unwrap_or("Reading the model…");
+            (render, _) => {
+                let why = match render {
+                    None => "This window has no graphics device to draw the model with.",
+                    Some(_) => stage.model_failure.as_deref().unwrap_or("Reading the model…"),
+                };
                 self.say(ui, rect, subject.theme, why);
+                false
             }
+        };
+        if !is_covered {
+            let painted = Shape::rect_filled(rect, 0.0, subject.theme.ground);
+            ui.painter().set(ground, painted);
         }
         self.last = picture;
         if let Some(fault) = &self.fault {

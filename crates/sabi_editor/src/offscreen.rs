@@ -1,19 +1,22 @@
 //! The window without a screen, for those who measure it: frames are laid out and cut into triangles, and the model is drawn,
 //! but nothing is put on a screen.
 
+mod painter;
+
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{RenderState, WgpuSetup};
-use egui::{Context, Event, RawInput, Rect, Vec2};
+use egui::{ClippedPrimitive, Context, Event, RawInput, Rect, Vec2};
 use sabi_engine::{AdapterChoice, EngineError, Gpu, Session, default_cache_dir};
 use sabi_graph::{Document, Edit, NodeId, Value};
 
 use crate::app::{Beginning, Editor, Folders};
 use crate::dock::Panel;
 use crate::window::configuration;
+use painter::Painter;
 
 /// A window without a screen.
 pub struct Offscreen {
@@ -23,6 +26,7 @@ pub struct Offscreen {
     opened: Instant,
     /// Something has come that a frame would show.
     woken: Receiver<()>,
+    painter: Painter,
 }
 
 /// What a frame took of the processor.
@@ -73,6 +77,7 @@ impl Offscreen {
             },
             is_start: false,
         };
+        let painter = Painter::new(render.clone(), size.into());
         let handover = Arc::new(Mutex::new(None));
         let editor = Editor::new(beginning, &context, Arc::new(gpu), Some(render), handover);
         Ok(Offscreen {
@@ -81,11 +86,28 @@ impl Offscreen {
             size: size.into(),
             opened: Instant::now(),
             woken,
+            painter,
         })
     }
 
-    /// Draws a frame in which this happens.
+    /// Lays out a frame in which this happens, and draws what has to be drawn of the model.
     pub fn frame(&mut self, events: Vec<Event>) -> FrameTime {
+        self.cut_frame(events).0
+    }
+
+    /// The same, painted as on a screen. Waits until that is done, and gives the time that all of it took.
+    ///
+    /// # Errors
+    /// The device is gone.
+    pub fn paint(&mut self, events: Vec<Event>) -> Result<Duration, EngineError> {
+        let started = Instant::now();
+        let (_, primitives) = self.cut_frame(events);
+        self.painter.paint(&primitives);
+        self.finish()?;
+        Ok(started.elapsed())
+    }
+
+    fn cut_frame(&mut self, events: Vec<Event>) -> (FrameTime, Vec<ClippedPrimitive>) {
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(egui::Pos2::ZERO, self.size)),
             time: Some(self.opened.elapsed().as_secs_f64()),
@@ -97,17 +119,19 @@ impl Offscreen {
         let editor = &mut self.editor;
         let output = self.context.run_ui(input, |ui| editor.frame(ui));
         let layout = started.elapsed();
+        self.painter.take(output.textures_delta);
         let started = Instant::now();
         let primitives = self.context.tessellate(output.shapes, output.pixels_per_point);
         let triangles = primitives.iter().map(|primitive| match &primitive.primitive {
             egui::epaint::Primitive::Mesh(mesh) => mesh.indices.len() / 3,
             egui::epaint::Primitive::Callback(_) => 0,
         });
-        FrameTime {
+        let time = FrameTime {
             layout,
             triangles: triangles.sum(),
             tessellation: started.elapsed(),
-        }
+        };
+        (time, primitives)
     }
 
     /// Draws frames as they are asked for, until nothing is on its way any more.

@@ -24,9 +24,9 @@ impl Editor {
             problems,
             contents: &mut |ui, panel| self.panel(ui, panel, actions),
         };
-        let frame = egui::Frame::new().fill(theme.ground);
+        // The window is cleared to the ground, and panels leave nothing of it but the lines between them.
         egui::CentralPanel::default()
-            .frame(frame)
+            .frame(egui::Frame::NONE)
             .show(ui, |ui| layout.ui(&mut docked, ui));
         *self.layout_in_use() = layout;
         if !self.rects.contains_key(&Panel::Canvas) {

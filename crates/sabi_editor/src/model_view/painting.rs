@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Color32, Rect, Stroke, TextureId, Ui, pos2};
-use sabi_engine::view::{Mode, Pixels, Scene, Shot, Viewport};
+use sabi_engine::view::{Background, Mode, Pixels, Scene, Shot, Viewport};
 use sabi_engine::{EngineError, Gpu};
 
 use super::{ModelView, REST, Screen, Subject};
@@ -16,6 +16,7 @@ impl ModelView {
         self.screens[0].as_ref()?.viewport.picture()?.read(gpu).ok()
     }
 
+    /// Paints the picture, or the two that are compared; says whether nothing of the ground is seen.
     pub(super) fn paint(
         &mut self,
         ui: &Ui,
@@ -24,28 +25,34 @@ impl ModelView {
         render: &RenderState,
         picture: &Picture,
         subject: &Subject<'_>,
-    ) {
+    ) -> bool {
         let is_turning = self.moved.is_some_and(|moved| moved.elapsed() < REST);
         if is_turning {
             ui.ctx().request_repaint_after(REST);
         }
         let is_moving = is_turning || subject.is_moving;
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let locked = subject.locked.and_then(|seen| stage.picture(seen)).cloned();
         let wipe = self.wipe.zip(locked);
         let first = self.refreshed(0, ui, rect, stage, render, picture, is_moving);
-        let Some(first) = first else { return };
-        ui.painter().image(first, rect, whole, Color32::WHITE);
-        let Some((share, locked)) = wipe else { return };
-        let Some(other) = self.refreshed(1, ui, rect, stage, render, &locked, is_moving) else {
-            return;
+        let Some(first) = first else { return false };
+        let other = wipe.and_then(|(share, locked)| {
+            let other = self.refreshed(1, ui, rect, stage, render, &locked, is_moving)?;
+            Some((share, other))
+        });
+        let painter = ui.painter();
+        let part = |picture, from: f32, to: f32| {
+            let uv = Rect::from_min_max(pos2(from, 0.0), pos2(to, 1.0));
+            let at = |share: f32| rect.left() + share * rect.width();
+            let place = Rect::from_x_y_ranges(at(from)..=at(to), rect.y_range());
+            painter.image(picture, place, uv, Color32::WHITE);
         };
-        let at = rect.left() + share * rect.width();
-        let right = Rect::from_min_max(pos2(at, rect.top()), rect.max);
-        let uv = Rect::from_min_max(pos2(share, 0.0), pos2(1.0, 1.0));
-        ui.painter().image(other, right, uv, Color32::WHITE);
-        ui.painter()
-            .vline(at, rect.y_range(), Stroke::new(1.5, subject.theme.accent));
+        part(first, 0.0, other.map_or(1.0, |(share, _)| share));
+        if let Some((share, other)) = other {
+            part(other, share, 1.0);
+            let at = rect.left() + share * rect.width();
+            painter.vline(at, rect.y_range(), Stroke::new(1.5, subject.theme.accent));
+        }
+        self.shot.background != Background::Clear
     }
 
     /// One picture, drawn as far as it has to be; none where that failed, which is then said.

@@ -1,0 +1,83 @@
+//! Puts frames onto a texture in place of a screen.
+
+use eframe::egui_wgpu::{RenderState, ScreenDescriptor};
+use egui::{ClippedPrimitive, TexturesDelta, Vec2};
+
+/// What frames are painted on, and what has come of textures since the last one was.
+pub(super) struct Painter {
+    render: RenderState,
+    screen: wgpu::TextureView,
+    size: [u32; 2],
+    textures: TexturesDelta,
+}
+
+impl Painter {
+    pub(super) fn new(render: RenderState, size: Vec2) -> Painter {
+        let size = [size.x, size.y].map(|side| (side as u32).max(1));
+        let [width, height] = size;
+        let screen = render.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("screen"),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: render.target_format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        Painter {
+            screen: screen.create_view(&wgpu::TextureViewDescriptor::default()),
+            render,
+            size,
+            textures: TexturesDelta::default(),
+        }
+    }
+
+    /// Takes what a frame says of textures, painted or not.
+    pub(super) fn take(&mut self, textures: TexturesDelta) {
+        self.textures.append(textures);
+    }
+
+    /// Hands a frame to the device.
+    pub(super) fn paint(&mut self, primitives: &[ClippedPrimitive]) {
+        let RenderState {
+            device,
+            queue,
+            renderer,
+            ..
+        } = &self.render;
+        let textures = std::mem::take(&mut self.textures);
+        let descriptor = ScreenDescriptor {
+            size_in_pixels: self.size,
+            pixels_per_point: 1.0,
+        };
+        let mut renderer = renderer.write();
+        for (id, delta) in &textures.set {
+            renderer.update_texture(device, queue, *id, delta);
+        }
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        renderer.update_buffers(device, queue, &mut encoder, primitives, &descriptor);
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("window"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.screen,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            ..Default::default()
+        });
+        renderer.render(&mut pass.forget_lifetime(), primitives, &descriptor);
+        queue.submit([encoder.finish()]);
+        for id in &textures.free {
+            renderer.free_texture(id);
+        }
+    }
+}
