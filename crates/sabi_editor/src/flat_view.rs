@@ -2,22 +2,25 @@
 
 mod eyedropper;
 mod picture;
+mod wires;
 
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, FontId, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2,
-    WidgetInfo, WidgetType, pos2, vec2,
+    Align2, Color32, ColorImage, FontId, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui,
+    Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::{Inspected, LiveModel};
+use sabi_engine::Inspected;
 use sabi_graph::NodeRef;
 
 use crate::app::Taken;
 use crate::command::Command;
+use crate::errand::Errand;
 use crate::stage::Stage;
 use crate::theme::{Theme, space, type_size};
 use picture::{Histogram, picture_of};
+use wires::Wires;
 
 /// Columns of a histogram.
 const BINS: usize = 128;
@@ -36,12 +39,16 @@ pub(crate) struct FlatView {
     has_wires: bool,
     /// The picture of what was last shown, and of what it is.
     shown: Option<Shown>,
-    /// Edges of triangles in texture space, of a model.
-    wires: Option<(u64, Vec<[Pos2; 2]>)>,
+    /// What will be shown next.
+    coming: Option<(Part, Errand<(ColorImage, Histogram)>)>,
+    wires: Wires,
 }
 
+/// What a picture is of: a plane of some values, and which number of it.
+type Part = (Arc<Inspected>, usize, Option<usize>);
+
 struct Shown {
-    of: (Arc<Inspected>, usize, Option<usize>),
+    of: Part,
     texture: TextureHandle,
     histogram: Histogram,
 }
@@ -78,7 +85,8 @@ impl Default for FlatView {
             is_tiled: false,
             has_wires: false,
             shown: None,
-            wires: None,
+            coming: None,
+            wires: Wires::default(),
         }
     }
 }
@@ -132,7 +140,7 @@ impl FlatView {
         if self.has_wires
             && let Some(model) = &stage.shown_model
         {
-            self.draw_wires(&painter, model, square, theme);
+            self.wires.draw(&painter, model, square, theme);
         }
         self.turn(ui, &response, rect, &values);
         self.probe(ui, &response, square, &values, theme);
@@ -203,26 +211,41 @@ impl FlatView {
         }
     }
 
-    /// Makes the picture anew where it is of something else.
+    /// Makes the picture anew where it is of something else: beside the window, which shows the last one meanwhile.
     fn refresh(&mut self, ui: &Ui, values: &Arc<Inspected>) {
         let Some(plane) = values.planes.get(self.plane) else {
             self.shown = None;
             return;
         };
         let component = self.component.filter(|at| *at < plane.components);
-        let is_same = self.shown.as_ref().is_some_and(|shown| {
-            Arc::ptr_eq(&shown.of.0, values) && (shown.of.1, shown.of.2) == (self.plane, component)
-        });
-        if is_same {
+        let wanted = (values.clone(), self.plane, component);
+        let is_wanted = |of: &Part| Arc::ptr_eq(&of.0, &wanted.0) && (of.1, of.2) == (wanted.1, wanted.2);
+        if let Some(come) = self.coming.as_ref().and_then(|(_, errand)| errand.poll())
+            && let Some((of, _)) = self.coming.take()
+            && let Ok((image, histogram)) = come
+        {
+            self.take(ui, of, image, histogram);
+        }
+        let is_there = self.shown.as_ref().is_some_and(|shown| is_wanted(&shown.of));
+        if is_there || self.coming.is_some() {
             return;
         }
-        let image = picture_of(values, plane, component);
+        let (values, at, component) = wanted.clone();
+        let errand = Errand::start(ui.ctx(), move || {
+            let plane = &values.planes[at];
+            (
+                picture_of(&values, plane, component),
+                Histogram::of(&values, plane, component, BINS),
+            )
+        });
+        self.coming = Some((wanted, errand));
+    }
+
+    fn take(&mut self, ui: &Ui, of: Part, image: ColorImage, histogram: Histogram) {
         let options = TextureOptions {
             magnification: egui::TextureFilter::Nearest,
             ..TextureOptions::LINEAR
         };
-        let of = (values.clone(), self.plane, component);
-        let histogram = Histogram::of(values, plane, component, BINS);
         self.shown = Some(match self.shown.take() {
             Some(mut shown) => {
                 shown.texture.set(image, options);
@@ -293,37 +316,4 @@ impl FlatView {
         let place = [x as usize, y as usize];
         is_inside.then(|| (place, place[1] * size as usize + place[0]))
     }
-
-    fn draw_wires(&mut self, painter: &egui::Painter, model: &LiveModel, square: Rect, theme: &Theme) {
-        let key = model.model_revision;
-        if self.wires.as_ref().is_none_or(|(known, _)| *known != key) {
-            self.wires = Some((key, edges_of(model)));
-        }
-        let Some((_, wires)) = &self.wires else { return };
-        let place = |at: Pos2| square.min + at.to_vec2() * square.size();
-        let stroke = Stroke::new(1.0, theme.accent.gamma_multiply(0.5));
-        let clip = painter.clip_rect();
-        for [start, end] in wires {
-            let ends = [place(*start), place(*end)];
-            if clip.intersects(Rect::from_two_pos(ends[0], ends[1])) {
-                painter.line_segment(ends, stroke);
-            }
-        }
-    }
-}
-
-/// Edges of all triangles in texture space, each once.
-fn edges_of(model: &LiveModel) -> Vec<[Pos2; 2]> {
-    let mesh = &model.prepared.model.mesh;
-    let place = |vertex: u32| mesh.uvs.get(vertex as usize).map(|uv| pos2(uv[0], uv[1]));
-    let mut edges = std::collections::BTreeSet::new();
-    for [a, b, c] in &mesh.triangles {
-        for (one, other) in [(*a, *b), (*b, *c), (*c, *a)] {
-            edges.insert((one.min(other), one.max(other)));
-        }
-    }
-    edges
-        .into_iter()
-        .filter_map(|(one, other)| Some([place(one)?, place(other)?]))
-        .collect()
 }

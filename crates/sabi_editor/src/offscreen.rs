@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{RenderState, WgpuSetup};
-use egui::{ClippedPrimitive, Context, Event, RawInput, Rect, Vec2};
+use egui::{ClippedPrimitive, Context, Event, RawInput, Rect, TextureId, Vec2};
 use sabi_engine::{AdapterChoice, EngineError, Gpu, Session, default_cache_dir};
 use sabi_graph::{Document, Edit, NodeId, Value};
 
@@ -38,6 +38,14 @@ pub struct FrameTime {
     pub tessellation: Duration,
     /// How many triangles those are.
     pub triangles: usize,
+}
+
+/// A frame that is laid out and cut into triangles.
+struct Cut {
+    time: FrameTime,
+    primitives: Vec<ClippedPrimitive>,
+    /// Textures that nobody needs any more once it is painted.
+    free: Vec<TextureId>,
 }
 
 impl FrameTime {
@@ -92,7 +100,9 @@ impl Offscreen {
 
     /// Lays out a frame in which this happens, and draws what has to be drawn of the model.
     pub fn frame(&mut self, events: Vec<Event>) -> FrameTime {
-        self.cut_frame(events).0
+        let Cut { time, free, .. } = self.cut_frame(events);
+        self.painter.free(&free);
+        time
     }
 
     /// The same, painted as on a screen. Waits until that is done, and gives the time that all of it took.
@@ -101,13 +111,14 @@ impl Offscreen {
     /// The device is gone.
     pub fn paint(&mut self, events: Vec<Event>) -> Result<Duration, EngineError> {
         let started = Instant::now();
-        let (_, primitives) = self.cut_frame(events);
+        let Cut { primitives, free, .. } = self.cut_frame(events);
         self.painter.paint(&primitives);
+        self.painter.free(&free);
         self.finish()?;
         Ok(started.elapsed())
     }
 
-    fn cut_frame(&mut self, events: Vec<Event>) -> (FrameTime, Vec<ClippedPrimitive>) {
+    fn cut_frame(&mut self, events: Vec<Event>) -> Cut {
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(egui::Pos2::ZERO, self.size)),
             time: Some(self.opened.elapsed().as_secs_f64()),
@@ -119,7 +130,6 @@ impl Offscreen {
         let editor = &mut self.editor;
         let output = self.context.run_ui(input, |ui| editor.frame(ui));
         let layout = started.elapsed();
-        self.painter.take(output.textures_delta);
         let started = Instant::now();
         let primitives = self.context.tessellate(output.shapes, output.pixels_per_point);
         let triangles = primitives.iter().map(|primitive| match &primitive.primitive {
@@ -131,7 +141,12 @@ impl Offscreen {
             triangles: triangles.sum(),
             tessellation: started.elapsed(),
         };
-        (time, primitives)
+        self.painter.bring(&output.textures_delta.set);
+        Cut {
+            time,
+            primitives,
+            free: output.textures_delta.free,
+        }
     }
 
     /// Draws frames as they are asked for, until nothing is on its way any more.

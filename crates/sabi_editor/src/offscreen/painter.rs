@@ -1,14 +1,14 @@
 //! Puts frames onto a texture in place of a screen.
 
 use eframe::egui_wgpu::{RenderState, ScreenDescriptor};
-use egui::{ClippedPrimitive, TexturesDelta, Vec2};
+use egui::epaint::ImageDelta;
+use egui::{ClippedPrimitive, TextureId, Vec2};
 
-/// What frames are painted on, and what has come of textures since the last one was.
+/// What frames are painted on.
 pub(super) struct Painter {
     render: RenderState,
     screen: wgpu::TextureView,
     size: [u32; 2],
-    textures: TexturesDelta,
 }
 
 impl Painter {
@@ -33,32 +33,38 @@ impl Painter {
             screen: screen.create_view(&wgpu::TextureViewDescriptor::default()),
             render,
             size,
-            textures: TexturesDelta::default(),
         }
     }
 
-    /// Takes what a frame says of textures, painted or not.
-    pub(super) fn take(&mut self, textures: TexturesDelta) {
-        self.textures.append(textures);
+    /// Brings textures that a frame has changed onto the device.
+    pub(super) fn bring(&self, changed: &[(TextureId, ImageDelta)]) {
+        let mut renderer = self.render.renderer.write();
+        for (id, delta) in changed {
+            renderer.update_texture(&self.render.device, &self.render.queue, *id, delta);
+        }
+    }
+
+    /// Lets go of textures that are not used after a frame.
+    pub(super) fn free(&self, textures: &[TextureId]) {
+        let mut renderer = self.render.renderer.write();
+        for id in textures {
+            renderer.free_texture(id);
+        }
     }
 
     /// Hands a frame to the device.
-    pub(super) fn paint(&mut self, primitives: &[ClippedPrimitive]) {
+    pub(super) fn paint(&self, primitives: &[ClippedPrimitive]) {
         let RenderState {
             device,
             queue,
             renderer,
             ..
         } = &self.render;
-        let textures = std::mem::take(&mut self.textures);
         let descriptor = ScreenDescriptor {
             size_in_pixels: self.size,
             pixels_per_point: 1.0,
         };
         let mut renderer = renderer.write();
-        for (id, delta) in &textures.set {
-            renderer.update_texture(device, queue, *id, delta);
-        }
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         renderer.update_buffers(device, queue, &mut encoder, primitives, &descriptor);
         let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -76,8 +82,5 @@ impl Painter {
         });
         renderer.render(&mut pass.forget_lifetime(), primitives, &descriptor);
         queue.submit([encoder.finish()]);
-        for id in &textures.free {
-            renderer.free_texture(id);
-        }
     }
 }

@@ -76,3 +76,22 @@ fn the_wheel_zooms_into_the_texel_under_the_pointer_and_a_drag_moves_the_texture
     window.drag_from(at, end);
     assert_eq!(place(window.probed(end)), before, "it goes with the pointer");
 }
+
+#[test]
+fn the_edges_of_the_model_are_drawn_over_the_texture() {
+    let mut window = painted();
+    let lines = |window: &Window| {
+        let shapes = &window.harness.output().shapes;
+        let is_line = |clipped: &&egui::epaint::ClippedShape| matches!(clipped.shape, egui::Shape::LineSegment { .. });
+        shapes.iter().filter(is_line).count()
+    };
+    let without = lines(&window);
+    window.press("UV");
+    // Twelve edges and a diagonal on each side, some of them twice, since charts end there.
+    let came = (0..2000).any(|_| {
+        window.harness.step();
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        lines(&window) >= without + 18
+    });
+    assert!(came);
+}

@@ -1,0 +1,181 @@
+//! The edges of a model's triangles in texture space.
+
+use egui::{Color32, ColorImage, Context, Painter, Pos2, Rect, Stroke, TextureHandle, TextureOptions, pos2, vec2};
+use sabi_engine::LiveModel;
+
+use crate::errand::Errand;
+use crate::theme::Theme;
+
+/// More lines than this are not drawn one by one: they stand closer than pixels then, and a frame would wait for them.
+const MOST_LINES: usize = 20_000;
+/// Pixels along a side of the picture that takes their place.
+const SIDE: usize = 2048;
+
+/// The wires of the model that is shown, made beside the window.
+#[derive(Default)]
+pub(super) struct Wires {
+    /// The model that they are of, or will be.
+    of: Option<u64>,
+    coming: Option<Errand<Drawing>>,
+    drawing: Option<(Drawing, Option<TextureHandle>)>,
+}
+
+/// Edges in texture space, and where they are many a picture of them.
+struct Drawing {
+    edges: Vec<[Pos2; 2]>,
+    picture: Option<(ColorImage, Rect)>,
+}
+
+impl Wires {
+    /// Draws those of a model, once they are there, where the texture is a square.
+    pub(super) fn draw(&mut self, painter: &Painter, model: &std::sync::Arc<LiveModel>, square: Rect, theme: &Theme) {
+        self.poll(painter.ctx(), model);
+        let Some((drawing, texture)) = &self.drawing else {
+            return;
+        };
+        let place = |at: Pos2| square.min + at.to_vec2() * square.size();
+        let color = theme.accent.gamma_multiply(0.5);
+        let clip = painter.clip_rect();
+        let placed = drawing.edges.iter().map(|[start, end]| [place(*start), place(*end)]);
+        let seen = placed.filter(|ends| clip.intersects(Rect::from_two_pos(ends[0], ends[1])));
+        let few: Vec<[Pos2; 2]> = seen.take(MOST_LINES + 1).collect();
+        match (texture, &drawing.picture) {
+            (Some(texture), Some((_, bounds))) if few.len() > MOST_LINES => {
+                let rect = Rect::from_min_max(place(bounds.min), place(bounds.max));
+                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                painter.image(texture.id(), rect, whole, color);
+            }
+            _ => few.into_iter().for_each(|ends| {
+                painter.line_segment(ends, Stroke::new(1.0, color));
+            }),
+        }
+    }
+
+    /// Begins to make what is missing, and takes what has come.
+    fn poll(&mut self, context: &Context, model: &std::sync::Arc<LiveModel>) {
+        if self.of != Some(model.model_revision) && self.coming.is_none() {
+            self.of = Some(model.model_revision);
+            let model = model.clone();
+            self.coming = Some(Errand::start(context, move || Drawing::of(edges_of(&model))));
+        }
+        let Some(come) = self.coming.as_ref().and_then(Errand::poll) else {
+            return;
+        };
+        self.coming = None;
+        // A mistake in the making leaves the texture without wires.
+        self.drawing = come.ok().map(|drawing: Drawing| {
+            let picture = drawing.picture.as_ref();
+            let texture = picture
+                .map(|(image, _)| context.load_texture("wires of a model", image.clone(), TextureOptions::LINEAR));
+            (drawing, texture)
+        });
+    }
+}
+
+impl Drawing {
+    fn of(edges: Vec<[Pos2; 2]>) -> Drawing {
+        let picture = (edges.len() > MOST_LINES).then(|| picture_of(&edges));
+        Drawing { edges, picture }
+    }
+}
+
+/// Edges of all triangles in texture space, each once.
+fn edges_of(model: &LiveModel) -> Vec<[Pos2; 2]> {
+    let mesh = &model.prepared.model.mesh;
+    let place = |vertex: u32| mesh.uvs.get(vertex as usize).map(|uv| pos2(uv[0], uv[1]));
+    let around = |[a, b, c]: &[u32; 3]| [(*a, *b), (*b, *c), (*c, *a)];
+    let mut edges: Vec<(u32, u32)> = mesh.triangles.iter().flat_map(around).collect();
+    for (one, other) in &mut edges {
+        (*one, *other) = ((*one).min(*other), (*one).max(*other));
+    }
+    edges.sort_unstable();
+    edges.dedup();
+    edges
+        .into_iter()
+        .filter_map(|(one, other)| Some([place(one)?, place(other)?]))
+        .collect()
+}
+
+/// White lines on nothing, and where in texture space their picture lies.
+fn picture_of(edges: &[[Pos2; 2]]) -> (ColorImage, Rect) {
+    let mut bounds = Rect::NOTHING;
+    for end in edges.iter().flatten().filter(|end| end.is_finite()) {
+        bounds.extend_with(*end);
+    }
+    let mut alphas = vec![0_u8; SIDE * SIDE];
+    let scale = vec2(SIDE as f32, SIDE as f32) / bounds.size().max(egui::Vec2::splat(1e-6));
+    let onto = |at: Pos2| ((at - bounds.min) * scale - vec2(0.5, 0.5)).to_pos2();
+    for ends in edges.iter().filter(|ends| ends.iter().all(|end| end.is_finite())) {
+        draw_line(&mut alphas, ends.map(onto));
+    }
+    let pixels = alphas.into_iter().map(Color32::from_white_alpha).collect();
+    (ColorImage::new([SIDE, SIDE], pixels), bounds)
+}
+
+/// A line between two places in pixels, each of its steps shared by the two pixels beside it (after X. Wu 1991, "An efficient
+/// antialiasing technique").
+fn draw_line(alphas: &mut [u8], [start, end]: [Pos2; 2]) {
+    let way = end - start;
+    let steps = way.abs().max_elem().ceil().max(1.0) as usize;
+    let is_flat = way.x.abs() >= way.y.abs();
+    for step in 0..=steps {
+        let at = start + way * (step as f32 / steps as f32);
+        let (along, across) = if is_flat { (at.x, at.y) } else { (at.y, at.x) };
+        let (along, first) = (along.round(), across.floor());
+        for (across, share) in [(first, 1.0 - across + first), (first + 1.0, across - first)] {
+            let (x, y) = if is_flat { (along, across) } else { (across, along) };
+            let inside = 0.0..SIDE as f32;
+            if inside.contains(&x) && inside.contains(&y) {
+                let alpha = &mut alphas[y as usize * SIDE + x as usize];
+                *alpha = (*alpha).max((share * 255.0) as u8);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A net of so many squares along a side, in a texture space that reaches from 0 to 1.
+    fn net(side: usize) -> Vec<[Pos2; 2]> {
+        let at = |column: usize, row: usize| pos2(column as f32, row as f32) / side as f32;
+        let squares = (0..side).flat_map(|row| (0..side).map(move |column| (column, row)));
+        squares
+            .flat_map(|(column, row)| {
+                [
+                    [at(column, row), at(column + 1, row)],
+                    [at(column, row), at(column, row + 1)],
+                ]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn few_lines_are_drawn_as_lines_and_many_as_a_picture() {
+        assert!(Drawing::of(net(10)).picture.is_none());
+        assert!(Drawing::of(net(120)).picture.is_some());
+    }
+
+    #[test]
+    fn the_picture_has_the_lines_where_they_are_and_nothing_between_them() {
+        let (image, bounds) = picture_of(&net(8));
+        assert_eq!(bounds.min, Pos2::ZERO);
+        let width = SIDE as f32 / bounds.width() / 8.0;
+        let alpha_at = |column: f32, row: f32| {
+            let [x, y] = [column, row].map(|at| ((at * width) as usize).min(SIDE - 1));
+            image.pixels[y * SIDE + x].a()
+        };
+        assert!(alpha_at(0.5, 4.0) > 100, "a line along a row");
+        assert!(alpha_at(3.0, 2.5) > 100, "a line along a column");
+        assert_eq!(alpha_at(2.5, 4.5), 0, "the middle of a square");
+    }
+
+    #[test]
+    fn lines_that_lead_nowhere_are_left_out() {
+        let wild = [pos2(f32::NAN, 0.0), pos2(f32::INFINITY, 2.0)];
+        let mut edges = net(4);
+        edges.push(wild);
+        assert_eq!(picture_of(&edges).0.pixels, picture_of(&net(4)).0.pixels);
+    }
+}
