@@ -9,7 +9,7 @@ use crate::theme::Theme;
 /// More lines than this are not drawn one by one: they stand closer than pixels then, and a frame would wait for them.
 const MOST_LINES: usize = 20_000;
 /// Pixels along a side of the picture that takes their place.
-const SIDE: usize = 2048;
+const SIDE: usize = 1024;
 
 /// The wires of the model that is shown, made beside the window.
 #[derive(Default)]
