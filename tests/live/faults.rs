@@ -2,12 +2,15 @@
 
 use std::fs;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::channel;
+use std::time::Duration;
 
-use sabi_engine::{Faults, ModelOptions, NodeFault, OpenGraph, Waiting, Wish};
+use sabi_engine::{Faults, Live, ModelOptions, News, NodeFault, OpenGraph, Waiting, Wish};
 use sabi_image::{PngData, PngOptions, encode_png};
-use sabi_tests::{MeshFile, Quad};
+use sabi_tests::{MeshFile, Quad, device};
 
-use crate::window::{FULL, Window, document, graph, node, wish};
+use crate::window::{FULL, Window, document, graph, node, options, wish};
 
 fn fault(node: &str, sentence: &str) -> NodeFault {
     NodeFault {
@@ -212,4 +215,32 @@ fn the_files_that_a_graph_hangs_on_are_told_when_they_change_whether_they_are_th
     let group = group.replace("wear.sabi", "lib/wear.sabi");
     let both = ["lib/rust.png", "lib/wear.sabi"].map(str::to_owned);
     assert_eq!(files(4, &group).as_deref(), Some(both.as_slice()));
+}
+
+#[test]
+fn a_mistake_of_the_program_ends_one_answer_and_not_the_evaluation() {
+    let has_failed = AtomicBool::new(false);
+    let (wake, woken) = channel();
+    let live = Live::start(device(), options(), move || {
+        assert!(has_failed.swap(true, Ordering::SeqCst), "as this test wants");
+        // Nobody listens once the test is over.
+        let _ = wake.send(());
+    });
+    let answer = |revision: u64| {
+        live.ask(wish(revision, graph(HALF_WIRED)));
+        let mut told = Vec::new();
+        while !told
+            .iter()
+            .any(|news| matches!(news, News::Done { revision: done } if *done == revision))
+        {
+            woken.recv_timeout(Duration::from_secs(120)).expect("somebody works");
+            told.extend(live.news());
+        }
+        told
+    };
+    let broke_off = |news: &News| matches!(news, News::Failed { error, .. } if error.to_string().contains("broke off, which is a mistake in Sabi"));
+    assert!(answer(1).iter().any(broke_off));
+    let told = answer(2);
+    assert!(!told.iter().any(broke_off));
+    assert!(told.iter().any(|news| matches!(news, News::Shown { .. })));
 }

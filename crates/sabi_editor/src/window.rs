@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use sabi_engine::{
@@ -12,8 +13,10 @@ use crate::app::{Beginning, Editor, Folders, Handover};
 use crate::files::examples;
 use crate::settings::default_folder;
 
-/// How often a window is opened anew for a lost device before it is given up.
+/// How often a window is opened anew for a lost device before it is given up, where each was lost soon.
 const MOST_DEVICES: usize = 3;
+/// A device that lasted longer than this is none that fails again and again.
+const SOON: Duration = Duration::from_secs(60);
 
 /// What the window is opened with.
 #[derive(Clone, Debug, Default)]
@@ -38,7 +41,9 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
         None => Session::new(folders.recovery.as_deref()),
     });
     refuse_without_display()?;
-    for _ in 0..MOST_DEVICES {
+    let mut lost_soon = 0;
+    while lost_soon < MOST_DEVICES {
+        let opened = Instant::now();
         // After a loss the work itself is in the handover, with its model.
         let (session, model) = match session.take() {
             Some(session) => {
@@ -58,6 +63,7 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
         if !is_lost {
             return Ok(());
         }
+        lost_soon = if opened.elapsed() < SOON { lost_soon + 1 } else { 1 };
     }
     let why = "the graphics device was lost again and again; what is not saved is offered at the next start. Update the \
                driver, or choose --adapter cpu";

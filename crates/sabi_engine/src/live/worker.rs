@@ -1,6 +1,7 @@
 //! The thread that works: it takes the last wish and answers it step by step.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -97,12 +98,31 @@ impl Worker {
     pub(super) fn work(self) {
         let mut worker = LastWords(self);
         while let Some((wish, asked)) = worker.0.mailbox.next() {
-            if let Err(loss) = worker.0.answer(wish, asked) {
-                worker.0.mailbox.close();
-                worker.0.tell(News::Lost(loss));
-                return;
+            let revision = wish.revision;
+            // Whatever a mistake leaves half made is let go of.
+            match catch_unwind(AssertUnwindSafe(|| worker.0.answer(wish, asked))) {
+                Ok(Ok(())) => {}
+                Ok(Err(loss)) => {
+                    worker.0.mailbox.close();
+                    worker.0.tell(News::Lost(loss));
+                    return;
+                }
+                Err(_) => worker.0.begin_anew(revision),
             }
         }
+    }
+
+    /// Forgets all that was made, after a mistake of the program in an answer; the next wish is answered from the beginning.
+    fn begin_anew(&mut self, revision: u64) {
+        self.loaded = None;
+        self.tried = None;
+        self.sent = Sent::default();
+        self.broken.clear();
+        self.studio = None;
+        self.full_took = None;
+        let why = "the evaluation of the graph broke off, which is a mistake in Sabi; take back what was done last, or go on \
+                   with something else";
+        self.fail(revision, EngineError::new(ErrorKind::BadInput, why));
     }
 
     pub(super) fn tell(&self, news: News) {
