@@ -16,7 +16,7 @@ use sabi_graph::NodeRef;
 
 use crate::app::Taken;
 use crate::command::Command;
-use crate::errand::Errand;
+use crate::errand::{Errand, Failed};
 use crate::stage::Stage;
 use crate::theme::{Theme, space, type_size};
 use picture::{Histogram, picture_of};
@@ -39,6 +39,8 @@ pub(crate) struct FlatView {
     has_wires: bool,
     /// The picture of what was last shown, and of what it is.
     shown: Option<Shown>,
+    /// What no picture could be made of.
+    failed: Option<Part>,
     /// What will be shown next.
     coming: Option<(Part, Errand<(ColorImage, Histogram)>)>,
     wires: Wires,
@@ -85,6 +87,7 @@ impl Default for FlatView {
             is_tiled: false,
             has_wires: false,
             shown: None,
+            failed: None,
             coming: None,
             wires: Wires::default(),
         }
@@ -120,22 +123,15 @@ impl FlatView {
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Image, true, format!("Texture of {title}")));
         let painter = ui.painter().with_clip_rect(rect);
         painter.rect_filled(rect, 0.0, theme.ground);
-        let Some(shown) = &self.shown else { return done };
-        let side = values.size as f32 * self.scale(rect, values.size);
-        let square = Rect::from_center_size(rect.center() + self.pan, Vec2::splat(side));
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        let copies: &[i32] = if self.is_tiled { &[-1, 0, 1] } else { &[0] };
-        for row in copies {
-            for column in copies {
-                let tint = if (*row, *column) == (0, 0) {
-                    Color32::WHITE
-                } else {
-                    Color32::from_white_alpha(110)
-                };
-                let copy = square.translate(vec2(*column as f32, *row as f32) * side);
-                painter.image(shown.texture.id(), copy, whole, tint);
+        let Some(shown) = &self.shown else {
+            if self.failed.is_some() {
+                let sentence = "No picture could be made of this result, which is a mistake of the program.";
+                let font = FontId::proportional(type_size::BODY);
+                painter.text(rect.center(), Align2::CENTER_CENTER, sentence, font, theme.fault);
             }
-        }
+            return done;
+        };
+        let square = self.paint(&painter, shown, rect, values.size);
         painter.rect_stroke(square, 0.0, Stroke::new(1.0, theme.line), egui::StrokeKind::Outside);
         if self.has_wires
             && let Some(model) = &stage.shown_model
@@ -151,6 +147,26 @@ impl FlatView {
             done.taken = self.clicked_color(&response, square, &values);
         }
         done
+    }
+
+    /// Paints the picture where it is looked at, with its neighbors where it is tiled; gives the picture's own place.
+    fn paint(&self, painter: &egui::Painter, shown: &Shown, rect: Rect, size: u32) -> Rect {
+        let side = size as f32 * self.scale(rect, size);
+        let square = Rect::from_center_size(rect.center() + self.pan, Vec2::splat(side));
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let copies: &[i32] = if self.is_tiled { &[-1, 0, 1] } else { &[0] };
+        for row in copies {
+            for column in copies {
+                let tint = if (*row, *column) == (0, 0) {
+                    Color32::WHITE
+                } else {
+                    Color32::from_white_alpha(110)
+                };
+                let copy = square.translate(vec2(*column as f32, *row as f32) * side);
+                painter.image(shown.texture.id(), copy, whole, tint);
+            }
+        }
+        square
     }
 
     /// Does what a key means here.
@@ -222,11 +238,19 @@ impl FlatView {
         let is_wanted = |of: &Part| Arc::ptr_eq(&of.0, &wanted.0) && (of.1, of.2) == (wanted.1, wanted.2);
         if let Some(come) = self.coming.as_ref().and_then(|(_, errand)| errand.poll())
             && let Some((of, _)) = self.coming.take()
-            && let Ok((image, histogram)) = come
         {
-            self.take(ui, of, image, histogram);
+            match come {
+                Ok((image, histogram)) => self.take(ui, of, image, histogram),
+                Err(Failed) => (self.shown, self.failed) = (None, Some(of)),
+            }
         }
-        let is_there = self.shown.as_ref().is_some_and(|shown| is_wanted(&shown.of));
+        let known = self
+            .shown
+            .as_ref()
+            .map(|shown| &shown.of)
+            .into_iter()
+            .chain(&self.failed);
+        let is_there = known.into_iter().any(is_wanted);
         if is_there || self.coming.is_some() {
             return;
         }

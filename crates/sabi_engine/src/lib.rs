@@ -68,7 +68,7 @@ pub use report::{BakeReport, StageTime, StageTimes};
 pub use seams::Seams;
 pub use session::{FileState, Recovery, Session, recoveries};
 pub use setting::read_setting;
-pub use sheet::SheetPlane;
+pub use sheet::{PlaneHolds, SheetPlane};
 pub use stages::{Progress, Silent, Stage};
 pub use thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
 pub use watch::{Changes, Watched, Watcher};

@@ -87,6 +87,7 @@ fn exact(size: u32, planes: &[SheetPlane]) -> Result<Vec<u8>, EngineError> {
         name,
         components,
         values,
+        ..
     } in planes
     {
         let names: &[&str] = if *components == 1 {

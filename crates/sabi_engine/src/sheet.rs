@@ -22,11 +22,24 @@ pub(crate) struct Sheet {
     padding: PaddingMap,
 }
 
+/// What the numbers of a plane are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaneHolds {
+    /// Numbers each of its own, 0..1 shown as black to white.
+    Numbers,
+    /// A linear color, shown in sRGB; a fourth number is its opacity.
+    Color,
+    /// Numbers of −1..1, shown as 0..1.
+    Signed,
+}
+
 /// One plane of a result in texture space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetPlane {
     /// What it is of a material: empty for its base color, and for results that have one plane.
     pub name: &'static str,
+    /// How a display shows its numbers.
+    pub holds: PlaneHolds,
     /// Numbers for each pixel.
     pub components: usize,
     /// The exact values, row by row from the top.
@@ -58,7 +71,7 @@ impl Sheet {
         let planes = result.stored.planes().into_iter().zip(&result.slots);
         let laid_out = planes.map(|(plane, &slot)| {
             let data = workpiece.gpu.read(&workpiece.surface, plan, run, slot)?;
-            let (name, components) = name_of(plane);
+            let (name, holds, components) = shape_of(plane);
             let one = |first| {
                 let channel = Channel::Mask(String::new());
                 let gathered = self
@@ -70,6 +83,7 @@ impl Sheet {
             let pixels = 0..self.padding.source.len();
             Ok(SheetPlane {
                 name,
+                holds,
                 components,
                 values: pixels
                     .flat_map(|pixel| parts.iter().map(move |part| part[pixel]))
@@ -80,16 +94,18 @@ impl Sheet {
     }
 }
 
-/// A plane's name, and the numbers that a texel of it has.
-fn name_of(plane: Plane) -> (&'static str, usize) {
+/// A plane's name, what its numbers are, and how many a texel of it has.
+fn shape_of(plane: Plane) -> (&'static str, PlaneHolds, usize) {
+    use PlaneHolds::{Color, Numbers, Signed};
     match plane {
-        Plane::Mask => ("", 1),
-        Plane::Color | Plane::Vector => ("", 3),
-        Plane::Material(Stored::Color) => ("", 4),
-        Plane::Material(Stored::Surface) => ("surface", 3),
-        Plane::Material(Stored::Height) => ("height", 1),
-        Plane::Material(Stored::Slope) => ("slope", 3),
-        Plane::Material(Stored::Emission) => ("emission", 3),
+        Plane::Mask => ("", Numbers, 1),
+        Plane::Color => ("", Color, 3),
+        Plane::Vector => ("", Signed, 3),
+        Plane::Material(Stored::Color) => ("", Color, 4),
+        Plane::Material(Stored::Surface) => ("surface", Numbers, 3),
+        Plane::Material(Stored::Height) => ("height", Numbers, 1),
+        Plane::Material(Stored::Slope) => ("slope", Signed, 3),
+        Plane::Material(Stored::Emission) => ("emission", Color, 3),
     }
 }
 

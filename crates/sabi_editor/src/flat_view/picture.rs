@@ -1,8 +1,7 @@
 //! Values as a picture, and how they are spread.
 
 use egui::{Color32, ColorImage, Painter, Rect, Stroke, ecolor::gamma_u8_from_linear_f32, pos2, vec2};
-use sabi_engine::{Inspected, SheetPlane};
-use sabi_graph::PortType;
+use sabi_engine::{Inspected, PlaneHolds, SheetPlane};
 
 use crate::theme::{Theme, space};
 
@@ -13,12 +12,10 @@ const BESIDE: f32 = 0.45;
 /// vectors from −1..1.
 pub(super) fn picture_of(values: &Inspected, plane: &SheetPlane, component: Option<usize>) -> ColorImage {
     let side = values.size as usize;
-    let is_color = matches!(values.ty, PortType::Color | PortType::Material) && matches!(plane.name, "" | "emission.");
-    let is_vector = values.ty == PortType::Vector || plane.name == "slope.";
-    let code = |number: f32| match (is_color && component != Some(3), is_vector) {
-        (true, _) => gamma_u8_from_linear_f32(number.clamp(0.0, 1.0)),
-        (_, true) => quantized(number * 0.5 + 0.5),
-        _ => quantized(number),
+    let code = |number: f32| match plane.holds {
+        PlaneHolds::Color if component != Some(3) => gamma_u8_from_linear_f32(number.clamp(0.0, 1.0)),
+        PlaneHolds::Signed => quantized(number * 0.5 + 0.5),
+        PlaneHolds::Color | PlaneHolds::Numbers => quantized(number),
     };
     let texels = plane.values.chunks_exact(plane.components.max(1));
     let pixels = texels.zip(&values.is_on_surface).map(|(texel, is_on_surface)| {
@@ -126,15 +123,22 @@ impl Histogram {
 
 #[cfg(test)]
 mod tests {
+    use sabi_graph::PortType;
+
     use super::*;
 
     fn mask(numbers: &[f32]) -> Inspected {
+        plane(PlaneHolds::Numbers, numbers)
+    }
+
+    fn plane(holds: PlaneHolds, numbers: &[f32]) -> Inspected {
         Inspected {
             ty: PortType::Mask,
             size: 2,
             set: "set".to_owned(),
             planes: vec![SheetPlane {
                 name: "",
+                holds,
                 components: 1,
                 values: numbers.to_vec(),
             }],
@@ -149,6 +153,17 @@ mod tests {
         let gray: Vec<u8> = picture.pixels.iter().map(|pixel| pixel.r()).collect();
         assert_eq!(&gray[..3], [0, 128, 255]);
         assert!(gray[3] < 200);
+    }
+
+    #[test]
+    fn colors_are_encoded_and_signed_numbers_shown_around_gray() {
+        let grays = |holds| {
+            let values = plane(holds, &[-1.0, 0.0, 0.5, 1.0]);
+            let picture = picture_of(&values, &values.planes[0], None);
+            [0, 1, 2].map(|at: usize| picture.pixels[at].r())
+        };
+        assert_eq!(grays(PlaneHolds::Signed), [0, 128, 191]);
+        assert_eq!(grays(PlaneHolds::Color), [0, 0, 188]);
     }
 
     #[test]
