@@ -3,6 +3,7 @@
 mod choices;
 mod environment;
 mod eyedropper;
+mod lamps;
 mod menu;
 mod painting;
 mod showing;
@@ -27,6 +28,7 @@ use crate::stage::{Picture, Stage};
 use crate::theme::{Theme, type_size};
 pub(crate) use choices::ViewChoices;
 use environment::Surroundings;
+use lamps::Lamps;
 pub(crate) use showing::Showing;
 
 /// After the last movement the picture rests.
@@ -50,6 +52,7 @@ pub(crate) struct ModelView {
     /// The model that the camera was set up for.
     framed: Option<(u64, std::path::PathBuf)>,
     surroundings: Surroundings,
+    lamps: Lamps,
     pub(crate) shot: Shot,
     /// Where the picture of the locked node begins, as a share of the width; none without comparison.
     pub(crate) wipe: Option<f32>,
@@ -115,6 +118,7 @@ impl ModelView {
             camera,
             framed: None,
             surroundings: Surroundings::new(environment),
+            lamps: Lamps::new(&choices.lights),
             wipe: None,
             holds_wipe: false,
             last: None,
@@ -123,6 +127,17 @@ impl ModelView {
             length: None,
             drawn: 0,
         }
+    }
+
+    /// What was chosen of light and picture.
+    pub(crate) fn choices(&self) -> ViewChoices {
+        ViewChoices::of(&self.shot, self.lamps.kept())
+    }
+
+    /// How many lights there are besides the environment.
+    #[cfg(test)]
+    pub(crate) fn lights(&self) -> usize {
+        self.lamps.kept().len()
     }
 
     /// Takes another environment: a built-in name, or a file.

@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 use egui::Context;
 
 use super::Editor;
-use crate::model_view::ViewChoices;
 
 /// How often what is not saved is kept in case the program ends.
 const KEEP_EVERY: Duration = Duration::from_secs(3);
@@ -49,7 +48,7 @@ impl Editor {
     pub(super) fn keep_settings(&mut self) {
         self.remember_export();
         self.settings.layout = Some(self.layout.clone());
-        self.settings.view = ViewChoices::of(&self.model_view.shot);
+        self.settings.view = self.model_view.choices();
         let Some(folder) = self.folders.settings.clone() else {
             return;
         };

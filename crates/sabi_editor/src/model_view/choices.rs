@@ -2,6 +2,8 @@
 
 use sabi_engine::view::{Background, Shot, ViewTransform};
 
+use super::lamps::Lamp;
+
 /// Limits of what the menus set.
 pub(super) const TURN_DEGREES: std::ops::RangeInclusive<f32> = -180.0..=180.0;
 pub(super) const STRENGTH: std::ops::RangeInclusive<f32> = 0.0..=4.0;
@@ -31,6 +33,8 @@ pub(crate) struct ViewChoices {
     transform: String,
     background: String,
     has_relief: bool,
+    /// Lights besides the environment.
+    pub(super) lights: Vec<Lamp>,
 }
 
 impl Default for ViewChoices {
@@ -42,13 +46,14 @@ impl Default for ViewChoices {
             transform: TRANSFORMS[0].0.to_owned(),
             background: BACKGROUNDS[0].0.to_owned(),
             has_relief: false,
+            lights: Vec::new(),
         }
     }
 }
 
 impl ViewChoices {
-    /// What a shot has of it.
-    pub(crate) fn of(shot: &Shot) -> ViewChoices {
+    /// What a shot has of it, and lights besides.
+    pub(super) fn of(shot: &Shot, lights: &[Lamp]) -> ViewChoices {
         let transform = TRANSFORMS.iter().find(|(.., known)| *known == shot.transform);
         let background = BACKGROUNDS.iter().find(|(.., known)| *known == shot.background);
         let usual = ViewChoices::default();
@@ -60,6 +65,7 @@ impl ViewChoices {
             transform: transform.map_or(usual.transform, |(name, ..)| (*name).to_owned()),
             background: background.map_or(usual.background, |(name, ..)| (*name).to_owned()),
             has_relief: shot.has_relief,
+            lights: lights.to_vec(),
         }
         .sound()
     }
@@ -118,13 +124,13 @@ mod tests {
     #[test]
     fn what_was_chosen_comes_back_and_nonsense_does_not() {
         let mut shot = Shot::new(Camera::default());
-        assert_eq!(ViewChoices::of(&shot), ViewChoices::default());
+        assert_eq!(ViewChoices::of(&shot, &[]), ViewChoices::default());
         shot.exposure_stops = -1.5;
         shot.environment_turn_degrees = 400.0;
         shot.transform = ViewTransform::Standard;
         shot.background = BACKGROUNDS[2].2;
         shot.has_relief = true;
-        let kept = ViewChoices::of(&shot);
+        let kept = ViewChoices::of(&shot, &[]);
         let text = serde_json::to_string(&kept).expect("text");
         let read: ViewChoices = serde_json::from_str(&text).expect("choices");
         let mut other = Shot::new(Camera::default());

@@ -97,6 +97,8 @@ fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
     ui.add(egui::Slider::new(&mut view.shot.environment_strength, STRENGTH).text("Strength"));
     ui.add(egui::Slider::new(&mut view.shot.exposure_stops, EXPOSURE_STOPS).text("Exposure"));
     ui.separator();
+    view.lamps.menu(ui);
+    ui.separator();
     for (_, name, transform) in TRANSFORMS {
         ui.selectable_value(&mut view.shot.transform, transform, name);
     }

@@ -146,15 +146,16 @@ impl ModelView {
         let Some(screen) = &mut self.screens[at] else {
             return Ok(false);
         };
+        let lights = self.lamps.lights();
         let scene = Scene {
             model: &picture.model.view,
             looks: &picture.shown.looks,
             look_of_material: &picture.shown.look_of_material,
             environment,
-            lights: &[],
+            lights: &lights,
         };
-        // An environment that was changed is another picture too.
-        let revision = picture.number ^ (self.surroundings.number() << 48);
+        // Light that was changed is another picture too.
+        let revision = picture.number ^ (self.surroundings.number() << 48) ^ (self.lamps.number() << 32);
         Ok(screen.viewport.show(gpu, &scene, revision, shot, size, is_moving)?)
     }
 }

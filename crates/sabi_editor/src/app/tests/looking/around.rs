@@ -112,6 +112,32 @@ fn menus_choose_the_mode_the_environment_and_the_light() {
     ));
 }
 
+#[test]
+fn lights_are_added_shown_kept_and_removed() {
+    let mut window = Window::empty();
+    window.until_model();
+    window.until("a picture", |editor| editor.model_view.drawn > 0);
+    let picture = |window: &Window| {
+        let editor = window.editor();
+        editor.model_view.picture(editor.stage.gpu()).expect("a picture")
+    };
+    window.open_menu(icon::SUN, "Light");
+    window.settle();
+    let without = picture(&window);
+    for count in 1..=4 {
+        window.press("Add a light");
+        window.settle();
+        assert_eq!(window.editor().model_view.lights(), count);
+    }
+    assert!(picture(&window) != without, "the model is lit by them");
+    window.press("Add a light");
+    assert_eq!(window.editor().model_view.lights(), 4, "there is room for no more");
+    window.press("Remove light 2");
+    assert_eq!(window.editor().model_view.lights(), 3);
+    let kept = serde_json::to_string(&window.editor().model_view.choices()).expect("text");
+    assert_eq!(kept.matches("has_shadow").count(), 3, "{kept}");
+}
+
 const LENGTHS: &str = r#"
     "blur": { "kind": "filter/blur", "params": { "radius": 0.05 }, "inputs": { "source": "dots" }, "pos": [300, 0] },
     "dots": { "kind": "noise/dots", "params": { "size": 0.25 }, "pos": [0, 0] }
