@@ -8,6 +8,7 @@ mod eyedropper;
 mod keeping;
 mod keys;
 mod looks;
+mod measures;
 mod perform;
 mod rooms;
 #[cfg(test)]

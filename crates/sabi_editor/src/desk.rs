@@ -19,6 +19,7 @@ mod layers;
 mod layout;
 mod library;
 mod map_names;
+mod measures;
 mod names;
 mod nodes;
 mod panel;
@@ -225,10 +226,11 @@ impl Desk {
     }
 
     /// Makes an edit as a step of that name; says so where it is refused. Instances of a group follow what it publishes.
-    pub(crate) fn edit(&mut self, step: &str, edits: Vec<Edit>) -> bool {
+    pub(crate) fn edit(&mut self, step: &str, mut edits: Vec<Edit>) -> bool {
         if edits.is_empty() {
             return false;
         }
+        edits.extend(self.emptied_frames(&edits));
         let edits = instances::followed(self.document(), edits);
         if let Some(why) = self.why_nothing_would_be_left(&edits) {
             return self.refuse(why);

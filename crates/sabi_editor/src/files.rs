@@ -169,21 +169,23 @@ impl Editor {
                     .hint_text("Path"),
             );
             field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Path"));
-            if !field.has_focus() && !field.lost_focus() {
+            chosen = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            let buttons = ui.horizontal(|ui| [verb, "System dialog…", "Cancel"].map(|label| ui.button(label)));
+            let [does, asks_system, cancels] = buttons.inner;
+            let has_focus = [&field, &does, &asks_system, &cancels]
+                .iter()
+                .any(|part| part.has_focus());
+            if !has_focus && !field.lost_focus() {
                 field.request_focus();
             }
-            chosen = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            ui.horizontal(|ui| {
-                chosen |= ui.button(verb).clicked();
-                if ui.button("System dialog…").clicked()
-                    && let Some(path) = system_dialog(&what, &text)
-                {
-                    text = path.display().to_string();
-                    chosen = true;
-                }
-                ui.button("Cancel").clicked()
-            })
-            .inner
+            chosen |= does.clicked();
+            if asks_system.clicked()
+                && let Some(path) = system_dialog(&what, &text)
+            {
+                text = path.display().to_string();
+                chosen = true;
+            }
+            cancels.clicked()
         });
         let path = PathBuf::from(text.trim());
         if chosen && !path.as_os_str().is_empty() {

@@ -65,7 +65,7 @@ impl Document {
 }
 
 /// What the editor shows the graph on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Preview {
     /// The model, as a path relative to the graph file.
     pub mesh: Option<String>,

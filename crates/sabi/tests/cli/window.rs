@@ -113,14 +113,24 @@ fn what_was_not_saved_when_the_program_was_killed_is_offered_and_comes_back() {
     let is_kept = || std::fs::read_dir(&kept).is_ok_and(|mut files| files.next().is_some());
     display.until("a copy of what is not saved", is_kept);
     window.kill();
-    let left = sabi_engine::recoveries(&kept);
-    assert_eq!(left.len(), 1);
-    let session = sabi_engine::Session::recover(left.into_iter().next().unwrap()).unwrap();
-    let kinds: Vec<&str> = session
-        .document()
-        .graph
-        .nodes()
-        .map(|(_, node)| node.kind.as_str())
-        .collect();
-    assert_eq!(kinds, ["noise/simplex"]);
+    let _again = Window::open(&place, &display, &["--mesh", "cube.glb"]);
+    // The first thing on the start page, above all that one could begin with.
+    display.key("Tab");
+    display.key("space");
+    display.until("a picture on the node", || display.screen().colors(GRAPH) > 60);
+    display.key("ctrl+s");
+    display.until("a saved graph", || {
+        let graph = saved(&place, "new.sabi");
+        let nodes = graph["nodes"].as_object().unwrap();
+        nodes.len() == 1 && nodes.values().all(|node| node["kind"] == "noise/simplex")
+    });
+}
+
+#[test]
+fn an_example_of_the_project_is_shown_with_its_model_and_a_picture_on_every_node() {
+    let (place, display) = (Place::new(), Display::new());
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs/rusty-metal.sabi");
+    let _window = Window::open(&place, &display, &[example]);
+    // One picture on a node has a dozen colors, the frames and titles fewer still.
+    display.until("pictures on the nodes", || display.screen().colors(GRAPH) > 400);
 }

@@ -260,8 +260,7 @@ impl Editor {
                         }
                     }
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                        let size = self.stage.size();
-                        ui.label(quiet(format!("{size} texels")));
+                        self.measures(ui);
                         ui.label(quiet(format!("{} nodes", self.desk.graph().len())));
                     });
                 });

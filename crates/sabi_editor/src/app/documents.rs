@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::Ui;
 use sabi_engine::{EngineError, Kinds, Session};
-use sabi_graph::Value;
+use sabi_graph::{Edit, Preview, Value};
 
 use super::Editor;
 use crate::action::{Action, NodeText, Shelf};
@@ -74,6 +74,7 @@ impl Editor {
     pub(crate) fn save(&mut self) {
         match self.desk.session.file().map(Path::to_owned) {
             Some(file) => {
+                self.keep_model();
                 let saved = self.desk.save();
                 self.tell_saved(&file, saved);
             }
@@ -81,7 +82,26 @@ impl Editor {
         }
     }
 
+    /// Makes the model that the graph was worked on its own, so that it opens on that one again. What comes with the program
+    /// stands in for a model that nobody has chosen.
+    fn keep_model(&mut self) {
+        let model = self.stage.model_file();
+        let own = model_of(&self.desk.session);
+        let is_own = own.as_ref().is_some_and(|own| whole(own) == whole(model));
+        let is_stand_in = own.is_none() && self.folders.examples.as_ref().is_some_and(|of| model.starts_with(of));
+        if is_own || is_stand_in || self.stage.model_failure.is_some() {
+            return;
+        }
+        let preview = Preview {
+            mesh: Some(self.desk.seen_from_own_folder(model)),
+            ..self.desk.document().preview.clone().unwrap_or_default()
+        };
+        let edit = Edit::SetPreview { preview: Some(preview) };
+        self.desk.edit("Remember the model", vec![edit]);
+    }
+
     pub(crate) fn save_to(&mut self, path: &Path) {
+        self.keep_model();
         let before = self.desk.session.file().unwrap_or(Path::new("")).to_owned();
         let saved = self.desk.save_as(path);
         let after = self.desk.session.file().unwrap_or(path);
@@ -259,17 +279,21 @@ impl Editor {
 impl Desk {
     /// A path as the graph names it: from its own folder on where that is possible.
     pub(crate) fn relative(&self, path: &Path) -> String {
-        let folder = self.session.file().and_then(Path::parent).map(Path::to_owned);
-        let whole = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let path = whole(path);
-        let Some(folder) = folder else {
-            return path.display().to_string();
-        };
+        match self.session.file() {
+            Some(_) => self.seen_from_own_folder(path),
+            None => whole(path).display().to_string(),
+        }
+    }
+
+    /// A path from the graph's folder on; that of one without a file is where the program was started, until it is saved.
+    fn seen_from_own_folder(&self, path: &Path) -> String {
+        let folder = self.session.graph().folder();
         let folder = whole(if folder.as_os_str().is_empty() {
             Path::new(".")
         } else {
-            &folder
+            folder
         });
+        let path = whole(path);
         let common = folder
             .components()
             .zip(path.components())
@@ -286,6 +310,10 @@ impl Desk {
             .map(|part| part.as_os_str().to_string_lossy().into_owned());
         up.chain(down).collect::<Vec<String>>().join("/")
     }
+}
+
+fn whole(path: &Path) -> PathBuf {
+    std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// Where a path leads that a graph names.

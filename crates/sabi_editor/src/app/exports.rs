@@ -39,6 +39,18 @@ impl Editor {
         if !export.place.again {
             return;
         }
+        let now = self.stage.model_file();
+        if let Some(before) = export.place.model.as_ref().filter(|before| *before != now) {
+            let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let sentence = format!(
+                "The textures were not written again: those that are there are of {}. Export them once to put those of {} \
+                 in their place.",
+                name(before),
+                name(now)
+            );
+            self.say(sentence);
+            return;
+        }
         if export.running.is_some() {
             export.is_queued = true;
         } else {
@@ -78,6 +90,7 @@ impl Editor {
             self.say("No textures were written: their folder has other files. The export panel asks what to do.");
             return;
         }
+        self.panels.export.place.model = Some(self.stage.model_file().to_owned());
         let context = self.context.clone();
         let work = move |progress: &dyn sabi_engine::Progress| bake_graph(&open, &kinds, &request, progress);
         self.panels.export.running = Some(Running::start(&context, work));

@@ -46,7 +46,7 @@ impl Editor {
         };
         let fault = match &seen {
             Seen::Node(node) => self.stage.fault(&node.node).or(self.stage.waits(&node.node)).cloned(),
-            Seen::Outputs => None,
+            Seen::Outputs => self.fault_of_outputs().cloned(),
         };
         Showing {
             words: words(&seen),
@@ -56,6 +56,15 @@ impl Editor {
             clicked: name(&self.shown),
             locked: name(&self.locked),
         }
+    }
+
+    /// Why what the outputs show is not what they would show by now.
+    fn fault_of_outputs(&self) -> Option<&String> {
+        let stage = &self.stage;
+        let outputs = self.desk.document().graph.nodes();
+        let mut outputs = outputs.filter(|(_, node)| node.kind.starts_with("output/"));
+        let of_model = stage.model_failure.as_ref().or(stage.failure.as_ref());
+        of_model.or_else(|| outputs.find_map(|(id, _)| stage.fault(id.as_str()).or(stage.waits(id.as_str()))))
     }
 
     /// The name of a node that is looked at, with its output where it is not the first.

@@ -16,6 +16,7 @@ mod library;
 mod looking;
 mod lost;
 mod many;
+mod measures;
 mod mouse;
 mod moving;
 mod panels;

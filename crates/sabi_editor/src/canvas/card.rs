@@ -46,5 +46,11 @@ pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, k
         let square = Rect::from_center_size(inside.center(), egui::Vec2::splat(side));
         body::picture(ui, theme, shown, square, zoom);
     }
+    if shown.is_pinned {
+        let font = FontId::proportional(letters.max(LEAST_LETTERS).round());
+        let at = inside.right_top();
+        ui.painter()
+            .text(at, Align2::RIGHT_TOP, icon::PUSH_PIN, font, theme.accent);
+    }
     Some(response)
 }

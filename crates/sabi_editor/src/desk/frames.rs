@@ -1,6 +1,6 @@
 //! Titled boxes around nodes.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::{Edit, Frame, NodeId};
 
@@ -82,6 +82,35 @@ impl Desk {
             id: id.to_owned(),
         };
         self.edit("Remove frame", vec![edit])
+    }
+
+    /// The removal of frames that these edits leave without a node: nobody sees those or could take them away.
+    pub(super) fn emptied_frames(&self, edits: &[Edit]) -> Vec<Edit> {
+        let body = self.body();
+        let holds = |frame: &Frame| frame.nodes.iter().any(|id| self.graph().node(id.as_str()).is_some());
+        let (mut removed, mut added, mut framed) = (BTreeSet::new(), BTreeSet::new(), BTreeMap::new());
+        for edit in edits {
+            match edit {
+                Edit::RemoveNode { body: of, id } if *of == body => removed.insert(id),
+                Edit::AddNode { body: of, id, .. } if *of == body => added.insert(id),
+                Edit::AddFrame { body: of, id, frame } if *of == body => framed.insert(id, Some(frame)).is_none(),
+                Edit::RemoveFrame { body: of, id } if *of == body => framed.insert(id, None).is_none(),
+                _ => false,
+            };
+        }
+        let stays =
+            |id: &NodeId| added.contains(id) || (!removed.contains(id) && self.graph().node(id.as_str()).is_some());
+        let frames = self.graph().frames().iter().filter(|(_, frame)| holds(frame));
+        let emptied = frames.filter(|(id, frame)| match framed.get(id) {
+            Some(None) => false,
+            Some(Some(changed)) => !changed.nodes.iter().any(stays),
+            None => !frame.nodes.iter().any(stays),
+        });
+        let remove = |id: &String| Edit::RemoveFrame {
+            body: body.clone(),
+            id: id.clone(),
+        };
+        emptied.map(|(id, _)| remove(id)).collect()
     }
 
     /// The color after the one that a frame has.

@@ -68,6 +68,8 @@ pub(crate) struct ExportPlace {
     pub(crate) folder: String,
     /// Whether they are written again at every save.
     pub(crate) again: bool,
+    /// The model that those which are there are of.
+    pub(crate) model: Option<PathBuf>,
 }
 
 /// What the panel holds from frame to frame.

@@ -172,3 +172,24 @@ fn the_window_writes_the_bytes_that_a_bake_without_it_writes() {
         assert!(read("maps") == read("alone"), "{name}");
     }
 }
+
+#[test]
+fn textures_of_another_model_are_not_put_in_the_place_of_those_that_are_there() {
+    let mut window = ready();
+    window.press("Export");
+    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    window.harness.state_mut().panels.export.place.again = true;
+    let other = window.path("other.glb");
+    fs::copy(window.editor().stage.model_file(), &other).expect("a model");
+    window.harness.state_mut().take_model(&other);
+    window.settle();
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert!(window.editor().panels.export.running.is_none());
+    assert!(window.says("were not written again"), "{:?}", window.labels());
+    window.press("Export");
+    window.until("the maps of the other model", |editor| {
+        editor.panels.export.running.is_none()
+    });
+    let place = &window.editor().panels.export.place;
+    assert_eq!(place.model.as_deref(), Some(other.as_path()));
+}

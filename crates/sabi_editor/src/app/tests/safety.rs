@@ -209,3 +209,20 @@ fn settings_and_recent_files_are_there_in_the_next_window() {
     assert!((window.editor().settings.scale - 1.1).abs() < 1e-3);
     assert_eq!(window.editor().settings.recent.len(), 1);
 }
+
+#[test]
+fn a_saved_graph_opens_again_on_the_model_that_it_was_worked_on() {
+    let mut window = Window::opened(CLOUDS);
+    let model = window.path("hero.glb");
+    std::fs::copy(window.editor().stage.model_file(), &model).expect("a model");
+    window.keys(Modifiers::COMMAND, Key::S);
+    let named = |window: &Window| {
+        let session = Session::open(&window.path("graph.sabi"), None).expect("a graph");
+        session.document().preview.clone().and_then(|preview| preview.mesh)
+    };
+    assert_eq!(named(&window), None, "what comes with the program is nobody's choice");
+    window.harness.state_mut().take_model(&model);
+    window.settle();
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert_eq!(named(&window).as_deref(), Some("hero.glb"));
+}

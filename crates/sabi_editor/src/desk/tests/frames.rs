@@ -1,5 +1,7 @@
 //! Titled boxes around nodes.
 
+use sabi_graph::Frame;
+
 use super::*;
 
 #[test]
@@ -39,20 +41,33 @@ fn a_node_is_in_one_frame_at_a_time_where_it_is_put_into_one() {
         r#""frames": { "f": { "nodes": ["a", "gone"] }, "g": { "nodes": ["b"] } },"#,
         r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#,
     );
-    let nodes = |desk: &Desk, name: &str| -> Vec<String> {
-        desk.graph().frames()[name]
-            .nodes
-            .iter()
-            .map(NodeId::to_string)
-            .collect()
+    let nodes = |desk: &Desk| -> BTreeMap<String, Vec<String>> {
+        let frames = desk.graph().frames().iter();
+        let ids = |frame: &Frame| frame.nodes.iter().map(NodeId::to_string).collect();
+        frames.map(|(name, frame)| (name.clone(), ids(frame))).collect()
     };
+    let expected =
+        |nodes: &[&str]| BTreeMap::from([("g".to_owned(), nodes.iter().map(|id| (*id).to_owned()).collect())]);
     let a = [id("a")].into();
     step(&mut desk, |desk| desk.put_into_frame(&a, Some("g")));
-    assert_eq!(
-        (nodes(&desk, "f"), nodes(&desk, "g")),
-        (vec!["gone".to_owned()], vec!["b".to_owned(), "a".to_owned()])
-    );
+    assert_eq!(nodes(&desk), expected(&["b", "a"]), "an empty frame goes");
     refused(&mut desk, |desk| desk.put_into_frame(&a, Some("g")));
     step(&mut desk, |desk| desk.put_into_frame(&a, None));
-    assert_eq!(nodes(&desk, "g"), ["b"]);
+    assert_eq!(nodes(&desk), expected(&["b"]));
+}
+
+#[test]
+fn a_frame_goes_with_its_last_node_and_comes_back_with_it() {
+    let mut desk = opened(
+        r#""frames": { "f": { "nodes": ["a", "b"] } },"#,
+        r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }, "c": { "kind": "noise/white" }"#,
+    );
+    select(&mut desk, &["a"]);
+    step(&mut desk, |desk| desk.delete(false));
+    assert!(desk.graph().frames().contains_key("f"), "it holds another node");
+    select(&mut desk, &["b"]);
+    step(&mut desk, |desk| desk.delete(false));
+    assert!(desk.graph().frames().is_empty());
+    desk.undo();
+    assert!(desk.graph().frames().contains_key("f"));
 }
