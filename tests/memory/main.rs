@@ -5,7 +5,7 @@ use sabi_tests::{Pictured, even_light, project};
 use sabi_view::{Background, Light, LightPlace, Lines, Mode, Shot, ViewTransform, Viewpoint};
 
 const SIZE: [u32; 2] = [48, 32];
-/// A driver that builds shaders anew at every draw keeps more than a hundred times as much.
+/// Where one branch asked a uniform buffer, Mesa 22.3 kept 198 MB of shaders.
 const MOST_KEPT: u64 = 4 << 20;
 const PICTURES: usize = 120;
 
@@ -95,7 +95,6 @@ fn pictures_from_ever_other_places_keep_no_memory() {
             }
             kept = resident_bytes().saturating_sub(before);
         }
-        println!("{name} {kept}");
         assert!(kept < MOST_KEPT, "{name}: {kept} bytes after {PICTURES} pictures");
     }
 }

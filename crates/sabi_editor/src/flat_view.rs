@@ -244,13 +244,13 @@ impl FlatView {
                 Err(Failed) => (self.shown, self.failed) = (None, Some(of)),
             }
         }
-        let known = self
+        let mut known = self
             .shown
             .as_ref()
             .map(|shown| &shown.of)
             .into_iter()
             .chain(&self.failed);
-        let is_there = known.into_iter().any(is_wanted);
+        let is_there = known.any(is_wanted);
         if is_there || self.coming.is_some() {
             return;
         }

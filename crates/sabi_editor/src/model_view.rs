@@ -29,6 +29,7 @@ use crate::theme::{Theme, type_size};
 pub(crate) use choices::ViewChoices;
 use environment::Surroundings;
 use lamps::Lamps;
+pub(crate) use menu::staying;
 pub(crate) use showing::Showing;
 
 /// After the last movement the picture rests.

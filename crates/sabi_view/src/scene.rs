@@ -116,6 +116,15 @@ pub enum LightPlace {
     Near([f32; 3]),
 }
 
+impl LightPlace {
+    /// Far away in the direction that two angles say: around +Y from +Z towards +X, and above the horizon.
+    pub fn far_at(yaw_degrees: f32, pitch_degrees: f32) -> LightPlace {
+        let (sin_yaw, cos_yaw) = yaw_degrees.to_radians().sin_cos();
+        let (sin_pitch, cos_pitch) = pitch_degrees.to_radians().sin_cos();
+        LightPlace::Far([sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch])
+    }
+}
+
 /// How a scene is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {

@@ -192,17 +192,11 @@ fn light(text: &str) -> Result<Light, String> {
         [yaw, pitch, strength] if strength >= 0.0 => (yaw, pitch, strength),
         _ => return Err("it takes two angles in degrees and a strength from 0, as in 40,30,2.5".to_owned()),
     };
-    let ([sin_yaw, cos_yaw], [sin_pitch, cos_pitch]) = (sin_cos(yaw), sin_cos(pitch));
     Ok(Light {
-        place: LightPlace::Far([sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch]),
+        place: LightPlace::far_at(yaw, pitch),
         color: [strength; 3],
         has_shadow: true,
     })
-}
-
-fn sin_cos(degrees: f32) -> [f32; 2] {
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    [sin, cos]
 }
 
 #[cfg(test)]

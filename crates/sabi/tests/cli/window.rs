@@ -131,6 +131,6 @@ fn an_example_of_the_project_is_shown_with_its_model_and_a_picture_on_every_node
     let (place, display) = (Place::new(), Display::new());
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs/rusty-metal.sabi");
     let _window = Window::open(&place, &display, &[example]);
-    // One picture on a node has a dozen colors, the frames and titles fewer still.
+    // Lit models have shades that frames, titles and wires have not.
     display.until("pictures on the nodes", || display.screen().colors(GRAPH) > 400);
 }

@@ -4,6 +4,7 @@ use egui::{DragValue, RichText, Ui, UiBuilder};
 use sabi_graph::Fit;
 
 use super::Editor;
+use crate::model_view::staying;
 use crate::theme::type_size;
 
 /// Sizes that are offered to work at.
@@ -24,9 +25,7 @@ impl Editor {
             .color(self.theme.quiet);
         let button = egui::Button::new(words).frame(false);
         egui::containers::menu::MenuButton::from_button(button)
-            .config(
-                egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside),
-            )
+            .config(staying())
             .ui(ui, |ui| {
                 self.sizes(ui, size);
                 ui.separator();

@@ -17,10 +17,13 @@ pub(super) struct Wires {
     /// The model that they are of, or will be.
     of: Option<u64>,
     coming: Option<Errand<Drawing>>,
-    drawing: Option<(Drawing, Option<TextureHandle>)>,
+    edges: Vec<[Pos2; 2]>,
+    /// What takes their place where they are many, and where in texture space it lies.
+    picture: Option<(TextureHandle, Rect)>,
 }
 
 /// Edges in texture space, and where they are many a picture of them.
+#[derive(Default)]
 struct Drawing {
     edges: Vec<[Pos2; 2]>,
     picture: Option<(ColorImage, Rect)>,
@@ -30,17 +33,14 @@ impl Wires {
     /// Draws those of a model, once they are there, where the texture is a square.
     pub(super) fn draw(&mut self, painter: &Painter, model: &std::sync::Arc<LiveModel>, square: Rect, theme: &Theme) {
         self.poll(painter.ctx(), model);
-        let Some((drawing, texture)) = &self.drawing else {
-            return;
-        };
         let place = |at: Pos2| square.min + at.to_vec2() * square.size();
         let color = theme.accent.gamma_multiply(0.5);
         let clip = painter.clip_rect();
-        let placed = drawing.edges.iter().map(|[start, end]| [place(*start), place(*end)]);
+        let placed = self.edges.iter().map(|[start, end]| [place(*start), place(*end)]);
         let seen = placed.filter(|ends| clip.intersects(Rect::from_two_pos(ends[0], ends[1])));
         let few: Vec<[Pos2; 2]> = seen.take(MOST_LINES + 1).collect();
-        match (texture, &drawing.picture) {
-            (Some(texture), Some((_, bounds))) if few.len() > MOST_LINES => {
+        match &self.picture {
+            Some((texture, bounds)) if few.len() > MOST_LINES => {
                 let rect = Rect::from_min_max(place(bounds.min), place(bounds.max));
                 let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                 painter.image(texture.id(), rect, whole, color);
@@ -63,11 +63,11 @@ impl Wires {
         };
         self.coming = None;
         // A mistake in the making leaves the texture without wires.
-        self.drawing = come.ok().map(|drawing: Drawing| {
-            let picture = drawing.picture.as_ref();
-            let texture = picture
-                .map(|(image, _)| context.load_texture("wires of a model", image.clone(), TextureOptions::LINEAR));
-            (drawing, texture)
+        let Drawing { edges, picture } = come.unwrap_or_default();
+        self.edges = edges;
+        self.picture = picture.map(|(image, bounds)| {
+            let texture = context.load_texture("wires of a model", image, TextureOptions::LINEAR);
+            (texture, bounds)
         });
     }
 }

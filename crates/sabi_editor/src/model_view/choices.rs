@@ -100,10 +100,7 @@ impl ViewChoices {
             (&mut self.environment_strength, STRENGTH, usual.environment_strength),
             (&mut self.exposure_stops, EXPOSURE_STOPS, usual.exposure_stops),
         ] {
-            *number = match number.is_finite() {
-                true => number.clamp(*limits.start(), *limits.end()),
-                false => usual,
-            };
+            *number = within(*number, &limits, usual);
         }
         if !TRANSFORMS.iter().any(|(name, ..)| *name == self.transform) {
             self.transform = usual.transform;
@@ -112,6 +109,14 @@ impl ViewChoices {
             self.background = usual.background;
         }
         self
+    }
+}
+
+/// A number brought into its limits; what is no number is as usual.
+pub(super) fn within(number: f32, limits: &std::ops::RangeInclusive<f32>, usual: f32) -> f32 {
+    match number.is_finite() {
+        true => number.clamp(*limits.start(), *limits.end()),
+        false => usual,
     }
 }
 

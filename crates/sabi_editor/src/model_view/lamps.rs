@@ -4,6 +4,8 @@ use egui::{Button, DragValue, Ui};
 use egui_phosphor::regular as icon;
 use sabi_engine::view::{Light, LightPlace, MOST_LIGHTS};
 
+use super::choices::{TURN_DEGREES, within};
+
 /// Limits of what the menu sets.
 const HEIGHT_DEGREES: std::ops::RangeInclusive<f32> = -90.0..=90.0;
 const STRENGTH: std::ops::RangeInclusive<f32> = 0.0..=20.0;
@@ -38,23 +40,18 @@ impl Lamp {
     /// What of it can be used: files of settings may have been written by hand.
     fn sound(self) -> Lamp {
         let usual = Lamp::default();
-        let sound = |number: f32, low: f32, high: f32, usual: f32| match number.is_finite() {
-            true => number.clamp(low, high),
-            false => usual,
-        };
         Lamp {
-            turn_degrees: sound(self.turn_degrees, -180.0, 180.0, usual.turn_degrees),
-            height_degrees: sound(self.height_degrees, -90.0, 90.0, usual.height_degrees),
-            color: self.color.map(|number| sound(number, 0.0, 1.0, 1.0)),
-            strength: sound(self.strength, 0.0, *STRENGTH.end(), usual.strength),
+            turn_degrees: within(self.turn_degrees, &TURN_DEGREES, usual.turn_degrees),
+            height_degrees: within(self.height_degrees, &HEIGHT_DEGREES, usual.height_degrees),
+            color: self.color.map(|number| within(number, &(0.0..=1.0), 1.0)),
+            strength: within(self.strength, &STRENGTH, usual.strength),
             has_shadow: self.has_shadow,
         }
     }
 
     fn light(&self) -> Light {
-        let [turn, height] = [self.turn_degrees, self.height_degrees].map(f32::to_radians);
         Light {
-            place: LightPlace::Far([turn.sin() * height.cos(), height.sin(), turn.cos() * height.cos()]),
+            place: LightPlace::far_at(self.turn_degrees, self.height_degrees),
             color: self.color.map(|number| number * self.strength),
             has_shadow: self.has_shadow,
         }
@@ -66,7 +63,7 @@ impl Lamp {
         ui.horizontal(|ui| {
             ui.color_edit_button_rgb(&mut self.color)
                 .on_hover_text(format!("Color of {name}"));
-            let turn = DragValue::new(&mut self.turn_degrees).range(-180.0..=180.0).suffix("°");
+            let turn = DragValue::new(&mut self.turn_degrees).range(TURN_DEGREES).suffix("°");
             ui.add(turn).on_hover_text("Around the model");
             let height = DragValue::new(&mut self.height_degrees)
                 .range(HEIGHT_DEGREES)

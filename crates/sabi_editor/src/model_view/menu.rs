@@ -73,7 +73,7 @@ pub(super) fn show(
 }
 
 /// A menu in which one tries several things before it closes.
-fn staying() -> MenuConfig {
+pub(crate) fn staying() -> MenuConfig {
     MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside)
 }
 
