@@ -1,8 +1,11 @@
 //! Small pictures of nodes come when what they give changes, and only then.
 
-use sabi_engine::Wish;
+use std::sync::Arc;
 
-use crate::window::{Window, document, graph, node, wish};
+use sabi_engine::{ModelOptions, News, SetKey, TextureSet, Wish};
+use sabi_tests::project;
+
+use crate::window::{FULL, Told, Window, document, graph, node, wish};
 
 const NODES: &str = r##"
     "clouds": { "kind": "noise/simplex" },
@@ -81,6 +84,43 @@ fn flat_thumbnails_show_texture_space() {
         ["red"],
         "the other kind is another picture"
     );
+}
+
+#[test]
+fn of_several_texture_sets_the_wanted_one_is_shown_where_texture_space_is() {
+    let window = Window::new();
+    let model = ModelOptions::new(&project("assets/meshes/chair.glb"), FULL);
+    let wished = |revision: u64, set: Option<SetKey>| Wish {
+        model: Arc::new(model.clone()),
+        model_revision: 1,
+        inspected: Some(node("red")),
+        is_flat: true,
+        set,
+        ..pictured(revision, NODES, &["red"])
+    };
+    let told = window.answer(wished(1, None));
+    let sets = told.shown().last().map(|(_, _, model, _)| model.sets.clone());
+    let sets = sets.expect("a model");
+    let names: Vec<String> = sets.iter().map(TextureSet::title).collect();
+    assert_eq!(names, ["wood", "leather"]);
+    let seen = |told: &Told| -> Option<(String, Vec<u8>)> {
+        let values = told.all.iter().find_map(|news| match news {
+            News::Inspected { values, .. } => Some(values.set.title()),
+            _ => None,
+        });
+        let picture = told.thumbnails().first().map(|(_, picture)| picture.rgba.clone());
+        Some((values?, picture?))
+    };
+    let first = seen(&told).expect("the first set");
+    let other = seen(&window.answer(wished(2, Some(sets[1].key)))).expect("the other set");
+    assert_eq!([&first.0, &other.0], ["wood", "leather"]);
+    assert_ne!(first.1, other.1, "they cover other texels");
+    let nowhere = SetKey {
+        material: 9,
+        ..sets[0].key
+    };
+    assert_eq!(seen(&window.answer(wished(3, Some(nowhere)))), Some(first));
+    assert_eq!(seen(&window.answer(wished(4, None))), None, "it is there already");
 }
 
 #[test]

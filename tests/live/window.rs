@@ -73,6 +73,7 @@ pub(crate) fn wish(revision: u64, graph: OpenGraph) -> Wish {
         coarse_size: COARSE,
         seen: vec![Seen::Outputs],
         inspected: None,
+        set: None,
         thumbnails: Vec::new(),
         is_flat: false,
         is_moving: false,

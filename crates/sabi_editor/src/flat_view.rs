@@ -11,7 +11,7 @@ use egui::{
     Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::Inspected;
+use sabi_engine::{Inspected, LiveModel, SetKey};
 use sabi_graph::NodeRef;
 
 use crate::app::Taken;
@@ -31,6 +31,8 @@ pub(crate) struct FlatView {
     pan: Vec2,
     /// Points in one texel; none to show all of it.
     pub(crate) zoom: Option<f32>,
+    /// Which of the model's texture sets; the first where it does not have this one.
+    pub(crate) set: Option<SetKey>,
     /// Which of the planes.
     plane: usize,
     /// Which number of it alone; none for all as a color.
@@ -82,6 +84,7 @@ impl Default for FlatView {
         FlatView {
             pan: Vec2::ZERO,
             zoom: None,
+            set: None,
             plane: 0,
             component: None,
             is_tiled: false,
@@ -103,7 +106,7 @@ impl FlatView {
         } = *subject;
         let values = stage.inspected.as_ref().filter(|(node, _)| Some(node) == wanted);
         let values = values.map(|(_, values)| values.clone());
-        done.unpins = self.bar(ui, subject, values.as_deref());
+        done.unpins = self.bar(ui, stage, subject, values.as_deref());
         let Some(values) = values else {
             let fault = wanted.and_then(|node| stage.fault(&node.node).or(stage.waits(&node.node)));
             let sentence = match (wanted, fault) {
@@ -136,7 +139,7 @@ impl FlatView {
         if self.has_wires
             && let Some(model) = &stage.shown_model
         {
-            self.wires.draw(&painter, model, square, theme);
+            self.wires.draw(&painter, (model, values.set.key), square, theme);
         }
         self.turn(ui, &response, rect, &values);
         self.probe(ui, &response, square, &values, theme);
@@ -181,7 +184,7 @@ impl FlatView {
     }
 
     /// What stands above the picture; says whether it shall not be pinned any more.
-    fn bar(&mut self, ui: &mut Ui, subject: &Subject<'_>, values: Option<&Inspected>) -> bool {
+    fn bar(&mut self, ui: &mut Ui, stage: &Stage, subject: &Subject<'_>, values: Option<&Inspected>) -> bool {
         let mut unpins = false;
         ui.horizontal(|ui| {
             if subject.is_pinned {
@@ -191,6 +194,9 @@ impl FlatView {
                 unpins = pin.clicked();
             }
             ui.strong(subject.title);
+            if let Some(model) = &stage.shown_model {
+                self.sets(ui, model);
+            }
             let Some(values) = values else { return };
             self.planes(ui, values);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -200,6 +206,25 @@ impl FlatView {
             });
         });
         unpins
+    }
+
+    /// Which of several texture sets is shown.
+    fn sets(&mut self, ui: &mut Ui, model: &LiveModel) {
+        let Some(shown) = model.set(self.set).filter(|_| model.sets.len() > 1) else {
+            return;
+        };
+        let menu = egui::ComboBox::from_id_salt("texture set").selected_text(shown.title());
+        let menu = menu.show_ui(ui, |ui| {
+            for set in &model.sets {
+                if ui.selectable_label(set.key == shown.key, set.title()).clicked() {
+                    self.set = Some(set.key);
+                }
+            }
+        });
+        let words = format!("Texture set: {}", shown.title());
+        let hint = "Which of the model's texture sets is seen here, and in flat pictures of nodes";
+        let menu = menu.response.on_hover_text(hint);
+        menu.widget_info(|| WidgetInfo::labeled(WidgetType::ComboBox, true, &words));
     }
 
     /// Which plane is shown, and which number of it.

@@ -9,7 +9,7 @@ use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use sabi_engine::view::Pixels;
 use sabi_engine::{
     EngineError, Faults, Gpu, Inspected, Live, LiveModel, LiveOptions, LiveTimes, ModelOptions, News, OpenGraph, Seen,
-    Shown, Wish,
+    SetKey, Shown, Wish,
 };
 use sabi_graph::{Document, NodeRef};
 
@@ -37,6 +37,7 @@ pub(crate) struct Picture {
 pub(crate) struct Wanted {
     pub(crate) seen: Vec<Seen>,
     pub(crate) inspected: Option<NodeRef>,
+    pub(crate) set: Option<SetKey>,
     pub(crate) thumbnails: Vec<NodeRef>,
     pub(crate) is_flat: bool,
     pub(crate) is_moving: bool,
@@ -195,6 +196,7 @@ impl Stage {
             coarse_size: COARSE,
             seen: wanted.seen.clone(),
             inspected: wanted.inspected.clone(),
+            set: wanted.set,
             thumbnails: wanted.thumbnails.clone(),
             is_flat: wanted.is_flat,
             is_moving: wanted.is_moving,

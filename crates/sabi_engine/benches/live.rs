@@ -205,6 +205,7 @@ impl Slider {
             coarse_size: 256,
             seen: vec![Seen::Outputs],
             inspected: None,
+            set: None,
             thumbnails: Vec::new(),
             is_flat: false,
             is_moving: true,

@@ -67,6 +67,7 @@ pub use render::{RenderRequest, Turns, render};
 pub use report::{BakeReport, StageTime, StageTimes};
 pub use seams::Seams;
 pub use session::{FileState, Recovery, Session, recoveries};
+pub use sets::TextureSet;
 pub use setting::read_setting;
 pub use sheet::{PlaneHolds, SheetPlane};
 pub use stages::{Progress, Silent, Stage};
@@ -74,6 +75,7 @@ pub use thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
 pub use watch::{Changes, Watched, Watcher};
 pub use workpiece::{Workpiece, WorkpieceOptions};
 
+pub use sabi_export::SetKey;
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,
 };

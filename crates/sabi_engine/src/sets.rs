@@ -11,13 +11,23 @@ use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::outputs::{idle, masks, materials, outputs, quoted, served};
 
-/// One texture set.
+/// One texture set of a model.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct TextureSet {
+pub struct TextureSet {
     /// Which set.
-    pub(crate) key: SetKey,
+    pub key: SetKey,
     /// Stem of its files.
-    pub(crate) name: String,
+    pub name: String,
+}
+
+impl TextureSet {
+    /// What it is called among others: the stem of its files, and the number of its tile where its material has several.
+    pub fn title(&self) -> String {
+        match self.key.udim {
+            Some(number) => format!("{} {number}", self.name),
+            None => self.name.clone(),
+        }
+    }
 }
 
 /// The sets of the model's materials, or of those that go by the wanted name: their own, or the stem of their files.

@@ -5,7 +5,7 @@ mod grid;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
+use sabi_surface::atlas::{Atlas, Chart, EMPTY, GHOST_BIT};
 
 pub(crate) use grid::{Fallen, Grid};
 
@@ -33,6 +33,13 @@ pub struct SetKey {
     pub uv_tile: [i32; 2],
     /// UDIM number, when the material uses more than one tile: 1001 is the unit square, +1 to the right, +10 upward.
     pub udim: Option<u32>,
+}
+
+impl SetKey {
+    /// Whether a chart lies in the set: on its sheet, and of several tiles in its own.
+    pub fn is_home_of(&self, chart: &Chart) -> bool {
+        chart.sheet == self.material && (self.udim.is_none() || chart.uv_tile == self.uv_tile)
+    }
 }
 
 /// A texture set's pixels and where their values come from.

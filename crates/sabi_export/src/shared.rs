@@ -82,7 +82,7 @@ fn lost(grid: &Grid<'_>, layout: &SetLayout) -> (Vec<Fallen>, Vec<Fallen>) {
                 is_sharing[chart] |= fallen.cover == Cover::Owned;
                 on_map.push(fallen);
             }
-        } else if fallen.cover == Cover::Ghost && grid.is_home_of(&charts[chart]) {
+        } else if fallen.cover == Cover::Ghost && layout.key.is_home_of(&charts[chart]) {
             beside.push(fallen);
         }
     });

@@ -16,6 +16,7 @@ impl Editor {
         let wanted = Wanted {
             seen,
             inspected: self.inspected().cloned(),
+            set: self.flat_view.set,
             thumbnails: self.pictured(),
             is_flat: self.settings.is_flat,
             is_moving: self.is_moving,

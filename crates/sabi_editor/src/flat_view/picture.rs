@@ -123,6 +123,7 @@ impl Histogram {
 
 #[cfg(test)]
 mod tests {
+    use sabi_engine::{SetKey, TextureSet};
     use sabi_graph::PortType;
 
     use super::*;
@@ -135,7 +136,14 @@ mod tests {
         Inspected {
             ty: PortType::Mask,
             size: 2,
-            set: "set".to_owned(),
+            set: TextureSet {
+                key: SetKey {
+                    material: 0,
+                    uv_tile: [0, 0],
+                    udim: None,
+                },
+                name: "set".to_owned(),
+            },
             planes: vec![SheetPlane {
                 name: "",
                 holds,

@@ -1,7 +1,9 @@
 //! The edges of a model's triangles in texture space.
 
+use std::sync::Arc;
+
 use egui::{Color32, ColorImage, Context, Painter, Pos2, Rect, Stroke, TextureHandle, TextureOptions, pos2, vec2};
-use sabi_engine::LiveModel;
+use sabi_engine::{LiveModel, Prepared, SetKey};
 
 use crate::errand::Errand;
 use crate::theme::Theme;
@@ -14,8 +16,8 @@ const SIDE: usize = 1024;
 /// The wires of the model that is shown, made beside the window.
 #[derive(Default)]
 pub(super) struct Wires {
-    /// The model that they are of, or will be.
-    of: Option<u64>,
+    /// The model and the texture set that they are of, or will be.
+    of: Option<(u64, SetKey)>,
     coming: Option<Errand<Drawing>>,
     edges: Vec<[Pos2; 2]>,
     /// What takes their place where they are many, and where in texture space it lies.
@@ -30,9 +32,15 @@ struct Drawing {
 }
 
 impl Wires {
-    /// Draws those of a model, once they are there, where the texture is a square.
-    pub(super) fn draw(&mut self, painter: &Painter, model: &std::sync::Arc<LiveModel>, square: Rect, theme: &Theme) {
-        self.poll(painter.ctx(), model);
+    /// Draws those of a texture set of a model, once they are there, where the texture is a square.
+    pub(super) fn draw(
+        &mut self,
+        painter: &Painter,
+        (model, set): (&Arc<LiveModel>, SetKey),
+        square: Rect,
+        theme: &Theme,
+    ) {
+        self.poll(painter.ctx(), model, set);
         let place = |at: Pos2| square.min + at.to_vec2() * square.size();
         let color = theme.accent.gamma_multiply(0.5);
         let clip = painter.clip_rect();
@@ -52,11 +60,12 @@ impl Wires {
     }
 
     /// Begins to make what is missing, and takes what has come.
-    fn poll(&mut self, context: &Context, model: &std::sync::Arc<LiveModel>) {
-        if self.of != Some(model.model_revision) && self.coming.is_none() {
-            self.of = Some(model.model_revision);
-            let model = model.clone();
-            self.coming = Some(Errand::start(context, move || Drawing::of(edges_of(&model))));
+    fn poll(&mut self, context: &Context, model: &Arc<LiveModel>, set: SetKey) {
+        let wanted = (model.model_revision, set);
+        if self.of != Some(wanted) && self.coming.is_none() {
+            self.of = Some(wanted);
+            let prepared = model.prepared.clone();
+            self.coming = Some(Errand::start(context, move || Drawing::of(edges_of(&prepared, set))));
         }
         let Some(come) = self.coming.as_ref().and_then(Errand::poll) else {
             return;
@@ -79,20 +88,26 @@ impl Drawing {
     }
 }
 
-/// Edges of all triangles in texture space, each once.
-fn edges_of(model: &LiveModel) -> Vec<[Pos2; 2]> {
-    let mesh = &model.prepared.model.mesh;
-    let place = |vertex: u32| mesh.uvs.get(vertex as usize).map(|uv| pos2(uv[0], uv[1]));
-    let around = |[a, b, c]: &[u32; 3]| [(*a, *b), (*b, *c), (*c, *a)];
-    let mut edges: Vec<(u32, u32)> = mesh.triangles.iter().flat_map(around).collect();
-    for (one, other) in &mut edges {
-        (*one, *other) = ((*one).min(*other), (*one).max(*other));
-    }
+/// Edges of a texture set's triangles, each once, where its texture reaches from 0 to 1.
+fn edges_of(Prepared { model, atlas, .. }: &Prepared, set: SetKey) -> Vec<[Pos2; 2]> {
+    let mesh = &model.mesh;
+    let charts = mesh.triangles.iter().zip(&atlas.triangle_chart);
+    let charts = charts.filter_map(|(triangle, chart)| Some((triangle, atlas.charts.get(*chart as usize)?)));
+    let around =
+        |[a, b, c]: [u32; 3], tile: [i32; 2]| [(a, b), (b, c), (c, a)].map(|(a, b)| (a.min(b), a.max(b), tile));
+    let mut edges: Vec<(u32, u32, [i32; 2])> = charts
+        .filter(|(_, chart)| set.is_home_of(chart))
+        .flat_map(|(triangle, chart)| around(*triangle, chart.uv_tile))
+        .collect();
     edges.sort_unstable();
     edges.dedup();
-    edges
-        .into_iter()
-        .filter_map(|(one, other)| Some([place(one)?, place(other)?]))
+    let place = |vertex: u32, tile: [i32; 2]| {
+        let [u, v] = *mesh.uvs.get(vertex as usize)?;
+        Some(pos2(u - tile[0] as f32, v - tile[1] as f32))
+    };
+    let placed = edges.into_iter();
+    placed
+        .filter_map(|(one, other, tile)| Some([place(one, tile)?, place(other, tile)?]))
         .collect()
 }
 

@@ -1,11 +1,11 @@
 //! Thumbnails of texture space.
 
+use sabi_export::SetKey;
 use sabi_gpu::Run;
 use sabi_plan::{Plan, PlannedResult};
 use sabi_view::Pixels;
 
-use super::inspect::no_sheet;
-use super::stage::Stage;
+use super::stage::{Stage, no_sheet};
 use crate::error::EngineError;
 use crate::sheet::rgb_codes;
 
@@ -13,14 +13,13 @@ impl Stage {
     /// A result in texture space as a square picture, clear where no chart lies.
     pub(super) fn flat_picture(
         &mut self,
-        plan: &Plan,
-        run: &Run,
+        (plan, run): (&Plan, &Run),
         result: &PlannedResult,
         side: u32,
+        set: Option<SetKey>,
     ) -> Result<Pixels, EngineError> {
-        self.lay_sheet()?;
-        let (sheet, _) = self.sheet.as_ref().ok_or_else(no_sheet)?;
-        let planes = sheet.planes(&self.workpiece, plan, run, result)?;
+        let (workpiece, _, sheet) = self.sheet(set)?;
+        let planes = sheet.planes(workpiece, plan, run, result)?;
         let plane = planes.first().ok_or_else(no_sheet)?;
         let code = |pixel: usize| {
             let values = &plane.values[pixel * plane.components..][..plane.components];

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use sabi_export::SetKey;
 use sabi_gpu::Run;
 use sabi_graph::NodeRef;
 use sabi_plan::{Plan, PlannedResult, Target};
@@ -14,9 +15,7 @@ use super::show::evaluate;
 use super::stage::Stage;
 use super::trouble::Trouble;
 use super::worker::{Job, Worker};
-use crate::error::{EngineError, ErrorKind};
-use crate::sets::texture_sets;
-use crate::sheet::Sheet;
+use crate::error::EngineError;
 
 impl Worker {
     /// Tells the values of the inspected node, if they have changed.
@@ -56,9 +55,11 @@ impl Worker {
         let Some(result) = plan.results.first() else {
             return Ok(());
         };
+        let set = job.wish.set;
         let marks = [u8::from(stage.is_approximate(&plan))];
         let key = *blake3::Hasher::new()
             .update(&marks)
+            .update(stage.model.title_of_set(set).as_bytes())
             .update(&result.key)
             .finalize()
             .as_bytes();
@@ -75,7 +76,7 @@ impl Worker {
             return Ok(());
         };
         let size = stage.model.size;
-        let values = stage.inspected(&plan, &run, result);
+        let values = stage.inspected((&plan, &run), result, set);
         let values = values.map_err(|error| Trouble::of_results(gpu, size, error))?;
         sent.inspected = now;
         self.tell(News::Inspected {
@@ -88,30 +89,19 @@ impl Worker {
 }
 
 impl Stage {
-    fn inspected(&mut self, plan: &Plan, run: &Run, result: &PlannedResult) -> Result<Inspected, EngineError> {
-        self.lay_sheet()?;
-        let (sheet, set) = self.sheet.as_ref().ok_or_else(no_sheet)?;
+    fn inspected(
+        &mut self,
+        (plan, run): (&Plan, &Run),
+        result: &PlannedResult,
+        set: Option<SetKey>,
+    ) -> Result<Inspected, EngineError> {
+        let (workpiece, set, sheet) = self.sheet(set)?;
         Ok(Inspected {
             ty: result.stored.ty,
             size: sheet.layout.size,
             set: set.clone(),
-            planes: sheet.planes(&self.workpiece, plan, run, result)?,
+            planes: sheet.planes(workpiece, plan, run, result)?,
             is_on_surface: sheet.is_owned(),
         })
     }
-
-    /// Lays out the model's first texture set, once.
-    pub(super) fn lay_sheet(&mut self) -> Result<(), EngineError> {
-        if self.sheet.is_none() {
-            let prepared = &self.workpiece.prepared;
-            let first = texture_sets(&prepared.model, &prepared.atlas, None)?.into_iter().next();
-            self.sheet = first.map(|set| (Sheet::new(prepared, set.key), set.name));
-        }
-        Ok(())
-    }
-}
-
-/// There is no texture space to show anything in.
-pub(super) fn no_sheet() -> EngineError {
-    EngineError::new(ErrorKind::BadInput, "the model has no texture space to be shown")
 }

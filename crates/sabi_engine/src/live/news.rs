@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use sabi_export::SetKey;
 use sabi_graph::{Fit, NodeRef, PortType};
 use sabi_view::{Pixels, Placement, ViewModel};
 
@@ -12,6 +13,7 @@ use super::wish::Seen;
 use crate::error::EngineError;
 use crate::looks::Shown;
 use crate::prepare::Prepared;
+use crate::sets::TextureSet;
 use crate::sheet::SheetPlane;
 
 /// Something that a window is told. What is handed over never changes again.
@@ -114,6 +116,21 @@ pub struct LiveModel {
     pub placement: Placement,
     /// What counts as 1 in lengths and heights.
     pub fit: Fit,
+    /// Its texture sets; none where its UVs cover no texel at this size.
+    pub sets: Vec<TextureSet>,
+}
+
+impl LiveModel {
+    /// One of its texture sets, or the first where it does not have that one.
+    pub fn set(&self, wanted: Option<SetKey>) -> Option<&TextureSet> {
+        let own = self.sets.iter().find(|set| Some(set.key) == wanted);
+        own.or(self.sets.first())
+    }
+
+    /// What that one is called, no two of them the same; empty where there is none.
+    pub(super) fn title_of_set(&self, wanted: Option<SetKey>) -> String {
+        self.set(wanted).map(TextureSet::title).unwrap_or_default()
+    }
 }
 
 /// A node's exact values in texture space.
@@ -123,8 +140,8 @@ pub struct Inspected {
     pub ty: PortType,
     /// Pixels along a side.
     pub size: u32,
-    /// The texture set that is laid out: the model's first.
-    pub set: String,
+    /// The texture set that is laid out.
+    pub set: TextureSet,
     /// Its planes; that of a mask, color or vector, or all that a material sets.
     pub planes: Vec<SheetPlane>,
     /// For each pixel whether the surface lies there: other pixels hold padding.

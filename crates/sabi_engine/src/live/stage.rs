@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::Duration;
 
+use sabi_export::SetKey;
 use sabi_gpu::{Gpu, Hits, ResultCache, Run, RunOptions, RunReport};
 use sabi_graph::{FlatGraph, Overrides};
 use sabi_plan::{Mode, Plan, Step, Target};
@@ -13,10 +14,10 @@ use super::news::LiveModel;
 use super::trouble::Trouble;
 use super::wish::{LiveOptions, Wish};
 use crate::AdapterChoice;
-use crate::error::EngineError;
+use crate::error::{EngineError, ErrorKind};
 use crate::looks::{Shown, Shows, models_own, shown};
 use crate::prepare::{ModelOptions, Prepared};
-use crate::sets::shown_by;
+use crate::sets::{TextureSet, shown_by, texture_sets};
 use crate::sheet::Sheet;
 use crate::solidity;
 use crate::stages::Progress;
@@ -30,8 +31,8 @@ pub(super) struct Stage {
     pub(super) workpiece: Workpiece,
     pub(super) cache: ResultCache,
     pub(super) model: Arc<LiveModel>,
-    /// How results are laid out to be inspected, and the name of what is; made when something is.
-    pub(super) sheet: Option<(Sheet, String)>,
+    /// The texture set that was last wanted, as results are laid out in it; made when one is.
+    sheet: Option<(TextureSet, Sheet)>,
     /// Which node each material is shown by.
     pub(super) serving: BTreeMap<u32, usize>,
     /// Outputs that serve nothing, as sentences.
@@ -139,6 +140,21 @@ impl Stage {
         Ok(is_another)
     }
 
+    /// The wanted texture set, or the first where the model does not have it, laid out; with what results are read from.
+    pub(super) fn sheet(&mut self, wanted: Option<SetKey>) -> Result<(&Workpiece, &TextureSet, &Sheet), EngineError> {
+        let Stage {
+            model,
+            sheet,
+            workpiece,
+            ..
+        } = self;
+        let set = model.set(wanted).ok_or_else(no_sheet)?;
+        let laid = sheet.take().filter(|(laid, _)| laid == set);
+        let (set, sheet) =
+            sheet.insert(laid.unwrap_or_else(|| (set.clone(), Sheet::new(&workpiece.prepared, set.key))));
+        Ok((workpiece, set, sheet))
+    }
+
     /// Plans what of the targets can be planned. While a knob is moved, rays of a first picture that are not known are few.
     pub(super) fn plan(&mut self, targets: &[Target]) -> Plan {
         self.workpiece.most_rays = None;
@@ -222,6 +238,11 @@ impl Stage {
     }
 }
 
+/// There is no texture space to show anything in.
+pub(super) fn no_sheet() -> EngineError {
+    EngineError::new(ErrorKind::BadInput, "the model has no texture space to be shown")
+}
+
 fn has_rays(step: &Step) -> bool {
     matches!(step, Step::Kernel(kernel) if kernel.rays.is_some())
 }
@@ -252,5 +273,7 @@ fn live_model(workpiece: &Workpiece, model_revision: u64) -> Result<Arc<LiveMode
         placement: view.placement,
         view,
         fit: workpiece.fit,
+        // A model without any is told of where a set is wanted.
+        sets: texture_sets(&prepared.model, &prepared.atlas, None).unwrap_or_default(),
     }))
 }

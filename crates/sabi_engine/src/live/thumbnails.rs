@@ -14,6 +14,7 @@ use super::show::evaluate;
 use super::stage::Stage;
 use super::studio::Studio;
 use super::trouble::Trouble;
+use super::wish::Wish;
 use super::worker::{Job, Key, Worker};
 use crate::error::EngineError;
 use crate::looks::Shows;
@@ -31,7 +32,7 @@ impl Worker {
         let all: BTreeSet<Target> = targets.iter().map(|(_, target)| target.clone()).collect();
         let all: Vec<Target> = all.into_iter().collect();
         let plan = stage.plan(&laid.sound(&all, &self.broken));
-        let keys = keys(stage, &plan, job.wish.is_flat);
+        let keys = keys(stage, &plan, &job.wish);
         for (node, target) in targets {
             let Some(key) = keys.get(&target) else { continue };
             if self.sent.thumbnails.get(&node) == Some(key) {
@@ -90,7 +91,7 @@ impl Worker {
         let trouble = |error: EngineError| Trouble::of_results(gpu, size, error);
         let side = options.thumbnail_px;
         if job.wish.is_flat {
-            let picture = stage.flat_picture(&plan, &run, result, side);
+            let picture = stage.flat_picture((&plan, &run), result, side, job.wish.set);
             return picture.map(Some).map_err(trouble);
         }
         let looks = stage.looks(&plan, &mut run, &Shows::One, &watch)?;
@@ -108,11 +109,17 @@ impl Worker {
 }
 
 /// What the pictures of results show, by the results.
-fn keys(stage: &Stage, plan: &Plan, is_flat: bool) -> BTreeMap<Target, Key> {
-    let marks = [u8::from(stage.is_approximate(plan)), u8::from(is_flat)];
+fn keys(stage: &Stage, plan: &Plan, wish: &Wish) -> BTreeMap<Target, Key> {
+    let marks = [u8::from(stage.is_approximate(plan)), u8::from(wish.is_flat)];
+    let set = if wish.is_flat {
+        stage.model.title_of_set(wish.set)
+    } else {
+        String::new()
+    };
     let key = |content: &Key| {
         *blake3::Hasher::new()
             .update(&marks)
+            .update(set.as_bytes())
             .update(content)
             .finalize()
             .as_bytes()

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use sabi_export::SetKey;
 use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::NodeRef;
 
@@ -66,6 +67,8 @@ pub struct Wish {
     pub seen: Vec<Seen>,
     /// The node whose exact values are wanted at full size.
     pub inspected: Option<NodeRef>,
+    /// Which texture set is shown where texture space is; the model's first where it does not have this one.
+    pub set: Option<SetKey>,
     /// Nodes that are visible on the canvas, most important first.
     pub thumbnails: Vec<NodeRef>,
     /// Whether thumbnails show texture space and not the model.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_surface::atlas::{Atlas, Chart, TILE};
+use sabi_surface::atlas::{Atlas, TILE};
 
 use super::{Cover, SetKey, claim, set_keys};
 
@@ -50,11 +50,6 @@ impl<'a> Grid<'a> {
         self.key.udim.is_some()
     }
 
-    /// Whether a chart's own tile is that of the set.
-    pub(crate) fn is_home_of(&self, chart: &Chart) -> bool {
-        !self.is_of_several() || chart.uv_tile == self.key.uv_tile
-    }
-
     /// All texels of the set's charts, tile by tile of the atlas.
     pub(crate) fn for_each(&self, mut look: impl FnMut(Fallen)) {
         let [width, height] = self.atlas.page_size;
@@ -91,7 +86,7 @@ impl<'a> Grid<'a> {
             tile == self.key.uv_tile
         } else {
             // Wraps: in its own tile of several, or onto the one set there is.
-            self.is_home_of(chart)
+            self.key.is_home_of(chart)
         };
         Some(Fallen {
             texel,

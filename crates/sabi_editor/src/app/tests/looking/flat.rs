@@ -5,6 +5,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::super::Window;
 use super::super::hands::id;
+use crate::theme::space;
 
 const COLOR: &str = r##"
     "paint": { "kind": "color/constant", "label": "Paint", "params": { "color": "#336699" }, "pos": [0, 0] }
@@ -22,6 +23,21 @@ impl Window {
     /// Where the texture is.
     pub(super) fn texture(&self) -> Rect {
         self.harness.get_by_label_contains("Texture of").rect()
+    }
+
+    /// The ends of UV wires that are drawn as lines, as shares of the texture while all of it is shown.
+    fn uv_wires(&self) -> Vec<[[f32; 2]; 2]> {
+        let panel = self.texture();
+        let side = panel.width().min(panel.height()) - 2.0 * space::USUAL;
+        let square = Rect::from_center_size(panel.center(), vec2(side, side));
+        let color = self.editor().theme().accent.gamma_multiply(0.5);
+        let share = |at: Pos2| ((at - square.min) / side).into();
+        let shapes = self.harness.output().shapes.iter();
+        let lines = shapes.filter_map(|clipped| match &clipped.shape {
+            egui::Shape::LineSegment { points, stroke } if stroke.color == color => Some(points.map(share)),
+            _ => None,
+        });
+        lines.collect()
     }
 
     /// What is said of the texel under a place.
@@ -77,21 +93,53 @@ fn the_wheel_zooms_into_the_texel_under_the_pointer_and_a_drag_moves_the_texture
     assert_eq!(place(window.probed(end)), before, "it goes with the pointer");
 }
 
+/// A square in the lower left half of its texture, and one of another material in the tile beside it.
+const TWO_SETS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n\
+    vt 0.1 0.1\nvt 0.5 0.1\nvt 0.5 0.5\nvt 0.1 0.5\nvt 1.2 0.2\nvt 1.9 0.2\nvt 1.9 0.9\nvt 1.2 0.9\n\
+    usemtl wood\nf 1/1 2/2 3/3 4/4\nusemtl steel\nf 2/5 5/6 6/7 3/8\n";
+
+#[test]
+fn each_texture_set_of_the_model_is_seen_with_its_own_edges() {
+    let mut window = painted();
+    let file = window.path("two.obj");
+    std::fs::write(&file, TWO_SETS).expect("a model");
+    window.harness.state_mut().take_model(&file);
+    window.press("UV");
+    for (name, from, to) in [("wood", 0.1, 0.5), ("steel", 0.2, 0.9)] {
+        if name == "steel" {
+            window.click_at(window.harness.get_by_label("Texture set: wood").rect().center());
+            window.press("steel");
+        }
+        window.until("the set", |editor| {
+            let inspected = editor.stage.inspected.as_ref();
+            inspected.is_some_and(|(_, values)| values.set.title() == name) && !editor.stage.is_busy()
+        });
+        let (_, values) = window.editor().stage.inspected.clone().expect("values");
+        let texels = values.is_on_surface.iter().filter(|is_on| **is_on).count() as f32;
+        let side = 64.0 * (to - from);
+        assert!((texels - side * side).abs() < 4.0 * side, "{name}: {texels} texels");
+        // Four sides and a diagonal; v is counted upward in such files.
+        let is_its_own = |[u, v]: [f32; 2]| [u, 1.0 - v].iter().all(|at| (from - 0.01..to + 0.01).contains(at));
+        let came = (0..2000).any(|_| {
+            window.harness.step();
+            std::thread::sleep(std::time::Duration::from_millis(5));
+            let edges = window.uv_wires();
+            edges.len() == 5 && edges.iter().flatten().all(|end| is_its_own(*end))
+        });
+        assert!(came, "{name}: {:?}", window.uv_wires());
+    }
+}
+
 #[test]
 fn the_edges_of_the_model_are_drawn_over_the_texture() {
     let mut window = painted();
-    let lines = |window: &Window| {
-        let shapes = &window.harness.output().shapes;
-        let is_line = |clipped: &&egui::epaint::ClippedShape| matches!(clipped.shape, egui::Shape::LineSegment { .. });
-        shapes.iter().filter(is_line).count()
-    };
-    let without = lines(&window);
+    assert_eq!(window.uv_wires().len(), 0);
     window.press("UV");
     // Twelve edges and a diagonal on each side, some of them twice, since charts end there.
     let came = (0..2000).any(|_| {
         window.harness.step();
         std::thread::sleep(std::time::Duration::from_millis(5));
-        lines(&window) >= without + 18
+        window.uv_wires().len() >= 18
     });
     assert!(came);
 }
