@@ -1,6 +1,7 @@
-//! All keys, by where they act, each of which can be bound anew; and what is dragged with the mouse.
+//! All keys, by where they act, to be taken away and added to; and what is dragged with the mouse.
 
-use egui::{Event, RichText, Ui, Window};
+use egui::{Event, Key, Modifiers, Response, RichText, Ui, WidgetInfo, WidgetType, Window};
+use egui_phosphor::regular as icon;
 
 use crate::app::Editor;
 use crate::command::{Chord, Command, Scope};
@@ -65,46 +66,91 @@ pub(super) fn show(editor: &mut Editor, ui: &Ui) {
     }
 }
 
-/// One command with its keys; a click waits for another key.
+/// One command with its keys: a click on one takes it away, and another one can be added. Says whether any changed.
 fn row(editor: &mut Editor, ui: &mut Ui, command: Command) -> bool {
     ui.label(command.title());
-    let is_waiting = editor.waits_for_key == Some(command);
-    let keys: Vec<String> = editor.keys().chords(command).map(Chord::text).collect();
-    let text = if is_waiting {
-        "Press a key…".to_owned()
-    } else {
-        keys.join("   ")
-    };
-    let text = if text.is_empty() { "–".to_owned() } else { text };
-    let button = ui.button(RichText::new(text).monospace());
-    button.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Keys for {}", command.title()))
+    let before: Vec<Chord> = editor.keys().chords(command).collect();
+    let mut chords = before.clone();
+    let mut is_reset = false;
+    ui.horizontal(|ui| {
+        chords.retain(|chord| {
+            let text = chord.text();
+            let button = named(ui.button(RichText::new(&text).monospace()), || {
+                format!("Take {text} from {}", command.title())
+            });
+            !button.on_hover_text("Take this key away").clicked()
+        });
+        chords.extend(added(editor, ui, command));
+        let is_own = editor.settings.keys.contains_key(command.name());
+        if is_own {
+            let button = named(ui.button(icon::ARROW_COUNTER_CLOCKWISE), || {
+                format!("The first keys of {}", command.title())
+            });
+            is_reset = button.on_hover_text("As they were at first").clicked();
+        }
     });
-    if button.clicked() {
+    let is_changed = chords != before;
+    let keys = &mut editor.settings.keys;
+    if is_reset {
+        keys.remove(command.name());
+    } else if is_changed {
+        let texts = chords.into_iter().map(Chord::text).collect();
+        keys.insert(command.name().to_owned(), texts);
+    }
+    is_reset || is_changed
+}
+
+/// The button that waits for another key of a command, and the key that was pressed then. Escape leaves it.
+fn added(editor: &mut Editor, ui: &mut Ui, command: Command) -> Option<Chord> {
+    let is_waiting = editor.waits_for_key == Some(command);
+    let text = if is_waiting {
+        "Press a key, or Esc…"
+    } else {
+        icon::PLUS
+    };
+    let button = named(ui.button(text), || format!("Add a key for {}", command.title()));
+    if button.on_hover_text("Another key for the same").clicked() {
         editor.waits_for_key = if is_waiting { None } else { Some(command) };
     }
     if !is_waiting {
-        return false;
+        return None;
     }
-    let pressed = ui.input(|input| {
-        input.events.iter().find_map(|event| match event {
-            Event::Key {
-                key,
-                pressed: true,
-                modifiers,
-                ..
-            } => Some(Chord {
-                modifiers: *modifiers,
-                key: *key,
-            }),
-            _ => None,
-        })
-    });
-    let Some(chord) = pressed else { return false };
+    let chord = ui.input(|input| input.events.iter().find_map(pressed))?;
     editor.waits_for_key = None;
-    editor
-        .settings
-        .keys
-        .insert(command.name().to_owned(), vec![chord.text()]);
-    true
+    let is_known = editor
+        .keys()
+        .chords(command)
+        .any(|known| known.is(chord.modifiers, chord.key));
+    Some(chord).filter(|chord| chord.key != Key::Escape && !is_known)
+}
+
+fn pressed(event: &Event) -> Option<Chord> {
+    match event {
+        Event::Key {
+            key,
+            pressed: true,
+            modifiers,
+            ..
+        } => Some(Chord {
+            modifiers: *modifiers,
+            key: *key,
+        }),
+        // So the system tells these keys, whatever they mean.
+        Event::Copy => Some(held(Key::C)),
+        Event::Cut => Some(held(Key::X)),
+        Event::Paste(_) => Some(held(Key::V)),
+        _ => None,
+    }
+}
+
+fn held(key: Key) -> Chord {
+    Chord {
+        modifiers: Modifiers::COMMAND,
+        key,
+    }
+}
+
+fn named(button: Response, name: impl Fn() -> String) -> Response {
+    button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name()));
+    button
 }

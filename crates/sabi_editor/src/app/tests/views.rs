@@ -1,6 +1,6 @@
 //! Keys for the model and for the texture, and the list of all keys.
 
-use egui::Key;
+use egui::{Key, Modifiers};
 use egui_kittest::kittest::{Queryable, by};
 
 use super::Window;
@@ -74,20 +74,49 @@ fn the_texture_follows_its_keys() {
     }
 }
 
-#[test]
-fn the_list_of_keys_binds_a_command_anew() {
+/// A window that shows the list of keys.
+fn with_keys() -> Window {
     let mut window = window_with(Habit::Default);
     window.prepare(&["mix"], Scope::Canvas);
     window.chord("Ctrl+/");
-    assert!(window.has("Keys for Mute"), "the list is open");
-    window.press("Keys for New graph");
+    assert!(window.has("Add a key for Mute"), "the list is open");
+    window
+}
+
+#[test]
+fn a_key_is_added_to_those_of_a_command_and_taken_away_from_it() {
+    let mut window = with_keys();
+    let clash = "M means both \"New graph\" and \"Mute\"";
+    window.press("Add a key for New graph");
     window.key(Key::M);
     assert_eq!(window.steps(), 0, "the key that is chosen does nothing else");
+    assert_eq!(window.editor().settings.keys["new"], ["Ctrl+N", "M"]);
+    assert!(window.says(clash), "what now means two things is told");
+    window.press("Take Ctrl+N from New graph");
     assert_eq!(window.editor().settings.keys["new"], ["M"]);
-    assert!(window.says("M means both"), "what now means two things is told");
+    window.press("The first keys of New graph");
+    assert!(window.editor().settings.keys.is_empty() && !window.says(clash));
+    assert!(window.has("Take Ctrl+N from New graph"));
+    window.press("Add a key for New graph");
+    window.key(Key::M);
+    assert!(window.says(clash));
     window.press("As they were at first");
-    assert!(!window.says("M means both"));
+    assert!(!window.says(clash));
     window.prepare(&["mix"], Scope::Canvas);
     window.chord("M");
     assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn escape_leaves_the_list_of_keys_as_it_was_and_a_known_key_is_not_added_twice() {
+    let mut window = with_keys();
+    for (modifiers, key) in [(Modifiers::NONE, Key::Escape), (Modifiers::COMMAND, Key::N)] {
+        window.press("Add a key for New graph");
+        assert!(window.editor().waits_for_key.is_some());
+        window.keys(modifiers, key);
+        assert!(window.editor().settings.keys.is_empty(), "{key:?}");
+        assert!(window.editor().waits_for_key.is_none(), "{key:?}");
+    }
+    assert!(window.has("Add a key for New graph"), "the list is still open");
+    assert!(window.editor().question().is_none(), "the keys do nothing else");
 }
