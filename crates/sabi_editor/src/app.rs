@@ -25,7 +25,7 @@ use egui::{Context, Rect, Ui};
 use sabi_engine::{Gpu, Session};
 use sabi_graph::NodeRef;
 
-pub(crate) use documents::model_of;
+pub(crate) use documents::{PICTURES, model_of};
 pub(crate) use eyedropper::Taken;
 
 use crate::canvas::Canvas;

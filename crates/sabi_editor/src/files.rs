@@ -4,6 +4,7 @@
 pub(crate) mod examples;
 mod key_list;
 mod start;
+pub(crate) mod system_dialog;
 
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,7 @@ use crate::action::Action;
 use crate::app::Editor;
 use crate::desk::{Desk, KnobAt};
 use crate::dock::Panel;
+use system_dialog::{SystemDialog, answer_of};
 
 /// What a path is wanted for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,6 +58,8 @@ pub(crate) struct Files {
     pub(crate) shows_keys: bool,
     /// What was kept of graphs when the program ended before they were saved.
     pub(crate) recoveries: Vec<Recovery>,
+    /// The system's dialog for the path that is asked for, while it is open.
+    pub(crate) dialog: Option<SystemDialog>,
     /// What comes once a save is done.
     after_save: Option<Next>,
     /// Whether the window may close without another question.
@@ -70,6 +74,7 @@ impl Files {
             is_start: is_start || !recoveries.is_empty(),
             shows_keys: false,
             recoveries,
+            dialog: None,
             after_save: None,
             may_close: false,
         }
@@ -103,6 +108,7 @@ impl Files {
     }
 
     fn ask_path(&mut self, what: PathFor, text: String) {
+        self.dialog = None;
         self.question = Some(Question::Path { what, text });
     }
 
@@ -160,6 +166,11 @@ impl Editor {
             PathFor::Picture(_) => ("Choose a picture", "Choose"),
         };
         let mut chosen = false;
+        if let Some(path) = answer_of(&mut self.files.dialog) {
+            text = path.display().to_string();
+            chosen = true;
+        }
+        let waits = self.files.dialog.is_some();
         let modal = Modal::new(egui::Id::new("path question")).show(ui.ctx(), |ui| {
             ui.set_width(460.0);
             ui.heading(title);
@@ -169,8 +180,17 @@ impl Editor {
                     .hint_text("Path"),
             );
             field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Path"));
-            chosen = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            let buttons = ui.horizontal(|ui| [verb, "System dialog…", "Cancel"].map(|label| ui.button(label)));
+            chosen |= field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            let buttons = ui.horizontal(|ui| {
+                let does = ui.button(verb);
+                let system = if waits {
+                    "The system's dialog is open…"
+                } else {
+                    "System dialog…"
+                };
+                let asks_system = ui.add_enabled(!waits, egui::Button::new(system));
+                [does, asks_system, ui.button("Cancel")]
+            });
             let [does, asks_system, cancels] = buttons.inner;
             let has_focus = [&field, &does, &asks_system, &cancels]
                 .iter()
@@ -179,11 +199,8 @@ impl Editor {
                 field.request_focus();
             }
             chosen |= does.clicked();
-            if asks_system.clicked()
-                && let Some(path) = system_dialog(&what, &text)
-            {
-                text = path.display().to_string();
-                chosen = true;
+            if asks_system.clicked() {
+                self.files.dialog = Some(SystemDialog::file(ui.ctx(), &what, &text));
             }
             cancels.clicked()
         });
@@ -203,6 +220,7 @@ impl Editor {
             self.files.question = Some(Question::Path { what, text });
         } else {
             self.files.after_save = None;
+            self.files.dialog = None;
         }
     }
 
@@ -348,21 +366,4 @@ fn with_ending(path: PathBuf) -> PathBuf {
     name.push(".");
     name.push(crate::desk::ENDING);
     path.with_file_name(name)
-}
-
-fn system_dialog(what: &PathFor, text: &str) -> Option<PathBuf> {
-    let dialog = rfd::FileDialog::new();
-    let dialog = match Path::new(text).parent().filter(|folder| folder.is_dir()) {
-        Some(folder) => dialog.set_directory(folder),
-        None => dialog,
-    };
-    match what {
-        PathFor::Open => dialog.add_filter("Graphs", &["sabi"]).pick_file(),
-        PathFor::Save => dialog.add_filter("Graphs", &["sabi"]).save_file(),
-        PathFor::Model => dialog.add_filter("Models", &["glb", "gltf", "obj"]).pick_file(),
-        PathFor::Picture(_) => {
-            let endings = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
-            dialog.add_filter("Pictures", &endings).pick_file()
-        }
-    }
 }

@@ -13,7 +13,7 @@ use crate::files::examples;
 use crate::panels::library::KEPT_AS;
 
 /// Endings of pictures that nodes read.
-const PICTURES: [&str; 7] = ["png", "jpg", "jpeg", "exr", "tga", "bmp", "webp"];
+pub(crate) const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
 
 impl Editor {
     pub(crate) fn recovery_folder(&self) -> Option<&Path> {

@@ -10,6 +10,7 @@ use sabi_engine::{BakeReport, DEFAULT_NAMES, Stage, export_channels, export_pres
 
 use crate::app::Editor;
 use crate::errand::Failed;
+use crate::files::system_dialog::{SystemDialog, answer_of};
 use crate::theme::{Theme, space};
 
 pub(crate) use running::Running;
@@ -81,6 +82,8 @@ pub(crate) struct Export {
     pub(crate) is_queued: bool,
     /// The folder has files of somebody else, and it is to be said whether maps go there all the same.
     pub(crate) asks_force: bool,
+    /// The system's dialog for the folder, while it is open.
+    dialog: Option<SystemDialog>,
     /// What came of the last one.
     told: Option<Result<Told, String>>,
 }
@@ -97,6 +100,7 @@ impl Export {
         self.place = place;
         self.asks_force = false;
         self.is_queued = false;
+        self.dialog = None;
         self.told = None;
     }
 
@@ -214,9 +218,11 @@ fn folder(export: &mut Export, ui: &mut Ui) {
         if ui.add(field).labelled_by(label).changed() {
             export.asks_force = false;
         }
-        if ui.button("…").clicked()
-            && let Some(folder) = rfd::FileDialog::new().pick_folder()
-        {
+        let asks = ui.add_enabled(export.dialog.is_none(), egui::Button::new("…"));
+        if asks.on_hover_text("The system's dialog for a folder").clicked() {
+            export.dialog = Some(SystemDialog::folder(ui.ctx()));
+        }
+        if let Some(folder) = answer_of(&mut export.dialog) {
             export.place.folder = folder.display().to_string();
             export.asks_force = false;
         }

@@ -1,6 +1,8 @@
 //! No work is lost: saving, the questions before, and what is kept for a crash.
 
 use std::fs;
+use std::path::PathBuf;
+use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use egui::{Key, Modifiers, ViewportEvent, ViewportId};
@@ -8,6 +10,7 @@ use sabi_engine::Session;
 
 use super::Window;
 use super::hands::id;
+use crate::files::system_dialog::SystemDialog;
 
 pub(super) const CLOUDS: &str = r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#;
 
@@ -17,6 +20,13 @@ impl Window {
         self.keys(Modifiers::COMMAND, Key::A);
         self.typed(&path.display().to_string());
         self.key(Key::Enter);
+    }
+
+    /// Opens a dialog that is answered as this says.
+    fn opens_dialog(&mut self, answers: impl FnOnce() -> Option<PathBuf> + Send + 'static) {
+        let dialog = SystemDialog::waiting(&self.harness.ctx, answers);
+        self.harness.state_mut().files.dialog = Some(dialog);
+        self.settle();
     }
 
     fn is_dirty(&mut self) -> bool {
@@ -38,6 +48,33 @@ impl Window {
         let is_held = commands.contains(&egui::ViewportCommand::CancelClose);
         self.settle();
         !is_held
+    }
+}
+
+#[test]
+fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
+    let mut window = Window::untitled();
+    window.add([0.3, 0.3], "clouds");
+    let (answers, answer) = channel::<Option<PathBuf>>();
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.opens_dialog(move || answer.recv().ok().flatten());
+    assert!(window.says("The system's dialog is open"));
+    let file = window.path("chosen.sabi");
+    answers.send(Some(file.clone())).expect("somebody who waits");
+    window.until("the answer", |editor| editor.question().is_none());
+    assert_eq!(window.desk().session.file(), Some(&*file));
+    assert!(file.exists());
+    // One that is closed without an answer leaves the question as it was, and so does one that cannot be opened.
+    window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    for answered in [true, false] {
+        let (answers, answer) = channel::<Option<PathBuf>>();
+        window.opens_dialog(move || answer.recv().ok().flatten());
+        if answered {
+            answers.send(None).expect("somebody who waits");
+        }
+        drop(answers);
+        window.until("the end of it", |editor| editor.files.dialog.is_none());
+        assert!(window.says("Save the graph") && window.has("System dialog…"));
     }
 }
 

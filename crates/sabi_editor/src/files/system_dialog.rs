@@ -1,0 +1,78 @@
+//! The system's dialogs for files and folders, which stay open beside the window: it goes on meanwhile.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use egui::Context;
+use rfd::{AsyncFileDialog, FileHandle};
+
+use super::PathFor;
+use crate::app::PICTURES;
+
+/// A dialog that is open.
+pub(crate) struct SystemDialog {
+    answer: Receiver<Option<PathBuf>>,
+}
+
+impl SystemDialog {
+    /// Asks for a file, in the folder of the path that was typed so far.
+    pub(crate) fn file(context: &Context, what: &PathFor, typed: &str) -> SystemDialog {
+        let dialog = AsyncFileDialog::new();
+        let dialog = match Path::new(typed).parent().filter(|folder| folder.is_dir()) {
+            Some(folder) => dialog.set_directory(folder),
+            None => dialog,
+        };
+        let graphs = ["sabi"];
+        match what {
+            PathFor::Open => SystemDialog::open(context, dialog.add_filter("Graphs", &graphs).pick_file()),
+            PathFor::Save => SystemDialog::open(context, dialog.add_filter("Graphs", &graphs).save_file()),
+            PathFor::Model => {
+                let models = ["glb", "gltf", "obj"];
+                SystemDialog::open(context, dialog.add_filter("Models", &models).pick_file())
+            }
+            PathFor::Picture(_) => SystemDialog::open(context, dialog.add_filter("Pictures", &PICTURES).pick_file()),
+        }
+    }
+
+    /// Asks for a folder.
+    pub(crate) fn folder(context: &Context) -> SystemDialog {
+        SystemDialog::open(context, AsyncFileDialog::new().pick_folder())
+    }
+
+    /// Waits for the answer on a thread of its own. Nobody waits for that one when the window closes: it holds nothing, and
+    /// the dialog may stay open for long.
+    fn open(context: &Context, asked: impl Future<Output = Option<FileHandle>> + Send + 'static) -> SystemDialog {
+        SystemDialog::waiting(context, || pollster::block_on(asked).map(|file| file.path().to_owned()))
+    }
+
+    /// Waits for an answer, and draws the window anew when it comes.
+    pub(crate) fn waiting(context: &Context, wait: impl FnOnce() -> Option<PathBuf> + Send + 'static) -> SystemDialog {
+        let (sender, answer) = channel();
+        let woken = context.clone();
+        let waiting = std::thread::Builder::new().name("sabi dialog".to_owned());
+        // Without a thread there is no answer, which is as if somebody had closed the dialog.
+        let _ = waiting.spawn(move || {
+            // Nobody listens once the question is gone.
+            let _ = sender.send(wait());
+            drop(sender);
+            woken.request_repaint();
+        });
+        SystemDialog { answer }
+    }
+
+    /// What was answered, once: a path, or nothing where the dialog was closed or could not be opened.
+    pub(crate) fn poll(&self) -> Option<Option<PathBuf>> {
+        match self.answer.try_recv() {
+            Ok(answer) => Some(answer),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(None),
+        }
+    }
+}
+
+/// Takes the answer of an open dialog, if it has come: that dialog is no longer there then.
+pub(crate) fn answer_of(dialog: &mut Option<SystemDialog>) -> Option<PathBuf> {
+    let answer = dialog.as_ref()?.poll()?;
+    *dialog = None;
+    answer
+}
