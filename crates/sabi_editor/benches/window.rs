@@ -1,6 +1,6 @@
 //! `cargo bench --bench window`: what frames of the window take of the processor, how soon it shows something, and how soon it
-//! shows what a slider does. Medians and the worst of some frames; nothing here asserts. `-- slider`, `-- frames` and `-- start`
-//! measure that alone.
+//! shows what a slider does. Medians and the worst of some frames; nothing here asserts. `-- slider`, `-- frames`, `-- clicks`
+//! and `-- start` measure that alone.
 
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
@@ -209,6 +209,41 @@ fn slider(adapter: &AdapterChoice, folder: &Path) {
     row("a slider moves: the full picture is drawn", full, "≤ 150 ms");
 }
 
+/// Frames of the second in which a node of each type is shown for the first time: pictures of each are drawn by pipelines of their own.
+fn clicks(adapter: &AdapterChoice, folder: &Path) {
+    let graph = folder.join("types.sabi");
+    std::fs::write(&graph, TYPES).unwrap();
+    let mut window = opened(
+        adapter,
+        &graph.display().to_string(),
+        root().join("assets/meshes/cube.glb"),
+    );
+    window.rest();
+    for (node, what) in [
+        ("clouds", "mask"),
+        ("paint", "color"),
+        ("normal", "vector"),
+        ("base", "material"),
+    ] {
+        window.rest();
+        window.look_at(node);
+        let (clicked, mut frames) = (Instant::now(), Vec::new());
+        while clicked.elapsed() < Duration::from_secs(1) {
+            frames.push(ms(window.frame(Vec::new()).whole()));
+            window.wait(Duration::from_millis(50));
+        }
+        row(&format!("frames in which a first {what} is shown"), frames, "≤ 50 ms");
+    }
+}
+
+/// A node of each type.
+const TYPES: &str = r##"{ "format": "sabi", "version": 1, "preview": { "size": 256 }, "nodes": {
+    "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+    "paint": { "kind": "color/constant", "pos": [240, 0] },
+    "normal": { "kind": "surface/position", "pos": [480, 0] },
+    "base": { "kind": "source/material", "pos": [720, 0] },
+    "out": { "kind": "output/material", "inputs": { "material": "base" }, "pos": [960, 0] } } }"##;
+
 /// From nothing to a first picture of the graph that the program comes with.
 fn start(adapter: &AdapterChoice) {
     let [graph, model] = ["graphs/weathered-bench.sabi", "assets/meshes/bench.glb"].map(|path| root().join(path));
@@ -244,6 +279,9 @@ fn main() {
         for (count, aim) in [(60, "≤ 8 ms"), (500, "≤ 16 ms")] {
             all_frames(&adapter, folder.path(), count, aim);
         }
+    }
+    if is_wanted("clicks") {
+        clicks(&adapter, folder.path());
     }
     if is_wanted("slider") {
         slider(&adapter, folder.path());

@@ -7,6 +7,7 @@ mod lamps;
 mod menu;
 mod painting;
 mod showing;
+mod tools;
 
 use std::time::{Duration, Instant};
 
@@ -31,6 +32,7 @@ use environment::Surroundings;
 use lamps::Lamps;
 pub(crate) use menu::staying;
 pub(crate) use showing::Showing;
+use tools::Tools;
 
 /// After the last movement the picture rests.
 const REST: Duration = Duration::from_millis(180);
@@ -49,6 +51,7 @@ struct Screen {
 pub(crate) struct ModelView {
     /// What the knobs or the graph show, and what is locked for comparison.
     screens: [Option<Screen>; 2],
+    tools: Tools,
     pub(crate) camera: Camera,
     /// The model that the camera was set up for.
     framed: Option<(u64, std::path::PathBuf)>,
@@ -115,6 +118,7 @@ impl ModelView {
         choices.give(&mut shot);
         ModelView {
             screens: [None, None],
+            tools: Tools::default(),
             shot,
             camera,
             framed: None,

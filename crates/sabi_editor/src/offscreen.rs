@@ -179,6 +179,12 @@ impl Offscreen {
         self.editor.desk.set_knob(&node, knob, Some(Value::Number(value)));
     }
 
+    /// Looks at a node's result, as a click on it does.
+    pub fn look_at(&mut self, node: &str) {
+        let Ok(node) = node.parse::<NodeId>() else { return };
+        self.editor.look_at(&node, None);
+    }
+
     /// The graph as it is.
     pub fn document(&self) -> &Document {
         self.editor.desk.document()

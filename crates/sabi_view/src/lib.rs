@@ -27,7 +27,7 @@ pub use error::ViewError;
 pub use model::ViewModel;
 pub use pick::{Picked, pick};
 pub use placement::Placement;
-pub use renderer::{Pose, Renderer};
+pub use renderer::{Missing, Pose, Renderer};
 pub use scene::{
     Background, Light, LightPlace, Lines, MOST_LIGHTS, MaterialLook, Mode, NodeLook, NodeType, Scene, Shot,
     ViewTransform,

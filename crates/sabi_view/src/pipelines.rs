@@ -14,7 +14,7 @@ use crate::model::Corner;
 use crate::shadows::SHADOW;
 use crate::target::{LIGHT, SEEN, SHOWN, SUM};
 pub(crate) use layouts::Layouts;
-use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, pipeline, rows_of, text_of};
+use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, module, pipeline, rows_of};
 pub(crate) use switches::Switches;
 
 /// A pipeline by what it does.
@@ -76,6 +76,8 @@ pub(crate) struct Pipelines {
     /// What is bound of a surface.
     surface: wgpu::BindGroupLayout,
     made: Mutex<BTreeMap<Draws, wgpu::RenderPipeline>>,
+    /// Texts that were read, by their labels.
+    modules: Mutex<BTreeMap<&'static str, wgpu::ShaderModule>>,
 }
 
 impl Pipelines {
@@ -85,7 +87,13 @@ impl Pipelines {
             layouts: gpu.guarded("the viewport's layouts", Layouts::new)?,
             surface: gpu.surface_layout().clone(),
             made: Mutex::default(),
+            modules: Mutex::default(),
         })
+    }
+
+    /// Whether the pipeline that draws something is there.
+    pub(crate) fn has(&self, draws: Draws) -> bool {
+        self.made.lock().is_ok_and(|made| made.contains_key(&draws))
     }
 
     /// The pipeline that draws something.
@@ -95,7 +103,14 @@ impl Pipelines {
         {
             return Ok(known.clone());
         }
-        let made = gpu.guarded("the viewport's pipelines", |device| self.make(device, draws))?;
+        let made = gpu.guarded("the viewport's pipelines", |device| self.make(device, draws));
+        if made.is_err()
+            && let Ok(mut modules) = self.modules.lock()
+        {
+            // What they were read into may be what failed.
+            modules.clear();
+        }
+        let made = made?;
         if let Ok(mut known) = self.made.lock() {
             known.insert(draws, made.clone());
         }
@@ -120,6 +135,20 @@ impl Pipelines {
         }
     }
 
+    /// Some of the shaders' files, read once.
+    fn module(&self, device: &wgpu::Device, label: &'static str, parts: &[&str]) -> wgpu::ShaderModule {
+        if let Ok(modules) = self.modules.lock()
+            && let Some(known) = modules.get(label)
+        {
+            return known.clone();
+        }
+        let read = module(device, label, parts);
+        if let Ok(mut modules) = self.modules.lock() {
+            modules.insert(label, read.clone());
+        }
+        read
+    }
+
     fn raster(
         &self,
         device: &wgpu::Device,
@@ -130,6 +159,7 @@ impl Pipelines {
         let parts = [
             "raster", "sight", "relief", "modes", "switches", "maps", "frame", "atlas",
         ];
+        let module = self.module(device, "raster", &parts);
         let Layouts {
             frame,
             material,
@@ -147,7 +177,7 @@ impl Pipelines {
             device,
             &Recipe {
                 label: "raster",
-                text: &text_of(&parts),
+                module: &module,
                 entries: ("place_corner", Some(entry)),
                 switches: &switches.named(),
                 groups,
@@ -178,6 +208,7 @@ impl Pipelines {
             "frame",
             "atlas",
         ];
+        let module = self.module(device, "paint", &parts);
         let Layouts {
             frame, material, seen, ..
         } = &self.layouts;
@@ -191,7 +222,7 @@ impl Pipelines {
             device,
             &Recipe {
                 label: "paint",
-                text: &text_of(&parts),
+                module: &module,
                 entries: ("cover", Some(entry)),
                 switches: &switches.named(),
                 groups: &groups,
@@ -208,12 +239,13 @@ impl Pipelines {
     }
 
     fn background(&self, device: &wgpu::Device, is_blurred: bool) -> wgpu::RenderPipeline {
+        let module = self.module(device, "background", &["background", "panorama", "frame"]);
         let paint = if is_blurred { "paint_blurred" } else { "paint" };
         pipeline(
             device,
             &Recipe {
                 label: "background",
-                text: &text_of(&["background", "panorama", "frame"]),
+                module: &module,
                 entries: ("cover", Some(paint)),
                 switches: &[],
                 groups: &[&self.layouts.frame, &self.layouts.panorama],
@@ -230,11 +262,12 @@ impl Pipelines {
     }
 
     fn lines(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+        let module = self.module(device, "lines", &["lines", "frame"]);
         pipeline(
             device,
             &Recipe {
                 label: "lines",
-                text: &text_of(&["lines", "frame"]),
+                module: &module,
                 entries: ("place_end", Some("paint")),
                 switches: &[],
                 groups: &[&self.layouts.frame, &self.layouts.numbers],
@@ -251,11 +284,12 @@ impl Pipelines {
     }
 
     fn shadow(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+        let module = self.module(device, "shadow", &["cast_shadow"]);
         pipeline(
             device,
             &Recipe {
                 label: "shadow",
-                text: &text_of(&["cast_shadow"]),
+                module: &module,
                 entries: ("place_corner", None),
                 switches: &[],
                 groups: &[&self.layouts.numbers],
@@ -280,11 +314,12 @@ impl Pipelines {
         target: wgpu::TextureFormat,
         Transform(transform): Transform,
     ) -> wgpu::RenderPipeline {
+        let module = self.module(device, "display", &["display"]);
         pipeline(
             device,
             &Recipe {
                 label: "display",
-                text: &text_of(&["display"]),
+                module: &module,
                 entries: ("cover", Some(paint)),
                 switches: &[("TRANSFORM", f64::from(transform))],
                 groups: &[&self.layouts.display],

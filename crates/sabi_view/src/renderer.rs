@@ -1,6 +1,7 @@
 //! Draws scenes.
 
 mod bound;
+mod choice;
 mod light;
 mod passes;
 mod pose;
@@ -18,6 +19,7 @@ use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
 use crate::shadows::ShadowMaps;
 use crate::target::{SUM, Target};
 use crate::upload::{buffer_of, texture};
+pub use choice::Missing;
 pub use pose::Pose;
 
 /// Draws scenes on one device.

@@ -1,9 +1,11 @@
 //! A picture that is kept as long as nothing changes.
 
+use std::sync::Arc;
+
 use sabi_gpu::{AdapterKind, Gpu};
 
 use crate::error::ViewError;
-use crate::renderer::{Prepared, Renderer, Sample};
+use crate::renderer::{Missing, Prepared, Renderer, Sample};
 use crate::scene::{Scene, Shot};
 use crate::target::Target;
 
@@ -58,7 +60,7 @@ struct Drawn {
 
 /// A picture on the device that is drawn again only when something changed, and refined sample by sample while nothing does.
 pub struct Viewport {
-    renderer: Renderer,
+    renderer: Arc<Renderer>,
     /// How much work a picture may be.
     pub quality: Quality,
     target: Option<Target>,
@@ -66,14 +68,27 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// A viewport without a picture, as good as the adapter allows.
-    pub fn new(gpu: &Gpu) -> Result<Viewport, ViewError> {
-        Ok(Viewport {
-            renderer: Renderer::new(gpu)?,
+    /// A viewport without a picture, as good as the adapter allows; several may share a renderer.
+    pub fn new(gpu: &Gpu, renderer: Arc<Renderer>) -> Viewport {
+        Viewport {
+            renderer,
             quality: Quality::of(gpu.summary().kind),
             target: None,
             drawn: None,
-        })
+        }
+    }
+
+    /// What has to be made before [`Viewport::show`] draws this without a delay.
+    pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<Missing> {
+        self.renderer.missing(scene, &self.allowed(shot))
+    }
+
+    /// A shot without what the adapter is too slow for.
+    fn allowed(&self, shot: &Shot) -> Shot {
+        Shot {
+            has_relief: shot.has_relief && self.quality.follows_relief,
+            ..shot.clone()
+        }
     }
 
     /// The picture; none before the first one.
@@ -103,9 +118,8 @@ impl Viewport {
         };
         let wanted = Wanted {
             shot: Shot {
-                has_relief: shot.has_relief && self.quality.follows_relief,
                 samples: if is_moving { 1 } else { shot.samples.max(1) },
-                ..shot.clone()
+                ..self.allowed(shot)
             },
             size: size.map(|side| side.div_ceil(divisor)),
             revision,

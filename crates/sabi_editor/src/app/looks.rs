@@ -93,7 +93,7 @@ impl Editor {
     }
 
     /// Looks at a node's result: at that of this output, or at the one that was chosen last.
-    pub(super) fn look_at(&mut self, id: &NodeId, port: Option<String>) {
+    pub(crate) fn look_at(&mut self, id: &NodeId, port: Option<String>) {
         let reference = match port {
             Some(port) => self.reference(id, Some(port)),
             None => self.chosen(id),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Color32, Rect, Stroke, TextureId, Ui, pos2};
-use sabi_engine::view::{Background, Mode, Pixels, Scene, Shot, Viewport};
+use egui::{Color32, Context, Rect, Stroke, TextureId, Ui, pos2};
+use sabi_engine::view::{Background, Environment, Light, Mode, Pixels, Scene, Shot, Viewport};
 use sabi_engine::{EngineError, Gpu};
 
 use super::{ModelView, REST, Screen, Subject};
@@ -73,7 +73,13 @@ impl ModelView {
         let scale = ui.ctx().pixels_per_point();
         let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
         let shot = self.shot_of(picture);
-        let drawn = self.draw(at, stage, picture, &shot, size, is_moving);
+        // The last picture stays until what draws the next one is made.
+        let drawn = match self.is_ready(at, ui.ctx(), stage, picture, &shot) {
+            Ok(true) => self
+                .draw(at, stage, picture, &shot, size, is_moving)
+                .map_err(|error| error.to_string()),
+            waits => waits,
+        };
         match drawn {
             Ok(has_drawn) => {
                 self.fault = None;
@@ -83,8 +89,8 @@ impl ModelView {
                     ui.ctx().request_repaint();
                 }
             }
-            Err(error) => {
-                self.fault = Some(error.to_string());
+            Err(why) => {
+                self.fault = Some(why);
                 return None;
             }
         }
@@ -123,6 +129,31 @@ impl ModelView {
         }
     }
 
+    /// Whether what draws this picture is made; begins to make it otherwise.
+    fn is_ready(
+        &mut self,
+        at: usize,
+        context: &Context,
+        stage: &Stage,
+        picture: &Picture,
+        shot: &Shot,
+    ) -> Result<bool, String> {
+        let gpu = stage.gpu();
+        let Some(renderer) = self.tools.renderer(context, gpu)? else {
+            return Ok(false);
+        };
+        let screen = self.screens[at].get_or_insert_with(|| Screen {
+            viewport: Viewport::new(gpu, renderer.clone()),
+            texture: None,
+        });
+        let Some(environment) = self.surroundings.environment() else {
+            return Ok(false);
+        };
+        let lights = self.lamps.lights();
+        let missing = screen.viewport.missing(&scene(picture, environment, &lights), shot);
+        self.tools.is_ready(context, (gpu, &renderer), missing)
+    }
+
     /// Draws one screen as far as it has to be, and says whether it had to.
     pub(super) fn draw(
         &mut self,
@@ -133,29 +164,24 @@ impl ModelView {
         size: [u32; 2],
         is_moving: bool,
     ) -> Result<bool, EngineError> {
-        let Some(environment) = self.surroundings.environment() else {
-            return Ok(false);
-        };
-        let gpu = stage.gpu();
-        if self.screens[at].is_none() {
-            self.screens[at] = Some(Screen {
-                viewport: Viewport::new(gpu)?,
-                texture: None,
-            });
-        }
-        let Some(screen) = &mut self.screens[at] else {
+        let (Some(environment), Some(screen)) = (self.surroundings.environment(), &mut self.screens[at]) else {
             return Ok(false);
         };
         let lights = self.lamps.lights();
-        let scene = Scene {
-            model: &picture.model.view,
-            looks: &picture.shown.looks,
-            look_of_material: &picture.shown.look_of_material,
-            environment,
-            lights: &lights,
-        };
+        let scene = scene(picture, environment, &lights);
         // Light that was changed is another picture too.
         let revision = picture.number ^ (self.surroundings.number() << 48) ^ (self.lamps.number() << 32);
-        Ok(screen.viewport.show(gpu, &scene, revision, shot, size, is_moving)?)
+        let viewport = &mut screen.viewport;
+        Ok(viewport.show(stage.gpu(), &scene, revision, shot, size, is_moving)?)
+    }
+}
+
+fn scene<'a>(picture: &'a Picture, environment: &'a Environment, lights: &'a [Light]) -> Scene<'a> {
+    Scene {
+        model: &picture.model.view,
+        looks: &picture.shown.looks,
+        look_of_material: &picture.shown.look_of_material,
+        environment,
+        lights,
     }
 }

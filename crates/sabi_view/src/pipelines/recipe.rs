@@ -26,8 +26,15 @@ const SHADERS: [(&str, &str); 19] = [
     ("atlas", include_str!("../../../../shaders/lib/atlas.wgsl")),
 ];
 
-/// Several files as one.
-pub(super) fn text_of(names: &[&str]) -> String {
+/// Several files as one module.
+pub(super) fn module(device: &wgpu::Device, label: &str, names: &[&str]) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(text_of(names).into()),
+    })
+}
+
+fn text_of(names: &[&str]) -> String {
     let text = |name: &&str| {
         let found = SHADERS.iter().find(|(known, _)| known == name);
         let text = found.map_or("", |(_, text)| text);
@@ -42,7 +49,7 @@ pub(super) fn text_of(names: &[&str]) -> String {
 /// What differs between the pipelines.
 pub(super) struct Recipe<'r> {
     pub(super) label: &'r str,
-    pub(super) text: &'r str,
+    pub(super) module: &'r wgpu::ShaderModule,
     /// Entry points: of corners, and of pixels where any are written.
     pub(super) entries: (&'r str, Option<&'r str>),
     /// Values of the shaders' switches.
@@ -82,10 +89,6 @@ pub(super) fn depth(
 }
 
 pub(super) fn pipeline(device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(recipe.label),
-        source: wgpu::ShaderSource::Wgsl(recipe.text.into()),
-    });
     let groups: Vec<Option<&wgpu::BindGroupLayout>> = recipe.groups.iter().copied().map(Some).collect();
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(recipe.label),
@@ -103,7 +106,7 @@ pub(super) fn pipeline(device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::Rend
         label: Some(recipe.label),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
-            module: &module,
+            module: recipe.module,
             entry_point: Some(place),
             compilation_options: options.clone(),
             buffers: recipe.corners,
@@ -115,7 +118,7 @@ pub(super) fn pipeline(device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::Rend
         depth_stencil: recipe.depth.clone(),
         multisample: wgpu::MultisampleState::default(),
         fragment: paint.map(|paint| wgpu::FragmentState {
-            module: &module,
+            module: recipe.module,
             entry_point: Some(paint),
             compilation_options: options.clone(),
             targets: &targets,

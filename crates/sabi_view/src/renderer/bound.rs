@@ -3,11 +3,11 @@
 use bytemuck::{Pod, Zeroable};
 use sabi_gpu::Gpu;
 
-use super::Renderer;
+use super::{Renderer, choice};
 use crate::error::ViewError;
 use crate::frame::Frame;
-use crate::pipelines::{Draws, Ground, Paint, Switches};
-use crate::scene::{Background, Lines, MaterialLook, Mode, Scene, Shot};
+use crate::pipelines::Draws;
+use crate::scene::{Lines, MaterialLook, Mode, Scene, Shot};
 use crate::shadows::ShadowMaps;
 use crate::target::Sight;
 
@@ -53,9 +53,6 @@ pub(super) struct Bound {
     pub(super) lines: Vec<(Lines, wgpu::BindGroup, wgpu::RenderPipeline)>,
 }
 
-/// Looks that a picture tells apart: a stencil has eight bits, and 0 is none.
-const MOST_LOOKS: usize = 255;
-
 impl Renderer {
     pub(super) fn frame_group(
         &self,
@@ -90,36 +87,22 @@ impl Renderer {
     }
 
     pub(super) fn bound(&self, gpu: &Gpu, size: [u32; 2], scene: &Scene<'_>, shot: &Shot) -> Result<Bound, ViewError> {
-        let looks = &scene.looks[..scene.looks.len().min(MOST_LOOKS)];
         let view = wgpu::BindingResource::TextureView;
         let panorama = scene.environment.backdrop();
         let charts = view(&scene.model.charts);
-        let is_lit = shot.mode == Mode::Material;
-        let has_background = is_lit && matches!(shot.background, Background::Environment | Background::Blurred);
-        let background = has_background
-            .then(|| {
-                let is_blurred = shot.background == Background::Blurred;
-                self.pipelines.get(gpu, Draws::Background { is_blurred })
-            })
-            .transpose()?;
-        let paint = match shot.has_relief {
-            _ if !is_lit => Paint::Shown,
-            true => Paint::LitRelief,
-            false => Paint::Lit,
-        };
+        let background = choice::background(shot).map(|draws| self.pipelines.get(gpu, draws));
         let lines = |lines: &Lines| -> Result<_, ViewError> {
             let numbers = self.numbers(gpu, &line_style(*lines, shot, size))?;
             let group = self.bind(gpu, &self.layouts().numbers, [numbers.as_entire_binding()]);
             Ok((*lines, group, self.pipelines.get(gpu, Draws::Lines)?))
         };
         Ok(Bound {
-            looks: looks
+            looks: choice::looks(scene)
                 .iter()
                 .map(|look| {
-                    let paint = Draws::Paint(paint, Switches::of_paint(look, scene, shot));
                     Ok(Bearing {
                         material: self.look_group(gpu, look, shot.mode)?,
-                        paint: self.pipelines.get(gpu, paint)?,
+                        paint: self.pipelines.get(gpu, choice::paint(look, scene, shot))?,
                     })
                 })
                 .collect::<Result<_, ViewError>>()?,
@@ -130,40 +113,23 @@ impl Renderer {
                 &self.layouts().panorama,
                 [view(&panorama), wgpu::BindingResource::Sampler(&self.round)],
             ),
-            background,
+            background: background.transpose()?,
             lines: shot.lines.iter().map(lines).collect::<Result<_, _>>()?,
         })
     }
 
     /// What of the model is drawn, and how.
     fn drawn(&self, gpu: &Gpu, scene: &Scene<'_>, shot: &Shot) -> Result<Vec<Drawn>, ViewError> {
-        let mut drawn = Vec::new();
-        for part in &scene.model.parts {
-            let look = scene.look_of_material.get(part.material as usize);
-            let Some((index, look)) = look.and_then(|&index| Some((index, scene.looks.get(index)?))) else {
-                continue;
-            };
-            let ground = match (
-                shot.has_relief && look.maps.height.is_some(),
-                has_veils(look, shot.mode),
-            ) {
-                (false, false) => Ground::Plain,
-                (false, true) => Ground::Veiled,
-                (true, false) => Ground::Relief,
-                (true, true) => Ground::VeiledRelief,
-            };
-            let draws = Draws::Raster {
-                is_double_sided: part.is_double_sided,
-                ground,
-                switches: Switches::of_raster(look, shot.mode, ground),
-            };
-            drawn.push(Drawn {
-                pipeline: self.pipelines.get(gpu, draws)?,
+        let parts = scene.model.parts.iter();
+        let seen = parts.filter_map(|part| Some((part, choice::look_of(part, scene)?)));
+        seen.map(|(part, (index, look))| {
+            Ok(Drawn {
+                pipeline: self.pipelines.get(gpu, choice::raster(part, look, shot))?,
                 indices: part.indices.clone(),
-                look: index.min(MOST_LOOKS - 1),
-            });
-        }
-        Ok(drawn)
+                look: index,
+            })
+        })
+        .collect()
     }
 
     fn look_group(&self, gpu: &Gpu, look: &MaterialLook, mode: Mode) -> Result<wgpu::BindGroup, ViewError> {
@@ -184,11 +150,6 @@ impl Renderer {
         let resources = std::iter::once(numbers.as_entire_binding()).chain(resources);
         Ok(self.bind(gpu, &self.layouts().material, resources))
     }
-}
-
-/// Whether one can see through what is clear in a look: not where its channels are looked at one by one.
-fn has_veils(look: &MaterialLook, mode: Mode) -> bool {
-    !look.is_opaque && matches!(mode, Mode::Material | Mode::Clay)
 }
 
 fn line_style(lines: Lines, shot: &Shot, [width, height]: [u32; 2]) -> LineStyle {

@@ -117,19 +117,19 @@ fn lights_are_added_shown_kept_and_removed() {
     let mut window = Window::empty();
     window.until_model();
     window.until("a picture", |editor| editor.model_view.drawn > 0);
-    let picture = |window: &Window| {
-        let editor = window.editor();
-        editor.model_view.picture(editor.stage.gpu()).expect("a picture")
-    };
     window.open_menu(icon::SUN, "Light");
     window.settle();
-    let without = picture(&window);
+    let editor = window.editor();
+    let without = editor.model_view.picture(editor.stage.gpu()).expect("a picture");
     for count in 1..=4 {
         window.press("Add a light");
         window.settle();
         assert_eq!(window.editor().model_view.lights(), count);
     }
-    assert!(picture(&window) != without, "the model is lit by them");
+    window.until("the light of them", |editor| {
+        let now = editor.model_view.picture(editor.stage.gpu());
+        now.is_some_and(|now| now != without)
+    });
     window.press("Add a light");
     assert_eq!(window.editor().model_view.lights(), 4, "there is room for no more");
     window.press("Remove light 2");

@@ -1,0 +1,104 @@
+//! Which pipelines a picture is drawn by.
+
+use sabi_gpu::Gpu;
+
+use super::{Renderer, transform};
+use crate::error::ViewError;
+use crate::model::Part;
+use crate::pipelines::{Draws, Ground, Paint, Switches};
+use crate::scene::{Background, MaterialLook, Mode, Scene, Shot};
+
+/// Looks that a picture tells apart: a stencil has eight bits, and 0 is none.
+const MOST_LOOKS: usize = 255;
+
+/// Pipelines that a picture needs and that are not made yet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Missing(Vec<Draws>);
+
+impl Renderer {
+    /// What has to be made before a picture is drawn, which takes longer than a frame of a window: nothing where all is there.
+    /// Pictures of one sample and of several are both provided for.
+    pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<Missing> {
+        let mut missing = all(scene, shot);
+        missing.retain(|draws| !self.pipelines.has(*draws));
+        missing.sort_unstable();
+        missing.dedup();
+        (!missing.is_empty()).then_some(Missing(missing))
+    }
+
+    /// Makes what is missing, on whatever thread; pictures are drawn meanwhile.
+    pub fn make(&self, gpu: &Gpu, missing: &Missing) -> Result<(), ViewError> {
+        for draws in &missing.0 {
+            self.pipelines.get(gpu, *draws)?;
+        }
+        Ok(())
+    }
+}
+
+fn all(scene: &Scene<'_>, shot: &Shot) -> Vec<Draws> {
+    let mut all = vec![
+        Draws::Shadow,
+        Draws::Encode(transform(shot)),
+        Draws::Gather(transform(shot)),
+        Draws::EncodeSum,
+    ];
+    all.extend(background(shot));
+    all.extend(shot.lines.iter().map(|_| Draws::Lines));
+    all.extend(looks(scene).iter().map(|look| paint(look, scene, shot)));
+    let parts = scene.model.parts.iter();
+    all.extend(parts.filter_map(|part| Some(raster(part, look_of(part, scene)?.1, shot))));
+    all
+}
+
+/// The looks that a picture tells apart.
+pub(super) fn looks<'s>(scene: &Scene<'s>) -> &'s [MaterialLook] {
+    &scene.looks[..scene.looks.len().min(MOST_LOOKS)]
+}
+
+/// The look of a part of the model, and as which one it is told apart.
+pub(super) fn look_of<'s>(part: &Part, scene: &Scene<'s>) -> Option<(usize, &'s MaterialLook)> {
+    let index = *scene.look_of_material.get(part.material as usize)?;
+    Some((index.min(MOST_LOOKS - 1), scene.looks.get(index)?))
+}
+
+/// What is behind the model.
+pub(super) fn background(shot: &Shot) -> Option<Draws> {
+    let is_blurred = match shot.background {
+        _ if shot.mode != Mode::Material => return None,
+        Background::Environment => false,
+        Background::Blurred => true,
+        Background::Plain(_) | Background::Clear => return None,
+    };
+    Some(Draws::Background { is_blurred })
+}
+
+/// The light of a look.
+pub(super) fn paint(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Draws {
+    let paint = match shot.has_relief {
+        _ if shot.mode != Mode::Material => Paint::Shown,
+        true => Paint::LitRelief,
+        false => Paint::Lit,
+    };
+    Draws::Paint(paint, Switches::of_paint(look, scene, shot))
+}
+
+/// Where a part of the model is seen.
+pub(super) fn raster(part: &Part, look: &MaterialLook, shot: &Shot) -> Draws {
+    let has_relief = shot.has_relief && look.maps.height.is_some();
+    let ground = match (has_relief, has_veils(look, shot.mode)) {
+        (false, false) => Ground::Plain,
+        (false, true) => Ground::Veiled,
+        (true, false) => Ground::Relief,
+        (true, true) => Ground::VeiledRelief,
+    };
+    Draws::Raster {
+        is_double_sided: part.is_double_sided,
+        ground,
+        switches: Switches::of_raster(look, shot.mode, ground),
+    }
+}
+
+/// Whether one can see through what is clear in a look: not where its channels are looked at one by one.
+fn has_veils(look: &MaterialLook, mode: Mode) -> bool {
+    !look.is_opaque && matches!(mode, Mode::Material | Mode::Clay)
+}
