@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use sabi_engine::NodeDraft;
 use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
 
 use crate::canvas::Way;
@@ -26,7 +27,7 @@ pub(crate) enum Action {
     /// Put the selected group into a library.
     Shelve(Shelf),
     /// Write the file of a node of the artist's own.
-    SaveNode(NodeText),
+    SaveNode(NodeDraft),
     /// Put a node of another kind in the place of one.
     Replace { node: NodeId, kind: String },
     /// Change wires.
@@ -83,16 +84,6 @@ pub(crate) enum Action {
     GoTo(String),
     /// Take back or do again so many steps; negative is back.
     Steps(i32),
-}
-
-/// A node file that is to be written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct NodeText {
-    pub(crate) folder: PathBuf,
-    pub(crate) id: String,
-    pub(crate) text: String,
-    /// What the file is known to hold, which this takes the place of.
-    pub(crate) known: Option<String>,
 }
 
 /// Something that is asked of what is shown where.

@@ -269,7 +269,7 @@ impl Editor {
         let mut desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
         // No hand holds anything in the other window; and should that one never come, what is here is kept.
         desk.session.end();
-        if let Err(error) = desk.session.keep() {
+        if let Err(error) = desk.session.keep(&self.panels.page.unsaved()) {
             tracing::error!("what is not saved cannot be kept: {error}");
         }
         self.canvas.drop_all();

@@ -1,4 +1,4 @@
-//! Files that change while they are open: nodes, the model, pictures and group files are read again, and the graph's own file
+//! Files that change while they are open: nodes, the model, pictures, group files and the library are read again, and the graph's own file
 //! is asked about, since what is here would be gone.
 
 use std::collections::BTreeSet;
@@ -28,6 +28,8 @@ struct Followed {
     /// The model that is there, and whether it is the one that is wanted.
     loaded: (Option<u64>, bool),
     named: Arc<BTreeSet<PathBuf>>,
+    /// Folders and files of the library.
+    library: Vec<PathBuf>,
 }
 
 impl Watching {
@@ -68,7 +70,13 @@ impl Editor {
             let model = self.stage.model_file().to_owned();
             self.stage.take_model(&model);
         }
-        if !changes.files.is_empty() {
+        let Some(followed) = &self.watching.followed else {
+            return;
+        };
+        if followed.library.iter().any(|file| changes.files.contains(file)) {
+            self.panels.library.forget();
+        }
+        if !changes.files.is_disjoint(&followed.named) {
             self.desk.files_changed(&changes.files);
         }
         if changes.graph {
@@ -84,6 +92,7 @@ impl Editor {
             model: stage.model_file().to_owned(),
             loaded: stage.loaded_model(),
             named: stage.files.clone(),
+            library: self.panels.library.files(),
         };
         if self.watching.followed.as_ref() == Some(&now) {
             return;
@@ -101,7 +110,7 @@ impl Editor {
                 nodes: Kinds::folders(now.graph.as_deref()),
                 graph: now.graph.clone(),
                 model: self.model_files(),
-                files: now.named.iter().cloned().collect(),
+                files: now.named.iter().chain(&now.library).cloned().collect(),
             });
         }
         self.watching.followed = Some(now);

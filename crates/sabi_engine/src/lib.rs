@@ -59,7 +59,7 @@ pub use error::{EngineError, ErrorKind};
 pub use kinds::Kinds;
 pub use live::{Faults, Inspected, Live, LiveModel, LiveOptions, LiveTimes, News, NodeFault, Seen, Waiting, Wish};
 pub use looks::{Shown, show};
-pub use node_file::{NodeTextFault, check_node, new_node_folder, node_text_like, read_node, save_node, why_no_node_id};
+pub use node_file::{NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id};
 pub use pictures::Pictures;
 pub use prepare::{ModelOptions, Overlap, Prepared, Unwrapping};
 pub use preview::{PreviewRequest, preview};

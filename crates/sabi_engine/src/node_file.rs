@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_nodes::{SourceFile, read_kind};
+use serde_json::{Value, json};
 
 use crate::catalog::readable;
 use crate::error::{EngineError, ErrorKind};
@@ -17,6 +18,19 @@ pub struct NodeTextFault {
     pub line: u32,
     /// What is wrong and what to do, as sentences.
     pub told: String,
+}
+
+/// A node file that is being written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NodeDraft {
+    /// The folder of nodes that it goes into.
+    pub folder: PathBuf,
+    /// `category/name`.
+    pub id: String,
+    /// Its text, sound or not.
+    pub text: String,
+    /// What its file is known to hold; none before it is written for the first time.
+    pub known: Option<String>,
 }
 
 /// The folder that a graph's new nodes go into: `nodes` beside it, or the user's own while it has no file. None where this
@@ -75,29 +89,48 @@ pub fn read_node(folder: &Path, id: &str) -> Result<String, EngineError> {
     })
 }
 
-/// Writes the file of a node in the place of what it is `known` to hold, if it is there: whole, or as it was before.
-///
-/// # Errors
-/// The file holds something else that somebody wrote meanwhile, or the folder cannot be written to.
-pub fn save_node(folder: &Path, id: &str, text: &str, known: Option<&str>) -> Result<PathBuf, EngineError> {
-    let file = file_of(folder, id);
-    let found = fs::read_to_string(&file).ok();
-    if found
-        .as_deref()
-        .is_some_and(|found| Some(found) != known && found != text)
-    {
-        let why = format!(
-            "{} was written by another program meanwhile; give this node another name, or close it and open the file anew",
-            file.display()
-        );
-        return Err(EngineError::new(ErrorKind::CannotWrite, why));
-    }
-    match write_whole(&file, text.as_bytes()) {
-        Ok(()) => Ok(file),
-        Err(error) => {
-            let why = format!("{} cannot be written: {error}", file.display());
-            Err(EngineError::new(ErrorKind::CannotWrite, why))
+impl NodeDraft {
+    /// Writes the file, whole or as it was before, in the place of what it is known to hold, and says where it is.
+    ///
+    /// # Errors
+    /// The file holds something else that somebody wrote meanwhile, or the folder cannot be written to.
+    pub fn save(&self) -> Result<PathBuf, EngineError> {
+        let file = file_of(&self.folder, &self.id);
+        let found = fs::read_to_string(&file).ok();
+        if found.is_some() && found != self.known && found.as_ref() != Some(&self.text) {
+            let why = format!(
+                "{} was written by another program meanwhile; give this node another name, or close it and open the file \
+                 anew",
+                file.display()
+            );
+            return Err(EngineError::new(ErrorKind::CannotWrite, why));
         }
+        match write_whole(&file, self.text.as_bytes()) {
+            Ok(()) => Ok(file),
+            Err(error) => {
+                let why = format!("{} cannot be written: {error}", file.display());
+                Err(EngineError::new(ErrorKind::CannotWrite, why))
+            }
+        }
+    }
+
+    pub(crate) fn to_json(&self) -> Value {
+        json!({
+            "folder": self.folder.to_string_lossy(),
+            "id": self.id,
+            "text": self.text,
+            "known": self.known,
+        })
+    }
+
+    pub(crate) fn from_json(kept: &Value) -> Option<NodeDraft> {
+        let text = |name: &str| kept[name].as_str().map(str::to_owned);
+        Some(NodeDraft {
+            folder: text("folder")?.into(),
+            id: text("id")?,
+            text: text("text")?,
+            known: text("known"),
+        })
     }
 }
 
@@ -194,26 +227,37 @@ mod tests {
         );
     }
 
+    fn draft(folder: &Path, text: &str, known: Option<&str>) -> NodeDraft {
+        NodeDraft {
+            folder: folder.to_owned(),
+            id: "adjust/half".to_owned(),
+            text: text.to_owned(),
+            known: known.map(str::to_owned),
+        }
+    }
+
     #[test]
     fn a_saved_node_is_a_kind_that_can_be_changed_again() {
         let folder = tempfile::tempdir().expect("a folder");
         let graph = folder.path().join("worn.sabi");
         let nodes = new_node_folder(Some(&graph)).expect("a folder beside");
         assert_eq!(nodes, folder.path().join("nodes"));
-        let file = save_node(&nodes, "adjust/half", SOUND, None).expect("written");
+        let file = draft(&nodes, SOUND, None).save().expect("written");
         assert_eq!(file, nodes.join("adjust/half.wgsl"));
         let kinds = Kinds::beside(Some(&graph));
         assert!(kinds.library.kind("adjust/half").is_some(), "{:?}", kinds.faults);
         assert_eq!(kinds.own_folder(Some(&graph), "adjust/half"), Some(nodes.clone()));
         assert_eq!(kinds.own_folder(Some(&graph), "noise/simplex"), None);
         assert_eq!(why_no_node_id(&kinds, &nodes, "adjust/half"), None, "it is this one");
-        let told = save_node(&file, "adjust/half", SOUND, None).expect_err("a file is no folder");
+        let told = draft(&file, SOUND, None).save().expect_err("a file is no folder");
         assert!(told.to_string().contains("cannot be written"), "{told}");
         // A fault is in the file, and not in the last version without one.
         let broken = SOUND.replace("0.5", "hlaf");
-        save_node(&nodes, "adjust/half", &broken, Some(SOUND)).expect("written");
+        draft(&nodes, &broken, Some(SOUND)).save().expect("written");
         assert_eq!(read_node(&nodes, "adjust/half").ok(), Some(broken.clone()));
-        let told = save_node(&nodes, "adjust/half", "mine", Some(SOUND)).expect_err("somebody wrote it");
+        let told = draft(&nodes, "mine", Some(SOUND))
+            .save()
+            .expect_err("somebody wrote it");
         assert!(told.to_string().contains("was written by another program"), "{told}");
         assert_eq!(read_node(&nodes, "adjust/half").ok(), Some(broken));
     }

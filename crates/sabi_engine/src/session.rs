@@ -14,10 +14,12 @@ use sabi_export::Staging;
 use sabi_graph::{Document, Edit, EditError, History};
 
 use moving::Moving;
+use recovery::Kept;
 pub use recovery::{Recovery, recoveries};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
+use crate::node_file::NodeDraft;
 
 /// What a graph is called before it has a file.
 const UNTITLED: &str = "untitled.sabi";
@@ -87,7 +89,7 @@ impl Session {
             let why = "another window goes on with this graph already; close it there first";
             return Err(EngineError::new(ErrorKind::Usage, why));
         }
-        let (text, file) = recovery.read()?;
+        let (Kept { graph: text, .. }, file) = recovery.read()?;
         let name = file.clone().unwrap_or_else(|| PathBuf::from(UNTITLED));
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::new(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
@@ -296,17 +298,18 @@ impl Session {
         Ok(())
     }
 
-    /// Keeps what is not saved, if it changed since the last time; to be called every few seconds. Says whether it wrote.
-    pub fn keep(&mut self) -> Result<bool, EngineError> {
+    /// Keeps what is not saved, if it changed since the last time: the graph, and node files that are being written. To be
+    /// called every few seconds. Says whether it wrote.
+    pub fn keep(&mut self, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
         let is_dirty = self.is_dirty();
         let Some(recovery) = &mut self.recovery else {
             return Ok(false);
         };
-        if !is_dirty {
+        if !is_dirty && drafts.is_empty() {
             recovery.forget();
             return Ok(false);
         }
-        recovery.keep(&self.text.1)
+        recovery.keep(&self.text.1, drafts)
     }
 
     /// Ends the work in order: nothing of it needs to be recovered.

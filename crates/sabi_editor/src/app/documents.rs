@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use egui::Ui;
-use sabi_engine::{EngineError, Kinds, Session};
+use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
 use sabi_graph::{Edit, Preview, Value};
 
 use super::Editor;
-use crate::action::{Action, NodeText, Shelf};
+use crate::action::{Action, Shelf};
 use crate::desk::Desk;
 use crate::files::examples;
 use crate::panels::library::KEPT_AS;
@@ -49,8 +49,12 @@ impl Editor {
             return;
         }
         let recovery = self.files.recoveries.remove(at);
+        let drafts = recovery.drafts().to_vec();
         match Session::recover(recovery) {
-            Ok(session) => self.take_session(session),
+            Ok(session) => {
+                self.take_session(session);
+                self.panels.page.recover(drafts, &self.desk);
+            }
             Err(error) => self.say(error.to_string()),
         }
     }
@@ -62,7 +66,7 @@ impl Editor {
         let before = std::mem::replace(&mut self.desk, Desk::new(session));
         before.session.close();
         self.recall_export();
-        self.keeping.revision = None;
+        self.keeping.kept = None;
         self.canvas = Default::default();
         self.look_at_nothing();
         if let Some(model) = model.filter(|model| model != self.stage.model_file()) {
@@ -116,6 +120,8 @@ impl Editor {
     fn tell_saved(&mut self, path: &Path, saved: Result<(), EngineError>) {
         match saved {
             Ok(()) => {
+                // A save lets go of what was kept, and node files that are being written are no part of it.
+                self.keeping.kept = None;
                 self.settings.remember(path);
                 self.say(format!("Saved to {}", path.display()));
                 self.export_after_save();
@@ -168,14 +174,9 @@ impl Editor {
     }
 
     /// Writes the file of a node and takes it into use.
-    pub(super) fn save_node(&mut self, node: &NodeText) {
-        let NodeText {
-            folder,
-            id,
-            text,
-            known,
-        } = node;
-        match sabi_engine::save_node(folder, id, text, known.as_deref()) {
+    pub(super) fn save_node(&mut self, node: &NodeDraft) {
+        let NodeDraft { folder, id, .. } = node;
+        match node.save() {
             Ok(file) => {
                 self.say(format!(
                     "'{id}' is in {}, and among the nodes that can be added.",

@@ -12,8 +12,8 @@ const KEEP_EVERY: Duration = Duration::from_secs(3);
 /// What is not saved is kept in case the program ends: when last, and what then.
 pub(super) struct Keeping {
     at: Instant,
-    /// The state of the graph that was kept.
-    pub(super) revision: Option<u64>,
+    /// The states of the graph and of node files that were kept.
+    pub(super) kept: Option<(u64, u64)>,
     pub(super) every: Duration,
 }
 
@@ -21,7 +21,7 @@ impl Default for Keeping {
     fn default() -> Keeping {
         Keeping {
             at: Instant::now(),
-            revision: None,
+            kept: None,
             every: KEEP_EVERY,
         }
     }
@@ -30,17 +30,17 @@ impl Default for Keeping {
 impl Editor {
     /// Keeps what is not saved, and settings that changed.
     pub(super) fn keep(&mut self, context: &Context) {
-        let revision = Some(self.desk.session.revision());
+        let now = Some((self.desk.session.revision(), self.panels.page.revision()));
         if self.keeping.at.elapsed() >= self.keeping.every {
             self.keeping.at = Instant::now();
-            self.keeping.revision = revision;
-            if let Err(error) = self.desk.session.keep() {
-                self.keeping.revision = None;
+            self.keeping.kept = now;
+            if let Err(error) = self.desk.session.keep(&self.panels.page.unsaved()) {
+                self.keeping.kept = None;
                 self.say(format!("What is not saved cannot be kept in case of a crash: {error}"));
             }
             self.keep_settings();
         }
-        if self.keeping.revision != revision {
+        if self.keeping.kept != now {
             context.request_repaint_after(self.keeping.every);
         }
     }

@@ -79,10 +79,20 @@ fn recoveries(editor: &mut Editor, ui: &mut Ui, theme: &Theme, next: &mut Option
         let of = recovery
             .file()
             .map_or("a graph without a file".to_owned(), |file| file.display().to_string());
-        ui.horizontal(|ui| {
-            ui.label(of);
+        ui.horizontal_wrapped(|ui| {
+            match recovery.fault() {
+                Some(fault) => {
+                    ui.colored_label(theme.fault, fault.to_string());
+                }
+                None => {
+                    ui.label(of);
+                    for draft in recovery.drafts() {
+                        ui.label(format!("with the node file {}", draft.id));
+                    }
+                }
+            }
             ui.colored_label(theme.quiet, recovery.when().map(told_age).unwrap_or_default());
-            if ui.button("Recover").clicked() {
+            if recovery.fault().is_none() && ui.button("Recover").clicked() {
                 *next = Some(Next::Recover(at));
             }
             ui.menu_button("Let it go", |ui| {

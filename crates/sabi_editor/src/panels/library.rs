@@ -3,6 +3,7 @@
 mod entry;
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -25,7 +26,7 @@ pub(crate) struct Library {
     query: String,
     /// Whether files may have changed since they were read.
     is_stale: bool,
-    shelved: Vec<Shelved>,
+    found: Found,
     /// The folders from which they were read.
     read_from: Option<Vec<(Shelf, PathBuf)>>,
 }
@@ -34,6 +35,12 @@ impl Library {
     /// Files may have changed.
     pub(crate) fn forget(&mut self) {
         self.is_stale = true;
+    }
+
+    /// Folders and files that it is read from.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        let folders = self.read_from.iter().flatten().map(|(_, folder)| folder.clone());
+        folders.chain(self.found.files.iter().cloned()).collect()
     }
 
     /// Whether what was read is not what lies in these folders.
@@ -45,40 +52,78 @@ impl Library {
     pub(crate) fn shelved(&mut self, folders: Vec<(Shelf, PathBuf)>, catalog: &Catalog) -> &[Shelved] {
         if self.has_changed(&folders) {
             self.is_stale = false;
-            let all = folders.iter();
-            self.shelved = all.flat_map(|(shelf, folder)| read(*shelf, folder, catalog)).collect();
+            self.found = Found::default();
+            for (shelf, folder) in &folders {
+                let found = read(*shelf, folder, catalog);
+                self.found.files.extend(found.files);
+                self.found.shelved.extend(found.shelved);
+                self.found.faults.extend(found.faults);
+            }
             self.read_from = Some(folders);
         }
-        &self.shelved
+        &self.found.shelved
     }
 }
 
-fn read(shelf: Shelf, folder: &Path, catalog: &Catalog) -> Vec<Shelved> {
-    let Ok(entries) = fs::read_dir(folder) else {
-        return Vec::new();
+/// What a folder holds.
+#[derive(Default)]
+struct Found {
+    files: Vec<PathBuf>,
+    shelved: Vec<Shelved>,
+    /// Why files are not among them, in sentences.
+    faults: Vec<String>,
+}
+
+fn read(shelf: Shelf, folder: &Path, catalog: &Catalog) -> Found {
+    let mut found = Found::default();
+    let entries = match fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) => {
+            if error.kind() != ErrorKind::NotFound {
+                found
+                    .faults
+                    .push(format!("{} cannot be read: {error}", folder.display()));
+            }
+            return found;
+        }
     };
     let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     files.retain(|file| file.extension().is_some_and(|ending| ending == crate::desk::ENDING));
     files.sort();
-    let shelved = files.into_iter().filter_map(|file| {
-        let open = OpenGraph::open(&file).ok()?;
+    for file in &files {
+        let open = match OpenGraph::open(file) {
+            Ok(open) => open,
+            Err(error) => {
+                found.faults.push(error.to_string());
+                continue;
+            }
+        };
         let faces = Faces::new(catalog, &open.document, &mut |_| None);
-        let mut face = faces.of_whole()?.as_ref().clone();
+        let Some(whole) = faces.of_whole() else {
+            let why = "is in the library, and gives nothing that other graphs could use; add an output to it";
+            found.faults.push(format!("{} {why}", file.display()));
+            continue;
+        };
+        let mut face = whole.as_ref().clone();
         if face.label == "Group" {
-            face.label = file.file_stem()?.to_string_lossy().into_owned();
+            face.label = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         }
-        Some(Shelved {
+        found.shelved.push(Shelved {
             shelf,
-            file,
+            file: file.clone(),
             face: Arc::new(face),
-        })
-    });
-    shelved.collect()
+        });
+    }
+    found.files = files;
+    found
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
     head(editor, ui, actions);
     ui.add_space(space::TIGHT);
+    for fault in &editor.panels.library.found.faults {
+        ui.add(egui::Label::new(RichText::new(fault).color(theme.fault)).wrap());
+    }
     let query = editor.panels.library.query.clone();
     let all = editor.candidates().to_vec();
     let mut found: Vec<&Candidate> = ranked(&all, &query);

@@ -8,6 +8,7 @@ use std::path::Path;
 use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use egui_phosphor::regular as icon;
+use sabi_engine::NodeDraft;
 use sabi_engine::catalog::{Entry, Port};
 
 use crate::action::Action;
@@ -26,6 +27,8 @@ pub(crate) struct Page {
     drafts: Vec<Draft>,
     /// Which of them is shown, in the place of the selected node.
     shown: Option<usize>,
+    /// Rises with what happens to drafts besides their being written on.
+    revision: u64,
 }
 
 impl Page {
@@ -39,6 +42,26 @@ impl Page {
         for draft in self.drafts.iter_mut().filter(|draft| draft.is_of(folder, id)) {
             draft.was_saved();
         }
+        self.revision += 1;
+    }
+
+    /// Another number whenever what is written and in no file is something else.
+    pub(crate) fn revision(&self) -> u64 {
+        self.revision + self.drafts.iter().map(Draft::edits).sum::<u64>()
+    }
+
+    /// What is written and in no file.
+    pub(crate) fn unsaved(&self) -> Vec<NodeDraft> {
+        let unsaved = self.drafts.iter().filter(|draft| draft.is_unsaved());
+        unsaved.map(|draft| draft.node().clone()).collect()
+    }
+
+    /// Goes on with what was being written when the program ended.
+    pub(crate) fn recover(&mut self, drafts: Vec<NodeDraft>, desk: &Desk) {
+        for draft in drafts {
+            self.open(Draft::recovered(desk, draft));
+        }
+        self.revision += 1;
     }
 
     /// Whether a node file is being written that nothing holds yet; the first such is shown.
@@ -90,7 +113,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
             Left::No => {}
             Left::Aside => page.shown = None,
             Left::ForGood => {
-                page.drafts.remove(at);
+                page.revision += page.drafts.remove(at).edits() + 1;
                 page.shown = None;
             }
         }

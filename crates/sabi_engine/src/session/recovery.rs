@@ -9,6 +9,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use serde_json::{Value as Json, json};
 
 use crate::error::{EngineError, ErrorKind};
+use crate::node_file::NodeDraft;
 use crate::whole_file::write_whole;
 
 /// Tells two sessions of one process apart.
@@ -25,12 +26,23 @@ pub struct Recovery {
     /// The graph's own file.
     file: Option<PathBuf>,
     /// What was kept last.
-    kept: Option<String>,
+    kept: Option<Kept>,
+    /// Why what was kept cannot be read.
+    fault: Option<EngineError>,
     lock: Option<File>,
 }
 
+/// What is not saved.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Kept {
+    /// The graph's text.
+    pub(super) graph: String,
+    /// Node files that are being written.
+    pub(super) drafts: Vec<NodeDraft>,
+}
+
 /// What is left in a folder of sessions that did not end in order, those of programs that still run left out; the newest
-/// first.
+/// first. One that cannot be read is among them, with why.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();
@@ -48,13 +60,15 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
         path,
         file: None,
         kept: None,
+        fault: None,
         lock: None,
     });
-    left.filter_map(|mut recovery| {
-        let (text, file) = recovery.read().ok()?;
-        recovery.file = file;
-        recovery.kept = Some(text);
-        Some(recovery)
+    left.map(|mut recovery| {
+        match recovery.read() {
+            Ok((kept, file)) => (recovery.kept, recovery.file) = (Some(kept), file),
+            Err(fault) => recovery.fault = Some(fault),
+        }
+        recovery
     })
     .collect()
 }
@@ -81,8 +95,19 @@ impl Recovery {
             path: folder.join(name),
             file: file.map(Path::to_owned),
             kept: None,
+            fault: None,
             lock: None,
         }
+    }
+
+    /// Why what was kept cannot be read; none where it can.
+    pub fn fault(&self) -> Option<&EngineError> {
+        self.fault.as_ref()
+    }
+
+    /// Node files that were being written.
+    pub fn drafts(&self) -> &[NodeDraft] {
+        self.kept.as_ref().map_or(&[], |kept| &kept.drafts)
     }
 
     /// The graph's own file; none where it was never saved.
@@ -100,8 +125,8 @@ impl Recovery {
         self.file = file.map(Path::to_owned);
     }
 
-    /// The graph's text, and its file.
-    pub(super) fn read(&self) -> Result<(String, Option<PathBuf>), EngineError> {
+    /// What was kept, and the graph's file.
+    pub(super) fn read(&self) -> Result<(Kept, Option<PathBuf>), EngineError> {
         let damaged = |why: String| {
             let shown = self.path.display();
             EngineError::new(
@@ -114,16 +139,24 @@ impl Recovery {
         let graph = kept["graph"]
             .as_str()
             .ok_or_else(|| damaged("it holds no graph".to_owned()))?;
-        Ok((graph.to_owned(), kept["file"].as_str().map(PathBuf::from)))
+        let drafts = kept["drafts"].as_array().map_or(&[][..], Vec::as_slice);
+        let drafts: Option<Vec<NodeDraft>> = drafts.iter().map(NodeDraft::from_json).collect();
+        let kept_here = Kept {
+            graph: graph.to_owned(),
+            drafts: drafts.ok_or_else(|| damaged("a node in it has no text".to_owned()))?,
+        };
+        Ok((kept_here, kept["file"].as_str().map(PathBuf::from)))
     }
 
-    /// Keeps a text, unless it is the one that was kept last.
-    pub(super) fn keep(&mut self, text: &str) -> Result<bool, EngineError> {
-        if self.kept.as_deref() == Some(text) {
+    /// Keeps a graph's text and node files that are being written, unless they are those that were kept last.
+    pub(super) fn keep(&mut self, graph: &str, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
+        let is_known = |kept: &Kept| kept.graph == graph && kept.drafts == drafts;
+        if self.kept.as_ref().is_some_and(is_known) {
             return Ok(false);
         }
         let file = self.file.as_ref().map(|file| file.to_string_lossy());
-        let bytes = json!({ "file": file, "graph": text }).to_string();
+        let written: Vec<Json> = drafts.iter().map(NodeDraft::to_json).collect();
+        let bytes = json!({ "file": file, "graph": graph, "drafts": written }).to_string();
         let folder = self.path.parent().unwrap_or(Path::new("."));
         let refused = |error: io::Error| {
             let why = format!("{} cannot be written: {error}; free some space there", folder.display());
@@ -133,13 +166,16 @@ impl Recovery {
         // at work meanwhile.
         write_whole(&self.path, bytes.as_bytes()).map_err(refused)?;
         self.take();
-        self.kept = Some(text.to_owned());
+        self.kept = Some(Kept {
+            graph: graph.to_owned(),
+            drafts: drafts.to_vec(),
+        });
         Ok(true)
     }
 
     /// Lets go of what was kept.
     pub fn forget(&mut self) {
-        if self.kept.take().is_some() {
+        if self.kept.take().is_some() || self.fault.take().is_some() {
             // One that is gone already is what is wanted.
             let _ = fs::remove_file(&self.path);
         }

@@ -85,10 +85,10 @@ fn what_was_not_saved_comes_back_after_the_program_ended() {
     let mut session = Session::new(Some(&kept));
     session.edit("Add", add("a")).unwrap();
     session.save_as(&file).unwrap();
-    assert!(!session.keep().unwrap(), "all is saved");
+    assert!(!session.keep(&[]).unwrap(), "all is saved");
     session.edit("Gain", set_gain(0.25)).unwrap();
-    assert!(session.keep().unwrap());
-    assert!(!session.keep().unwrap(), "nothing changed since");
+    assert!(session.keep(&[]).unwrap());
+    assert!(!session.keep(&[]).unwrap(), "nothing changed since");
     let text = session.text().to_owned();
     assert!(recoveries(&kept).is_empty(), "its program still runs");
     // As another program finds it when this one was killed.
@@ -111,17 +111,68 @@ fn a_session_that_ends_in_order_leaves_nothing() {
     let desk = desk();
     let mut session = Session::new(Some(desk.path()));
     session.edit("Add", add("a")).unwrap();
-    assert!(session.keep().unwrap());
+    assert!(session.keep(&[]).unwrap());
     session.close();
     assert_eq!(fs::read_dir(desk.path()).unwrap().count(), 0);
 }
 
 #[test]
-fn damaged_leftovers_are_passed_over() {
+fn node_files_that_were_being_written_come_back_too_and_keep_a_saved_graph_with_them() {
     let desk = desk();
-    fs::write(desk.path().join("1-1-1.recovery"), "half of").unwrap();
-    fs::write(desk.path().join("4000000000-1-1.recovery"), "{}").unwrap();
+    let kept = desk.path().join("kept");
+    let draft = |known: Option<&str>| NodeDraft {
+        folder: desk.path().join("nodes"),
+        id: "own/rust".to_owned(),
+        text: "//! Rust".to_owned(),
+        known: known.map(str::to_owned),
+    };
+    let drafts = [draft(None), draft(Some("//! As it was"))];
+    let mut session = Session::new(Some(&kept));
+    assert!(session.keep(&drafts).unwrap(), "though the graph is as it began");
+    assert!(!session.keep(&drafts).unwrap(), "nothing changed since");
+    assert!(session.keep(&drafts[..1]).unwrap());
+    assert!(session.keep(&drafts).unwrap());
+    drop(session);
+    let mut found = recoveries(&kept);
+    assert_eq!(found.len(), 1);
+    let recovery = found.remove(0);
+    assert_eq!(recovery.drafts(), drafts);
+    let mut session = Session::recover(recovery).unwrap();
+    assert!(!session.is_dirty());
+    assert!(!session.keep(&drafts).unwrap(), "it is kept as it was");
+    session.keep(&[]).unwrap();
+    drop(session);
+    assert!(recoveries(&kept).is_empty(), "once they are saved nothing is left");
+}
+
+#[test]
+fn leftovers_that_cannot_be_read_are_told_until_they_are_let_go() {
+    let desk = desk();
+    let wild = [
+        ("1-1-1", "half of", "expected value"),
+        ("4000000000-1-1", "{}", "it holds no graph"),
+        (
+            "2-1-1",
+            r#"{ "graph": "", "drafts": [{}] }"#,
+            "a node in it has no text",
+        ),
+    ];
+    for (name, text, _) in wild {
+        fs::write(desk.path().join(name).with_extension("recovery"), text).unwrap();
+    }
     fs::write(desk.path().join("other.txt"), "{}").unwrap();
+    let mut found = recoveries(desk.path());
+    assert_eq!(found.len(), wild.len());
+    for (name, _, why) in wild {
+        let told = found.iter().filter_map(|recovery| Some(recovery.fault()?.to_string()));
+        let mut told = told.filter(|told| told.contains(name));
+        let told = told.next().expect("a sentence for it");
+        assert!(
+            told.contains("what was kept cannot be read") && told.contains(why),
+            "{told}"
+        );
+    }
+    found.iter_mut().for_each(Recovery::forget);
     assert!(recoveries(desk.path()).is_empty());
     assert!(recoveries(&desk.path().join("none")).is_empty());
 }

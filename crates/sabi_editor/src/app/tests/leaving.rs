@@ -186,6 +186,54 @@ fn a_window_with_the_unsaved_text_of_a_node_stays() {
 }
 
 #[test]
+fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_without_changes_of_it() {
+    let mut window = Window::opened(CLOUDS);
+    window.harness.state_mut().keeping.every = Duration::ZERO;
+    window.harness.state_mut().desk.select([super::hands::id("clouds")]);
+    window.key(Key::F1);
+    window.press("New node from here");
+    window.fill("Id of the node", "noise/mine");
+    window.settle();
+    // A save lets go of the graph's own changes alone.
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.settle();
+    let unsaved = window.editor().panels.page.unsaved();
+    assert_eq!(unsaved.len(), 1);
+    let Window { harness, folder, .. } = window;
+    drop(harness.into_state().desk.session);
+    let mut window = Window::in_folder(folder, |_| Session::new(None));
+    window.settle();
+    assert!(window.says("graph.sabi") && window.says("with the node file noise/mine"));
+    window.press("Recover");
+    assert_eq!(window.editor().panels.page.unsaved(), unsaved);
+    window.harness.state_mut().bring_up(Panel::Page);
+    window.harness.state_mut().keeping.every = Duration::ZERO;
+    window.settle();
+    assert!(!window.asks_to_close(), "it is still in no file");
+    window.press("Save node");
+    let file = window.path("nodes").join("noise").join("mine.wgsl");
+    assert_eq!(fs::read_to_string(file).expect("a file"), unsaved[0].text);
+    window.settle();
+    assert_eq!(fs::read_dir(window.path("unsaved")).expect("a folder").count(), 0);
+}
+
+#[test]
+fn what_was_kept_and_cannot_be_read_is_told_until_it_is_let_go() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let unsaved = folder.path().join("unsaved");
+    fs::create_dir_all(&unsaved).expect("a folder");
+    fs::write(unsaved.join("1-1-1.recovery"), "half of").expect("a file");
+    let mut window = Window::in_folder(folder, |_| Session::new(None));
+    window.settle();
+    assert!(window.says("what was kept cannot be read"));
+    assert!(!window.has("Recover"));
+    window.press("Let it go");
+    window.press("Let it go for good");
+    assert!(!window.says("what was kept cannot be read"));
+    assert_eq!(fs::read_dir(&unsaved).expect("a folder").count(), 0);
+}
+
+#[test]
 fn keys_of_the_window_are_heard_while_a_text_is_typed_and_letters_are_not() {
     let mut window = Window::opened(CLOUDS);
     window.mute();

@@ -4,7 +4,7 @@ use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable;
 use sabi_graph::NodeId;
 
-use super::Window;
+use super::{Editor, Window};
 use crate::action::Shelf;
 use crate::dock::Panel;
 
@@ -94,6 +94,30 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
         .map(|candidate| candidate.section.clone())
         .collect();
     assert_eq!(sections, ["groups here", "project library"]);
+}
+
+#[test]
+fn the_library_follows_its_folder_and_says_what_there_cannot_be_read() {
+    let mut window = Window::of(GROUPED);
+    let library = window.path("library");
+    std::fs::create_dir_all(&library).expect("a folder");
+    let is_there = |editor: &Editor| {
+        let mut found = editor.candidates().iter();
+        found.any(|candidate| candidate.section == "project library")
+    };
+    window.until("the watch", |editor| editor.watching.is_watching());
+    // As another program puts it there.
+    let group = r#"{ "format": "sabi", "version": 1, "outputs": { "mask": "n" },
+        "nodes": { "n": { "kind": "noise/cells" } } }"#;
+    let file = library.join("wear.sabi");
+    std::fs::write(&file, group).expect("a file");
+    window.until("the group", is_there);
+    std::fs::write(&file, "half of").expect("a file");
+    window.until("its end", |editor| !is_there(editor));
+    assert!(window.says("wear.sabi"), "{:?}", window.labels());
+    std::fs::write(&file, group).expect("a file");
+    window.until("the group", is_there);
+    assert!(!window.says("wear.sabi"));
 }
 
 #[test]

@@ -1,21 +1,21 @@
 //! A node file that is being written, with what is wrong with it at every letter.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use egui::{RichText, TextEdit, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_engine::{NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id};
+use sabi_engine::{NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id};
 
 use super::code;
-use crate::action::{Action, NodeText};
+use crate::action::Action;
 use crate::desk::Desk;
 use crate::theme::{Theme, space};
 
 /// A node file that is being written.
 pub(crate) struct Draft {
-    id: String,
-    text: String,
-    folder: PathBuf,
+    node: NodeDraft,
+    /// How often something was written.
+    edits: u64,
     /// Whether the text is as the file has it.
     pub(super) is_saved: bool,
     /// Whether something was written that no file has.
@@ -25,8 +25,6 @@ pub(crate) struct Draft {
     /// Of this id and text.
     faults: Vec<NodeTextFault>,
     why_no_id: Option<String>,
-    /// What its file is known to hold; none before it is written for the first time.
-    known: Option<String>,
 }
 
 /// Whether a draft is left.
@@ -40,12 +38,20 @@ pub(super) enum Left {
 
 impl Draft {
     pub(super) fn id(&self) -> &str {
-        &self.id
+        &self.node.id
+    }
+
+    pub(super) fn node(&self) -> &NodeDraft {
+        &self.node
+    }
+
+    pub(super) fn edits(&self) -> u64 {
+        self.edits
     }
 
     /// Whether it is of a node in a folder.
     pub(super) fn is_of(&self, folder: &Path, id: &str) -> bool {
-        self.folder == folder && self.id == id
+        self.node.folder == folder && self.node.id == id
     }
 
     /// Whether something was written that its file does not hold.
@@ -55,13 +61,14 @@ impl Draft {
 
     /// Whether another one is of the same node.
     pub(super) fn is_like(&self, other: &Draft) -> bool {
-        self.is_of(&other.folder, &other.id)
+        self.is_of(&other.node.folder, &other.node.id)
     }
 
     /// The text changed.
     fn written(&mut self, desk: &Desk) {
         self.is_saved = false;
         self.is_written = true;
+        self.edits += 1;
         self.check(desk);
     }
 
@@ -72,8 +79,13 @@ impl Draft {
         let numbered = (2..).map(|number| format!("{id}_{number}"));
         let mut ids = std::iter::once(format!("{id}_own")).chain(numbered);
         let id = ids.find(|id| why_no_node_id(kinds, &folder, id).is_none())?;
-        let text = node_text_like(text, &id);
-        Some(Draft::checked(desk, id, text, folder, false))
+        let node = NodeDraft {
+            text: node_text_like(text, &id),
+            folder,
+            id,
+            known: None,
+        };
+        Some(Draft::checked(desk, node, false))
     }
 
     /// The file of one of the artist's own nodes, as it is by now, which need not be the last one without a fault.
@@ -85,28 +97,38 @@ impl Draft {
         let folder = kinds.own_folder(desk.session.file(), id);
         let folder = folder.ok_or_else(|| format!("'{id}' is no node of your own; begin a new one from it"))?;
         let text = read_node(&folder, id).map_err(|error| error.to_string())?;
-        let mut draft = Draft::checked(desk, id.to_owned(), text, folder, true);
-        draft.known = Some(draft.text.clone());
-        Ok(draft)
+        let node = NodeDraft {
+            folder,
+            id: id.to_owned(),
+            known: Some(text.clone()),
+            text,
+        };
+        Ok(Draft::checked(desk, node, true))
+    }
+
+    /// One that was being written when the program ended.
+    pub(super) fn recovered(desk: &Desk, node: NodeDraft) -> Draft {
+        Draft {
+            is_written: true,
+            ..Draft::checked(desk, node, false)
+        }
     }
 
     /// The file has this text now.
     pub(super) fn was_saved(&mut self) {
         self.is_saved = true;
-        self.known = Some(self.text.clone());
+        self.node.known = Some(self.node.text.clone());
     }
 
-    fn checked(desk: &Desk, id: String, text: String, folder: PathBuf, is_saved: bool) -> Draft {
+    fn checked(desk: &Desk, node: NodeDraft, is_saved: bool) -> Draft {
         let mut draft = Draft {
-            id,
-            text,
-            folder,
+            node,
+            edits: 0,
             is_saved,
             is_written: false,
             asks: false,
             faults: Vec::new(),
             why_no_id: None,
-            known: None,
         };
         draft.check(desk);
         draft
@@ -114,8 +136,9 @@ impl Draft {
 
     fn check(&mut self, desk: &Desk) {
         let kinds = desk.kinds().0;
-        self.why_no_id = why_no_node_id(kinds, &self.folder, &self.id);
-        self.faults = check_node(kinds, &self.folder, &self.id, &self.text);
+        let NodeDraft { folder, id, text, .. } = &self.node;
+        self.why_no_id = why_no_node_id(kinds, folder, id);
+        self.faults = check_node(kinds, folder, id, text);
     }
 
     /// Shows it; says whether it is left.
@@ -132,7 +155,7 @@ impl Draft {
         self.told(ui, theme);
         let faulty: Vec<u32> = self.faults.iter().map(|fault| fault.line).collect();
         ui.separator();
-        if code::edit(ui, theme, &mut self.text, &faulty) {
+        if code::edit(ui, theme, &mut self.node.text, &faulty) {
             self.written(desk);
         }
         left
@@ -140,7 +163,7 @@ impl Draft {
 
     /// Whether what was written may be lost.
     fn question(&mut self, ui: &mut Ui, theme: &Theme, left: Left) -> Left {
-        let text = format!("What was written for '{}' is in no file.", self.id);
+        let text = format!("What was written for '{}' is in no file.", self.node.id);
         ui.add(egui::Label::new(RichText::new(text).color(theme.warning)).wrap());
         ui.horizontal(|ui| {
             if ui.button("Lose it").clicked() {
@@ -162,24 +185,20 @@ impl Draft {
             let aside = aside.on_hover_text("Shows the page of the selected node; what is written here is kept");
             let can_save = self.why_no_id.is_none() && !self.is_saved;
             let save = ui.add_enabled(can_save, egui::Button::new("Save node"));
-            let place = self.folder.display().to_string();
+            let place = self.node.folder.display().to_string();
             if save.on_hover_text(format!("Writes it into {place}")).clicked() {
-                actions.push(Action::SaveNode(NodeText {
-                    folder: self.folder.clone(),
-                    id: self.id.clone(),
-                    text: self.text.clone(),
-                    known: self.known.clone(),
-                }));
+                actions.push(Action::SaveNode(self.node.clone()));
             }
-            let before = self.id.clone();
-            let field = TextEdit::singleline(&mut self.id).desired_width(ui.available_width() - space::USUAL);
+            let node = &mut self.node;
+            let before = node.id.clone();
+            let field = TextEdit::singleline(&mut node.id).desired_width(ui.available_width() - space::USUAL);
             let field = ui.add(field);
             field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Id of the node"));
             if field.changed() {
-                self.known = None;
+                node.known = None;
                 // A title that nobody wrote follows the name.
-                if node_text_like(&self.text, &before) == self.text {
-                    self.text = node_text_like(&self.text, &self.id);
+                if node_text_like(&node.text, &before) == node.text {
+                    node.text = node_text_like(&node.text, &node.id);
                 }
                 self.written(desk);
             }

@@ -351,7 +351,7 @@ impl Hands {
                 let _ = self.desk.save();
             }
             _ => {
-                self.desk.session.keep().expect("a writable folder");
+                self.desk.session.keep(&[]).expect("a writable folder");
             }
         }
     }
