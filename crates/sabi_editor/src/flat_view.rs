@@ -172,6 +172,12 @@ impl FlatView {
         square
     }
 
+    /// Whether a picture is shown.
+    #[cfg(test)]
+    pub(crate) fn has_picture(&self) -> bool {
+        self.shown.is_some()
+    }
+
     /// Does what a key means here.
     pub(crate) fn command(&mut self, command: Command) {
         match command {

@@ -1,15 +1,23 @@
-//! `cargo xtask bless KIND`: writes the goldens of a node again.
+//! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window.
 
 use crate::place::{Place, Stop, finish};
 use crate::vulkan::{self, Driver};
 
-/// Writes the goldens of a kind, or of all.
+/// Writes the goldens of a kind or of all, or the pictures of the window.
 pub(crate) fn run(place: &Place, kind: Option<&str>) -> Result<(), Stop> {
     let Some(kind) = kind else {
-        let advice = "Which node? Say `cargo xtask bless noise/simplex`, or `cargo xtask bless all`.";
+        let advice = "Which node? Say `cargo xtask bless noise/simplex`, `cargo xtask bless all`, or `cargo xtask bless window`.";
         return Err(Stop::new(2, advice.to_owned()));
     };
     vulkan::ensure(place, Driver::Software)?;
+    if kind == "window" {
+        let tests = ["test", "--workspace", "--lib", "app::tests::snapshots"];
+        let mut command = place.cargo(&tests)?;
+        command.env("UPDATE_SNAPSHOTS", "true");
+        finish(command, "The pictures of the window")?;
+        tell("crates/sabi_editor/tests/snapshots");
+        return Ok(());
+    }
     let test = [
         "test",
         "--package",
@@ -23,6 +31,10 @@ pub(crate) fn run(place: &Place, kind: Option<&str>) -> Result<(), Stop> {
     let mut command = place.cargo(&test)?;
     command.env("SABI_BLESS", kind);
     finish(command, "The goldens")?;
-    eprintln!("Written below tests/golden: look at what `git diff --stat` lists before you commit it.");
+    tell("tests/golden");
     Ok(())
+}
+
+fn tell(folder: &str) {
+    eprintln!("Written below {folder}: look at what `git diff --stat` lists before you commit it.");
 }

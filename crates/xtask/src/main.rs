@@ -22,7 +22,7 @@ cargo xtask demo      set up, build in release, bake the example bench into out/
 cargo xtask test      set up, then format check, clippy, tests, doc tests and documentation
 cargo xtask assets    write the project's own models into assets/meshes again; with --million [FILE],
                       write only the figure in a million triangles, into target/meshes or FILE
-cargo xtask bless K   write the goldens of node kind K again, or of all
+cargo xtask bless K   write the goldens of node kind K again, of all, or pictures of the window
 cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
 cargo xtask pictures  draw the example graphs on three models each into docs/pictures; with names only theirs
 ";

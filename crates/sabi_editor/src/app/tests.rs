@@ -23,6 +23,7 @@ mod panels;
 mod pictures;
 mod ports;
 mod safety;
+mod snapshots;
 mod views;
 mod watching;
 mod wires;

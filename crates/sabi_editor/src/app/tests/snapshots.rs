@@ -1,0 +1,107 @@
+//! What parts of the window look like, beside pictures that somebody looked at: `crates/sabi_editor/tests/snapshots/`.
+//!
+//! `cargo xtask bless window` writes them again. A texel may differ by what drivers round differently, and a few of the
+//! letters' edges by more.
+
+use egui::{Key, Rect, vec2};
+use egui_kittest::{SnapshotOptions, SnapshotResult, SnapshotResults, try_image_snapshot_options};
+
+use super::Window;
+use super::hands::id;
+use crate::desk::TITLE_HEIGHT;
+use crate::dock::Panel;
+use crate::theme::Shade;
+
+const NODES: &str = r##"
+    "clouds": { "kind": "noise/simplex", "label": "Clouds", "pos": [0, 0] },
+    "tones": { "kind": "color/gradient", "label": "Tones", "inputs": { "source": "clouds" }, "pos": [300, 0] },
+    "bend": { "kind": "adjust/curve", "label": "Bend", "inputs": { "source": "clouds" }, "pos": [300, 300] },
+    "rust": { "kind": "effect/layer", "label": "Rust", "inputs": { "mask": "bend" }, "pos": [600, 0] }
+"##;
+
+impl Window {
+    /// A window of this shade that shows a node's knobs and its result, with the pointer over nothing.
+    fn on(node: &str, shade: Shade) -> Window {
+        let mut window = Window::opened(NODES);
+        let context = window.harness.ctx.clone();
+        let editor = window.harness.state_mut();
+        editor.settings.shade = shade;
+        editor.take_settings(&context);
+        editor.look_at(&id(node), None);
+        editor.desk.select([id(node)]);
+        context.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
+        window.harness.event(egui::Event::PointerGone);
+        window.until("rest", |editor| {
+            let has_picture = |id: &str| editor.thumbnail_of(&id.parse().expect("an id")).is_some();
+            let is_drawn = has_picture(node) && editor.model_view.drawn > 0;
+            is_drawn && editor.stage.inspected.is_some() && !editor.stage.is_busy()
+        });
+        window
+    }
+
+    /// The upper left of a panel, at most so large.
+    fn part_of(&self, panel: Panel, largest: [f32; 2]) -> Rect {
+        let panel = self.editor().rects[&panel];
+        Rect::from_min_size(panel.min, panel.size().min(largest.into()))
+    }
+
+    /// Compares a part of the screen with the picture of that name.
+    fn compare(&mut self, name: &str, part: Rect) -> SnapshotResult {
+        // What moves comes to rest.
+        self.harness.run_steps(30);
+        let picture = self.harness.render().expect("a picture of the window");
+        let [left, top] = [part.left(), part.top()].map(|at| at.round() as u32);
+        let [width, height] = [part.width(), part.height()].map(|side| side.round() as u32);
+        let part = image::imageops::crop_imm(&picture, left, top, width, height).to_image();
+        let options = SnapshotOptions::new()
+            .threshold(1.0)
+            .failed_pixel_count_threshold((width * height / 500) as usize);
+        try_image_snapshot_options(&part, name, &options)
+    }
+}
+
+#[test]
+fn knobs_look_as_they_did() {
+    let mut results = SnapshotResults::new();
+    for (node, shade, name) in [
+        ("rust", Shade::Dark, "knobs_of_a_layer"),
+        ("rust", Shade::Light, "knobs_of_a_layer_on_light"),
+        ("tones", Shade::Dark, "knobs_of_a_gradient"),
+        ("bend", Shade::Dark, "knobs_of_a_curve"),
+    ] {
+        let mut window = Window::on(node, shade);
+        let part = window.part_of(Panel::Parameters, [360.0, 260.0]);
+        results.add(window.compare(name, part));
+    }
+}
+
+#[test]
+fn a_node_looks_as_it_did_below_its_title_where_no_time_stands() {
+    let mut results = SnapshotResults::new();
+    for (shade, name) in [(Shade::Dark, "node"), (Shade::Light, "node_on_light")] {
+        let mut window = Window::on("rust", shade);
+        let mut part = window.rect(&id("rust")).expand2(vec2(8.0, 4.0));
+        part.min.y += TITLE_HEIGHT * window.zoom();
+        results.add(window.compare(name, part));
+    }
+}
+
+#[test]
+fn the_add_menu_looks_as_it_did() {
+    let mut window = Window::on("rust", Shade::Dark);
+    let at = window.on_canvas([0.05, 0.1]);
+    window.point(at);
+    window.key(Key::Tab);
+    window.typed("blur");
+    let part = Rect::from_min_size(at, vec2(400.0, 112.0));
+    window.compare("add_menu", part).expect("the same picture");
+}
+
+#[test]
+fn a_texture_with_its_histogram_looks_as_it_did() {
+    let mut window = Window::on("clouds", Shade::Dark);
+    window.until("its picture", |editor| editor.flat_view.has_picture());
+    let panel = window.editor().rects[&Panel::Flat];
+    let part = Rect::from_min_max(panel.max - vec2(300.0, 200.0), panel.max);
+    window.compare("texture", part).expect("the same picture");
+}
