@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use egui::{
     Align2, Color32, ColorImage, FontId, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui,
-    Vec2, WidgetInfo, WidgetType, pos2, vec2,
+    UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
 use sabi_engine::{Inspected, LiveModel, SetKey};
@@ -204,8 +204,11 @@ impl FlatView {
                 self.sets(ui, model);
             }
             let Some(values) = values else { return };
-            self.planes(ui, values);
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            // By names of their own: a click on them counts whatever comes and goes beside them meanwhile.
+            let named = |name: &str| UiBuilder::new().id(egui::Id::new(("texture", name)));
+            ui.scope_builder(named("planes"), |ui| self.planes(ui, values));
+            let right = named("switches").layout(egui::Layout::right_to_left(egui::Align::Center));
+            ui.scope_builder(right, |ui| {
                 ui.toggle_value(&mut self.has_wires, "UV");
                 ui.toggle_value(&mut self.is_tiled, "Tile");
                 ui.colored_label(subject.theme.quiet, format!("{0} × {0}", values.size));
