@@ -267,10 +267,15 @@ impl Session {
     ///
     /// In another folder, relative paths are written so that they lead where they led before. That is no step of its own:
     /// what can be undone and done again is rewritten with it, so that every state before and after the save names the same
-    /// files as ever, by their paths from the new folder.
+    /// files as ever, by their paths from the new folder. In the first file of a graph, absolute paths to what is near it
+    /// become relative, so that a project can be moved.
     pub fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
         self.end();
-        let moving = Moving::between(self.open.folder(), path.parent().unwrap_or(Path::new("")));
+        let moving = Moving::between(
+            self.open.folder(),
+            path.parent().unwrap_or(Path::new("")),
+            self.file.is_none(),
+        );
         let moved = moving.map(|moving| {
             let document = moving.relocate(|relocation| self.open.document.relocated(relocation));
             (moving, document)

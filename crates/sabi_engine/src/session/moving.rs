@@ -12,15 +12,17 @@ use crate::source;
 pub(super) struct Moving {
     from: PathBuf,
     to: PathBuf,
+    /// Whether the graph gets its first file: until then it had no folder that paths could begin at.
+    is_first: bool,
     /// Parameters that are paths of files, by kind. Nodes in WGSL name no files.
     files: BTreeMap<String, Vec<String>>,
 }
 
 impl Moving {
-    /// The way between two folders; none where both are the same.
-    pub(super) fn between(from: &Path, to: &Path) -> Option<Moving> {
+    /// The way between two folders; none where both are the same, unless the graph gets its first file there.
+    pub(super) fn between(from: &Path, to: &Path, is_first: bool) -> Option<Moving> {
         let [from, to] = [from, to].map(real);
-        if from == to {
+        if from == to && !is_first {
             return None;
         }
         let files = source::kinds().into_iter().map(|(id, kind)| {
@@ -28,13 +30,18 @@ impl Moving {
             (id, files.map(|param| param.name).collect())
         });
         let files = files.collect();
-        Some(Moving { from, to, files })
+        Some(Moving {
+            from,
+            to,
+            is_first,
+            files,
+        })
     }
 
     /// What is done with this move as a relocation.
     pub(super) fn relocate<T>(&self, done: impl FnOnce(Relocation<'_>) -> T) -> T {
         let is_file = |kind: &str, param: &str| self.is_file(kind, param);
-        let moved = |path: &str| moved(path, &self.from, &self.to);
+        let moved = |path: &str| moved(path, &self.from, &self.to, self.is_first);
         done(Relocation {
             is_file: &is_file,
             moved: &moved,
@@ -76,16 +83,22 @@ fn plain(path: &Path) -> PathBuf {
 }
 
 /// A path out of a file in folder `from` as a file in folder `to` writes it: relative where both lie on one drive. Absolute
-/// paths, and those of nothing, stay.
-fn moved(path: &str, from: &Path, to: &Path) -> String {
+/// paths stay, since whoever wrote them wanted them so, except in a graph's `first` file, as far as they share more than the
+/// root with its folder. Those of nothing stay.
+fn moved(path: &str, from: &Path, to: &Path, is_first: bool) -> String {
     let written = path.replace('\\', "/");
     let has_drive = written.as_bytes().get(1) == Some(&b':');
-    if path.trim().is_empty() || written.starts_with('/') || has_drive {
+    let is_absolute = written.starts_with('/') || has_drive;
+    if path.trim().is_empty() || is_absolute && !is_first {
         return path.to_owned();
     }
     let target = plain(&from.join(&written));
     let [there, here] = [target.components(), to.components()].map(Iterator::collect::<Vec<_>>);
     let shared = there.iter().zip(&here).take_while(|(one, other)| one == other).count();
+    let is_near = there[..shared].iter().any(|part| matches!(part, Component::Normal(_)));
+    if is_absolute && !is_near {
+        return path.to_owned();
+    }
     if shared == 0 {
         return slashed(&target);
     }
@@ -117,7 +130,7 @@ mod tests {
             ("", "/w", "/v", ""),
         ] {
             assert_eq!(
-                moved(path, Path::new(from), Path::new(to)),
+                moved(path, Path::new(from), Path::new(to), false),
                 written,
                 "{path} from {from} to {to}"
             );
@@ -125,10 +138,28 @@ mod tests {
     }
 
     #[test]
+    fn the_first_file_of_a_graph_names_what_is_near_by_the_way_there() {
+        for (path, to, written) in [
+            ("/w/assets/a.png", "/w/graphs", "../assets/a.png"),
+            ("/w/a.png", "/w", "a.png"),
+            ("/x/a.png", "/w", "/x/a.png"),
+            ("b/a.png", "/w", "../here/b/a.png"),
+            ("", "/w", ""),
+        ] {
+            assert_eq!(
+                moved(path, Path::new("/here"), Path::new(to), true),
+                written,
+                "{path} in {to}"
+            );
+        }
+    }
+
+    #[test]
     fn only_the_picture_of_an_image_is_a_file() {
-        let moving = Moving::between(Path::new("/w"), Path::new("/v")).unwrap();
+        let moving = Moving::between(Path::new("/w"), Path::new("/v"), false).unwrap();
         assert!(moving.is_file("source/image", "file"));
         assert!(!moving.is_file("source/image", "projection") && !moving.is_file("noise/simplex", "file"));
-        assert!(Moving::between(Path::new("/w/./v"), Path::new("/w/v")).is_none());
+        let stays = |is_first| Moving::between(Path::new("/w/./v"), Path::new("/w/v"), is_first);
+        assert!(stays(false).is_none() && stays(true).is_some());
     }
 }

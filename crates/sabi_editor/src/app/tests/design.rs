@@ -1,6 +1,8 @@
 //! The graph that DESIGN.md begins with, built from nothing.
 
 use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
 
 use egui::{Key, Modifiers, PointerButton};
 use sabi_graph::NodeId;
@@ -8,10 +10,19 @@ use serde_json::{Value as Json, json};
 
 use super::Window;
 
-/// Its nodes and frame, as they stand in DESIGN.md §3.
-fn nodes_and_frames() -> [Json; 2] {
-    [
-        json!({
+/// The graph file, as it stands in DESIGN.md §3.
+fn file_of_the_design() -> Json {
+    json!({
+        "format": "sabi",
+        "version": 1,
+        "name": "Rusty edges",
+        "preview": { "mesh": "../assets/meshes/bench.glb", "size": 1024 },
+        "exposed": { "amount": { "to": ["worn_p2dd.opacity"], "label": "Rust amount", "range": [0, 1] } },
+        "variants": { "heavy": { "amount": 0.9 } },
+        "frames": {
+            "wear_x2c4": { "title": "Where it wears", "color": "#4a5a6a", "nodes": ["edges_k7f2", "grain_m3x9"] }
+        },
+        "nodes": {
             "edges_k7f2": { "kind": "surface/edges", "params": { "width": 0.03 }, "pos": [0, 0] },
             "grain_m3x9": { "kind": "noise/simplex", "params": { "seed": 7 }, "pos": [0, 220] },
             "out": { "kind": "output/material", "inputs": { "material": "rust_a81c" }, "pos": [780, 60] },
@@ -20,11 +31,8 @@ fn nodes_and_frames() -> [Json; 2] {
                 "params": { "color": "#6b3a1e", "roughness": 0.9 }, "pos": [520, 60] },
             "worn_p2dd": { "kind": "blend/mask", "inputs": { "above": "grain_m3x9", "below": "edges_k7f2" },
                 "pos": [260, 80] }
-        }),
-        json!({
-            "wear_x2c4": { "title": "Where it wears", "color": "#4a5a6a", "nodes": ["edges_k7f2", "grain_m3x9"] }
-        }),
-    ]
+        }
+    })
 }
 
 /// Adds a node with its upper left corner at a place of the canvas.
@@ -83,25 +91,74 @@ fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
     ids.into_iter().zip(names).collect()
 }
 
+/// Puts a knob of a node on the panel, and keeps what it was turned to once as a variant.
+fn publish(window: &mut Window, worn: &NodeId) {
+    // Its title is below the node above it.
+    window.click_at(window.rect(worn).center());
+    window.click_with(window.knob("Opacity"), PointerButton::Secondary, Modifiers::NONE);
+    window.press("Put on the panel");
+    window.key(Key::Escape);
+    window.click_at(window.on_canvas([0.97, 0.9]));
+    window.click("Change the panel");
+    window.fill("Label", "Rust amount");
+    window.fill("Name in files", "amount");
+    // The node's own range is the same; it is the graph's own once it was said.
+    window.fill("Highest value", "2");
+    window.fill("Highest value", "1");
+    window.click("Change the panel");
+    window.set_number("Rust amount", "0.9");
+    window.fill("Name of a variant", "heavy");
+    window.click_at(window.rect(worn).center());
+    window.click_at(window.knob("Opacity"));
+    window.key(Key::Backspace);
+}
+
+/// Names the graph, has it worked on finely on a model of its own, and saves it.
+fn settle_down(window: &mut Window) -> PathBuf {
+    let [model, file] = ["assets/meshes/bench.glb", "graphs/rusty.sabi"].map(|path| window.path(path));
+    for path in [&model, &file] {
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+    }
+    fs::copy(window.editor().stage.model_file(), &model).expect("a model");
+    window.click_at(window.on_canvas([0.97, 0.9]));
+    window.click("AS A GROUP");
+    // It opens little by little.
+    window.harness.run_steps(30);
+    window.fill("Name of the graph", "Rusty edges");
+    window.click("512 texels");
+    window.click("1024 × 1024");
+    window.press("Add a model");
+    window.answer_path(&model);
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.answer_path(&file);
+    file
+}
+
 #[test]
-fn the_graph_of_the_design_is_built_from_nothing_and_its_text_is_the_designs() {
-    let mut window = Window::empty();
+fn the_graph_of_the_design_is_built_from_nothing_and_its_file_is_the_designs() {
+    let mut window = Window::untitled();
     window.settle();
     let empty = window.text();
     let names = build(&mut window);
+    assert_eq!(
+        window.steps(),
+        6 + 5 + 6 + 2,
+        "nodes, wires, knobs, and the frame with its name"
+    );
+    let worn = names.iter().find(|(_, name)| **name == "worn_p2dd");
+    publish(&mut window, worn.expect("the blend").0);
+    let file = settle_down(&mut window);
     let built = window.text();
+    assert_eq!(fs::read_to_string(&file).expect("a file"), built);
     let mut text = built.clone();
     for (id, name) in &names {
-        text = text.replace(&format!("\"{id}\""), &format!("\"{name}\""));
+        text = text.replace(&id.to_string(), name);
     }
     let frame = window.desk().graph().frames().keys().next().expect("a frame").clone();
-    text = text.replace(&format!("\"{frame}\""), "\"wear_x2c4\"");
+    text = text.replace(&frame, "wear_x2c4");
     let read: Json = serde_json::from_str(&text).expect("a graph file");
-    let [nodes, frames] = nodes_and_frames();
-    assert_eq!(read["nodes"], nodes, "{text}");
-    assert_eq!(read["frames"], frames);
+    assert_eq!(read, file_of_the_design(), "{text}");
     let steps = window.steps();
-    assert_eq!(steps, 6 + 5 + 6 + 2, "nodes, wires, knobs, and the frame with its name");
     window.undo(steps);
     assert_eq!(window.text(), empty, "as many steps lead back to nothing");
     window.redo(steps);
