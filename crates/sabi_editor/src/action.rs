@@ -10,6 +10,7 @@ use crate::canvas::Way;
 use crate::command::Command;
 use crate::desk::{Loose, Merge, StackEnd};
 use crate::knobs::KnobEvent;
+use crate::reading::Reading;
 
 /// Something that a panel asks for.
 #[derive(Clone, Debug)]
@@ -78,6 +79,8 @@ pub(crate) enum Action {
     OpenFile(PathBuf),
     /// Take another model.
     TakeModel(PathBuf),
+    /// Read the model that is shown otherwise.
+    ReadModel(Reading),
     /// Whatever a file is that was dropped on the window.
     Dropped(PathBuf),
     /// Show a node, which is named as the evaluation names it.

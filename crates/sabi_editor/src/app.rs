@@ -9,6 +9,7 @@ mod keeping;
 mod keys;
 mod looks;
 mod measures;
+mod models;
 mod perform;
 mod rooms;
 #[cfg(test)]
@@ -151,7 +152,8 @@ impl Editor {
         });
         let (watching, fault) = Watching::new(context);
         faults.extend(fault.map(|error| error.to_string()));
-        let stage = Stage::new(gpu, &work.model, beginning.folders.cache.clone(), context);
+        let model = (work.model.as_path(), settings.reading(&work.model));
+        let stage = Stage::new(gpu, model, beginning.folders.cache.clone(), context);
         let mut editor = Editor {
             model_view: ModelView::new(&settings.environment, &settings.view),
             flat_view: FlatView::default(),

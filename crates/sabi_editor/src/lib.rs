@@ -14,6 +14,7 @@ mod model_view;
 mod mouse;
 mod offscreen;
 mod panels;
+mod reading;
 mod search;
 mod settings;
 mod stage;

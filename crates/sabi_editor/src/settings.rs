@@ -10,6 +10,7 @@ use crate::command::Habit;
 use crate::dock::Layout;
 use crate::model_view::ViewChoices;
 use crate::panels::export::{ExportChoices, ExportPlace};
+use crate::reading::Reading;
 use crate::theme::Shade;
 
 const FILE: &str = "settings.json";
@@ -33,6 +34,8 @@ pub(crate) struct Settings {
     pub(crate) recent: Vec<PathBuf>,
     /// Models that graphs are tried on.
     pub(crate) models: Vec<PathBuf>,
+    /// How models are read whose files are read otherwise than others.
+    pub(crate) readings: BTreeMap<PathBuf, Reading>,
     /// Whether pictures on nodes show texture space.
     pub(crate) is_flat: bool,
     pub(crate) export: ExportChoices,
@@ -59,6 +62,7 @@ impl Default for Settings {
             keys: BTreeMap::new(),
             recent: Vec::new(),
             models: Vec::new(),
+            readings: BTreeMap::new(),
             is_flat: false,
             export: ExportChoices::default(),
             export_places: BTreeMap::new(),
@@ -105,7 +109,7 @@ impl Settings {
 
     /// Remembers a file as the last one that was open.
     pub(crate) fn remember(&mut self, file: &Path) {
-        let whole = fs::canonicalize(file).unwrap_or_else(|_| file.to_owned());
+        let whole = whole(file);
         self.recent.retain(|known| *known != whole);
         self.recent.insert(0, whole);
         self.recent.truncate(MOST_RECENT);
@@ -113,17 +117,32 @@ impl Settings {
 
     /// Where textures of a graph went.
     pub(crate) fn export_place(&self, graph: &Path) -> ExportPlace {
-        let whole = fs::canonicalize(graph).unwrap_or_else(|_| graph.to_owned());
+        let whole = whole(graph);
         self.export_places.get(&whole).cloned().unwrap_or_default()
     }
 
     /// Remembers where textures of a graph go, as long as the graph is one of those that were open lately.
     pub(crate) fn remember_export(&mut self, graph: &Path, place: &ExportPlace) {
-        let whole = fs::canonicalize(graph).unwrap_or_else(|_| graph.to_owned());
+        let whole = whole(graph);
         self.export_places.insert(whole.clone(), place.clone());
         let recent = &self.recent;
         self.export_places
             .retain(|graph, _| *graph == whole || recent.contains(graph));
+    }
+
+    /// How a model is read.
+    pub(crate) fn reading(&self, model: &Path) -> Reading {
+        self.readings.get(&whole(model)).copied().unwrap_or_default()
+    }
+
+    /// Remembers how a model is read.
+    pub(crate) fn remember_reading(&mut self, model: &Path, reading: Reading) {
+        let model = whole(model);
+        if reading == Reading::default() {
+            self.readings.remove(&model);
+        } else {
+            self.readings.insert(model, reading);
+        }
     }
 
     fn sound(mut self) -> Settings {
@@ -136,8 +155,16 @@ impl Settings {
         self.recent.truncate(MOST_RECENT);
         self.export = self.export.sound();
         self.view = self.view.sound();
+        self.readings
+            .values_mut()
+            .for_each(|reading| *reading = reading.sound());
         self
     }
+}
+
+/// A file by its one name, where it is there.
+fn whole(file: &Path) -> PathBuf {
+    fs::canonicalize(file).unwrap_or_else(|_| file.to_owned())
 }
 
 /// Where settings are kept.

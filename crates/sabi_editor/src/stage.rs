@@ -1,5 +1,7 @@
 //! The evaluation as the window sees it: what is wished for, and what has come of it.
 
+mod letting_go;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,14 +16,12 @@ use sabi_engine::{
 use sabi_graph::{Document, NodeRef};
 
 use crate::desk::Desk;
+use crate::reading::Reading;
 
 /// Texels for one unit of UV of a first picture.
 const COARSE: u32 = 256;
 /// Texels of full pictures where the graph names no size: what software drivers do in a blink, and what graphics cards do.
 const FULL: [u32; 2] = [512, 1024];
-
-/// Pictures of the model that are kept besides those that are wanted, since one goes back to what one has just seen.
-const KEPT_PICTURES: usize = 6;
 
 /// What a viewport shows of one thing.
 #[derive(Clone)]
@@ -49,6 +49,7 @@ pub(crate) struct Stage {
     live: Live,
     cache_dir: Option<PathBuf>,
     model: Arc<ModelOptions>,
+    reading: Reading,
     model_revision: u64,
     asked: Option<(Asked, Wanted)>,
     graph: Arc<OpenGraph>,
@@ -89,7 +90,12 @@ struct Asked {
 
 impl Stage {
     /// An evaluation on a device; `context` is woken when something comes.
-    pub(crate) fn new(gpu: Arc<Gpu>, model: &Path, cache_dir: Option<PathBuf>, context: &Context) -> Stage {
+    pub(crate) fn new(
+        gpu: Arc<Gpu>,
+        (model, reading): (&Path, Reading),
+        cache_dir: Option<PathBuf>,
+        context: &Context,
+    ) -> Stage {
         let woken = context.clone();
         let options = LiveOptions {
             cache_dir: cache_dir.clone(),
@@ -98,7 +104,8 @@ impl Stage {
         let live = Live::start(gpu.clone(), options, move || woken.request_repaint());
         Stage {
             live,
-            model: Arc::new(model_options(model, FULL[0], cache_dir.as_deref())),
+            model: Arc::new(reading.options(model, FULL[0], cache_dir.as_deref())),
+            reading,
             cache_dir,
             gpu,
             model_revision: 0,
@@ -155,18 +162,39 @@ impl Stage {
         self.live.is_busy()
     }
 
-    /// Takes another model, or the same one anew since its file changed.
-    pub(crate) fn take_model(&mut self, file: &Path) {
-        self.model = Arc::new(model_options(file, self.model.size, self.cache_dir.as_deref()));
+    /// How the model's file is read.
+    pub(crate) fn reading(&self) -> Reading {
+        self.reading
+    }
+
+    /// Takes another model, or the same one otherwise.
+    pub(crate) fn take_model(&mut self, file: &Path, reading: Reading) {
+        self.reading = reading;
+        self.model = Arc::new(self.model_at(file, self.model.size));
         self.model_revision += 1;
         self.model_failure = None;
+    }
+
+    /// Takes the same model anew, since its file changed.
+    pub(crate) fn reread_model(&mut self) {
+        let file = self.model_file().to_owned();
+        self.take_model(&file, self.reading);
+    }
+
+    /// The model as it is read, at a size.
+    pub(crate) fn model_of_size(&self, size: u32) -> ModelOptions {
+        self.model_at(self.model_file(), size)
+    }
+
+    fn model_at(&self, file: &Path, size: u32) -> ModelOptions {
+        self.reading.options(file, size, self.cache_dir.as_deref())
     }
 
     /// Asks for what is wanted of the graph, if it is anything new.
     pub(crate) fn ask(&mut self, desk: &Desk, wanted: Wanted) {
         let size = self.wanted_size(desk);
         if size != self.model.size {
-            self.model = Arc::new(model_options(&self.model.path, size, self.cache_dir.as_deref()));
+            self.model = Arc::new(self.model_of_size(size));
             self.model_revision += 1;
         }
         let (kinds, kinds_revision) = desk.kinds();
@@ -299,51 +327,6 @@ impl Stage {
         self.faults = faults;
     }
 
-    /// Lets go of what nobody wants and nobody will want soon: of nodes that are gone, of other models, of long ago.
-    fn let_go(&mut self, desk: &Desk, wanted: &Wanted) {
-        let mut numbers: Vec<u64> = self.pictures.values().map(|picture| picture.number).collect();
-        numbers.sort_unstable();
-        let oldest = numbers.len().saturating_sub(KEPT_PICTURES + wanted.seen.len());
-        let oldest = numbers.get(oldest).copied().unwrap_or_default();
-        let revision = self.model_revision;
-        let is_kept = |seen: &Seen, picture: &Picture| {
-            let is_there = match seen {
-                Seen::Outputs => true,
-                Seen::Node(node) => desk.has(&node.node),
-            };
-            is_there && picture.number >= oldest && picture.model.model_revision == revision
-        };
-        let gone = self.pictures.iter();
-        let gone = gone.filter(|(seen, picture)| !wanted.seen.contains(seen) && !is_kept(seen, picture));
-        let gone: Vec<Seen> = gone.map(|(seen, _)| seen.clone()).collect();
-        let nodes = self.thumbnails.keys();
-        let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !desk.has(&node.node));
-        let nodes: Vec<NodeRef> = nodes.cloned().collect();
-        self.times.retain(|node, _| desk.has(node));
-        self.forget(gone, nodes);
-    }
-
-    /// Lets go of all pictures of nodes, since another graph is opened.
-    pub(crate) fn forget_nodes(&mut self) {
-        let seen = self.pictures.keys().filter(|seen| **seen != Seen::Outputs);
-        let (seen, nodes) = (seen.cloned().collect(), self.thumbnails.keys().cloned().collect());
-        self.times.clear();
-        self.forget(seen, nodes);
-    }
-
-    /// Lets go of pictures, which come again once they are wanted again.
-    fn forget(&mut self, seen: Vec<Seen>, nodes: Vec<NodeRef>) {
-        for seen in &seen {
-            self.pictures.remove(seen);
-        }
-        for node in &nodes {
-            self.thumbnails.remove(node);
-        }
-        if !seen.is_empty() || !nodes.is_empty() {
-            self.live.forget(seen, nodes);
-        }
-    }
-
     /// What a viewport shows; while nothing came of it yet, nothing.
     pub(crate) fn picture(&self, seen: &Seen) -> Option<&Picture> {
         self.pictures.get(seen)
@@ -379,12 +362,5 @@ impl Stage {
     /// How long each node took when it was last evaluated.
     pub(crate) fn times(&self) -> &BTreeMap<String, Duration> {
         &self.times
-    }
-}
-
-fn model_options(file: &Path, size: u32, cache_dir: Option<&Path>) -> ModelOptions {
-    ModelOptions {
-        cache_dir: cache_dir.map(Path::to_owned),
-        ..ModelOptions::new(file, size)
     }
 }

@@ -67,8 +67,7 @@ impl Editor {
             self.desk.take_kinds(kinds);
         }
         if changes.model {
-            let model = self.stage.model_file().to_owned();
-            self.stage.take_model(&model);
+            self.stage.reread_model();
         }
         let Some(followed) = &self.watching.followed else {
             return;

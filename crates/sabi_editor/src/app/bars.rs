@@ -9,7 +9,6 @@ use super::{Editor, NOTICE_LASTS, dress};
 use crate::action::Action;
 use crate::command::{Command, Habit, KeyMap};
 use crate::dock::{self, Panel};
-use crate::settings::MOST_MODELS;
 use crate::theme::{Shade, Theme, space, type_size};
 
 impl Editor {
@@ -162,44 +161,6 @@ impl Editor {
         for fault in faults {
             self.say(fault);
         }
-    }
-
-    /// The models that the graph is tried on.
-    pub(super) fn model_strip(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        let frame = Frame::new()
-            .fill(self.theme.panel)
-            .inner_margin(egui::Margin::symmetric(6, 3));
-        egui::Panel::top("models")
-            .frame(frame)
-            .show_separator_line(false)
-            .show(ui, |ui| {
-                ui.horizontal(|ui| {
-                    let mut gone = None;
-                    for (at, model) in self.settings.models.iter().enumerate() {
-                        let name = model.file_stem().unwrap_or_default().to_string_lossy();
-                        let is_shown = self.stage.model_file() == model;
-                        let response = ui.selectable_label(is_shown, format!("{} {name}", icon::CUBE));
-                        if response.clicked() {
-                            actions.push(Action::TakeModel(model.clone()));
-                        }
-                        response.on_hover_text(model.display().to_string()).context_menu(|ui| {
-                            if ui.button("Take off the strip").clicked() {
-                                gone = Some(at);
-                            }
-                        });
-                    }
-                    if let Some(at) = gone {
-                        self.settings.models.remove(at);
-                    }
-                    let add = ui
-                        .button(icon::PLUS)
-                        .on_hover_text(format!("Add a model, up to {MOST_MODELS}"));
-                    add.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, "Add a model"));
-                    if add.clicked() {
-                        self.files.ask_for_model();
-                    }
-                });
-            });
     }
 
     /// The path into groups.

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Seams, WorkpieceOptions,
-    bake_graph, default_padding, needs_force,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, Overrides, Seams, WorkpieceOptions, bake_graph,
+    default_padding, needs_force,
 };
 
 use super::Editor;
@@ -99,12 +99,10 @@ impl Editor {
     /// What the export panel says, for the model and the device of the window.
     pub(super) fn bake_request(&self, output: PathBuf, force: bool) -> BakeRequest {
         let export = &self.settings.export;
-        let mut model = ModelOptions::new(self.stage.model_file(), export.size);
-        model.cache_dir = self.stage.cache_dir().map(Path::to_owned);
         BakeRequest {
             graph: self.desk.session.graph().path.clone(),
             workpiece: WorkpieceOptions {
-                model,
+                model: self.stage.model_of_size(export.size),
                 overrides: Overrides::default(),
                 fit: None,
                 adapter: AdapterChoice::Named(self.stage.gpu().summary().name.clone()),

@@ -2,8 +2,6 @@
 
 mod publishing;
 
-use std::path::Path;
-
 use egui::Ui;
 use sabi_graph::{NodeId, SlotRef};
 
@@ -72,6 +70,7 @@ impl Editor {
             }
             Action::OpenFile(path) => self.files.ask_next(&mut self.desk, Next::Open(path)),
             Action::TakeModel(path) => self.take_model(&path),
+            Action::ReadModel(reading) => self.read_model(reading),
             Action::Dropped(path) => self.take_dropped_file(&path, ui),
             Action::GoTo(node) => self.go_to(&node),
             Action::Steps(steps) => self.go_steps(steps),
@@ -309,24 +308,6 @@ impl Editor {
         match self.desk.copied() {
             Some(text) => ui.ctx().copy_text(text),
             None => self.say("Select the nodes to copy first"),
-        }
-    }
-
-    /// Takes another model, and remembers it on the strip.
-    pub(crate) fn take_model(&mut self, path: &Path) {
-        self.stage.take_model(path);
-        self.remember_model();
-    }
-
-    /// Puts the model that is shown on the strip.
-    pub(super) fn remember_model(&mut self) {
-        let model = self.stage.model_file().to_owned();
-        let models = &mut self.settings.models;
-        if !models.contains(&model) {
-            models.push(model);
-        }
-        if models.len() > crate::settings::MOST_MODELS {
-            models.remove(0);
         }
     }
 

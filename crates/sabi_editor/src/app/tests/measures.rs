@@ -1,5 +1,6 @@
 //! What holds for all of a graph.
 
+use sabi_engine::{Overlap, Session, Up};
 use sabi_graph::Fit;
 
 use super::Window;
@@ -25,4 +26,39 @@ fn what_a_length_of_one_is_can_be_chosen_and_taken_back() {
     assert_eq!(window.desk().document().fit, Fit::Length(0.1));
     window.undo(2);
     assert_eq!(window.desk().document().fit, Fit::Unit);
+}
+
+#[test]
+fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
+    let mut window = Window::opened("");
+    let is_there = |editor: &super::Editor| editor.stage.loaded_model().1;
+    window.until("the model", is_there);
+    window.click("How the model is read");
+    window.click("+Z");
+    window.click("the mean of all");
+    window.until("the model", is_there);
+    let reading = window.editor().stage.reading();
+    assert_eq!((reading.up, reading.overlap), (Up::Z, Overlap::Merge));
+    let request = window.editor().bake_request("maps".into(), false);
+    assert_eq!(request.workpiece.model.up, Up::Z);
+    assert_eq!(request.workpiece.model.overlap, Overlap::Merge);
+    window.fill("UV set", "3");
+    window.until("why not", |editor| editor.stage.model_failure.is_some());
+    let why = window.editor().stage.model_failure.clone().unwrap_or_default();
+    assert!(why.contains("UV set 3"), "{why}");
+    assert!(window.editor().stage.shown_model.is_some(), "the last good one stays");
+    window.click("As the file has it");
+    window.until("the model", is_there);
+    assert!(window.editor().settings.readings.is_empty());
+    window.click("+X");
+    window.harness.state_mut().keeping.every = std::time::Duration::ZERO;
+    window.settle();
+    let Window { harness, folder, .. } = window;
+    drop(harness);
+    let window = Window::in_folder(folder, |_| Session::new(None));
+    assert_eq!(
+        window.editor().stage.reading().up,
+        Up::X,
+        "another window reads it so, too"
+    );
 }
