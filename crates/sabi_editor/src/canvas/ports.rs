@@ -123,14 +123,17 @@ pub(super) fn show(
     }
 }
 
+/// Shows an output's result; a click on an input is one on its node, of which it is a part.
 pub(super) fn clicked(place: &Place, actions: &mut Vec<Action>) {
     actions.push(Action::Select(vec![place.node().clone()]));
-    if let Place::Output(from) = place {
-        actions.push(Action::Show {
-            node: from.node.clone(),
-            port: from.port.clone(),
-        });
-    }
+    let port = match place {
+        Place::Output(from) => from.port.clone(),
+        Place::Input(_) => None,
+    };
+    actions.push(Action::Show {
+        node: place.node().clone(),
+        port,
+    });
 }
 
 /// The name of a port for those who do not see it.

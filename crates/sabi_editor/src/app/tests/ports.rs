@@ -93,3 +93,13 @@ fn the_main_graph_is_named_and_can_be_a_group_for_others() {
     window.choose("wear, output Mask, mask", "Publish as output of the graph");
     assert_eq!(window.editor().desk.group_outputs()["mask"].to_string(), "g.mask");
 }
+
+#[test]
+fn a_click_on_an_input_is_one_on_its_node() {
+    let mut window = Window::of(GROUPED);
+    let group = "g".parse().expect("an id");
+    window.click_at(window.port(&group, "where"));
+    assert_eq!(window.editor().desk.selected_one(), Some(&group));
+    let shown = window.editor().inspected().map(|shown| shown.node.clone());
+    assert_eq!(shown.as_deref(), Some("g"));
+}
