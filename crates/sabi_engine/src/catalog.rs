@@ -2,6 +2,7 @@
 
 mod faces;
 mod knob;
+mod picture;
 #[cfg(test)]
 mod tests;
 
@@ -14,6 +15,7 @@ use sabi_plan::{SourceKind, SourcePort};
 
 pub use faces::{Faces, ReadGroup};
 pub use knob::Knob;
+pub use picture::picture_of;
 pub use sabi_nodes::curve_points;
 pub use sabi_nodes::kind::Role as KnobRole;
 

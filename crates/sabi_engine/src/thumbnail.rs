@@ -20,9 +20,14 @@ const KIND: Kind = Kind {
 
 /// The middle square of a picture, 128 pixels wide or as wide as it is.
 pub fn thumbnail_of(picture: &Pixels) -> Pixels {
+    smaller(picture, SIDE)
+}
+
+/// The middle square of a picture, so many pixels wide or as wide as it is.
+pub(crate) fn smaller(picture: &Pixels, side: u32) -> Pixels {
     let [width, height] = picture.size.map(|side| side as usize);
     let square = width.min(height);
-    let side = square.min(SIDE as usize);
+    let side = square.min(side as usize);
     let corner = [(width - square) / 2, (height - square) / 2];
     let mut rgba = Vec::with_capacity(side * side * 4);
     for y in 0..side {

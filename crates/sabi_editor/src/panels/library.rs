@@ -1,6 +1,7 @@
 //! Everything that can be put into a graph, to be searched, marked and dragged.
 
 mod entry;
+mod pictures;
 
 use std::fs;
 use std::io::ErrorKind;
@@ -16,6 +17,7 @@ use crate::action::{Action, New, Shelf};
 use crate::app::Editor;
 use crate::search::{Candidate, Shelved, ranked};
 use crate::theme::{Theme, space};
+use pictures::Pictures;
 
 /// What a picture of a group in a library is kept as.
 pub(crate) const KEPT_AS: &str = "group";
@@ -27,6 +29,7 @@ pub(crate) struct Library {
     /// Whether files may have changed since they were read.
     is_stale: bool,
     found: Found,
+    pictures: Pictures,
     /// The folders from which they were read.
     read_from: Option<Vec<(Shelf, PathBuf)>>,
 }
@@ -35,6 +38,12 @@ impl Library {
     /// Files may have changed.
     pub(crate) fn forget(&mut self) {
         self.is_stale = true;
+    }
+
+    /// Whether a picture of what a kind does is there.
+    #[cfg(test)]
+    pub(crate) fn has_picture(&self, kind: &str) -> bool {
+        self.pictures.find(kind).is_some()
     }
 
     /// Folders and files that it is read from.
@@ -124,6 +133,8 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
     for fault in &editor.panels.library.found.faults {
         ui.add(egui::Label::new(RichText::new(fault).color(theme.fault)).wrap());
     }
+    let Editor { panels, desk, .. } = editor;
+    panels.library.pictures.poll(ui.ctx(), desk.catalog());
     let query = editor.panels.library.query.clone();
     let all = editor.candidates().to_vec();
     let mut found: Vec<&Candidate> = ranked(&all, &query);
@@ -149,6 +160,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
             }
             let picture = match &candidate.new {
                 New::Library(file) => editor.panels.keepsakes.find(ui.ctx(), file, KEPT_AS),
+                New::Kind(kind) => editor.panels.library.pictures.find(kind),
                 _ => None,
             };
             let shown = entry::Shown {

@@ -5,24 +5,29 @@ mod draft;
 
 use std::path::Path;
 
-use egui::{RichText, Ui, WidgetInfo, WidgetType};
+use egui::{ColorImage, RichText, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use egui_phosphor::regular as icon;
 use sabi_engine::NodeDraft;
-use sabi_engine::catalog::{Entry, Port};
+use sabi_engine::catalog::{Entry, Port, picture_of};
 
 use crate::action::Action;
 use crate::app::Editor;
 use crate::desk::Desk;
-use crate::theme::Theme;
+use crate::theme::{Theme, space};
 pub(crate) use draft::Draft;
 use draft::Left;
+
+/// Pixels along the side of a picture.
+const PICTURE_SIDE: u32 = 240;
 
 /// What the page holds from frame to frame.
 #[derive(Default)]
 pub(crate) struct Page {
     markdown: CommonMarkCache,
     shows_source: bool,
+    /// The picture of a kind, where it has one.
+    picture: Option<(String, Option<TextureHandle>)>,
     /// Node files that are being written.
     drafts: Vec<Draft>,
     /// Which of them is shown, in the place of the selected node.
@@ -90,6 +95,28 @@ impl Page {
         }
     }
 
+    /// What a node does, as far as that can be seen.
+    fn picture(&mut self, ui: &mut Ui, face: &Entry) {
+        if self.picture.as_ref().is_none_or(|(kind, _)| *kind != face.id) {
+            let picture = picture_of(&face.id, PICTURE_SIDE).map(|picture| {
+                let size = picture.size.map(|side| side as usize);
+                let image = ColorImage::from_rgba_unmultiplied(size, &picture.rgba);
+                let name = format!("what {} gives", face.id);
+                ui.ctx().load_texture(name, image, TextureOptions::LINEAR)
+            });
+            self.picture = Some((face.id.clone(), picture));
+        }
+        if let Some((_, Some(picture))) = &self.picture {
+            let side = ui.available_width().min(PICTURE_SIDE as f32);
+            let image = egui::Image::new((picture.id(), egui::Vec2::splat(side)));
+            ui.add(
+                image
+                    .corner_radius(space::CORNER)
+                    .alt_text(format!("What {} gives", face.label)),
+            );
+        }
+    }
+
     /// The ways to drafts that are not shown.
     fn ways(&mut self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
@@ -134,6 +161,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
         if let Some(text) = &face.source {
             file(ui, theme, desk, page, &face.id, text);
         }
+        page.picture(ui, &face);
         if !face.description.is_empty() {
             CommonMarkViewer::new().show(ui, &mut page.markdown, &face.description);
         }

@@ -140,6 +140,20 @@ fn f1_opens_the_page_of_a_node() {
     window.key(Key::F1);
     assert!(window.editor().rects.contains_key(&Panel::Page));
     assert!(window.harness.query_by_label("adjust/levels").is_some());
+    assert!(
+        window.harness.query_by_label("What Levels gives").is_some(),
+        "its picture"
+    );
+}
+
+#[test]
+fn nodes_that_come_with_the_program_have_pictures_in_the_library() {
+    let mut window = Window::empty();
+    window.until("the pictures", |editor| {
+        editor.panels.library.has_picture("adjust/levels")
+    });
+    assert!(window.editor().panels.library.has_picture("noise/cells"));
+    assert!(!window.editor().panels.library.has_picture("graph/reroute"));
 }
 
 #[test]

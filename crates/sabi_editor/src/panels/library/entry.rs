@@ -1,5 +1,6 @@
 //! One entry of the library: a click adds it in the middle of the canvas, a drag where it is dropped.
 
+use egui::epaint::RectShape;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
 use egui_phosphor::regular as icon;
 
@@ -110,7 +111,8 @@ impl Shown<'_> {
             Some(picture) => {
                 let place = Rect::from_min_size(pos2(left, rect.top() + 2.0), Vec2::splat(WITH_PICTURE - 4.0));
                 let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                painter.image(picture, place, whole, Color32::WHITE);
+                let tile = RectShape::filled(place, space::CORNER, Color32::WHITE);
+                painter.add(tile.with_texture(picture, whole));
                 left = place.right() + space::USUAL;
             }
             None => {

@@ -1,0 +1,54 @@
+//! What nodes do, in pictures: those of their pages.
+
+use sabi_image::{Pixels as Samples, decode};
+use sabi_view::Pixels;
+
+use crate::thumbnail::smaller;
+
+include!(concat!(env!("OUT_DIR"), "/pictures.rs"));
+
+/// A square picture of what a node that comes with the program gives first, at most so many pixels along a side; none of nodes
+/// that give nothing to be seen, and of an artist's own.
+pub fn picture_of(kind: &str, side: u32) -> Option<Pixels> {
+    let (_, png) = PICTURES.iter().find(|(id, _)| *id == kind)?;
+    let picture = decode("the picture of a node", png).ok()?;
+    let channels = usize::from(picture.channels);
+    let Samples::U8(samples) = picture.pixels else {
+        return None;
+    };
+    let texel = |texel: &[u8]| match *texel {
+        [gray] => [gray, gray, gray, 255],
+        [gray, alpha] => [gray, gray, gray, alpha],
+        [red, green, blue] => [red, green, blue, 255],
+        [red, green, blue, alpha, ..] => [red, green, blue, alpha],
+        [] => [0; 4],
+    };
+    let whole = Pixels {
+        size: [picture.width, picture.height],
+        rgba: samples.chunks_exact(channels.max(1)).flat_map(texel).collect(),
+    };
+    Some(smaller(&whole, side))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalog::Catalog;
+    use crate::kinds::Kinds;
+
+    #[test]
+    fn every_node_that_gives_something_has_a_picture_of_more_than_its_ground() {
+        for entry in Catalog::new(&Kinds::builtin()).entries() {
+            let is_seen =
+                !entry.outputs.is_empty() && !entry.id.starts_with("graph/") && !entry.id.starts_with("output/");
+            let picture = picture_of(&entry.id, 48);
+            assert_eq!(picture.is_some(), is_seen, "{}", entry.id);
+            if let Some(picture) = picture {
+                assert_eq!(picture.size, [48, 48]);
+                let (pixels, _) = picture.rgba.as_chunks::<4>();
+                assert!(pixels.iter().any(|pixel| *pixel != pixels[0]), "{}", entry.id);
+            }
+        }
+        assert_eq!(picture_of("own/rust", 48), None);
+    }
+}
