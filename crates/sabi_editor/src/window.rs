@@ -41,9 +41,7 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
         None => Session::new(folders.recovery.as_deref()),
     });
     refuse_without_display()?;
-    let mut lost_soon = 0;
-    while lost_soon < MOST_DEVICES {
-        let opened = Instant::now();
+    until_closed(|| {
         // After a loss the work itself is in the handover, with its model.
         let (session, model) = match session.take() {
             Some(session) => {
@@ -58,12 +56,21 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
             folders: folders.clone(),
             is_start: request.graph.is_none(),
         };
+        let opened = Instant::now();
         run(request, beginning, &handover)?;
         let is_lost = handover.lock().is_ok_and(|kept| kept.is_some());
-        if !is_lost {
+        Ok(is_lost.then(|| opened.elapsed()))
+    })
+}
+
+/// Opens windows, each of which says how long it lasted until its device was lost, until one is closed.
+fn until_closed(mut open: impl FnMut() -> Result<Option<Duration>, EngineError>) -> Result<(), EngineError> {
+    let mut lost_soon = 0;
+    while lost_soon < MOST_DEVICES {
+        let Some(lasted) = open()? else {
             return Ok(());
-        }
-        lost_soon = if opened.elapsed() < SOON { lost_soon + 1 } else { 1 };
+        };
+        lost_soon = if lasted < SOON { lost_soon + 1 } else { 1 };
     }
     let why = "the graphics device was lost again and again; what is not saved is offered at the next start. Update the \
                driver, or choose --adapter cpu";
@@ -162,4 +169,34 @@ fn unpacked(folder: &Path) -> Result<PathBuf, EngineError> {
         );
         EngineError::new(ErrorKind::CannotWrite, why)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How often a window is opened whose devices last so long, and how that ends.
+    fn opened(devices: &[Option<Duration>]) -> (usize, Result<(), EngineError>) {
+        let mut left = devices.iter();
+        let ended = until_closed(|| Ok(left.next().copied().flatten()));
+        (devices.len() - left.len(), ended)
+    }
+
+    #[test]
+    fn a_window_comes_back_for_every_device_that_lasted_and_is_given_up_where_each_is_lost_soon() {
+        let (soon, late) = (Some(Duration::from_secs(1)), Some(SOON));
+        assert_eq!(opened(&[None, soon]), (1, Ok(())), "one that is closed stays closed");
+        assert_eq!(opened(&[soon, soon, None]), (3, Ok(())));
+        assert_eq!(opened(&[late; 20]), (20, Ok(())), "and then the next one is closed");
+        let (times, ended) = opened(&[soon, late, soon, soon, soon]);
+        assert_eq!(times, 4, "one that lasted begins the count anew");
+        let why = ended.expect_err("given up").to_string();
+        assert!(why.contains("lost again and again"), "{why}");
+    }
+
+    #[test]
+    fn a_window_that_cannot_be_opened_says_so() {
+        let why = EngineError::new(ErrorKind::NoAdapter, "there is no display");
+        assert_eq!(until_closed(|| Err(why.clone())), Err(why));
+    }
 }
