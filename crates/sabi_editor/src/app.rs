@@ -28,6 +28,7 @@ use sabi_graph::NodeRef;
 
 pub(crate) use documents::{PICTURES, model_of};
 pub(crate) use eyedropper::Taken;
+pub(crate) use keys::told_by_system;
 
 use crate::canvas::Canvas;
 use crate::command::{Command, KeyMap};
@@ -126,7 +127,7 @@ pub(crate) struct Editor {
     is_leaving: bool,
     /// What the window is called.
     named: String,
-    context: Context,
+    pub(crate) context: Context,
     /// The command that waits for another key.
     pub(crate) waits_for_key: Option<Command>,
     /// Time of the last frames without the drawing of the device.

@@ -206,21 +206,26 @@ impl Editor {
         });
         let path = PathBuf::from(text.trim());
         if chosen && !path.as_os_str().is_empty() {
-            match what {
-                PathFor::Open => self.files.ask_next(&mut self.desk, Next::Open(path)),
-                // At once, since something may wait for it that takes the work off the desk.
-                PathFor::Save => self.save_unless_taken(with_ending(path)),
-                PathFor::Model => actions.push(Action::TakeModel(path)),
-                PathFor::Picture(knob) => {
-                    let text = self.desk.relative(&path);
-                    self.desk.set_at(&knob, sabi_graph::Value::Text(text));
-                }
-            }
+            self.take_path(what, path, actions);
         } else if !modal.inner && !modal.should_close() {
             self.files.question = Some(Question::Path { what, text });
         } else {
             self.files.after_save = None;
             self.files.dialog = None;
+        }
+    }
+
+    /// Does with a path what it was asked for.
+    fn take_path(&mut self, what: PathFor, path: PathBuf, actions: &mut Vec<Action>) {
+        match what {
+            PathFor::Open => self.files.ask_next(&mut self.desk, Next::Open(path)),
+            // At once, since something may wait for it that takes the work off the desk.
+            PathFor::Save => self.save_unless_taken(with_ending(path)),
+            PathFor::Model => actions.push(Action::TakeModel(path)),
+            PathFor::Picture(knob) => {
+                let text = self.desk.relative(&path);
+                self.desk.set_at(&knob, sabi_graph::Value::Text(text));
+            }
         }
     }
 

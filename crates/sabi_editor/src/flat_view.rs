@@ -172,10 +172,11 @@ impl FlatView {
         square
     }
 
-    /// Whether a picture is shown.
+    /// Whether a picture of these values is shown.
     #[cfg(test)]
-    pub(crate) fn has_picture(&self) -> bool {
-        self.shown.is_some()
+    pub(crate) fn shows(&self, values: &Arc<Inspected>) -> bool {
+        let shown = self.shown.as_ref();
+        shown.is_some_and(|shown| Arc::ptr_eq(&shown.of.0, values))
     }
 
     /// Does what a key means here.

@@ -1,9 +1,10 @@
-//! Files that change while they are open: nodes, the model, pictures, group files and the library are read again, and the graph's own file
-//! is asked about, since what is here would be gone.
+//! Files that change while they are open: nodes, the model, pictures, group files and the library are read again, and the
+//! graph's own file is asked about, since what is here would be gone.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use egui::{Context, Frame, Margin, RichText, Ui};
 use egui_phosphor::regular as icon;
@@ -16,6 +17,8 @@ pub(crate) struct Watching {
     /// None where the system has no thread for it, which was said.
     watcher: Option<Watcher>,
     followed: Option<Followed>,
+    /// Whether the library has to be read again once its files are watched: they may have changed since they were read.
+    rereads_library: bool,
     /// Whether another program wrote the graph's file, and it is to be said what becomes of that.
     pub(crate) is_asked: bool,
 }
@@ -43,6 +46,7 @@ impl Watching {
         let watching = Watching {
             watcher,
             followed: None,
+            rereads_library: false,
             is_asked: false,
         };
         (watching, error)
@@ -60,6 +64,12 @@ impl Editor {
     pub(crate) fn follow_files(&mut self) {
         self.follow();
         let Some(watcher) = &self.watching.watcher else { return };
+        if self.watching.rereads_library && watcher.is_watching() {
+            self.watching.rereads_library = false;
+            self.panels.library.forget();
+        } else if self.watching.rereads_library {
+            self.context.request_repaint_after(Duration::from_millis(100));
+        }
         let changes = watcher.changes();
         if changes.nodes {
             let mut kinds = Kinds::clone(self.desk.kinds().0);
@@ -104,6 +114,8 @@ impl Editor {
         {
             self.watching.is_asked = false;
         }
+        let before = self.watching.followed.as_ref();
+        self.watching.rereads_library |= before.is_some_and(|before| before.library != now.library);
         if let Some(watcher) = &self.watching.watcher {
             watcher.watch(Watched {
                 nodes: Kinds::folders(now.graph.as_deref()),

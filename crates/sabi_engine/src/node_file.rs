@@ -115,8 +115,10 @@ impl NodeDraft {
     }
 
     pub(crate) fn to_json(&self) -> Value {
+        // It leads there from wherever the program is started next.
+        let folder = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         json!({
-            "folder": self.folder.to_string_lossy(),
+            "folder": folder.to_string_lossy(),
             "id": self.id,
             "text": self.text,
             "known": self.known,

@@ -80,7 +80,8 @@ impl Session {
         Ok(Session::of(open, Some(path.to_owned()), recovery_folder))
     }
 
-    /// What was kept of a graph when the program ended before it was saved: nothing of it is saved yet.
+    /// What was kept of a graph when the program ended before it was saved: nothing of it is saved yet. Where only node files
+    /// were kept, the graph is as its file has it.
     ///
     /// # Errors
     /// What was kept cannot be read, or another window goes on with it.
@@ -89,7 +90,18 @@ impl Session {
             let why = "another window goes on with this graph already; close it there first";
             return Err(EngineError::new(ErrorKind::Usage, why));
         }
-        let (Kept { graph: text, .. }, file) = recovery.read()?;
+        let (Kept { graph, .. }, file) = recovery.read()?;
+        let Some(text) = graph else {
+            // Nothing of the graph was unsaved: it is what its file holds by now.
+            let session = match &file {
+                Some(file) => Session::open(file, None)?,
+                None => Session::new(None),
+            };
+            return Ok(Session {
+                recovery: Some(recovery),
+                ..session
+            });
+        };
         let name = file.clone().unwrap_or_else(|| PathBuf::from(UNTITLED));
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::new(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
@@ -314,7 +326,7 @@ impl Session {
             recovery.forget();
             return Ok(false);
         }
-        recovery.keep(&self.text.1, drafts)
+        recovery.keep(is_dirty.then_some(self.text.1.as_str()), drafts)
     }
 
     /// Ends the work in order: nothing of it needs to be recovered.

@@ -36,7 +36,8 @@ pub struct Watched {
     pub nodes: Vec<PathBuf>,
     /// Files that the model is read from. A folder stands for what comes and goes in it.
     pub model: Vec<PathBuf>,
-    /// What else the graph names: pictures and group files.
+    /// What else a session hangs on: pictures and group files that the graph names, and the library. A folder stands for what
+    /// comes and goes in it.
     pub files: Vec<PathBuf>,
 }
 

@@ -51,12 +51,11 @@ impl Editor {
         let recovery = self.files.recoveries.remove(at);
         let drafts = recovery.drafts().to_vec();
         match Session::recover(recovery) {
-            Ok(session) => {
-                self.take_session(session);
-                self.panels.page.recover(drafts, &self.desk);
-            }
+            Ok(session) => self.take_session(session),
             Err(error) => self.say(error.to_string()),
         }
+        // Whatever became of the graph.
+        self.panels.page.recover(drafts, &self.desk);
     }
 
     /// Puts another graph on the desk, on the model that it names.
@@ -185,7 +184,7 @@ impl Editor {
                 let mut kinds = Kinds::clone(self.desk.kinds().0);
                 kinds.reread(std::slice::from_ref(folder));
                 self.desk.take_kinds(kinds);
-                self.panels.page.saved(folder, id);
+                self.panels.page.saved(node);
             }
             Err(error) => self.say(error.to_string()),
         }

@@ -5,7 +5,7 @@ use egui::{Context, Event, EventFilter, Id, Key, Modifiers, Ui};
 use super::Editor;
 use crate::action::Action;
 use crate::canvas::{Way, focus_id};
-use crate::command::{Command, Scope};
+use crate::command::{Chord, Command, Scope};
 use crate::dock::Panel;
 
 impl Editor {
@@ -34,14 +34,15 @@ impl Editor {
                     modifiers,
                     ..
                 } => self.key(key, modifiers, ui, &mut actions),
-                // So the system tells these keys, whatever they mean here.
-                Event::Copy => self.key(Key::C, Modifiers::COMMAND, ui, &mut actions),
-                Event::Cut => self.key(Key::X, Modifiers::COMMAND, ui, &mut actions),
-                Event::Paste(text) if self.active == Panel::Canvas => {
+                Event::Paste(text) if self.pastes_here() => {
                     let place = self.canvas.place_for_new(ui);
                     actions.push(Action::Paste { text, place });
                 }
-                _ => {}
+                event => {
+                    if let Some(chord) = told_by_system(&event) {
+                        self.key(chord.key, chord.modifiers, ui, &mut actions);
+                    }
+                }
             }
         }
         actions
@@ -63,6 +64,12 @@ impl Editor {
         let commands: Vec<Command> = ui.input(|input| input.events.iter().filter_map(pressed).collect());
         let own = commands.into_iter().filter(|command| command.is_beside_text());
         own.map(Action::Do).collect()
+    }
+
+    /// Whether what the system holds goes into the graph by the key that it usually does.
+    fn pastes_here(&self) -> bool {
+        let usual = self.keys.command(Scope::Canvas, Modifiers::COMMAND, Key::V);
+        self.active == Panel::Canvas && usual == Some(Command::Paste)
     }
 
     fn key(&mut self, key: Key, modifiers: Modifiers, ui: &Ui, actions: &mut Vec<Action>) {
@@ -173,6 +180,21 @@ impl Editor {
             actions.push(Action::Dropped(path));
         }
     }
+}
+
+/// The key that the system tells of as what it usually means, whatever that is here. Whether more is held down with it nobody
+/// tells.
+pub(crate) fn told_by_system(event: &Event) -> Option<Chord> {
+    let key = match event {
+        Event::Copy => Key::C,
+        Event::Cut => Key::X,
+        Event::Paste(_) => Key::V,
+        _ => return None,
+    };
+    Some(Chord {
+        modifiers: Modifiers::COMMAND,
+        key,
+    })
 }
 
 /// What has the focus once a panel was chosen by a key: Tab leads from there to the first widget in it.

@@ -1,9 +1,11 @@
 //! The models that the graph is tried on, and how their files are read.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use egui::containers::menu::MenuButton;
-use egui::{DragValue, Frame, Ui};
+use egui::emath::Numeric;
+use egui::{DragValue, Frame, RichText, Ui};
 use egui_phosphor::regular as icon;
 use sabi_engine::{Overlap, Up};
 
@@ -73,9 +75,13 @@ impl Editor {
                     if add.clicked() {
                         self.files.ask_for_model();
                     }
-                    let sign = egui::Button::new(icon::SLIDERS_HORIZONTAL).frame(false);
+                    let reading = self.stage.reading();
+                    let is_usual = reading == Reading::default();
+                    let color = if is_usual { self.theme.text } else { self.theme.accent };
+                    let sign = RichText::new(icon::SLIDERS_HORIZONTAL).color(color);
+                    let sign = egui::Button::new(sign).frame(false);
                     let menu = MenuButton::from_button(sign).config(staying());
-                    let (button, _) = menu.ui(ui, |ui| reading_menu(ui, self.stage.reading(), actions));
+                    let (button, _) = menu.ui(ui, |ui| reading_menu(ui, reading, actions));
                     button.widget_info(|| {
                         egui::WidgetInfo::labeled(egui::WidgetType::Button, true, "How the model is read")
                     });
@@ -94,22 +100,9 @@ fn reading_menu(ui: &mut Ui, now: Reading, actions: &mut Vec<Action>) {
             ui.radio_value(&mut wanted.up, axis, name);
         }
     });
-    ui.horizontal(|ui| {
-        let label = ui.label("UV set");
-        ui.add(
-            DragValue::new(&mut wanted.uv)
-                .range(0..=LAST_UV)
-                .update_while_editing(false),
-        )
-        .labelled_by(label.id);
-    });
-    ui.horizontal(|ui| {
-        let label = ui.label("Lengths are multiplied by");
-        let field = DragValue::new(&mut wanted.scale)
-            .speed(0.01)
-            .range(SCALES[0]..=SCALES[1]);
-        ui.add(field.update_while_editing(false)).labelled_by(label.id);
-    });
+    wanted.uv = settled(ui, "UV set", now.uv, 0..=LAST_UV, 0.05);
+    let scales = SCALES[0]..=SCALES[1];
+    wanted.scale = settled(ui, "Lengths are multiplied by", now.scale, scales, 0.01);
     ui.separator();
     ui.label("Where UVs lie over one another the maps have");
     for (overlap, name) in [
@@ -125,4 +118,21 @@ fn reading_menu(ui: &mut Ui, now: Reading, actions: &mut Vec<Action>) {
     if wanted != now {
         actions.push(Action::ReadModel(wanted));
     }
+}
+
+/// A number that counts once it is let go of, since the model is read anew for it.
+fn settled<N: Numeric + Send + Sync>(ui: &mut Ui, name: &str, now: N, range: RangeInclusive<N>, speed: f64) -> N {
+    let id = ui.id().with(name);
+    let mut held = ui.data(|data| data.get_temp(id)).unwrap_or(now);
+    let field = DragValue::new(&mut held).range(range).speed(speed);
+    let row = ui.horizontal(|ui| {
+        let label = ui.label(name);
+        ui.add(field.update_while_editing(false)).labelled_by(label.id)
+    });
+    if row.inner.dragged() {
+        ui.data_mut(|data| data.insert_temp(id, held));
+        return now;
+    }
+    ui.data_mut(|data| data.remove::<N>(id));
+    held
 }

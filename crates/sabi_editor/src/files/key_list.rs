@@ -1,9 +1,9 @@
 //! All keys, by where they act, to be taken away and added to; and what is dragged with the mouse.
 
-use egui::{Event, Key, Modifiers, Response, RichText, Ui, WidgetInfo, WidgetType, Window};
+use egui::{Event, Key, Response, RichText, Ui, WidgetInfo, WidgetType, Window};
 use egui_phosphor::regular as icon;
 
-use crate::app::Editor;
+use crate::app::{Editor, told_by_system};
 use crate::command::{Chord, Command, Scope};
 use crate::mouse::grips;
 
@@ -135,18 +135,7 @@ fn pressed(event: &Event) -> Option<Chord> {
             modifiers: *modifiers,
             key: *key,
         }),
-        // So the system tells these keys, whatever they mean.
-        Event::Copy => Some(held(Key::C)),
-        Event::Cut => Some(held(Key::X)),
-        Event::Paste(_) => Some(held(Key::V)),
-        _ => None,
-    }
-}
-
-fn held(key: Key) -> Chord {
-    Chord {
-        modifiers: Modifiers::COMMAND,
-        key,
+        event => told_by_system(event),
     }
 }
 

@@ -85,9 +85,11 @@ fn recoveries(editor: &mut Editor, ui: &mut Ui, theme: &Theme, next: &mut Option
                     ui.colored_label(theme.fault, fault.to_string());
                 }
                 None => {
-                    ui.label(of);
+                    if recovery.has_graph() {
+                        ui.label(of);
+                    }
                     for draft in recovery.drafts() {
-                        ui.label(format!("with the node file {}", draft.id));
+                        ui.label(format!("the node file {}", draft.id));
                     }
                 }
             }

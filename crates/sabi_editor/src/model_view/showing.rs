@@ -99,6 +99,7 @@ pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, stage: &Stage, subjec
     let state = match &showing.fault {
         Some(fault) => format!(" — {fault}"),
         None if stage.picture(subject.seen).is_none() => " (evaluating)".to_owned(),
+        None if view.tools.are_coming() => " (preparing)".to_owned(),
         None => String::new(),
     };
     let words = format!("{}{state}", showing.words);

@@ -1,6 +1,7 @@
 //! What pictures of the model are drawn with, made beside the window.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use egui::Context;
 use sabi_engine::view::{Missing, Renderer};
@@ -15,11 +16,16 @@ pub(super) struct Tools {
     pipelines: Option<(Missing, Making<()>)>,
 }
 
-/// Something that is made on a thread of its own. It is not tried again: what fails once would fail in every frame.
+/// Something that is made on a thread of its own.
 enum Making<T> {
     Coming(Errand<Result<T, EngineError>>),
-    Over(Result<T, String>),
+    Made(T),
+    /// Why it could not be made, and when that was.
+    Failed(String, Instant),
 }
+
+/// What failed is tried again after so long, since memory may be free by then; not in every frame.
+const AGAIN: Duration = Duration::from_secs(3);
 
 impl Tools {
     /// The renderer, once it is made.
@@ -28,7 +34,14 @@ impl Tools {
             let gpu = gpu.clone();
             Making::begin(context, move || Ok(Arc::new(Renderer::new(&gpu)?)))
         };
-        self.renderer.get_or_insert_with(begin).poll()
+        self.renderer.take_if(|making| making.is_stale());
+        self.renderer.get_or_insert_with(begin).poll(context)
+    }
+
+    /// Whether something is on its way, and the last picture shown meanwhile.
+    pub(super) fn are_coming(&self) -> bool {
+        let pipelines = self.pipelines.as_ref().map(|(_, making)| making);
+        pipelines.is_some_and(|making| matches!(making, Making::Coming(_)))
     }
 
     /// Whether nothing is missing any more; begins to make it otherwise. What another screen misses comes one after the other.
@@ -39,13 +52,12 @@ impl Tools {
         missing: Option<Missing>,
     ) -> Result<bool, String> {
         let Some(missing) = missing else { return Ok(true) };
+        self.pipelines.take_if(|(_, making)| making.is_stale());
         if let Some((known, making)) = &mut self.pipelines {
-            let made = making.poll();
-            if *known == missing {
-                return Ok(made?.is_some());
-            }
-            if matches!(making, Making::Coming(_)) {
-                return Ok(false);
+            // What another one failed for is most likely what this one would fail for, too.
+            let made = making.poll(context)?;
+            if *known == missing || made.is_none() {
+                return Ok(made.is_some());
             }
         }
         let (gpu, renderer, making) = (gpu.clone(), renderer.clone(), missing.clone());
@@ -60,19 +72,32 @@ impl<T: Clone + Send + 'static> Making<T> {
         Making::Coming(Errand::start(context, make))
     }
 
+    /// Whether it failed long enough ago to be tried again.
+    fn is_stale(&self) -> bool {
+        matches!(self, Making::Failed(_, when) if when.elapsed() > AGAIN)
+    }
+
     /// What was made, once it is.
-    fn poll(&mut self) -> Result<Option<T>, String> {
+    fn poll(&mut self, context: &Context) -> Result<Option<T>, String> {
         if let Making::Coming(errand) = self
             && let Some(come) = errand.poll()
         {
-            *self = Making::Over(match come {
-                Ok(made) => made.map_err(|error| error.to_string()),
-                Err(Failed) => Err("The model cannot be drawn, which is a mistake of the program.".to_owned()),
-            });
+            *self = match come {
+                Ok(Ok(made)) => Making::Made(made),
+                Ok(Err(error)) => Making::Failed(error.to_string(), Instant::now()),
+                Err(Failed) => {
+                    let why = "The model cannot be drawn, which is a mistake of the program.";
+                    Making::Failed(why.to_owned(), Instant::now())
+                }
+            };
         }
         match self {
             Making::Coming(_) => Ok(None),
-            Making::Over(made) => made.clone().map(Some),
+            Making::Made(made) => Ok(Some(made.clone())),
+            Making::Failed(why, _) => {
+                context.request_repaint_after(AGAIN);
+                Err(why.clone())
+            }
         }
     }
 }
@@ -83,7 +108,7 @@ mod tests {
 
     fn end<T: Clone + Send + 'static>(mut making: Making<T>) -> Result<T, String> {
         loop {
-            if let Some(made) = making.poll().transpose() {
+            if let Some(made) = making.poll(&Context::default()).transpose() {
                 return made;
             }
             std::thread::yield_now();
@@ -91,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_made_is_said_in_every_frame_and_not_tried_again() {
+    fn what_cannot_be_made_is_said_and_tried_again_after_a_while() {
         let context = Context::default();
         assert_eq!(end(Making::begin(&context, || Ok(7))), Ok(7));
         let lost = || {
@@ -104,6 +129,8 @@ mod tests {
             end(Making::<()>::begin(&context, lost)),
             Err("the device is lost".to_owned())
         );
+        let failed = |ago| Making::<()>::Failed(String::new(), Instant::now() - ago);
+        assert!(!failed(Duration::ZERO).is_stale() && failed(2 * AGAIN).is_stale());
         let panics = Making::<()>::begin(&context, || panic!("as this test wants"));
         assert!(end(panics).is_err_and(|why| why.contains("a mistake of the program")));
     }

@@ -218,8 +218,8 @@ fn folder(export: &mut Export, ui: &mut Ui) {
         if ui.add(field).labelled_by(label).changed() {
             export.asks_force = false;
         }
-        let asks = ui.add_enabled(export.dialog.is_none(), egui::Button::new("…"));
-        if asks.on_hover_text("The system's dialog for a folder").clicked() {
+        let asks = ui.button("…").on_hover_text("The system's dialog for a folder");
+        if asks.clicked() {
             export.dialog = Some(SystemDialog::folder(ui.ctx()));
         }
         if let Some(folder) = answer_of(&mut export.dialog) {

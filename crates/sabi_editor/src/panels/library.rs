@@ -130,9 +130,6 @@ fn read(shelf: Shelf, folder: &Path, catalog: &Catalog) -> Found {
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
     head(editor, ui, actions);
     ui.add_space(space::TIGHT);
-    for fault in &editor.panels.library.found.faults {
-        ui.add(egui::Label::new(RichText::new(fault).color(theme.fault)).wrap());
-    }
     let Editor { panels, desk, .. } = editor;
     panels.library.pictures.poll(ui.ctx(), desk.catalog());
     let query = editor.panels.library.query.clone();
@@ -144,6 +141,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
     found.sort_by_key(|candidate| number(candidate).unwrap_or(usize::MAX));
     let (mut toggled, mut dragged) = (None, None);
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        faults(ui, theme, &editor.panels.library.found.faults);
         ui.spacing_mut().item_spacing.y = 1.0;
         let mut section = String::new();
         for candidate in found {
@@ -184,6 +182,25 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
             None => editor.settings.favorites.push(key),
         }
     }
+}
+
+/// Why files in the folders of the library are not in it.
+fn faults(ui: &mut Ui, theme: &Theme, faults: &[String]) {
+    if faults.is_empty() {
+        return;
+    }
+    let title = match faults.len() {
+        1 => "A file here cannot be used".to_owned(),
+        count => format!("{count} files here cannot be used"),
+    };
+    egui::CollapsingHeader::new(RichText::new(title).color(theme.fault))
+        .id_salt("faults of the library")
+        .default_open(faults.len() == 1)
+        .show_unindented(ui, |ui| {
+            for fault in faults {
+                ui.add(egui::Label::new(RichText::new(fault).color(theme.quiet)).wrap());
+            }
+        });
 }
 
 /// The search, and the way of a group into the library.

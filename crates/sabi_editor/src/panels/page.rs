@@ -3,8 +3,6 @@
 mod code;
 mod draft;
 
-use std::path::Path;
-
 use egui::{ColorImage, RichText, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use egui_phosphor::regular as icon;
@@ -42,9 +40,9 @@ impl Page {
         self.shown = None;
     }
 
-    /// The file of a draft was written as the draft has it.
-    pub(crate) fn saved(&mut self, folder: &Path, id: &str) {
-        for draft in self.drafts.iter_mut().filter(|draft| draft.is_of(folder, id)) {
+    /// The file of a draft was written as the draft has it; another one of the same node stays as it is.
+    pub(crate) fn saved(&mut self, node: &NodeDraft) {
+        for draft in self.drafts.iter_mut().filter(|draft| draft.node() == node) {
             draft.was_saved();
         }
         self.revision += 1;
@@ -64,7 +62,11 @@ impl Page {
     /// Goes on with what was being written when the program ended.
     pub(crate) fn recover(&mut self, drafts: Vec<NodeDraft>, desk: &Desk) {
         for draft in drafts {
-            self.open(Draft::recovered(desk, draft));
+            let draft = Draft::recovered(desk, draft);
+            // One that is written on is nothing less: both are shown then.
+            self.drafts.retain(|known| known.is_unsaved() || !known.is_like(&draft));
+            self.shown = Some(self.drafts.len());
+            self.drafts.push(draft);
         }
         self.revision += 1;
     }

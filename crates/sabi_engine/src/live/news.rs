@@ -127,9 +127,11 @@ impl LiveModel {
         own.or(self.sets.first())
     }
 
-    /// What that one is called, no two of them the same; empty where there is none.
-    pub(super) fn title_of_set(&self, wanted: Option<SetKey>) -> String {
-        self.set(wanted).map(TextureSet::title).unwrap_or_default()
+    /// Another number for each of its sets.
+    pub(super) fn number_of_set(&self, wanted: Option<SetKey>) -> u64 {
+        let found = self.set(wanted);
+        let at = self.sets.iter().position(|set| Some(set) == found);
+        at.unwrap_or_default() as u64
     }
 }
 

@@ -112,14 +112,14 @@ impl Worker {
 fn keys(stage: &Stage, plan: &Plan, wish: &Wish) -> BTreeMap<Target, Key> {
     let marks = [u8::from(stage.is_approximate(plan)), u8::from(wish.is_flat)];
     let set = if wish.is_flat {
-        stage.model.title_of_set(wish.set)
+        stage.model.number_of_set(wish.set)
     } else {
-        String::new()
+        0
     };
     let key = |content: &Key| {
         *blake3::Hasher::new()
             .update(&marks)
-            .update(set.as_bytes())
+            .update(&set.to_le_bytes())
             .update(content)
             .finalize()
             .as_bytes()

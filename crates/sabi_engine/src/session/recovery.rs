@@ -35,8 +35,8 @@ pub struct Recovery {
 /// What is not saved.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Kept {
-    /// The graph's text.
-    pub(super) graph: String,
+    /// The graph's text; none where its file holds it.
+    pub(super) graph: Option<String>,
     /// Node files that are being written.
     pub(super) drafts: Vec<NodeDraft>,
 }
@@ -73,6 +73,11 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     .collect()
 }
 
+/// A path that leads there from wherever the program is started next.
+fn whole(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// What is locked while a file is in use.
 fn lock_of(path: &Path) -> PathBuf {
     path.with_extension("lock")
@@ -93,7 +98,7 @@ impl Recovery {
         let name = format!("{}-{}-{number}.{ENDING}", std::process::id(), now.as_millis());
         Recovery {
             path: folder.join(name),
-            file: file.map(Path::to_owned),
+            file: file.map(whole),
             kept: None,
             fault: None,
             lock: None,
@@ -122,7 +127,12 @@ impl Recovery {
 
     /// Says where the graph is saved from now on.
     pub(super) fn name(&mut self, file: Option<&Path>) {
-        self.file = file.map(Path::to_owned);
+        self.file = file.map(whole);
+    }
+
+    /// Whether the graph itself is kept, and not only node files.
+    pub fn has_graph(&self) -> bool {
+        self.kept.as_ref().is_some_and(|kept| kept.graph.is_some())
     }
 
     /// What was kept, and the graph's file.
@@ -136,21 +146,24 @@ impl Recovery {
         };
         let text = fs::read_to_string(&self.path).map_err(|error| damaged(error.to_string()))?;
         let kept: Json = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
-        let graph = kept["graph"]
-            .as_str()
-            .ok_or_else(|| damaged("it holds no graph".to_owned()))?;
+        let graph = match &kept["graph"] {
+            Json::String(graph) => Some(graph.clone()),
+            Json::Null if kept["drafts"].is_array() => None,
+            _ => return Err(damaged("it holds no graph".to_owned())),
+        };
         let drafts = kept["drafts"].as_array().map_or(&[][..], Vec::as_slice);
         let drafts: Option<Vec<NodeDraft>> = drafts.iter().map(NodeDraft::from_json).collect();
         let kept_here = Kept {
-            graph: graph.to_owned(),
+            graph,
             drafts: drafts.ok_or_else(|| damaged("a node in it has no text".to_owned()))?,
         };
         Ok((kept_here, kept["file"].as_str().map(PathBuf::from)))
     }
 
-    /// Keeps a graph's text and node files that are being written, unless they are those that were kept last.
-    pub(super) fn keep(&mut self, graph: &str, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
-        let is_known = |kept: &Kept| kept.graph == graph && kept.drafts == drafts;
+    /// Keeps a graph's text and node files that are being written, unless they are those that were kept last; no
+    /// graph where its file holds it.
+    pub(super) fn keep(&mut self, graph: Option<&str>, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
+        let is_known = |kept: &Kept| kept.graph.as_deref() == graph && kept.drafts == drafts;
         if self.kept.as_ref().is_some_and(is_known) {
             return Ok(false);
         }
@@ -167,7 +180,7 @@ impl Recovery {
         write_whole(&self.path, bytes.as_bytes()).map_err(refused)?;
         self.take();
         self.kept = Some(Kept {
-            graph: graph.to_owned(),
+            graph: graph.map(str::to_owned),
             drafts: drafts.to_vec(),
         });
         Ok(true)

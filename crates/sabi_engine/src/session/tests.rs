@@ -137,12 +137,41 @@ fn node_files_that_were_being_written_come_back_too_and_keep_a_saved_graph_with_
     assert_eq!(found.len(), 1);
     let recovery = found.remove(0);
     assert_eq!(recovery.drafts(), drafts);
+    assert!(!recovery.has_graph());
     let mut session = Session::recover(recovery).unwrap();
     assert!(!session.is_dirty());
     assert!(!session.keep(&drafts).unwrap(), "it is kept as it was");
     session.keep(&[]).unwrap();
     drop(session);
     assert!(recoveries(&kept).is_empty(), "once they are saved nothing is left");
+}
+
+#[test]
+fn node_files_come_back_to_the_graph_as_it_was_saved_since() {
+    let desk = desk();
+    let (file, kept) = (desk.path().join("a.sabi"), desk.path().join("kept"));
+    let mut session = Session::new(Some(&kept));
+    session.edit("Add", add("a")).unwrap();
+    session.save_as(&file).unwrap();
+    let draft = NodeDraft {
+        folder: "nodes".into(),
+        id: "own/rust".to_owned(),
+        text: "//! Rust".to_owned(),
+        known: None,
+    };
+    assert!(session.keep(&[draft]).unwrap());
+    drop(session);
+    let mut later = Session::open(&file, None).unwrap();
+    later.edit("Add", add("b")).unwrap();
+    later.save().unwrap();
+    let recovery = recoveries(&kept).remove(0);
+    assert!(
+        recovery.drafts()[0].folder.is_absolute(),
+        "it may be read from another folder"
+    );
+    let mut session = Session::recover(recovery).unwrap();
+    assert!(!session.is_dirty());
+    assert_eq!(session.text(), later.text(), "and not as it was when the program ended");
 }
 
 #[test]

@@ -7,8 +7,8 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use sabi_engine::Session;
 
-use super::Window;
 use super::safety::CLOUDS;
+use super::{Editor, Window};
 use crate::action::Shelf;
 use crate::dock::Panel;
 
@@ -203,7 +203,7 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
     drop(harness.into_state().desk.session);
     let mut window = Window::in_folder(folder, |_| Session::new(None));
     window.settle();
-    assert!(window.says("graph.sabi") && window.says("with the node file noise/mine"));
+    assert!(window.says("the node file noise/mine"));
     window.press("Recover");
     assert_eq!(window.editor().panels.page.unsaved(), unsaved);
     window.harness.state_mut().bring_up(Panel::Page);
@@ -215,6 +215,31 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
     assert_eq!(fs::read_to_string(file).expect("a file"), unsaved[0].text);
     window.settle();
     assert_eq!(fs::read_dir(window.path("unsaved")).expect("a folder").count(), 0);
+}
+
+#[test]
+fn a_recovered_node_file_stands_beside_one_that_is_being_written_and_takes_the_place_of_one_that_is_not() {
+    let mut window = Window::opened(CLOUDS);
+    let draft = |text: &str| sabi_engine::NodeDraft {
+        folder: window.path("nodes"),
+        id: "noise/mine".to_owned(),
+        text: text.to_owned(),
+        known: None,
+    };
+    let (first, second) = (draft("//! First"), draft("//! Second"));
+    first.save().expect("a file");
+    let Editor { panels, desk, .. } = window.harness.state_mut();
+    panels.page.recover(vec![first.clone()], desk);
+    panels.page.recover(vec![second.clone()], desk);
+    assert_eq!(panels.page.unsaved(), [first.clone(), second.clone()], "both are kept");
+    panels.page.saved(&first);
+    assert_eq!(
+        panels.page.unsaved(),
+        std::slice::from_ref(&second),
+        "the other one is in no file"
+    );
+    panels.page.recover(vec![second.clone()], desk);
+    assert_eq!(panels.page.unsaved(), [second.clone(), second]);
 }
 
 #[test]

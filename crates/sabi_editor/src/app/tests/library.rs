@@ -112,6 +112,7 @@ fn the_library_follows_its_folder_and_says_what_there_cannot_be_read() {
     let file = library.join("wear.sabi");
     std::fs::write(&file, group).expect("a file");
     window.until("the group", is_there);
+    window.until("the watch", |editor| editor.watching.is_watching());
     std::fs::write(&file, "half of").expect("a file");
     window.until("its end", |editor| !is_there(editor));
     assert!(window.says("wear.sabi"), "{:?}", window.labels());

@@ -100,7 +100,10 @@ fn the_add_menu_looks_as_it_did() {
 #[test]
 fn a_texture_with_its_histogram_looks_as_it_did() {
     let mut window = Window::on("clouds", Shade::Dark);
-    window.until("its picture", |editor| editor.flat_view.has_picture());
+    window.until("its picture", |editor| {
+        let inspected = editor.stage.inspected.as_ref();
+        inspected.is_some_and(|(node, values)| node.node == "clouds" && editor.flat_view.shows(values))
+    });
     let panel = window.editor().rects[&Panel::Flat];
     let part = Rect::from_min_max(panel.max - vec2(300.0, 200.0), panel.max);
     window.compare("texture", part).expect("the same picture");

@@ -120,3 +120,23 @@ fn escape_leaves_the_list_of_keys_as_it_was_and_a_known_key_is_not_added_twice()
     assert!(window.has("Add a key for New graph"), "the list is still open");
     assert!(window.editor().question().is_none(), "the keys do nothing else");
 }
+
+#[test]
+fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
+    let mut window = window_with(Habit::Default);
+    window.prepare(&["mix"], Scope::Canvas);
+    let copied = window.harness.state_mut().desk.copied().expect("a copy");
+    let count = window.desk().graph().len();
+    let context = window.harness.ctx.clone();
+    let editor = window.harness.state_mut();
+    editor.settings.keys.insert("paste".to_owned(), Vec::new());
+    editor
+        .settings
+        .keys
+        .insert("mute".to_owned(), vec!["Ctrl+V".to_owned()]);
+    editor.take_settings(&context);
+    window.harness.event(egui::Event::Paste(copied));
+    window.settle();
+    assert_eq!(window.desk().graph().len(), count, "nothing is pasted");
+    assert!(window.desk().node(&id("mix")).expect("a node").muted);
+}
