@@ -145,6 +145,12 @@ impl ModelView {
         self.lamps.kept().len()
     }
 
+    /// Whether nothing is made ready for drawing beside the window.
+    #[cfg(test)]
+    pub(crate) fn is_ready_made(&self) -> bool {
+        self.surroundings.environment().is_some() && !self.tools.are_coming()
+    }
+
     /// Takes another environment: a built-in name, or a file.
     pub(crate) fn choose_environment(&mut self, choice: &str) {
         self.surroundings.choose(choice);

@@ -260,8 +260,7 @@ impl Stage {
 
     /// Takes what has come.
     pub(crate) fn take_news(&mut self, context: &Context) {
-        // A loss is told when somebody asks, and while nothing is evaluated nobody else does.
-        let _ = self.gpu.device().poll(wgpu::PollType::Poll);
+        // While nothing is evaluated nobody else asks.
         if let Some(loss) = self.gpu.loss() {
             self.lost = Some(loss.into());
         }

@@ -88,8 +88,14 @@ impl Gpu {
 
     /// Why the device is gone, if it is; nothing brings it back.
     pub fn loss(&self) -> Option<GpuError> {
-        // A loss is told to those who ask what is done.
-        let _ = self.device.poll(wgpu::PollType::Poll);
+        self.heard_loss().or_else(|| {
+            // A loss is told to those who ask what is done.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+            self.heard_loss()
+        })
+    }
+
+    fn heard_loss(&self) -> Option<GpuError> {
         let first = self.complaints.first.lock().ok()?;
         first.clone().filter(|error| matches!(error, GpuError::Lost(_)))
     }
@@ -128,6 +134,11 @@ impl Gpu {
     }
 
     fn polled(&self, until: wgpu::PollType) -> Result<(), GpuError> {
+        // wgpu 29 gives all resources of a lost device free when it is polled, under locks that a thread which is just
+        // uploading takes the other way round: the two would wait for each other.
+        if let Some(loss) = self.heard_loss() {
+            return Err(loss);
+        }
         let polled = self.device.poll(until);
         self.complaints.take()?;
         polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))

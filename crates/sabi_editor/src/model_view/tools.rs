@@ -51,7 +51,13 @@ impl Tools {
         (gpu, renderer): (&Arc<Gpu>, &Arc<Renderer>),
         missing: Option<Missing>,
     ) -> Result<bool, String> {
-        let Some(missing) = missing else { return Ok(true) };
+        let Some(missing) = missing else {
+            // What was made for this is over, and may be the last that was.
+            if let Some((_, making @ Making::Coming(_))) = &mut self.pipelines {
+                let _ = making.poll(context);
+            }
+            return Ok(true);
+        };
         self.pipelines.take_if(|(_, making)| making.is_stale());
         if let Some((known, making)) = &mut self.pipelines {
             // What another one failed for is most likely what this one would fail for, too.

@@ -236,7 +236,7 @@ fn saving_is_no_news() {
 #[test]
 fn a_device_that_goes_while_nothing_is_evaluated_is_noticed() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
-    watched.window.editor().stage.gpu().device().destroy();
+    watched.window.destroy_device();
     watched.window.until("a way out", |editor| editor.is_leaving);
     watched.window.harness.run_steps(3);
     let kept = watched.window.handover.lock().expect("nobody panicked").take();
