@@ -93,8 +93,9 @@ fn what_was_not_saved_comes_back_after_the_program_ended() {
     assert!(recoveries(&kept).is_empty(), "its program still runs");
     // As another program finds it when this one was killed.
     drop(session);
-    let left = fs::read_dir(&kept).unwrap().next().unwrap().unwrap().path();
-    fs::rename(&left, kept.join("4000000000-1-0.recovery")).unwrap();
+    let mut left = fs::read_dir(&kept).unwrap().map(|entry| entry.unwrap().path());
+    let left = left.find(|path| path.extension().is_some_and(|ending| ending == "recovery"));
+    fs::rename(left.unwrap(), kept.join("4000000000-1-0.recovery")).unwrap();
     let mut found = recoveries(&kept);
     assert_eq!(found.len(), 1);
     assert_eq!(found[0].file(), Some(file.as_path()));
