@@ -26,7 +26,7 @@ use egui::{Context, Rect, Ui};
 use sabi_engine::{Gpu, Session};
 use sabi_graph::NodeRef;
 
-pub(crate) use documents::{PICTURES, model_of};
+pub(crate) use documents::{MODELS, PICTURES, model_of};
 pub(crate) use eyedropper::Taken;
 pub(crate) use keys::told_by_system;
 

@@ -359,6 +359,11 @@ impl Editor {
     }
 }
 
+/// A file by its one name, where it is there.
+pub(crate) fn whole(file: &Path) -> PathBuf {
+    file.canonicalize().unwrap_or_else(|_| file.to_owned())
+}
+
 /// A graph file ends in .sabi, whatever was typed.
 fn with_ending(path: PathBuf) -> PathBuf {
     let is_graph = path

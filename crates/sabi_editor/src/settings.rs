@@ -8,6 +8,7 @@ use sabi_engine::write_whole;
 
 use crate::command::Habit;
 use crate::dock::Layout;
+use crate::files::whole;
 use crate::model_view::ViewChoices;
 use crate::panels::export::{ExportChoices, ExportPlace};
 use crate::reading::Reading;
@@ -160,11 +161,6 @@ impl Settings {
             .for_each(|reading| *reading = reading.sound());
         self
     }
-}
-
-/// A file by its one name, where it is there.
-fn whole(file: &Path) -> PathBuf {
-    fs::canonicalize(file).unwrap_or_else(|_| file.to_owned())
 }
 
 /// Where settings are kept.

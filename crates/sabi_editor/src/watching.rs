@@ -32,7 +32,7 @@ struct Followed {
     loaded: (Option<u64>, bool),
     named: Arc<BTreeSet<PathBuf>>,
     /// Folders and files of the library.
-    library: Vec<PathBuf>,
+    library: Arc<[PathBuf]>,
 }
 
 impl Watching {
@@ -101,7 +101,7 @@ impl Editor {
             model: stage.model_file().to_owned(),
             loaded: stage.loaded_model(),
             named: stage.files.clone(),
-            library: self.panels.library.files(),
+            library: self.panels.library.files().clone(),
         };
         if self.watching.followed.as_ref() == Some(&now) {
             return;
@@ -121,7 +121,7 @@ impl Editor {
                 nodes: Kinds::folders(now.graph.as_deref()),
                 graph: now.graph.clone(),
                 model: self.model_files(),
-                files: now.named.iter().chain(&now.library).cloned().collect(),
+                files: now.named.iter().chain(&*now.library).cloned().collect(),
             });
         }
         self.watching.followed = Some(now);

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::catalog::readable;
 use crate::error::{EngineError, ErrorKind};
 use crate::kinds::Kinds;
-use crate::whole_file::write_whole;
+use crate::whole_file::{rooted, write_whole};
 
 /// One thing that is wrong with the text of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -115,10 +115,8 @@ impl NodeDraft {
     }
 
     pub(crate) fn to_json(&self) -> Value {
-        // It leads there from wherever the program is started next.
-        let folder = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         json!({
-            "folder": folder.to_string_lossy(),
+            "folder": rooted(&self.folder).to_string_lossy(),
             "id": self.id,
             "text": self.text,
             "known": self.known,

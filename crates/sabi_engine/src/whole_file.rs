@@ -26,6 +26,11 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
+/// A path that leads to the same from wherever the program is started next.
+pub(crate) fn rooted(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// The first of `stem.sabi`, `stem-2.sabi` and so on that is not there, or that holds these very bytes; none where there are
 /// too many.
 pub fn free_graph_file(folder: &Path, stem: &str, bytes: &[u8]) -> Option<PathBuf> {

@@ -4,7 +4,7 @@ mod layouts;
 mod recipe;
 mod switches;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 
 use sabi_gpu::{Gpu, GpuError};
@@ -91,9 +91,13 @@ impl Pipelines {
         })
     }
 
-    /// Whether the pipeline that draws something is there.
-    pub(crate) fn has(&self, draws: Draws) -> bool {
-        self.made.lock().is_ok_and(|made| made.contains_key(&draws))
+    /// Which of these pipelines are not there yet, each once.
+    pub(crate) fn missing(&self, wanted: Vec<Draws>) -> BTreeSet<Draws> {
+        let mut missing: BTreeSet<Draws> = wanted.into_iter().collect();
+        if let Ok(made) = self.made.lock() {
+            missing.retain(|draws| !made.contains_key(draws));
+        }
+        missing
     }
 
     /// The pipeline that draws something.

@@ -9,9 +9,11 @@ use sabi_graph::{Edit, Preview, Value};
 use super::Editor;
 use crate::action::{Action, Shelf};
 use crate::desk::Desk;
-use crate::files::examples;
+use crate::files::{examples, whole};
 use crate::panels::library::KEPT_AS;
 
+/// Endings of models.
+pub(crate) const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
 /// Endings of pictures that nodes read.
 pub(crate) const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
 
@@ -221,7 +223,7 @@ impl Editor {
             Some("sabi") => self
                 .files
                 .ask_next(&mut self.desk, crate::files::Next::Open(path.to_owned())),
-            Some("glb" | "gltf" | "obj") => self.take_model(path),
+            Some(ending) if MODELS.contains(&ending) => self.take_model(path),
             Some("hdr") => self.take_environment(path),
             Some("exr") if self.active != crate::dock::Panel::Canvas => self.take_environment(path),
             Some(ending) if PICTURES.contains(&ending) => self.add_picture(path, ui),
@@ -310,10 +312,6 @@ impl Desk {
             .map(|part| part.as_os_str().to_string_lossy().into_owned());
         up.chain(down).collect::<Vec<String>>().join("/")
     }
-}
-
-fn whole(path: &Path) -> PathBuf {
-    std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// Where a path leads that a graph names.

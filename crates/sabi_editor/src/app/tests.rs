@@ -90,6 +90,14 @@ impl Window {
         }
     }
 
+    /// The next window, after the program ended without a word.
+    fn after_a_crash(self) -> Window {
+        drop(self.harness.into_state().desk.session);
+        let mut next = Window::in_folder(self.folder, |_| Session::new(None));
+        next.settle();
+        next
+    }
+
     fn editor(&self) -> &Editor {
         self.harness.state()
     }

@@ -7,7 +7,8 @@ use egui::Context;
 use rfd::{AsyncFileDialog, FileHandle};
 
 use super::PathFor;
-use crate::app::PICTURES;
+use crate::app::{MODELS, PICTURES};
+use crate::desk::ENDING;
 
 /// A dialog that is open.
 pub(crate) struct SystemDialog {
@@ -22,14 +23,10 @@ impl SystemDialog {
             Some(folder) => dialog.set_directory(folder),
             None => dialog,
         };
-        let graphs = ["sabi"];
         match what {
-            PathFor::Open => SystemDialog::open(context, dialog.add_filter("Graphs", &graphs).pick_file()),
-            PathFor::Save => SystemDialog::open(context, dialog.add_filter("Graphs", &graphs).save_file()),
-            PathFor::Model => {
-                let models = ["glb", "gltf", "obj"];
-                SystemDialog::open(context, dialog.add_filter("Models", &models).pick_file())
-            }
+            PathFor::Open => SystemDialog::open(context, dialog.add_filter("Graphs", &[ENDING]).pick_file()),
+            PathFor::Save => SystemDialog::open(context, dialog.add_filter("Graphs", &[ENDING]).save_file()),
+            PathFor::Model => SystemDialog::open(context, dialog.add_filter("Models", &MODELS).pick_file()),
             PathFor::Picture(_) => SystemDialog::open(context, dialog.add_filter("Pictures", &PICTURES).pick_file()),
         }
     }

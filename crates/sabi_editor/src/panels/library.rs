@@ -29,6 +29,8 @@ pub(crate) struct Library {
     /// Whether files may have changed since they were read.
     is_stale: bool,
     found: Found,
+    /// Folders and files that it is read from.
+    files: Arc<[PathBuf]>,
     pictures: Pictures,
     /// The folders from which they were read.
     read_from: Option<Vec<(Shelf, PathBuf)>>,
@@ -47,9 +49,8 @@ impl Library {
     }
 
     /// Folders and files that it is read from.
-    pub(crate) fn files(&self) -> Vec<PathBuf> {
-        let folders = self.read_from.iter().flatten().map(|(_, folder)| folder.clone());
-        folders.chain(self.found.files.iter().cloned()).collect()
+    pub(crate) fn files(&self) -> &Arc<[PathBuf]> {
+        &self.files
     }
 
     /// Whether what was read is not what lies in these folders.
@@ -62,69 +63,69 @@ impl Library {
         if self.has_changed(&folders) {
             self.is_stale = false;
             self.found = Found::default();
+            let mut files = Vec::new();
             for (shelf, folder) in &folders {
-                let found = read(*shelf, folder, catalog);
-                self.found.files.extend(found.files);
-                self.found.shelved.extend(found.shelved);
-                self.found.faults.extend(found.faults);
+                files.push(folder.clone());
+                files.extend(self.found.read(*shelf, folder, catalog));
             }
+            self.files = files.into();
             self.read_from = Some(folders);
         }
         &self.found.shelved
     }
 }
 
-/// What a folder holds.
+/// What the folders hold.
 #[derive(Default)]
 struct Found {
-    files: Vec<PathBuf>,
     shelved: Vec<Shelved>,
     /// Why files are not among them, in sentences.
     faults: Vec<String>,
 }
 
-fn read(shelf: Shelf, folder: &Path, catalog: &Catalog) -> Found {
-    let mut found = Found::default();
-    let entries = match fs::read_dir(folder) {
-        Ok(entries) => entries,
-        Err(error) => {
-            if error.kind() != ErrorKind::NotFound {
-                found
-                    .faults
-                    .push(format!("{} cannot be read: {error}", folder.display()));
-            }
-            return found;
-        }
-    };
-    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    files.retain(|file| file.extension().is_some_and(|ending| ending == crate::desk::ENDING));
-    files.sort();
-    for file in &files {
-        let open = match OpenGraph::open(file) {
-            Ok(open) => open,
+impl Found {
+    /// Adds what a folder holds; gives the files that were looked at.
+    fn read(&mut self, shelf: Shelf, folder: &Path, catalog: &Catalog) -> Vec<PathBuf> {
+        let entries = match fs::read_dir(folder) {
+            Ok(entries) => entries,
             Err(error) => {
-                found.faults.push(error.to_string());
-                continue;
+                if error.kind() != ErrorKind::NotFound {
+                    self.faults
+                        .push(format!("{} cannot be read: {error}", folder.display()));
+                }
+                return Vec::new();
             }
         };
-        let faces = Faces::new(catalog, &open.document, &mut |_| None);
-        let Some(whole) = faces.of_whole() else {
-            let why = "is in the library, and gives nothing that other graphs could use; add an output to it";
-            found.faults.push(format!("{} {why}", file.display()));
-            continue;
-        };
-        let mut face = whole.as_ref().clone();
-        if face.label == "Group" {
-            face.label = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        files.retain(|file| file.extension().is_some_and(|ending| ending == crate::desk::ENDING));
+        files.sort();
+        for file in &files {
+            match shelved(shelf, file, catalog) {
+                Ok(shelved) => self.shelved.push(shelved),
+                Err(why) => self.faults.push(why),
+            }
         }
-        found.shelved.push(Shelved {
-            shelf,
-            file: file.clone(),
-            face: Arc::new(face),
-        });
+        files
     }
-    found.files = files;
-    found
+}
+
+/// A file as a group that other graphs can use, or why it is none.
+fn shelved(shelf: Shelf, file: &Path, catalog: &Catalog) -> Result<Shelved, String> {
+    let open = OpenGraph::open(file).map_err(|error| error.to_string())?;
+    let faces = Faces::new(catalog, &open.document, &mut |_| None);
+    let whole = faces.of_whole().ok_or_else(|| {
+        let why = "is in the library, and gives nothing that other graphs could use; add an output to it";
+        format!("{} {why}", file.display())
+    })?;
+    let mut face = whole.as_ref().clone();
+    if face.label == "Group" {
+        face.label = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    }
+    Ok(Shelved {
+        shelf,
+        file: file.to_owned(),
+        face: Arc::new(face),
+    })
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {

@@ -59,7 +59,7 @@ impl Worker {
         let marks = [u8::from(stage.is_approximate(&plan))];
         let key = *blake3::Hasher::new()
             .update(&marks)
-            .update(&stage.model.number_of_set(set).to_le_bytes())
+            .update(&stage.model.index_of_set(set).to_le_bytes())
             .update(&result.key)
             .finalize()
             .as_bytes();

@@ -123,15 +123,13 @@ pub struct LiveModel {
 impl LiveModel {
     /// One of its texture sets, or the first where it does not have that one.
     pub fn set(&self, wanted: Option<SetKey>) -> Option<&TextureSet> {
-        let own = self.sets.iter().find(|set| Some(set.key) == wanted);
-        own.or(self.sets.first())
+        self.sets.get(self.index_of_set(wanted))
     }
 
-    /// Another number for each of its sets.
-    pub(super) fn number_of_set(&self, wanted: Option<SetKey>) -> u64 {
-        let found = self.set(wanted);
-        let at = self.sets.iter().position(|set| Some(set) == found);
-        at.unwrap_or_default() as u64
+    /// Which of its sets that is.
+    pub(super) fn index_of_set(&self, wanted: Option<SetKey>) -> usize {
+        let at = self.sets.iter().position(|set| Some(set.key) == wanted);
+        at.unwrap_or_default()
     }
 }
 

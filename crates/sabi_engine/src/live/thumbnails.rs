@@ -112,7 +112,7 @@ impl Worker {
 fn keys(stage: &Stage, plan: &Plan, wish: &Wish) -> BTreeMap<Target, Key> {
     let marks = [u8::from(stage.is_approximate(plan)), u8::from(wish.is_flat)];
     let set = if wish.is_flat {
-        stage.model.number_of_set(wish.set)
+        stage.model.index_of_set(wish.set)
     } else {
         0
     };

@@ -10,7 +10,7 @@ use serde_json::{Value as Json, json};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::node_file::NodeDraft;
-use crate::whole_file::write_whole;
+use crate::whole_file::{rooted, write_whole};
 
 /// Tells two sessions of one process apart.
 static SESSIONS: AtomicU64 = AtomicU64::new(0);
@@ -73,11 +73,6 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     .collect()
 }
 
-/// A path that leads there from wherever the program is started next.
-fn whole(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
-}
-
 /// What is locked while a file is in use.
 fn lock_of(path: &Path) -> PathBuf {
     path.with_extension("lock")
@@ -98,7 +93,7 @@ impl Recovery {
         let name = format!("{}-{}-{number}.{ENDING}", std::process::id(), now.as_millis());
         Recovery {
             path: folder.join(name),
-            file: file.map(whole),
+            file: file.map(rooted),
             kept: None,
             fault: None,
             lock: None,
@@ -127,7 +122,7 @@ impl Recovery {
 
     /// Says where the graph is saved from now on.
     pub(super) fn name(&mut self, file: Option<&Path>) {
-        self.file = file.map(whole);
+        self.file = file.map(rooted);
     }
 
     /// Whether the graph itself is kept, and not only node files.

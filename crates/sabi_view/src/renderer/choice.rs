@@ -1,5 +1,7 @@
 //! Which pipelines a picture is drawn by.
 
+use std::collections::BTreeSet;
+
 use sabi_gpu::Gpu;
 
 use super::{Renderer, transform};
@@ -13,16 +15,13 @@ const MOST_LOOKS: usize = 255;
 
 /// Pipelines that a picture needs and that are not made yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Missing(Vec<Draws>);
+pub struct Missing(BTreeSet<Draws>);
 
 impl Renderer {
     /// What has to be made before a picture is drawn, which takes longer than a frame of a window: nothing where all is there.
     /// Pictures of one sample and of several are both provided for.
     pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<Missing> {
-        let mut missing = all(scene, shot);
-        missing.retain(|draws| !self.pipelines.has(*draws));
-        missing.sort_unstable();
-        missing.dedup();
+        let missing = self.pipelines.missing(all(scene, shot));
         (!missing.is_empty()).then_some(Missing(missing))
     }
 

@@ -199,10 +199,7 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
     window.settle();
     let unsaved = window.editor().panels.page.unsaved();
     assert_eq!(unsaved.len(), 1);
-    let Window { harness, folder, .. } = window;
-    drop(harness.into_state().desk.session);
-    let mut window = Window::in_folder(folder, |_| Session::new(None));
-    window.settle();
+    let mut window = window.after_a_crash();
     assert!(window.says("the node file noise/mine"));
     window.press("Recover");
     assert_eq!(window.editor().panels.page.unsaved(), unsaved);
@@ -293,10 +290,7 @@ fn what_was_kept_can_be_let_go_and_a_window_that_uses_it_keeps_it() {
     window.mute();
     let unsaved = window.path("unsaved");
     assert!(sabi_engine::recoveries(&unsaved).is_empty(), "it is in use");
-    let Window { harness, folder, .. } = window;
-    drop(harness.into_state().desk.session);
-    let mut window = Window::in_folder(folder, |_| Session::new(None));
-    window.settle();
+    let mut window = window.after_a_crash();
     assert!(window.says("graph.sabi"));
     window.press("Let it go");
     window.press("Let it go for good");

@@ -214,11 +214,7 @@ fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
     let unsaved = window.path("unsaved");
     let kept: Vec<_> = fs::read_dir(&unsaved).expect("a folder").flatten().collect();
     assert_eq!(kept.len(), 2, "the work, and what says that it is in use");
-    // The program ends without a word.
-    let Window { harness, folder, .. } = window;
-    drop(harness.into_state().desk.session);
-    let mut window = Window::in_folder(folder, |_| Session::new(None));
-    window.settle();
+    let mut window = window.after_a_crash();
     assert!(window.says("The program ended before this was saved"));
     assert!(window.says("graph.sabi"));
     window.press("Recover");
