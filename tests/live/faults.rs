@@ -82,14 +82,22 @@ fn a_graph_that_is_at_fault_from_the_start_shows_the_model_all_the_same() {
 }
 
 #[test]
-fn a_group_that_is_missing_is_told_and_the_model_is_loaded() {
+fn a_group_file_that_is_missing_is_told_and_the_rest_goes_on() {
     let window = Window::new();
-    let told = window.answer(wish(
-        1,
-        graph(r#""i": { "kind": "graph/group", "group": "gone.sabi" }"#),
-    ));
-    let other = &told.faults().expect("faults").other;
-    assert!(other[0].contains("needs the group file \"gone.sabi\""), "{other:?}");
+    let nodes = r#""i": { "kind": "graph/group", "group": "gone.sabi" }, "clouds": { "kind": "noise/simplex" },
+        "after": { "kind": "adjust/invert", "inputs": { "source": "i.mask" } }"#;
+    let told = window.answer(Wish {
+        thumbnails: ["i", "after", "clouds"].map(node).to_vec(),
+        ..wish(1, graph(nodes))
+    });
+    let faults = told.faults().expect("faults");
+    let [fault] = faults.faults.as_slice() else {
+        panic!("{faults:?}")
+    };
+    let begins = "node \"i\" needs the group file \"gone.sabi\", which cannot be read: ";
+    assert!(fault.node == "i" && fault.sentence.starts_with(begins), "{fault:?}");
+    assert_eq!(faults.waiting, [waiting("after", "i")]);
+    assert_eq!(told.pictured(), ["clouds"]);
     let is_model = |news: &&sabi_engine::News| matches!(news, sabi_engine::News::Model { .. });
     assert_eq!(told.all.iter().filter(is_model).count(), 2);
 }
@@ -164,16 +172,20 @@ fn warnings_stay_as_long_as_what_they_are_about() {
     let told = warnings(1, rays).expect("warnings");
     assert!(
         told.iter()
-            .any(|sentence| sentence.starts_with("The model is open at 4 edges")),
+            .any(|warning| warning.sentence.starts_with("The model is open at 4 edges")),
         "{told:?}"
     );
     assert!(
-        told.iter().any(|sentence| sentence.contains("no parameter 'odd'")),
+        told.iter()
+            .any(|warning| warning.sentence.contains("no parameter 'odd'")),
         "{told:?}"
     );
     assert_eq!(warnings(2, rays), None, "nothing is told twice");
     let told = warnings(3, "").expect("other warnings");
-    assert!(!told.iter().any(|sentence| sentence.contains("open")), "{told:?}");
+    assert!(
+        !told.iter().any(|warning| warning.sentence.contains("open")),
+        "{told:?}"
+    );
 }
 
 #[test]

@@ -30,7 +30,7 @@ pub(crate) enum Action {
     /// Write the file of a node of the artist's own.
     SaveNode(NodeDraft),
     /// Put a node of another kind in the place of one.
-    Replace { node: NodeId, kind: String },
+    Replace { node: NodeId, by: New },
     /// Change wires.
     Wire(WireAsk),
     /// A drag of nodes begins.

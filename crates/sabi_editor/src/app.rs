@@ -28,6 +28,7 @@ use sabi_graph::NodeRef;
 
 pub(crate) use documents::{MODELS, PICTURES, model_of};
 pub(crate) use eyedropper::Taken;
+use keys::KeyState;
 pub(crate) use keys::told_by_system;
 
 use crate::canvas::Canvas;
@@ -80,6 +81,8 @@ pub(crate) struct Kept {
     pub(crate) model: PathBuf,
     /// Node files that were being written.
     pub(crate) drafts: Vec<Draft>,
+    /// Whether textures were being written, which ended with the device.
+    pub(crate) was_exporting: bool,
 }
 
 /// Where a window leaves what outlives it.
@@ -96,7 +99,7 @@ pub(crate) struct Editor {
     theme: Arc<Theme>,
     keys: KeyMap,
     pub(crate) settings: Settings,
-    kept_settings: Option<String>,
+    kept_settings: serde_json::Value,
     folders: Folders,
     layout: Layout,
     use_layout: Option<Layout>,
@@ -125,6 +128,7 @@ pub(crate) struct Editor {
     render: Option<RenderState>,
     handover: Handover,
     is_leaving: bool,
+    key_state: KeyState,
     /// What the window is called.
     named: String,
     pub(crate) context: Context,
@@ -153,6 +157,7 @@ impl Editor {
         });
         let (watching, fault) = Watching::new(context);
         faults.extend(fault.map(|error| error.to_string()));
+        faults.extend(work.fault);
         let model = (work.model.as_path(), settings.reading(&work.model));
         let stage = Stage::new(gpu, model, beginning.folders.cache.clone(), context);
         let mut editor = Editor {
@@ -162,7 +167,7 @@ impl Editor {
             use_layout: None,
             keys,
             theme,
-            kept_settings: None,
+            kept_settings: settings.to_json(),
             settings,
             files: work.files,
             panels: panels::Panels::new(beginning.folders.cache.clone(), work.drafts),
@@ -186,6 +191,7 @@ impl Editor {
             render,
             handover,
             is_leaving: false,
+            key_state: KeyState::default(),
             named: String::new(),
             context: context.clone(),
             waits_for_key: None,
@@ -248,6 +254,7 @@ impl Editor {
         self.name_window(&context);
         self.wish(&context);
         self.keep(&context);
+        self.key_state.was_typing = context.text_edit_focused();
         self.frame_times.push_back(began.elapsed());
         while self.frame_times.len() > 120 {
             self.frame_times.pop_front();
@@ -270,11 +277,8 @@ impl Editor {
     /// Leaves the work to a window on another device, since this one's is gone.
     fn hand_over(&mut self, context: &Context) {
         let mut desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
-        // No hand holds anything in the other window; and should that one never come, what is here is kept.
-        desk.session.end();
-        if let Err(error) = desk.session.keep(&self.panels.page.unsaved()) {
-            tracing::error!("what is not saved cannot be kept: {error}");
-        }
+        // Should the other window never come, what is here is kept.
+        keeping::keep_at_last(&mut desk, &self.panels.page.unsaved());
         self.canvas.drop_all();
         if let Ok(mut handover) = self.handover.lock() {
             *handover = Some(Kept {
@@ -282,6 +286,7 @@ impl Editor {
                 canvas: std::mem::take(&mut self.canvas),
                 model: self.stage.model_file().to_owned(),
                 drafts: self.panels.page.take_drafts(),
+                was_exporting: self.panels.export.running.is_some(),
             });
         }
         self.stage.lost = None;
@@ -313,8 +318,7 @@ impl eframe::App for Editor {
     fn on_exit(&mut self) {
         self.keep_settings();
         if !self.is_leaving {
-            let desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
-            desk.session.close();
+            self.end_work();
         }
     }
 

@@ -198,7 +198,7 @@ impl Canvas {
 
     /// Whether Escape means something here besides leaving a group.
     pub(crate) fn let_go(&mut self) -> bool {
-        let held = !matches!(self.gesture, Gesture::Idle) || self.port.is_some();
+        let held = self.has_something_in_hand();
         self.gesture = Gesture::Idle;
         self.leave_port();
         held
@@ -210,6 +210,11 @@ impl Canvas {
         self.menu = None;
         self.renaming = None;
         self.merge = None;
+    }
+
+    /// Whether something is being dragged, or a port is chosen.
+    pub(crate) fn has_something_in_hand(&self) -> bool {
+        !matches!(self.gesture, Gesture::Idle) || self.port.is_some()
     }
 
     /// Whether nodes are being dragged.

@@ -55,7 +55,9 @@ pub(crate) fn candidates(catalog: &Catalog, faces: &Faces, groups: &[String], sh
 const LABEL: u32 = 8;
 const ALIAS: u32 = 6;
 const ID: u32 = 5;
-const SUMMARY: u32 = 1;
+const SUMMARY: u32 = 2;
+/// A word in the longer explanation.
+const DESCRIPTION: u32 = 1;
 /// A description is only found by words as they stand there: fuzzily, any text has any few letters.
 const SUMMARY_SCORE: u32 = 40;
 
@@ -100,8 +102,11 @@ fn score(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Cand
         for alias in &face.aliases {
             try_text(alias, ALIAS, &mut best);
         }
-        if face.summary.to_lowercase().contains(word.as_str()) {
+        let says = |text: &str| text.to_lowercase().contains(word.as_str());
+        if says(&face.summary) {
             best = best.max(SUMMARY * SUMMARY_SCORE);
+        } else if best == 0 && says(&face.description) {
+            best = DESCRIPTION * SUMMARY_SCORE;
         }
         if best == 0 {
             return None;

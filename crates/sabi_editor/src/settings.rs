@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::write_whole;
+use serde_json::Value as Json;
 
 use crate::command::Habit;
 use crate::dock::Layout;
@@ -80,10 +82,13 @@ impl Default for Settings {
 impl Settings {
     /// What was kept in a folder; says what could not be read, and begins anew then.
     pub(crate) fn load(folder: Option<&Path>) -> (Settings, Option<String>) {
-        let Some(text) = folder.and_then(|folder| fs::read_to_string(folder.join(FILE)).ok()) else {
-            return (Settings::default(), None);
+        let read = match folder.map(|folder| fs::read_to_string(folder.join(FILE))) {
+            None => return (Settings::default(), None),
+            Some(Err(error)) if error.kind() == ErrorKind::NotFound => return (Settings::default(), None),
+            Some(Err(error)) => Err(error.to_string()),
+            Some(Ok(text)) => serde_json::from_str::<Settings>(&text).map_err(|error| error.to_string()),
         };
-        match serde_json::from_str::<Settings>(&text) {
+        match read {
             Ok(settings) => (settings.sound(), None),
             Err(error) => {
                 // What is kept from now on must not take its place: it may be of a newer version.
@@ -100,12 +105,29 @@ impl Settings {
         }
     }
 
-    /// Keeps them: whole, or as they were before.
-    pub(crate) fn save(&self, folder: &Path) -> Result<(), String> {
-        let told =
-            |error: &dyn std::fmt::Display| format!("the settings cannot be kept in {}: {error}", folder.display());
-        let text = serde_json::to_string_pretty(self).map_err(|error| told(&error))?;
-        write_whole(&folder.join(FILE), text.as_bytes()).map_err(|error| told(&error))
+    /// Keeps them: whole, or as they were before. What is as in `before` stays as another window has kept it since.
+    pub(crate) fn save(&self, folder: &Path, before: &Json) -> Result<(), String> {
+        let file = folder.join(FILE);
+        let mut kept = match fs::read(&file).map(|bytes| serde_json::from_slice(&bytes)) {
+            Ok(Ok(Json::Object(kept))) => kept,
+            _ => serde_json::Map::new(),
+        };
+        if let Json::Object(now) = self.to_json() {
+            for (name, value) in now {
+                if before.get(&name) != Some(&value) || !kept.contains_key(&name) {
+                    kept.insert(name, value);
+                }
+            }
+        }
+        let text = format!("{:#}", Json::Object(kept));
+        write_whole(&file, text.as_bytes())
+            .map_err(|error| format!("the settings cannot be kept in {}: {error}", folder.display()))
+    }
+
+    /// What is kept of them.
+    pub(crate) fn to_json(&self) -> Json {
+        // Nothing of them is of a kind that JSON does not have.
+        serde_json::to_value(self).unwrap_or_default()
     }
 
     /// Remembers a file as the last one that was open.
@@ -196,7 +218,7 @@ mod tests {
         kept.remember(Path::new("one.sabi"));
         kept.remember(Path::new("two.sabi"));
         kept.remember(Path::new("one.sabi"));
-        kept.save(folder.path()).expect("saved");
+        kept.save(folder.path(), &Json::Null).expect("saved");
         let (read, fault) = Settings::load(Some(folder.path()));
         assert_eq!(fault, None);
         assert_eq!((read.scale, read.habit), (1.5, Habit::Blender));
@@ -204,11 +226,42 @@ mod tests {
     }
 
     #[test]
-    fn settings_that_cannot_be_read_are_said_and_begun_anew() {
+    fn settings_that_cannot_be_read_are_said_put_aside_and_begun_anew() {
+        for damaged in [b"{ \"scale\": \"huge\" }".as_slice(), b"{ \"scale\": 1.5 \xff }"] {
+            let folder = tempfile::tempdir().expect("a folder");
+            fs::write(folder.path().join(FILE), damaged).expect("written");
+            let (read, fault) = Settings::load(Some(folder.path()));
+            assert_eq!(read.scale, 1.0);
+            assert!(fault.expect("a sentence").starts_with("The settings could not be read"));
+            assert_eq!(fs::read(folder.path().join(BACKUP)).expect("a file"), damaged);
+        }
+    }
+
+    #[test]
+    fn two_windows_keep_what_each_of_them_changed() {
         let folder = tempfile::tempdir().expect("a folder");
-        fs::write(folder.path().join(FILE), "{ \"scale\": \"huge\" }").expect("written");
-        let (read, fault) = Settings::load(Some(folder.path()));
-        assert_eq!(read.scale, 1.0);
-        assert!(fault.expect("a sentence").starts_with("The settings could not be read"));
+        let began = Settings::default();
+        let (mut one, mut other) = (began.clone(), began.clone());
+        one.habit = Habit::Blender;
+        one.save(folder.path(), &began.to_json()).expect("saved");
+        other.scale = 1.5;
+        other.save(folder.path(), &began.to_json()).expect("saved");
+        let (read, _) = Settings::load(Some(folder.path()));
+        assert_eq!((read.scale, read.habit), (1.5, Habit::Blender));
+    }
+
+    #[test]
+    fn what_a_newer_version_keeps_stays() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join(FILE), r#"{ "scale": 2.0, "newer": [1] }"#).expect("written");
+        let (read, _) = Settings::load(Some(folder.path()));
+        let changed = Settings {
+            scale: 1.5,
+            ..read.clone()
+        };
+        changed.save(folder.path(), &read.to_json()).expect("saved");
+        let text = fs::read_to_string(folder.path().join(FILE)).expect("a file");
+        let kept: Json = serde_json::from_str(&text).expect("settings");
+        assert_eq!((&kept["newer"][0], &kept["scale"]), (&Json::from(1), &Json::from(1.5)));
     }
 }

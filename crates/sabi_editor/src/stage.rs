@@ -314,15 +314,19 @@ impl Stage {
 
     fn take_faults(&mut self, faults: Faults) {
         self.by_node.clear();
+        self.waiting.clear();
         for fault in &faults.faults {
-            self.by_node
-                .entry(fault.node.clone())
-                .or_insert_with(|| fault.sentence.clone());
+            for node in with_groups(&fault.node) {
+                let known = self.by_node.entry(node.to_owned());
+                known.or_insert_with(|| fault.sentence.clone());
+            }
         }
-        let waiting = faults.waiting.iter();
-        self.waiting = waiting
-            .map(|waiting| (waiting.node.clone(), format!("waiting for {}", waiting.on)))
-            .collect();
+        for waiting in &faults.waiting {
+            for node in with_groups(&waiting.node) {
+                let known = self.waiting.entry(node.to_owned());
+                known.or_insert_with(|| format!("waiting for {}", waiting.on));
+            }
+        }
         self.faults = faults;
     }
 
@@ -340,16 +344,25 @@ impl Stage {
         self.thumbnails.get(node).map(|(_, picture)| picture)
     }
 
+    /// Why a node, or one in a group instance, has no result.
     pub(crate) fn fault(&self, node: &str) -> Option<&String> {
         self.by_node.get(node)
     }
 
+    /// What a node, or one in a group instance, waits for.
     pub(crate) fn waits(&self, node: &str) -> Option<&String> {
         self.waiting.get(node)
     }
 
+    /// How long a node took when it was last evaluated, or all nodes in a group instance.
     pub(crate) fn time(&self, node: &str) -> Option<Duration> {
-        self.times.get(node).copied()
+        let inner = format!("{node}/");
+        let inside = self.times.range(inner.clone()..);
+        let inside = inside
+            .take_while(|(id, _)| id.starts_with(&inner))
+            .map(|(_, time)| *time);
+        let own = self.times.get(node).copied();
+        own.into_iter().chain(inside).reduce(|sum, time| sum + time)
     }
 
     /// How many pictures of the model, pictures of nodes and times are held.
@@ -362,4 +375,9 @@ impl Stage {
     pub(crate) fn times(&self) -> &BTreeMap<String, Duration> {
         &self.times
     }
+}
+
+/// A node's id, and those of the group instances that it stands in: `a/b/c`, `a/b`, `a`.
+fn with_groups(node: &str) -> impl Iterator<Item = &str> {
+    std::iter::successors(Some(node), |inner| inner.rsplit_once('/').map(|(outer, _)| outer))
 }

@@ -143,8 +143,9 @@ impl Editor {
 
     /// Finds out whether another program wrote the graph's file.
     fn look_at_file(&mut self) {
-        let state = self.desk.session.file_state();
+        let state = self.desk.session.look_at_file();
         self.watching.is_asked = state == FileState::Another;
+        self.keep_soon();
         if state == FileState::Gone
             && let Some(file) = self.desk.session.file()
         {
@@ -184,6 +185,8 @@ impl Editor {
         }
         if keep {
             self.watching.is_asked = false;
+            self.desk.session.keep_apart();
+            self.keep_soon();
         }
     }
 

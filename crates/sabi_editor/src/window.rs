@@ -10,7 +10,7 @@ use sabi_engine::{
 };
 
 use crate::app::{Beginning, Editor, Folders, Handover};
-use crate::files::examples;
+use crate::files::{examples, whole};
 use crate::settings::default_folder;
 
 /// How often a window is opened anew for a lost device before it is given up, where each was lost soon.
@@ -149,10 +149,10 @@ fn folders() -> Folders {
 /// The model to begin with: the one that was named, the one that the graph names, or one that comes with the program.
 fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> Result<PathBuf, EngineError> {
     if let Some(mesh) = &request.mesh {
-        return Ok(mesh.clone());
+        return Ok(whole(mesh));
     }
     if let Some(model) = crate::app::model_of(session) {
-        return Ok(model);
+        return Ok(whole(&model));
     }
     let folder = folders
         .examples

@@ -98,7 +98,8 @@ impl OpenGraph {
         wanted: &[NodeRef],
         groups: &mut BTreeSet<PathBuf>,
     ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
-        self.try_flatten(overrides, wanted, groups).map_err(|(error, of_file)| {
+        let flat = self.try_flatten(&self.document, overrides, wanted, groups);
+        flat.map_err(|(error, of_file)| {
             let kind = if self.is_asked_for(&error, overrides) {
                 ErrorKind::Usage
             } else {
@@ -109,8 +110,9 @@ impl OpenGraph {
     }
 
     /// Flattens; an error comes with its kind if the files are to blame.
-    fn try_flatten(
+    pub(crate) fn try_flatten(
         &self,
+        document: &Document,
         overrides: &Overrides,
         wanted: &[NodeRef],
         groups: &mut BTreeSet<PathBuf>,
@@ -126,12 +128,13 @@ impl OpenGraph {
             })?;
             Document::from_json(&text).map_err(|error| error.with_name(path.display().to_string()).to_string())
         };
-        flatten_and_find(&self.document, overrides, &mut group_file, wanted).map_err(|error| (error, kind))
+        flatten_and_find(document, overrides, &mut group_file, wanted).map_err(|error| (error, kind))
     }
 
     /// Whether an error comes from what was set on top of the files, which are without it otherwise.
     fn is_asked_for(&self, error: &FlattenError, overrides: &Overrides) -> bool {
-        let is_gone_without = |less: &Overrides| match self.try_flatten(less, &[], &mut BTreeSet::new()) {
+        let is_gone_without = |less: &Overrides| match self.try_flatten(&self.document, less, &[], &mut BTreeSet::new())
+        {
             Ok(_) => true,
             Err((other, _)) => other != *error,
         };

@@ -57,7 +57,9 @@ pub use document::OpenGraph;
 pub use environment::{built_in_environments, load_environment, read_panorama};
 pub use error::{EngineError, ErrorKind};
 pub use kinds::Kinds;
-pub use live::{Faults, Inspected, Live, LiveModel, LiveOptions, LiveTimes, News, NodeFault, Seen, Waiting, Wish};
+pub use live::{
+    Faults, Inspected, Live, LiveModel, LiveOptions, LiveTimes, News, NodeFault, Seen, Waiting, Warning, Wish,
+};
 pub use looks::{Shown, show};
 pub use node_file::{NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id};
 pub use pictures::Pictures;
@@ -66,7 +68,7 @@ pub use preview::{PreviewRequest, preview};
 pub use render::{RenderRequest, Turns, render};
 pub use report::{BakeReport, StageTime, StageTimes};
 pub use seams::Seams;
-pub use session::{FileState, Recovery, Session, recoveries};
+pub use session::{FileState, Recovery, Session, moved_to, recoveries, with_near_paths, with_whole_paths};
 pub use sets::TextureSet;
 pub use setting::read_setting;
 pub use sheet::{PlaneHolds, SheetPlane};

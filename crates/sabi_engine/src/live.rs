@@ -9,6 +9,7 @@ mod inspect;
 mod mailbox;
 mod model;
 mod news;
+mod set_aside;
 mod show;
 mod stage;
 mod studio;
@@ -25,7 +26,7 @@ use sabi_graph::NodeRef;
 
 use crate::error::{EngineError, ErrorKind};
 use mailbox::{Forgotten, Mailbox};
-pub use news::{Faults, Inspected, LiveModel, LiveTimes, News, NodeFault, Waiting};
+pub use news::{Faults, Inspected, LiveModel, LiveTimes, News, NodeFault, Waiting, Warning};
 pub use wish::{LiveOptions, Seen, Wish};
 use worker::Worker;
 

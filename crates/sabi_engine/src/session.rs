@@ -14,12 +14,14 @@ use sabi_export::Staging;
 use sabi_graph::{Document, Edit, EditError, History};
 
 use moving::Moving;
+pub use moving::{moved_to, with_near_paths, with_whole_paths};
 use recovery::Kept;
 pub use recovery::{Recovery, recoveries};
 
 use crate::document::OpenGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::node_file::NodeDraft;
+use crate::whole_file::behind_links;
 
 /// What a graph is called before it has a file.
 const UNTITLED: &str = "untitled.sabi";
@@ -51,6 +53,8 @@ pub struct Session {
     file: Option<PathBuf>,
     /// The text in its file, or of the empty graph that it began as.
     saved: String,
+    /// Whether its file is gone, or is to become again what is here: then everything is unsaved.
+    is_apart: bool,
     /// The text at hand, by the revision that it is of.
     text: (u64, String),
     /// Rises with everything that changes the document.
@@ -121,6 +125,7 @@ impl Session {
             history: History::new(),
             file,
             saved,
+            is_apart: false,
             text: (revision, text),
             revision,
             recovery: Some(recovery),
@@ -138,6 +143,7 @@ impl Session {
                 Some(_) => text.clone(),
                 None => Document::new("").to_json(),
             },
+            is_apart: false,
             text: (revision, text),
             revision,
             file,
@@ -218,16 +224,27 @@ impl Session {
         Ok(redone)
     }
 
-    /// What its file holds by now, whoever wrote it.
-    pub fn file_state(&self) -> FileState {
+    /// Finds out what its file holds by now, whoever wrote it. What is here is unsaved as long as the file is gone.
+    pub fn look_at_file(&mut self) -> FileState {
         let Some(file) = &self.file else {
             return FileState::Same;
         };
-        match fs::read(file) {
+        let state = match fs::read(file) {
             Ok(bytes) if bytes == self.open.text.as_bytes() || bytes == self.saved.as_bytes() => FileState::Same,
             Ok(_) => FileState::Another,
             Err(_) => FileState::Gone,
+        };
+        match state {
+            FileState::Same => self.is_apart = false,
+            FileState::Gone => self.is_apart = true,
+            FileState::Another => {}
         }
+        state
+    }
+
+    /// Goes on with what is here although its file holds something else by now: it is unsaved until it is saved again.
+    pub fn keep_apart(&mut self) {
+        self.is_apart = true;
     }
 
     /// Takes what its file holds by now in the place of what is here, as a step that can be undone.
@@ -248,6 +265,7 @@ impl Session {
         taken.map_err(|error| EngineError::new(ErrorKind::BadInput, error.to_string()))?;
         self.open.text = read.text;
         self.saved = saved;
+        self.is_apart = false;
         Ok(())
     }
 
@@ -262,7 +280,7 @@ impl Session {
     /// Whether there is something that its file does not hold.
     pub fn is_dirty(&mut self) -> bool {
         self.text();
-        self.text.1 != self.saved
+        self.is_apart || self.text.1 != self.saved
     }
 
     /// Saves to its own file.
@@ -312,6 +330,7 @@ impl Session {
         self.open.text = text.as_str().into();
         self.file = Some(path.to_owned());
         self.saved = text;
+        self.is_apart = false;
         Ok(())
     }
 
@@ -337,8 +356,16 @@ impl Session {
     }
 }
 
-/// Writes a file whole, and keeps the one that it replaces.
+/// Writes a file whole, and keeps the one that it replaces. A link stays one: the file that it leads to is written.
 fn write_with_backup(path: &Path, text: &str) -> Result<(), EngineError> {
+    let path = &behind_links(path);
+    if fs::metadata(path).is_ok_and(|known| known.permissions().readonly()) {
+        let why = format!(
+            "{} is write-protected; allow writing to it, or save under another name",
+            path.display()
+        );
+        return Err(EngineError::new(ErrorKind::CannotWrite, why));
+    }
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
     let Some(name) = name.filter(|name| !name.is_empty()) else {
         let why = format!("{} names no file; add a name that ends in .sabi", path.display());

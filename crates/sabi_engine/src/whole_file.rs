@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 /// No more files of one name are looked at.
 const MOST_OF_A_NAME: usize = 1000;
 
-/// Writes a file under a name of its own and puts it in place then, so that nobody ever reads half of it. Folders are made.
+/// Writes a file under a name of its own and puts it in place then, so that nobody ever reads half of it. Folders are made, and
+/// a link stays one: the file that it leads to is written.
 ///
 /// # Errors
 /// The folder cannot be written to; the file is as it was before.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
+    let file = &behind_links(file);
     if let Some(folder) = file.parent() {
         fs::create_dir_all(folder)?;
     }
@@ -24,6 +26,13 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
         let _ = fs::remove_file(&partial);
     }
     written
+}
+
+/// The file that a link leads to, however many there are in between; every other path as it is.
+pub(crate) fn behind_links(file: &Path) -> PathBuf {
+    let is_link = fs::symlink_metadata(file).is_ok_and(|found| found.is_symlink());
+    let behind = is_link.then(|| file.canonicalize().ok()).flatten();
+    behind.unwrap_or_else(|| file.to_owned())
 }
 
 /// A path that leads to the same from wherever the program is started next.

@@ -101,6 +101,10 @@ impl Staging {
             .create_temporary(file_name)
             .map_err(|error| ExportError::write(&target, error))?;
         self.files.push((temporary, target.clone()));
+        if let Ok(replaced) = fs::metadata(&target) {
+            // Who may read and write it stays as it was, where the file system knows of that.
+            let _ = file.set_permissions(replaced.permissions());
+        }
         // Some file systems only find out here that there is no room.
         write_through(&mut file, bytes)
             .and_then(|()| file.sync_data())

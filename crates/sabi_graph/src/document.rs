@@ -28,6 +28,17 @@ pub struct Document {
 }
 
 impl Document {
+    /// The same, with these nodes of its main graph as ones of another kind.
+    pub fn with_kind<'a>(&self, nodes: impl IntoIterator<Item = &'a NodeId>, kind: &str) -> Document {
+        let mut document = self.clone();
+        for id in nodes {
+            if let Ok(node) = document.graph.node_mut(id) {
+                node.kind = kind.to_owned();
+            }
+        }
+        document
+    }
+
     /// An empty document of that name.
     pub fn new(name: impl Into<String>) -> Self {
         Document {

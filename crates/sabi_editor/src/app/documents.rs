@@ -70,7 +70,7 @@ impl Editor {
         self.keeping.kept = None;
         self.canvas = Default::default();
         self.look_at_nothing();
-        if let Some(model) = model.filter(|model| model != self.stage.model_file()) {
+        if let Some(model) = model.filter(|model| whole(model) != self.stage.model_file()) {
             self.take_model(&model);
         }
     }
@@ -88,13 +88,15 @@ impl Editor {
     }
 
     /// Makes the model that the graph was worked on its own, so that it opens on that one again. What comes with the program
-    /// stands in for a model that nobody has chosen.
+    /// stands in for a model that nobody has chosen, and as long as there is something to do again nothing is edited, since a
+    /// save takes no step away.
     fn keep_model(&mut self) {
         let model = self.stage.model_file();
         let own = model_of(&self.desk.session);
         let is_own = own.as_ref().is_some_and(|own| whole(own) == whole(model));
         let is_stand_in = own.is_none() && self.folders.examples.as_ref().is_some_and(|of| model.starts_with(of));
-        if is_own || is_stand_in || self.stage.model_failure.is_some() {
+        let has_redo = self.desk.session.redo_names().next().is_some();
+        if is_own || is_stand_in || has_redo || self.stage.model_failure.is_some() {
             return;
         }
         let preview = Preview {

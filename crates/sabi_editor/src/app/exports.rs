@@ -8,7 +8,7 @@ use sabi_engine::{
 };
 
 use super::Editor;
-use crate::panels::export::{Running, folder_of};
+use crate::panels::export::{Bake, Running, folder_of};
 
 impl Editor {
     /// Turns the panel to where textures of the open graph went before.
@@ -28,8 +28,8 @@ impl Editor {
     /// Takes what came of an export, and begins the one that waits for its end.
     pub(super) fn follow_export(&mut self) {
         let is_over = self.panels.export.poll();
-        if is_over && std::mem::take(&mut self.panels.export.is_queued) {
-            self.export();
+        if is_over && let Some(bake) = self.panels.export.queued.take() {
+            self.begin_export(bake);
         }
     }
 
@@ -52,7 +52,7 @@ impl Editor {
             return;
         }
         if export.running.is_some() {
-            export.is_queued = true;
+            self.panels.export.queued = self.bake(false);
         } else {
             self.export();
         }
@@ -71,8 +71,17 @@ impl Editor {
     fn export_with(&mut self, force: bool) {
         if self.panels.export.running.is_some() {
             self.say("An export is being made already.");
-            return;
+        } else if let Some(bake) = self.bake(force) {
+            self.begin_export(bake);
         }
+    }
+
+    fn begin_export(&mut self, bake: Bake) {
+        self.panels.export.running = Some(Running::start(&self.context, bake));
+    }
+
+    /// What writes the textures of the graph as it is now; says why where they cannot be written.
+    fn bake(&mut self, force: bool) -> Option<Bake> {
         let Some(folder) = folder_of(&self.panels.export.place.folder, self.desk.session.file()) else {
             let is_empty = self.panels.export.place.folder.trim().is_empty();
             self.say(match is_empty {
@@ -81,19 +90,17 @@ impl Editor {
                     "Save the graph first, so that there is a folder beside it, or write the whole path of another."
                 }
             });
-            return;
+            return None;
         };
         let request = self.bake_request(folder, force);
         let (open, kinds) = (self.desk.session.graph().clone(), self.desk.kinds().0.clone());
         self.panels.export.asks_force = needs_force(&open, &request);
         if self.panels.export.asks_force {
             self.say("No textures were written: their folder has other files. The export panel asks what to do.");
-            return;
+            return None;
         }
         self.panels.export.place.model = Some(self.stage.model_file().to_owned());
-        let context = self.context.clone();
-        let work = move |progress: &dyn sabi_engine::Progress| bake_graph(&open, &kinds, &request, progress);
-        self.panels.export.running = Some(Running::start(&context, work));
+        Some(Box::new(move |progress| bake_graph(&open, &kinds, &request, progress)))
     }
 
     /// What the export panel says, for the model and the device of the window.

@@ -3,8 +3,10 @@
 use std::time::{Duration, Instant};
 
 use egui::Context;
+use sabi_engine::{NodeDraft, Session};
 
 use super::Editor;
+use crate::desk::Desk;
 
 /// How often what is not saved is kept in case the program ends.
 const KEEP_EVERY: Duration = Duration::from_secs(3);
@@ -45,6 +47,23 @@ impl Editor {
         }
     }
 
+    /// Makes sure that what is unsaved is kept although nothing was edited.
+    pub(crate) fn keep_soon(&mut self) {
+        self.keeping.kept = None;
+    }
+
+    /// Takes the work off the desk as the window ends. What is unsaved and was not let go is kept: systems end programs
+    /// without asking them.
+    pub(super) fn end_work(&mut self) {
+        let mut desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
+        let drafts = self.panels.page.unsaved();
+        if self.files.may_close || !desk.session.is_dirty() && drafts.is_empty() {
+            desk.session.close();
+        } else {
+            keep_at_last(&mut desk, &drafts);
+        }
+    }
+
     pub(super) fn keep_settings(&mut self) {
         self.remember_export();
         self.settings.layout = Some(self.layout.clone());
@@ -52,13 +71,22 @@ impl Editor {
         let Some(folder) = self.folders.settings.clone() else {
             return;
         };
-        let text = serde_json::to_string(&self.settings).ok();
-        if text == self.kept_settings {
+        let now = self.settings.to_json();
+        if now == self.kept_settings {
             return;
         }
-        self.kept_settings = text;
-        if let Err(why) = self.settings.save(&folder) {
+        let before = std::mem::replace(&mut self.kept_settings, now);
+        if let Err(why) = self.settings.save(&folder, &before) {
             self.say(why);
         }
+    }
+}
+
+/// Keeps what is not saved, where no window is left to say that it cannot be.
+pub(super) fn keep_at_last(desk: &mut Desk, drafts: &[NodeDraft]) {
+    // No hand holds anything any more.
+    desk.session.end();
+    if let Err(error) = desk.session.keep(drafts) {
+        tracing::error!("what is not saved cannot be kept: {error}");
     }
 }

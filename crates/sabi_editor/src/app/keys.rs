@@ -1,6 +1,8 @@
 //! Keys: they act on what the pointer is over, or on the panel that was chosen by a key.
 
-use egui::{Context, Event, EventFilter, Id, Key, Modifiers, Ui};
+use std::time::{Duration, Instant};
+
+use egui::{Context, Event, EventFilter, Id, Key, Modifiers, Popup, Ui};
 
 use super::Editor;
 use crate::action::Action;
@@ -8,17 +10,31 @@ use crate::canvas::{Way, focus_id};
 use crate::command::{Chord, Command, Scope};
 use crate::dock::Panel;
 
+/// What the system holds comes within this time after it was asked for.
+const PASTE_WITHIN: Duration = Duration::from_secs(2);
+
+/// What keys that come next hang on.
+#[derive(Default)]
+pub(super) struct KeyState {
+    /// When the system was asked for what it holds.
+    asked_paste: Option<Instant>,
+    /// Whether a text was being typed at the end of the last frame.
+    pub(super) was_typing: bool,
+}
+
 impl Editor {
     /// What keys mean that were pressed since the last frame.
     pub(super) fn keys_pressed(&mut self, ui: &mut Ui) -> Vec<Action> {
         self.follow_pointer(ui);
         let context = ui.ctx().clone();
-        if self.canvas.holds_keys() || self.question().is_some() || self.files.is_start {
+        let is_canvas_shown = self.rects.contains_key(&Panel::Canvas);
+        if is_canvas_shown && self.canvas.holds_keys() || self.question().is_some() || self.files.is_start {
             return Vec::new();
         }
         if context.text_edit_focused() {
             return self.keys_beside_text(ui);
         }
+        let is_spent = self.is_escape_spent(&context);
         self.hold_focus(&context);
         // What is dragged is in the middle of a step, which has to end first.
         if self.waits_for_key.is_some() || self.canvas.is_moving_nodes() || self.is_moving {
@@ -28,6 +44,7 @@ impl Editor {
         let events = ui.input(|input| input.events.clone());
         for event in events {
             match event {
+                Event::Key { key: Key::Escape, .. } if is_spent => {}
                 Event::Key {
                     key,
                     pressed: true,
@@ -48,6 +65,12 @@ impl Editor {
         actions
     }
 
+    /// Whether Escape has done something already: it ended a text or what was dragged out of a panel, or closes a menu.
+    fn is_escape_spent(&self, context: &Context) -> bool {
+        let is_dropped = context.drag_stopped_id().is_some() && !self.canvas.has_something_in_hand();
+        self.key_state.was_typing || is_dropped || Popup::is_any_open(context)
+    }
+
     /// While a text is typed, keys of the window that mean nothing to a text are still its own.
     fn keys_beside_text(&mut self, ui: &Ui) -> Vec<Action> {
         let pressed = |event: &Event| match event {
@@ -66,10 +89,21 @@ impl Editor {
         own.map(Action::Do).collect()
     }
 
-    /// Whether what the system holds goes into the graph by the key that it usually does.
-    fn pastes_here(&self) -> bool {
+    /// Whether what the system holds goes into the graph: it was asked for, or comes by the key that usually does that.
+    fn pastes_here(&mut self) -> bool {
+        let asked = self
+            .key_state
+            .asked_paste
+            .take()
+            .is_some_and(|at| at.elapsed() < PASTE_WITHIN);
         let usual = self.keys.command(Scope::Canvas, Modifiers::COMMAND, Key::V);
-        self.active == Panel::Canvas && usual == Some(Command::Paste)
+        asked || self.active == Panel::Canvas && usual == Some(Command::Paste)
+    }
+
+    /// Asks the system for what it holds, which comes as an event and only if it holds a text.
+    pub(super) fn ask_paste(&mut self, context: &Context) {
+        self.key_state.asked_paste = Some(Instant::now());
+        context.send_viewport_cmd(egui::ViewportCommand::RequestPaste);
     }
 
     fn key(&mut self, key: Key, modifiers: Modifiers, ui: &Ui, actions: &mut Vec<Action>) {
@@ -151,6 +185,10 @@ impl Editor {
             && let Some(shown) = Panel::ALL.into_iter().find(|panel| self.rects.contains_key(panel))
         {
             self.active = shown;
+        }
+        if !self.rects.contains_key(&Panel::Canvas) {
+            // What is in hand and asked there is not seen any more.
+            self.canvas.drop_all();
         }
     }
 

@@ -131,6 +131,16 @@ impl Editor {
         self.ports.retain(|node, _| desk.has(node));
     }
 
+    /// Looks at one node wherever another one was looked at.
+    pub(super) fn look_on(&mut self, gone: &str, id: &NodeId) {
+        let reference = self.reference(id, None);
+        for looked_at in [&mut self.shown, &mut self.followed, &mut self.pinned, &mut self.locked] {
+            if looked_at.as_ref().is_some_and(|node| node.node == gone) {
+                *looked_at = Some(reference.clone());
+            }
+        }
+    }
+
     /// Keeps a node's result in the 2D view, or lets it go where it is kept.
     pub(super) fn pin(&mut self, node: &NodeId) {
         let reference = Some(self.chosen(node));

@@ -31,9 +31,7 @@ impl Editor {
             } => self.add(&kind, place, loose.as_ref(), into.as_ref()),
             Action::SaveNode(node) => self.save_node(&node),
             Action::Shelve(shelf) => self.shelve_selected(shelf),
-            Action::Replace { node, kind } => {
-                desk.replace(&node, &kind);
-            }
+            Action::Replace { node, by } => self.replace(&node, &by),
             Action::Wire(asked) => self.change_wires(asked),
             Action::BeginMove => desk.session.begin("Move"),
             Action::Move(places) => {
@@ -106,6 +104,30 @@ impl Editor {
         desk.session.end();
         if let Some(id) = added {
             self.look_at(&id, None);
+        }
+    }
+
+    /// Puts something in the place of a node; who looked at that one looks at it.
+    fn replace(&mut self, node: &NodeId, by: &New) {
+        let gone = self.desk.full_id(node);
+        let desk = &mut self.desk;
+        let is_made = match by {
+            New::Kind(kind) => desk.replace(node, kind),
+            New::Group(group) => desk.replace_by_group(node, group),
+            New::Library(file) => {
+                desk.session.begin("Replace by a group");
+                let group = desk.bring_from_library(file);
+                let is_made = group.is_some_and(|group| desk.replace_by_group(node, &group));
+                if is_made {
+                    desk.session.end();
+                } else {
+                    desk.take_back();
+                }
+                is_made
+            }
+        };
+        if let Some(new) = self.desk.selected_one().cloned().filter(|_| is_made) {
+            self.look_on(&gone, &new);
         }
     }
 
@@ -206,12 +228,24 @@ impl Editor {
         desk.session.end();
     }
 
+    /// Does what a command asks of the canvas itself; says whether it did.
+    fn command_canvas(&mut self, command: Command, ui: &Ui) -> bool {
+        if matches!(command, Command::AddMenu | Command::Rename) {
+            // What they open is there.
+            self.bring_up(Panel::Canvas);
+        }
+        let Some(actions) = self.canvas.command(command, ui, &self.desk) else {
+            return false;
+        };
+        for action in actions {
+            self.perform(action, ui);
+        }
+        true
+    }
+
     /// Does what a key or a menu entry means.
     pub(super) fn command(&mut self, command: Command, ui: &Ui) {
-        if let Some(actions) = self.canvas.command(command, ui, &self.desk) {
-            for action in actions {
-                self.perform(action, ui);
-            }
+        if self.command_canvas(command, ui) {
             return;
         }
         if let Some(at) = command.favorite() {
@@ -235,7 +269,7 @@ impl Editor {
                     ui.ctx().copy_text(text);
                 }
             }
-            Command::Paste => ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste),
+            Command::Paste => self.ask_paste(ui.ctx()),
             Command::Frame => drop(desk.frame()),
             Command::AlignLeft => drop(desk.align(Align::Left)),
             Command::AlignRight => drop(desk.align(Align::Right)),
@@ -315,12 +349,14 @@ impl Editor {
     fn go_to(&mut self, node: &str) {
         self.desk.leave_to(0);
         let steps: Vec<NodeId> = node.split('/').filter_map(|step| step.parse().ok()).collect();
-        let Some((last, instances)) = steps.split_last() else {
+        let Some((mut last, instances)) = steps.split_last() else {
             return;
         };
         for instance in instances {
             if !self.desk.enter(instance) {
-                return;
+                // What is in a group file is not seen here; the nearest to it is the instance.
+                last = instance;
+                break;
             }
         }
         self.desk.select([last.clone()]);

@@ -10,6 +10,8 @@ use crate::desk::Desk;
 use crate::files::Files;
 use crate::panels::page::Draft;
 
+const NOT_WRITTEN: &str = "The textures were not written, since the graphics device was lost; export them again.";
+
 /// What is worked on.
 pub(super) struct Work {
     pub(super) desk: Desk,
@@ -17,6 +19,8 @@ pub(super) struct Work {
     pub(super) model: PathBuf,
     pub(super) files: Files,
     pub(super) drafts: Vec<Draft>,
+    /// What did not outlive the window before.
+    pub(super) fault: Option<String>,
 }
 
 impl Work {
@@ -36,6 +40,7 @@ impl Work {
                 model: kept.model,
                 files: Files::new(false, None),
                 drafts: kept.drafts,
+                fault: kept.was_exporting.then(|| NOT_WRITTEN.to_owned()),
             },
             None => Work {
                 desk: Desk::new(session),
@@ -43,6 +48,7 @@ impl Work {
                 model,
                 files: files(),
                 drafts: Vec::new(),
+                fault: None,
             },
         }
     }

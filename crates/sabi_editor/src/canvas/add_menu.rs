@@ -192,10 +192,6 @@ impl AddMenu {
 
     fn fits(&self, desk: &Desk, candidate: &Candidate) -> bool {
         let face = &candidate.face;
-        // Only kinds take the place of a node.
-        if self.purpose.instead.is_some() && !matches!(candidate.new, New::Kind(_)) {
-            return false;
-        }
         if let Some(into) = &self.purpose.into {
             return desk.may_insert_new(face, into);
         }
@@ -208,12 +204,9 @@ impl AddMenu {
 
     fn action(&self, new: &New) -> Action {
         let purpose = self.purpose.clone();
-        match (purpose.instead, new) {
-            (Some(node), New::Kind(kind)) => Action::Replace {
-                node,
-                kind: kind.clone(),
-            },
-            _ => Action::Add {
+        match purpose.instead {
+            Some(node) => Action::Replace { node, by: new.clone() },
+            None => Action::Add {
                 kind: new.clone(),
                 place: purpose.place,
                 loose: purpose.loose,

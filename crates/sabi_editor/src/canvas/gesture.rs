@@ -79,6 +79,21 @@ impl Gesture {
         })
     }
 
+    /// How little a place suits the wire in hand, among those that take it: one that has a wire already, then one that converts.
+    pub(super) fn cost(&self, desk: &Desk, place: &Place) -> (bool, bool) {
+        let Gesture::Wire { loose, .. } = self else {
+            return (false, false);
+        };
+        let (from, to) = match (loose, place) {
+            (Loose::From(from), Place::Input(to)) => (from, to),
+            (Loose::Into(to), Place::Output(from)) => (from, to),
+            _ => return (true, true),
+        };
+        let is_taken = matches!(place, Place::Input(_)) && desk.wire_into(to).is_some();
+        let converts = desk.input(to).is_none_or(|port| port.ty != desk.carried(from));
+        (is_taken, converts)
+    }
+
     /// Whether the knife goes through a wire.
     pub(super) fn cuts(&self, wire: &Wire) -> bool {
         let Gesture::Cut { line } = self else {

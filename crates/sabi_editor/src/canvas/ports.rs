@@ -227,14 +227,15 @@ pub(super) fn at(canvas: &Canvas, desk: &Desk, panel: Rect, pointer: Pos2) -> Op
     nearest.map(|(_, place)| place)
 }
 
-/// The port that a wire would be dropped at: the nearest that takes it, or on a node's body its first one that does.
+/// The port that a wire would be dropped at: the nearest that takes it, or on a node's body the first that does, a free one
+/// before one that has a wire, and one of its type before one that converts.
 pub(super) fn target(canvas: &Canvas, around: &Around<'_>, panel: Rect, pointer: Pos2) -> Option<Place> {
     let desk = around.desk;
     let here = canvas.view.place(panel, pointer);
     let here = pos2(here[0], here[1]);
     let margin = 24.0;
     let mut best: Option<(f32, Place)> = None;
-    let mut under = None;
+    let mut under: Option<((bool, bool), Place)> = None;
     for id in desk.graph().ids() {
         let Some(rect) = super::node_rect(desk, id).filter(|rect| rect.expand(margin).contains(here)) else {
             continue;
@@ -245,13 +246,14 @@ pub(super) fn target(canvas: &Canvas, around: &Around<'_>, panel: Rect, pointer:
             }
             let Some(at) = place.on_canvas(desk) else { continue };
             let distance = here.distance(pos2(at[0], at[1]));
-            if rect.contains(here) && under.is_none() {
-                under = Some(place.clone());
+            let cost = canvas.gesture.cost(desk, &place);
+            if rect.contains(here) && under.as_ref().is_none_or(|(least, _)| cost < *least) {
+                under = Some((cost, place.clone()));
             }
             if distance < margin && best.as_ref().is_none_or(|(least, _)| distance < *least) {
                 best = Some((distance, place));
             }
         }
     }
-    best.map(|(_, place)| place).or(under)
+    best.map(|(_, place)| place).or(under.map(|(_, place)| place))
 }

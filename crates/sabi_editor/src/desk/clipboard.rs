@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sabi_engine::{with_near_paths, with_whole_paths};
 use sabi_graph::{Body, Document, Edit, Node, NodeId};
 
 use super::bringing::Brought;
@@ -10,7 +11,7 @@ use super::{Desk, bringing};
 
 impl Desk {
     /// The selected nodes as the text of a graph file, with the groups that they are instances of and the frames around
-    /// them; none where nothing is selected.
+    /// them; none where nothing is selected. Paths in it are whole, so that they lead to the same from other graphs.
     pub(crate) fn copied(&self) -> Option<String> {
         if self.selection.is_empty() {
             return None;
@@ -41,7 +42,7 @@ impl Desk {
             let body = Body::Main;
             copy.apply(Edit::AddFrame { body, id, frame }).ok()?;
         }
-        Some(copy.to_json())
+        Some(with_whole_paths(&copy, self.session.graph().folder()).to_json())
     }
 
     /// Cuts the selected nodes: what [`Desk::copied`] gives, and they are gone.
@@ -53,7 +54,9 @@ impl Desk {
     /// Adds what a text holds, with its upper left corner at a place on the canvas.
     pub(crate) fn paste(&mut self, text: &str, pos: [f32; 2]) -> bool {
         let document = match Document::from_json(text) {
-            Ok(document) if !document.graph.is_empty() => document,
+            // Before a graph has a file there is no folder to begin at.
+            Ok(document) if !document.graph.is_empty() && self.session.file().is_none() => document,
+            Ok(document) if !document.graph.is_empty() => with_near_paths(&document, self.session.graph().folder()),
             Ok(_) => return self.refuse("the clipboard holds a graph without nodes"),
             Err(_) => return self.refuse("the clipboard holds no nodes; copy some first"),
         };

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_graph::{Edit, Frame, Graph, Node, NodeId};
+use sabi_graph::{Edit, Frame, Graph, Node, NodeId, SlotRef};
 
 use super::Desk;
 
@@ -48,7 +48,21 @@ impl Desk {
         let chosen: BTreeMap<NodeId, Node> = chosen.collect();
         let frames = frames_around(self.graph(), |id| chosen.contains_key(id));
         let copies = self.copies(&chosen, frames, keeps_inputs, COPY_OFFSET);
-        self.add_all("Duplicate", Vec::new(), copies)
+        let mut fed = Vec::new();
+        if keeps_inputs {
+            for (slot, by) in self.fed_by_group(|id| copies.new_id.contains_key(id)) {
+                let node = copies.new_id[&slot.node].clone();
+                fed.push((SlotRef { node, ..slot }, Some(by)));
+            }
+        }
+        let ids = copies.ids();
+        let mut edits = self.adding_all(copies);
+        self.refeed(&mut edits, fed);
+        let is_made = self.edit("Duplicate", edits);
+        if is_made {
+            self.select(ids);
+        }
+        is_made
     }
 
     /// Copies under new ids; a copy keeps its seed, so that it looks like what it was made of.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, free_graph_file, write_whole};
+use sabi_engine::{OpenGraph, free_graph_file, moved_to, write_whole};
 use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
 
 use super::{Desk, Loose, bringing};
@@ -28,7 +28,7 @@ impl Desk {
                 return None;
             }
         };
-        let text = document.to_json();
+        let text = moved_to(&document, self.session.graph().folder(), folder).to_json();
         let Some(file) = free_graph_file(folder, &file_stem(&name), text.as_bytes()) else {
             self.say(format!(
                 "{} has too many groups of that name; give this one another",
@@ -81,6 +81,12 @@ impl Desk {
 
     /// Adds an instance of a group out of the library; the group becomes one of the document's own.
     pub(crate) fn add_from_library(&mut self, file: &Path, pos: [f32; 2], loose: Option<&Loose>) -> Option<NodeId> {
+        let group = self.bring_from_library(file)?;
+        self.add_group_instance(&group, pos, loose)
+    }
+
+    /// Makes a group of the library one of the document's own, if it is not one already; gives its name here.
+    pub(crate) fn bring_from_library(&mut self, file: &Path) -> Option<String> {
         let open = match OpenGraph::open(file) {
             Ok(open) => open,
             Err(error) => {
@@ -88,7 +94,7 @@ impl Desk {
                 return None;
             }
         };
-        let mut document = open.document;
+        let mut document = moved_to(&open.document, open.folder(), self.session.graph().folder());
         let stem = file
             .file_stem()
             .map_or_else(|| "Group".to_owned(), |stem| stem.to_string_lossy().into_owned());
@@ -108,13 +114,13 @@ impl Desk {
         document.groups.insert(name.clone(), group);
         let mut instance = Node::new(GROUP_KIND);
         instance.group = Some(name);
-        let (id, _) = self.fresh(GROUP_KIND, pos);
+        let (id, _) = self.fresh(GROUP_KIND, [0.0; 2]);
         let brought = self.brought_groups(&document, &BTreeMap::from([(id, instance.clone())]));
         brought.rename(&mut instance);
         if !brought.edits.is_empty() && !self.edit("Add a group", brought.edits) {
             return None;
         }
-        self.add_group_instance(instance.group.as_deref()?, pos, loose)
+        instance.group
     }
 }
 

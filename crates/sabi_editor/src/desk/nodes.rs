@@ -63,6 +63,12 @@ impl Desk {
 
     /// Adds an instance of a group: one of the document's own, or a graph file by its path relative to this one.
     pub(crate) fn add_group_instance(&mut self, group: &str, pos: [f32; 2], loose: Option<&Loose>) -> Option<NodeId> {
+        let (id, node, entry) = self.new_instance(group, pos)?;
+        self.place_new(id, node, &entry, loose)
+    }
+
+    /// An instance of a group that can be added here, under a free id; says why where there can be none.
+    pub(super) fn new_instance(&mut self, group: &str, pos: [f32; 2]) -> Option<(NodeId, Node, Arc<Entry>)> {
         if let Some(open) = self.would_hold_itself(group) {
             self.say(format!(
                 "'{group}' holds '{open}', which is open here; a group cannot be inside itself"
@@ -85,7 +91,7 @@ impl Desk {
             .to_lowercase()
             .replace([' ', '-'], "_");
         let id = self.new_id(&stem, &BTreeSet::new());
-        self.place_new(id, node, &entry, loose)
+        Some((id, node, entry))
     }
 
     /// What an instance of a group shows, whether there is one or not.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_graph::{Body, Edit, Exposed, GroupInput, OutputRef, PortType, SlotRef};
+use sabi_graph::{Body, Edit, Exposed, GroupInput, NodeId, OutputRef, PortType, SlotRef};
 
 use super::groups::free_name;
 use super::{Desk, Loose, instances};
@@ -63,6 +63,40 @@ impl Desk {
         input.to.retain(|fed| fed != slot);
         let edit = self.setting_input(&name, Some(input));
         self.edit("Disconnect input", vec![edit])
+    }
+
+    /// Inputs of these nodes that inputs of the group feed, each with the name of that one.
+    pub(super) fn fed_by_group(&self, is_meant: impl Fn(&NodeId) -> bool) -> Vec<(SlotRef, String)> {
+        let inputs = self.group_inputs().iter();
+        let slots = inputs.flat_map(|(name, input)| input.to.iter().map(move |slot| (slot.clone(), name.clone())));
+        slots.filter(|(slot, _)| is_meant(&slot.node)).collect()
+    }
+
+    /// Has each of these inputs fed by that input of the group, or by none, besides what the edits do already.
+    pub(super) fn refeed(&self, edits: &mut Vec<Edit>, fed: Vec<(SlotRef, Option<String>)>) {
+        let feeds = |name: &str, slot: &SlotRef| fed.iter().any(|(to, by)| to == slot && by.as_deref() == Some(name));
+        for (name, input) in self.group_inputs() {
+            let made = edits
+                .iter()
+                .rposition(|edit| matches!(edit, Edit::SetInput { name: set, .. } if set == name));
+            let by_edits = made.and_then(|at| match &edits[at] {
+                Edit::SetInput { input, .. } => input.clone(),
+                _ => None,
+            });
+            let before = by_edits.unwrap_or_else(|| input.clone());
+            let mut after = before.clone();
+            after
+                .to
+                .retain(|slot| feeds(name, slot) || fed.iter().all(|(known, _)| known != slot));
+            for (slot, _) in &fed {
+                if feeds(name, slot) && !after.to.contains(slot) {
+                    after.to.push(slot.clone());
+                }
+            }
+            if after != before {
+                edits.push(self.setting_input(name, Some(after)));
+            }
+        }
     }
 
     fn feeding(&self, slot: &SlotRef) -> Option<(String, GroupInput)> {

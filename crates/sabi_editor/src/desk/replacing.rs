@@ -84,22 +84,33 @@ impl Desk {
     /// Puts a node of another kind in the place of one; wires that fit stay, and so do parameters of the same name, what is
     /// published of them and the frames around it.
     pub(crate) fn replace(&mut self, id: &NodeId, kind: &str) -> bool {
-        let Some((old, face)) = self.node(id).cloned().zip(self.face(id).cloned()) else {
-            return self.refuse("the node that should be replaced is gone");
-        };
         let Some(entry) = self.catalog.entry(kind).cloned() else {
             return self.refuse(format!("there is no node kind '{kind}'"));
         };
-        if entry.id == face.id {
+        let (new_id, node) = self.fresh(kind, [0.0; 2]);
+        self.put_in_place(id, new_id, node, &entry)
+    }
+
+    /// The same with an instance of a group.
+    pub(crate) fn replace_by_group(&mut self, id: &NodeId, group: &str) -> bool {
+        let made = self.new_instance(group, [0.0; 2]);
+        made.is_some_and(|(new_id, node, entry)| self.put_in_place(id, new_id, node, &entry))
+    }
+
+    fn put_in_place(&mut self, id: &NodeId, new_id: NodeId, mut node: Node, entry: &Entry) -> bool {
+        let Some((old, face)) = self.node(id).cloned().zip(self.face(id).cloned()) else {
+            return self.refuse("the node that should be replaced is gone");
+        };
+        if entry.id == face.id && node.group == old.group {
             return self.refuse(format!("this is a node of kind '{}' already", entry.label));
         }
-        let (new_id, mut node) = self.fresh(kind, old.pos);
+        node.pos = old.pos;
         node.muted = old.muted;
         node.label = old.label.clone();
         let successor = Successor {
             id: &new_id,
-            faces: [&face, &entry],
-            inputs: self.paired_inputs(id, &old, &face, &entry),
+            faces: [&face, entry],
+            inputs: self.paired_inputs(id, &old, &face, entry),
         };
         for (name, from) in &old.inputs {
             if let Some(input) = successor.inputs.get(name) {
@@ -117,7 +128,7 @@ impl Desk {
         }
         let readers = self.graph().readers(id.as_str());
         let mut edits = vec![self.adding(&new_id, node)];
-        edits.extend(readers.iter().filter_map(|slot| self.retied(slot, &new_id, &entry)));
+        edits.extend(readers.iter().filter_map(|slot| self.retied(slot, &new_id, entry)));
         edits.extend(self.inherited(&BTreeSet::from([id.clone()]), &successor));
         edits.push(Edit::RemoveNode {
             body: self.body(),

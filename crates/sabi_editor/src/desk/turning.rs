@@ -24,10 +24,10 @@ impl Desk {
         }
     }
 
-    /// Sets a knob, wherever it is.
+    /// Sets a knob, wherever it is: on a node also that of all selected ones of its kind.
     pub(crate) fn set_at(&mut self, knob: &KnobAt, value: Value) -> bool {
         match knob {
-            KnobAt::Node { node, knob } => self.set_knob(node, knob, Some(value)),
+            KnobAt::Node { node, knob } => self.set_knob_of_alike(node, knob, Some(value)),
             KnobAt::Panel(name) => self.turn(name, &value),
         }
     }

@@ -115,7 +115,7 @@ impl Desk {
     }
 
     /// What is carried by a wire from there.
-    pub(super) fn carried(&self, from: &OutputRef) -> Option<PortType> {
+    pub(crate) fn carried(&self, from: &OutputRef) -> Option<PortType> {
         self.faces().carried(&self.seen, from)
     }
 
@@ -170,7 +170,8 @@ impl Desk {
         use sabi_graph::PortType::Mask;
         let takes_mask = self.input(to).is_some_and(|port| port.ty == Some(Mask));
         let carries = self.carried(from);
-        takes_mask && carries.is_some_and(|ty| Mask.accepts(ty)) && self.wire_into(to).is_some_and(|tied| tied != from)
+        let is_other = |tied: &OutputRef| self.shortest(tied) != self.shortest(from);
+        takes_mask && carries.is_some_and(|ty| Mask.accepts(ty)) && self.wire_into(to).is_some_and(is_other)
     }
 
     /// Ties a second wire to an input that has one: both go through a blend, whose mode says how.
@@ -273,6 +274,8 @@ impl Desk {
     pub(crate) fn take_out(&mut self) -> bool {
         let ids = self.selection.clone();
         let mut edits = self.healing(&ids);
+        let fed = self.fed_by_group(|id| ids.contains(id));
+        self.refeed(&mut edits, fed.into_iter().map(|(slot, _)| (slot, None)).collect());
         for id in &ids {
             let Some(node) = self.node(id) else { continue };
             let outside = node.inputs.iter().filter(|(_, from)| !ids.contains(&from.node));
@@ -289,6 +292,7 @@ impl Desk {
     /// Swaps the first two inputs of the same type of each selected node: what they read, and the knobs that stand in for it.
     pub(crate) fn swap_inputs(&mut self) -> bool {
         let mut edits = Vec::new();
+        let mut fed = Vec::new();
         for id in &self.selection {
             let Some((face, node)) = self.face(id).zip(self.node(id)) else {
                 continue;
@@ -301,11 +305,13 @@ impl Desk {
                 let rest = face.inputs[at + 1..].iter();
                 rest.filter(|other| other.ty == one.ty).map(move |other| (one, other))
             });
-            let is_tied = |port: &Port| node.inputs.contains_key(&port.name);
+            let feeder = |port: &Port| self.feeder(&self.seen, &slot(port)).map(str::to_owned);
+            let is_tied = |port: &Port| node.inputs.contains_key(&port.name) || feeder(port).is_some();
             let Some((one, other)) = pairs.find(|(one, other)| is_tied(one) || is_tied(other)) else {
                 continue;
             };
             for (to, from) in [(one, other), (other, one)] {
+                fed.push((slot(to), feeder(from)));
                 edits.push(match node.inputs.get(&from.name) {
                     Some(from) => self.tie(from, &slot(to)),
                     None => self.untie(&slot(to)),
@@ -323,6 +329,7 @@ impl Desk {
                 }
             }
         }
+        self.refeed(&mut edits, fed);
         self.edit("Swap inputs", edits)
     }
 }

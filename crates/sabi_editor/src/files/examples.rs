@@ -1,7 +1,6 @@
 //! Graphs and models that come with the program. They are written to a folder of the artist's before they are opened, so that
 //! nothing that is tried on them can spoil them.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -75,18 +74,18 @@ const MODELS: [(&str, &[u8]); 7] =
 const GRAPHS: &str = "graphs";
 const MESHES: &str = "assets/meshes";
 
-/// Writes an example with all models into a folder, and gives its file. What is there already and the same stays; a graph that
-/// somebody worked on since stays, too, and the example is written beside it.
+/// Writes an example with all models into a folder, and gives its file. What is there already stays, models that somebody
+/// worked on too; beside a graph that is another by now the example is written under the next name.
 pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
     let Some(example) = EXAMPLES.get(at) else {
         return Ok(None);
     };
     for (name, bytes) in MODELS {
-        write_where_other(&folder.join(MESHES).join(name), bytes)?;
+        write_where_none(&folder.join(MESHES).join(name), bytes)?;
     }
     let (stem, text) = (example.name.trim_end_matches(".sabi"), example.text.as_bytes());
     let file = free_graph_file(&folder.join(GRAPHS), stem, text).ok_or(io::ErrorKind::AlreadyExists)?;
-    write_where_other(&file, text)?;
+    write_where_none(&file, text)?;
     Ok(Some(file))
 }
 
@@ -94,12 +93,13 @@ pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
 pub(crate) fn first_model(folder: &Path) -> io::Result<PathBuf> {
     let [(name, bytes), ..] = MODELS;
     let file = folder.join(MESHES).join(name);
-    write_where_other(&file, bytes)?;
+    write_where_none(&file, bytes)?;
     Ok(file)
 }
 
-fn write_where_other(file: &Path, bytes: &[u8]) -> io::Result<()> {
-    if fs::read(file).is_ok_and(|known| known == bytes) {
+/// What is there may be somebody's work by now.
+fn write_where_none(file: &Path, bytes: &[u8]) -> io::Result<()> {
+    if file.exists() {
         return Ok(());
     }
     write_whole(file, bytes)
@@ -107,6 +107,8 @@ fn write_where_other(file: &Path, bytes: &[u8]) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
@@ -128,8 +130,12 @@ mod tests {
         let first = open();
         assert_eq!(open(), first, "nobody worked on it");
         fs::write(&first, "mine").expect("a file");
+        let model = folder.path().join(MESHES).join(MODELS[0].0);
+        fs::write(&model, "mine").expect("a file");
         let second = open();
         assert_ne!(second, first);
+        assert_eq!(first_model(folder.path()).expect("a model"), model);
+        assert_eq!(fs::read_to_string(&model).expect("a file"), "mine");
         assert_eq!(fs::read_to_string(&first).expect("a file"), "mine");
         assert_eq!(fs::read_to_string(&second).expect("a file"), EXAMPLES[0].text);
     }

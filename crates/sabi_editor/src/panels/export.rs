@@ -13,7 +13,7 @@ use crate::errand::Failed;
 use crate::files::system_dialog::{SystemDialog, answer_of};
 use crate::theme::{Theme, space};
 
-pub(crate) use running::Running;
+pub(crate) use running::{Bake, Running};
 
 /// Sizes that are offered.
 const SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
@@ -78,8 +78,8 @@ pub(crate) struct ExportPlace {
 pub(crate) struct Export {
     pub(crate) place: ExportPlace,
     pub(crate) running: Option<Running>,
-    /// Whether another one follows the running one, since the graph was saved meanwhile.
-    pub(crate) is_queued: bool,
+    /// What follows the running one, since a graph was saved meanwhile: of that graph, whichever is open by then.
+    pub(crate) queued: Option<Bake>,
     /// The folder has files of somebody else, and it is to be said whether maps go there all the same.
     pub(crate) asks_force: bool,
     /// The system's dialog for the folder, while it is open.
@@ -99,7 +99,6 @@ impl Export {
     pub(crate) fn turn_to(&mut self, place: ExportPlace) {
         self.place = place;
         self.asks_force = false;
-        self.is_queued = false;
         self.dialog = None;
         self.told = None;
     }
@@ -126,7 +125,7 @@ impl Export {
 
     /// Lets a running export go.
     pub(crate) fn cancel(&mut self) {
-        self.is_queued = false;
+        self.queued = None;
         if let Some(running) = &self.running {
             running.watch.is_canceled.store(true, Ordering::Relaxed);
         }

@@ -18,20 +18,25 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
         return;
     }
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        for fault in &faults.faults {
-            let text = RichText::new(format!("{} {}", icon::WARNING, fault.sentence)).color(theme.fault);
-            if ui
-                .add(egui::Label::new(text).wrap().sense(egui::Sense::click()))
-                .clicked()
-            {
-                actions.push(Action::GoTo(fault.node.clone()));
+        let mut at_node = |ui: &mut Ui, text: RichText, node: &str| {
+            let label = egui::Label::new(text).wrap().sense(egui::Sense::click());
+            if ui.add(label).clicked() {
+                actions.push(Action::GoTo(node.to_owned()));
             }
+        };
+        for fault in &faults.faults {
+            let text = format!("{} {}", icon::WARNING, fault.sentence);
+            at_node(ui, RichText::new(text).color(theme.fault), &fault.node);
         }
         for sentence in others {
             ui.add(egui::Label::new(RichText::new(sentence).color(theme.fault)).wrap());
         }
-        for sentence in &faults.warnings {
-            ui.add(egui::Label::new(RichText::new(sentence).color(theme.warning)).wrap());
+        for warning in &faults.warnings {
+            let text = RichText::new(&warning.sentence).color(theme.warning);
+            match &warning.node {
+                Some(node) => at_node(ui, text, node),
+                None => drop(ui.add(egui::Label::new(text).wrap())),
+            }
         }
     });
 }

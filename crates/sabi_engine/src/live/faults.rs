@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use sabi_graph::{FlatGraph, NodeRef, Overrides, Value};
+use sabi_graph::{FlatGraph, NodeRef, Value};
 use sabi_plan::{FileContents, PlanError, Target};
 
 use super::model::Loaded;
-use super::news::{Faults, News, NodeFault, Waiting};
+use super::news::{Faults, News, NodeFault, Waiting, Warning};
+use super::set_aside::{Opened, open_groups};
 use super::wish::Seen;
 use super::worker::{Job, Worker};
 use crate::modelless::{all_nodes, planner};
@@ -42,9 +43,12 @@ impl Worker {
         let named = seen.chain(&wish.inspected).chain(&wish.thumbnails);
         let named: Vec<NodeRef> = named.cloned().collect::<BTreeSet<_>>().into_iter().collect();
         let mut files = BTreeSet::new();
-        let flat = wish.graph.flatten_and_list(&Overrides::default(), &named, &mut files);
-        let (graph, found) = match flat {
-            Ok(laid) => laid,
+        let Opened {
+            graph,
+            found,
+            set_aside,
+        } = match open_groups(&wish.graph, &named, &mut files) {
+            Ok(opened) => opened,
             Err(error) => {
                 self.tell_files(job, files);
                 let other = error.messages;
@@ -77,7 +81,7 @@ impl Worker {
         }
         let contents = wish.graph.file_contents(&graph, &wish.kinds, 0..graph.nodes.len());
         let laid = Laid {
-            faults: faults_of(job, &graph, &contents, other),
+            faults: with_set_aside(faults_of(job, &graph, &contents, other), set_aside),
             graph,
             found: targets,
             contents,
@@ -118,9 +122,14 @@ impl Worker {
             faults.waiting.extend(waiting);
         }
         if let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) {
-            let mut known: BTreeSet<String> = faults.warnings.iter().cloned().collect();
-            let fresh = stage.warnings().filter(|sentence| known.insert((*sentence).clone()));
-            faults.warnings.extend(fresh.cloned());
+            for sentence in stage.warnings() {
+                if faults.warnings.iter().all(|known| known.sentence != *sentence) {
+                    faults.warnings.push(Warning {
+                        node: None,
+                        sentence: sentence.clone(),
+                    });
+                }
+            }
         }
         self.tell_if_new(job, faults);
     }
@@ -192,6 +201,15 @@ fn is_named(faults: &Faults, node: &str) -> bool {
     faults.waiting.iter().any(|waiting| waiting.node == node) || faults.faults.iter().any(|fault| fault.node == node)
 }
 
+/// What is wrong, with why instances were set aside in the place of what is said of their stand-ins.
+fn with_set_aside(mut faults: Faults, set_aside: BTreeMap<String, String>) -> Faults {
+    faults.faults.retain(|fault| !set_aside.contains_key(&fault.node));
+    let set_aside = set_aside.into_iter();
+    let told = set_aside.map(|(node, sentence)| NodeFault { node, sentence });
+    faults.faults.extend(told);
+    faults
+}
+
 /// What is wrong with all nodes of a graph, whoever needs them.
 fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<String>) -> Faults {
     let resolved = planner(graph, &job.wish.kinds, contents).resolve(&all_nodes(graph));
@@ -228,7 +246,13 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
                 on: (*on).to_owned(),
             })
             .collect(),
-        warnings: warnings.iter().map(ToString::to_string).collect(),
+        warnings: warnings
+            .iter()
+            .map(|error| Warning {
+                node: Some(error.node.clone()),
+                sentence: error.to_string(),
+            })
+            .collect(),
         faults,
         other,
     }

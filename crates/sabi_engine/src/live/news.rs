@@ -158,7 +158,16 @@ pub struct Faults {
     /// What is wrong and at no node.
     pub other: Vec<String>,
     /// What the artist should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
+}
+
+/// What the artist should know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// The node it is about, if it is about one; inside groups `instance/inner`.
+    pub node: Option<String>,
+    /// A sentence.
+    pub sentence: String,
 }
 
 /// What is wrong at a node.

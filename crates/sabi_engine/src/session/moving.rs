@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
-use sabi_graph::Relocation;
+use sabi_graph::{Document, Relocation};
 use sabi_nodes::kind::Role;
 
 use crate::source;
@@ -18,6 +18,37 @@ pub(super) struct Moving {
     files: BTreeMap<String, Vec<String>>,
 }
 
+/// A graph as a file in folder `to` writes it, out of one in folder `from`: its paths lead where they led.
+pub fn moved_to(document: &Document, from: &Path, to: &Path) -> Document {
+    match Moving::between(from, to, false) {
+        Some(moving) => moving.relocate(|relocation| document.relocated(relocation)),
+        None => document.clone(),
+    }
+}
+
+/// A graph whose paths, which begin at a folder, are whole: they lead there from everywhere.
+pub fn with_whole_paths(document: &Document, folder: &Path) -> Document {
+    let folder = real(folder);
+    let whole = |path: &str| match path.trim().is_empty() {
+        true => path.to_owned(),
+        false => slashed(&plain(&folder.join(path.replace('\\', "/")))),
+    };
+    let files = Moving::files();
+    let is_file = |kind: &str, param: &str| is_file(&files, kind, param);
+    document.relocated(Relocation {
+        is_file: &is_file,
+        moved: &whole,
+    })
+}
+
+/// The opposite: whole paths to what is near a folder begin there.
+pub fn with_near_paths(document: &Document, folder: &Path) -> Document {
+    match Moving::between(folder, folder, true) {
+        Some(moving) => moving.relocate(|relocation| document.relocated(relocation)),
+        None => document.clone(),
+    }
+}
+
 impl Moving {
     /// The way between two folders; none where both are the same, unless the graph gets its first file there.
     pub(super) fn between(from: &Path, to: &Path, is_first: bool) -> Option<Moving> {
@@ -25,33 +56,36 @@ impl Moving {
         if from == to && !is_first {
             return None;
         }
-        let files = source::kinds().into_iter().map(|(id, kind)| {
-            let files = kind.params.into_iter().filter(|param| param.role == Role::File);
-            (id, files.map(|param| param.name).collect())
-        });
-        let files = files.collect();
         Some(Moving {
             from,
             to,
             is_first,
-            files,
+            files: Moving::files(),
         })
+    }
+
+    fn files() -> BTreeMap<String, Vec<String>> {
+        let files = source::kinds().into_iter().map(|(id, kind)| {
+            let files = kind.params.into_iter().filter(|param| param.role == Role::File);
+            (id, files.map(|param| param.name).collect())
+        });
+        files.collect()
     }
 
     /// What is done with this move as a relocation.
     pub(super) fn relocate<T>(&self, done: impl FnOnce(Relocation<'_>) -> T) -> T {
-        let is_file = |kind: &str, param: &str| self.is_file(kind, param);
+        let is_file = |kind: &str, param: &str| is_file(&self.files, kind, param);
         let moved = |path: &str| moved(path, &self.from, &self.to, self.is_first);
         done(Relocation {
             is_file: &is_file,
             moved: &moved,
         })
     }
+}
 
-    fn is_file(&self, kind: &str, param: &str) -> bool {
-        let files = self.files.get(kind);
-        files.is_some_and(|files| files.iter().any(|known| known == param))
-    }
+fn is_file(files: &BTreeMap<String, Vec<String>>, kind: &str, param: &str) -> bool {
+    let files = files.get(kind);
+    files.is_some_and(|files| files.iter().any(|known| known == param))
 }
 
 /// A folder by its one name, as far as it is there.
@@ -156,9 +190,9 @@ mod tests {
 
     #[test]
     fn only_the_picture_of_an_image_is_a_file() {
-        let moving = Moving::between(Path::new("/w"), Path::new("/v"), false).unwrap();
-        assert!(moving.is_file("source/image", "file"));
-        assert!(!moving.is_file("source/image", "projection") && !moving.is_file("noise/simplex", "file"));
+        let files = Moving::files();
+        assert!(is_file(&files, "source/image", "file"));
+        assert!(!is_file(&files, "source/image", "projection") && !is_file(&files, "noise/simplex", "file"));
         let stays = |is_first| Moving::between(Path::new("/w/./v"), Path::new("/w/v"), is_first);
         assert!(stays(false).is_none() && stays(true).is_some());
     }

@@ -1,5 +1,7 @@
 //! Sessions on files, and what is left of them.
 
+mod outside;
+
 use sabi_graph::{Body, Node, Value};
 use tempfile::TempDir;
 
@@ -314,57 +316,4 @@ fn an_edit_that_changes_nothing_is_no_step() {
     session.edit("Gain", Edit::SetSeed { seed: 0 }).unwrap();
     assert_eq!(session.undo_names().count(), 1);
     assert_eq!(session.redo_names().count(), 1, "what was undone is still there");
-}
-
-#[test]
-fn what_another_program_wrote_is_seen_and_taken_as_a_step() {
-    let desk = desk();
-    let file = desk.path().join("a.sabi");
-    let mut session = Session::new(None);
-    assert_eq!(session.file_state(), FileState::Same, "there is none");
-    session.edit("Add", add("a")).unwrap();
-    session.save_as(&file).unwrap();
-    assert_eq!(session.file_state(), FileState::Same);
-    session.edit("Turn", set_gain(0.25)).unwrap();
-    let ours = session.text().to_owned();
-    assert_eq!(
-        session.file_state(),
-        FileState::Same,
-        "what is not saved is not in the file"
-    );
-    // As another program lays it out.
-    let theirs = session
-        .saved
-        .replace("noise/simplex", "noise/white")
-        .replace("  ", "\t");
-    fs::write(&file, &theirs).unwrap();
-    assert_eq!(session.file_state(), FileState::Another);
-    let revision = session.revision();
-    session.read_again().unwrap();
-    assert_eq!(session.document().graph.node("a").unwrap().kind, "noise/white");
-    assert!(session.revision() > revision);
-    assert!(!session.is_dirty());
-    assert_eq!(session.file_state(), FileState::Same);
-    assert_eq!(session.undo().unwrap().as_deref(), Some("Open the file anew"));
-    assert_eq!(session.text(), ours, "nothing was lost");
-    assert!(session.is_dirty());
-}
-
-#[test]
-fn a_file_that_cannot_be_read_any_more_changes_nothing() {
-    let desk = desk();
-    let file = desk.path().join("a.sabi");
-    let mut session = Session::new(None);
-    session.edit("Add", add("a")).unwrap();
-    session.save_as(&file).unwrap();
-    let ours = session.text().to_owned();
-    fs::write(&file, "{ \"format\": ").unwrap();
-    assert_eq!(session.file_state(), FileState::Another);
-    assert!(session.read_again().is_err());
-    fs::remove_file(&file).unwrap();
-    assert_eq!(session.file_state(), FileState::Gone);
-    assert!(session.read_again().is_err());
-    assert_eq!(session.text(), ours);
-    session.save().unwrap();
-    assert_eq!(session.file_state(), FileState::Same);
 }

@@ -111,3 +111,58 @@ fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
     window.undo(1);
     assert_eq!(window.text(), before);
 }
+
+#[test]
+fn a_fault_in_a_group_is_told_on_it_too_and_so_is_how_long_its_nodes_take() {
+    let mut window = Window::with(|folders| {
+        let text = r#"{
+            "format": "sabi", "version": 1, "preview": { "size": 64 },
+            "nodes": { "worn": { "kind": "graph/group", "group": "Worn", "pos": [0, 0] },
+                       "after": { "kind": "adjust/invert", "inputs": { "source": "worn.mask" }, "pos": [300, 0] } },
+            "groups": { "Worn": {
+                "outputs": { "mask": "blur.mask", "plain": "clouds.mask" },
+                "nodes": { "blur": { "kind": "filter/blur" }, "clouds": { "kind": "noise/simplex" } }
+            } }
+        }"#;
+        let file = super::beside(folders).join("grouped.sabi");
+        std::fs::write(&file, text).expect("a graph");
+        sabi_engine::Session::open(&file, None).unwrap_or_else(|error| panic!("{error}"))
+    });
+    window.until("the fault", |editor| editor.stage.fault("worn").is_some());
+    let fault = window.editor().stage.fault("worn/blur").expect("a sentence").clone();
+    assert_eq!(told_of(&window, "worn"), fault);
+    assert_eq!(told_of(&window, "after"), "waiting for worn/blur");
+    window.click_at(window.title(&id("worn")));
+    assert!(window.says(&fault), "in the panel of parameters too");
+    window
+        .harness
+        .state_mut()
+        .look_at(&id("worn"), Some("plain".to_owned()));
+    window.until("its other result", |editor| editor.stage.inspected.is_some());
+    window.until("its time", |editor| editor.stage.time("worn").is_some());
+    assert_eq!(
+        window.editor().stage.time("worn"),
+        window.editor().stage.time("worn/clouds")
+    );
+}
+
+#[test]
+fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
+    let mut window = Window::opened(
+        r#"
+        "clouds": { "kind": "noise/simplex", "pos": [0, 330] },
+        "gone": { "kind": "graph/group", "group": "gone.sabi", "pos": [0, 0] },
+        "after": { "kind": "adjust/invert", "inputs": { "source": "gone.mask" }, "pos": [300, 0] }
+    "#,
+    );
+    window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
+    let fault = window.editor().stage.fault("gone").expect("a sentence").clone();
+    assert!(fault.contains("needs the group file \"gone.sabi\""), "{fault}");
+    assert_eq!(
+        window.editor().stage.waits("after").map(String::as_str),
+        Some("waiting for gone")
+    );
+    window.open(Panel::Problems);
+    window.click_at(window.harness.get_by_label_contains(&fault).rect().center());
+    assert_eq!(window.desk().selected_one(), Some(&id("gone")));
+}

@@ -137,6 +137,20 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
     );
     window.drag_from(entry, beside(library.right_top(), [-3.0, -3.0]));
     assert_eq!(window.desk().graph().len(), 1, "dropped elsewhere it is nowhere");
+    window.undo(1);
+    replaces_by_a_group_of_the_library(&mut window);
+}
+
+fn replaces_by_a_group_of_the_library(window: &mut Window) {
+    let levels = window.add([0.3, 0.3], "levels");
+    let steps = window.steps();
+    window.click_with(window.title(&levels), PointerButton::Secondary, Modifiers::NONE);
+    window.press("Replace by…");
+    window.typed("group");
+    window.key(Key::Enter);
+    let placed = window.desk().selected_one().expect("an instance").clone();
+    assert!(window.desk().node(&placed).expect("a node").group.is_some() && window.desk().node(&levels).is_none());
+    assert_eq!(window.steps(), steps + 1);
 }
 
 #[test]
@@ -157,4 +171,43 @@ fn what_fits_a_wire_is_found_in_the_library_panel_by_a_click_too() {
         1,
         "a click adds it in the middle of what is seen"
     );
+}
+
+#[test]
+fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
+    let mut window = grouped();
+    let group = window.desk().selected_one().expect("an instance").clone();
+    window.double_click(window.title(&group));
+    let inside = window.desk().path().len();
+    let nodes = window.desk().graph().len();
+    // A text in a panel, with the pointer over the canvas.
+    window.open(Panel::Library);
+    let field = window.harness.get_by_label("Search the library").rect().center();
+    window.click_at(field);
+    window.typed("clouds");
+    window.point(window.on_canvas([0.9, 0.9]));
+    window.key(Key::Escape);
+    assert_eq!(window.desk().path().len(), inside, "it ended the text");
+    // A menu.
+    window.click_with(window.title(&id("clouds")), PointerButton::Secondary, Modifiers::NONE);
+    assert!(egui::Popup::is_any_open(&window.harness.ctx));
+    window.key(Key::Escape);
+    assert_eq!(window.desk().path().len(), inside, "it closed the menu");
+    // An entry of the library that is being dragged.
+    let library = window.editor().rects[&Panel::Library];
+    let entries = window.harness.query_all_by_label("Clouds");
+    let entry = entries
+        .map(|node| node.rect().center())
+        .find(|at| library.contains(*at));
+    let to = window.on_canvas([0.5, 0.5]);
+    window.pull(&[entry.expect("an entry"), to], PointerButton::Primary, Modifiers::NONE);
+    window.key(Key::Escape);
+    window.button(to, PointerButton::Primary, false);
+    window.settle();
+    assert_eq!(
+        (window.desk().path().len(), window.desk().graph().len()),
+        (inside, nodes)
+    );
+    window.key(Key::Escape);
+    assert_eq!(window.desk().path().len(), inside - 1);
 }

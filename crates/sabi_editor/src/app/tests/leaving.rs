@@ -146,9 +146,9 @@ fn a_save_while_textures_are_written_has_them_written_once_more() {
     editor.panels.export.place.again = true;
     editor.export();
     editor.save();
-    assert!(window.editor().panels.export.is_queued);
+    assert!(window.editor().panels.export.queued.is_some());
     window.until("both", |editor| {
-        editor.panels.export.running.is_none() && !editor.panels.export.is_queued
+        editor.panels.export.running.is_none() && editor.panels.export.queued.is_none()
     });
 }
 
@@ -320,4 +320,26 @@ fn the_window_is_called_after_its_graph() {
     assert_eq!(window.editor().named, "graph.sabi – Sabi");
     window.mute();
     assert_eq!(window.editor().named, "graph.sabi • – Sabi");
+}
+
+#[test]
+fn textures_of_a_saved_graph_are_written_although_another_one_is_opened_meanwhile() {
+    let mut window = Window::opened(
+        r#""clouds": { "kind": "noise/simplex" },
+        "out": { "kind": "output/mask", "inputs": { "source": "clouds" }, "params": { "name": "clouds" } }"#,
+    );
+    let editor = window.harness.state_mut();
+    editor.settings.export.size = 512;
+    editor.panels.export.place.folder = "maps".to_owned();
+    editor.panels.export.place.again = true;
+    editor.export();
+    editor.save();
+    let other = window.path("deeper").join("other.sabi");
+    fs::create_dir_all(window.path("deeper")).expect("a folder");
+    fs::write(&other, super::graph_text("")).expect("a graph");
+    window.harness.state_mut().open_file(&other);
+    window.until("both", |editor| {
+        editor.panels.export.running.is_none() && editor.panels.export.queued.is_none()
+    });
+    assert!(window.path("maps").is_dir() && !window.path("deeper").join("maps").exists());
 }

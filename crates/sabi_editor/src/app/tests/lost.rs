@@ -28,9 +28,13 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     let handover = window.handover.clone();
     window.until("the loss", |_| handover.lock().is_ok_and(|kept| kept.is_some()));
     let folders = window.editor().folders().clone();
+    if let Some(kept) = handover.lock().expect("what was kept").as_mut() {
+        kept.was_exporting = true;
+    }
     window.harness = open(Session::new(None), folders, handover);
     window.settle();
     assert_eq!(window.text(), muted);
+    assert!(window.says("The textures were not written, since the graphics device was lost"));
     assert!(!window.says("Examples"), "no start page stands before the work");
     window.until("pictures on another device", |editor| editor.model_view.drawn > 0);
     for expected in [&added, &empty] {

@@ -209,6 +209,7 @@ fn the_right_button_on_a_node_offers_what_can_be_done_with_it() {
     assert_eq!(selected(&window), ["invert"]);
     window.press("Mute");
     assert!(window.desk().node(&id("invert")).expect("a node").muted);
+    window.harness.state_mut().pin(&id("invert"));
     window.click_with(window.title(&id("invert")), PointerButton::Secondary, Modifiers::NONE);
     window.press("Replace by…");
     window.typed("threshold");
@@ -221,6 +222,12 @@ fn the_right_button_on_a_node_offers_what_can_be_done_with_it() {
     let replaced = replaced.expect("another node").0.clone();
     assert!(window.desk().node(&id("invert")).is_none());
     assert_eq!(window.reads(&replaced, "source"), "clouds", "wires that fit stay");
+    let pinned = window.editor().pinned.as_ref().map(|pinned| pinned.node.as_str());
+    assert_eq!(
+        pinned,
+        Some(replaced.as_str()),
+        "who looked at the one looks at the other"
+    );
 }
 
 #[test]
@@ -315,4 +322,18 @@ fn a_frame_takes_its_next_color_by_its_menu() {
     assert!(seen[0] != seen[1] && seen[1] != seen[2], "{seen:?}");
     window.undo(1);
     assert_eq!(color(&window), seen[1]);
+}
+
+#[test]
+fn nodes_that_move_together_keep_their_places_beside_each_other() {
+    let mut window = Window::opened(THREE);
+    let zoom = window.zoom();
+    window.click_at(window.title(&id("clouds")));
+    window.click_with(window.title(&id("dots")), PointerButton::Primary, Modifiers::SHIFT);
+    let grip = window.title(&id("clouds"));
+    window.drag_from(grip, beside(grip, [52.0 * zoom, 0.0]));
+    assert_eq!(
+        [pos(&window, "clouds"), pos(&window, "dots")],
+        [[50.0, 0.0], [53.0, 347.0]]
+    );
 }

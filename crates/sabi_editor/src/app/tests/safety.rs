@@ -259,3 +259,36 @@ fn a_saved_graph_opens_again_on_the_model_that_it_was_worked_on() {
     window.keys(Modifiers::COMMAND, Key::S);
     assert_eq!(named(&window).as_deref(), Some("hero.glb"));
 }
+
+#[test]
+fn an_end_that_nobody_asked_for_keeps_what_is_not_saved() {
+    let mut window = Window::opened(CLOUDS);
+    window.mute();
+    let text = window.text();
+    // The system ends the program: nothing is asked, but its last word is heard.
+    eframe::App::on_exit(window.harness.state_mut());
+    let mut window = window.after_a_crash();
+    assert!(window.says("The program ended before this was saved"));
+    window.press("Recover");
+    assert_eq!(window.text(), text);
+    // What was let go is not kept.
+    window.harness.state_mut().files.may_close = true;
+    eframe::App::on_exit(window.harness.state_mut());
+    assert!(sabi_engine::recoveries(&window.path("unsaved")).is_empty());
+}
+
+#[test]
+fn a_save_takes_no_step_away_that_could_be_done_again() {
+    let mut window = Window::opened(CLOUDS);
+    let model = window.path("other.obj");
+    fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a model");
+    window.mute();
+    let muted = window.text();
+    window.harness.state_mut().take_model(&model);
+    window.undo(1);
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.redo(1);
+    assert_eq!(window.text(), muted);
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert!(window.text().contains("other.obj"), "the graph opens on it again");
+}

@@ -1,5 +1,6 @@
 //! Keys for the model and for the texture, and the list of all keys.
 
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{Queryable, by};
 
@@ -7,6 +8,7 @@ use super::Window;
 use super::commands::window_with;
 use super::hands::id;
 use crate::command::{Command, Habit, Scope};
+use crate::dock::Panel;
 
 impl Window {
     /// Whether a switch is on, told to those who do not see it.
@@ -16,6 +18,14 @@ impl Window {
                 .predicate(|node| node.toggled() == Some(egui::accesskit::Toggled::True)),
         );
         found.next().is_some()
+    }
+
+    /// Clicks an entry of a menu, which is named with its keys.
+    fn press_entry(&mut self, menu: &str, entry: &str) {
+        self.press(menu);
+        let found = self.harness.query_all(by().role(Role::Button).label_contains(entry));
+        let at = found.map(|found| found.rect().center()).next_back();
+        self.click_at(at.unwrap_or_else(|| panic!("{menu} has no {entry}")));
     }
 }
 
@@ -139,4 +149,46 @@ fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
     window.settle();
     assert_eq!(window.desk().graph().len(), count, "nothing is pasted");
     assert!(window.desk().node(&id("mix")).expect("a node").muted);
+}
+
+#[test]
+fn paste_works_by_the_menu_and_by_any_key_wherever_the_pointer_is() {
+    let mut window = window_with(Habit::Default);
+    window.prepare(&["mix"], Scope::Canvas);
+    let copied = window.harness.state_mut().desk.copied().expect("a copy");
+    let count = window.desk().graph().len();
+    window.press_entry("Edit", "Paste");
+    // The system answers.
+    window.harness.event(egui::Event::Paste(copied.clone()));
+    window.settle();
+    assert_eq!(window.desk().graph().len(), count + 1);
+    window.point(window.editor().rects[&Panel::Viewport].center());
+    window.harness.event(egui::Event::Paste(copied));
+    window.settle();
+    assert_eq!(window.desk().graph().len(), count + 1, "nobody asked");
+}
+
+#[test]
+fn what_the_menu_opens_on_the_canvas_brings_the_canvas_up_and_no_hidden_menu_holds_the_keys() {
+    let mut window = window_with(Habit::Default);
+    window.prepare(&["mix"], Scope::Canvas);
+    for entry in ["Add a node", "Rename"] {
+        window.harness.state_mut().toggle_use_view();
+        window.settle();
+        assert!(window.editor().is_use_view());
+        window.press_entry("Edit", entry);
+        assert!(
+            !window.editor().is_use_view() && window.editor().canvas.holds_keys(),
+            "{entry}"
+        );
+        window.key(Key::Escape);
+        assert!(!window.editor().canvas.holds_keys(), "{entry}");
+    }
+    // By the mouse the view can be changed while a menu is open.
+    window.prepare(&["mix"], Scope::Canvas);
+    window.key(Key::Tab);
+    assert!(window.editor().canvas.holds_keys());
+    window.press("Only model and knobs");
+    assert!(window.editor().is_use_view() && !window.editor().canvas.holds_keys());
+    window.keys(Modifiers::COMMAND, Key::Z);
 }

@@ -251,3 +251,24 @@ fn a_wire_that_is_pulled_and_dropped_within_one_slow_frame_is_tied() {
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
     assert_eq!(window.steps(), 1);
 }
+
+#[test]
+fn a_wire_dropped_on_a_node_takes_a_free_port_of_its_type_before_all_others() {
+    let mut window = Window::opened(
+        r#"
+        "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
+        "dots": { "kind": "noise/dots", "pos": [0, 400] },
+        "mix": { "kind": "blend/mask", "inputs": { "below": "clouds" }, "pos": [400, 0] },
+        "all": { "kind": "material/combine", "pos": [400, 400] }
+    "#,
+    );
+    let [mix, all, dots] = ["mix", "all", "dots"].map(id);
+    window.drag_from(window.port(&dots, "mask"), window.rect(&mix).center());
+    assert_eq!(
+        (window.reads(&mix, "below"), window.reads(&mix, "above")),
+        ("clouds".into(), "dots".into())
+    );
+    window.drag_from(window.port(&dots, "mask"), window.rect(&all).center());
+    assert_eq!(window.reads(&all, "base_color"), "", "a mask is no color");
+    assert_eq!(window.desk().node(&all).expect("a node").inputs.len(), 1);
+}

@@ -103,9 +103,12 @@ pub(super) fn drag(
         true => at.round(),
         false => (at / GRID).round() * GRID,
     };
+    // One of them is on the grid, and all keep their places beside each other.
+    let first = from.values().next().copied().unwrap_or_default();
+    let offset = [0, 1].map(|axis| snapped(first[axis] + offset[axis]) - first[axis]);
     let places = from
         .iter()
-        .map(|(id, pos)| (id.clone(), [snapped(pos[0] + offset[0]), snapped(pos[1] + offset[1])]));
+        .map(|(id, pos)| (id.clone(), [pos[0] + offset[0], pos[1] + offset[1]]));
     actions.push(Action::Move(places.collect()));
     if is_down {
         return;

@@ -196,3 +196,79 @@ fn a_group_is_not_put_inside_itself() {
     step(&mut desk, |desk| desk.add_group_instance("unused", [0.0; 2], None));
     flat(&desk);
 }
+
+#[test]
+fn a_duplicate_with_its_inputs_is_fed_from_outside_as_well() {
+    let groups = r#""groups": { "G": { "inputs": { "base": { "to": ["one.base"] } }, "outputs": { "material": "one.material" },
+        "nodes": { "one": { "kind": "effect/layer" } } } },"#;
+    let mut desk = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);
+    assert!(desk.enter(&id("g")));
+    select(&mut desk, &["one"]);
+    step(&mut desk, |desk| desk.duplicate(true));
+    let copy = desk.selected_one().cloned().expect("one copy");
+    assert_eq!(desk.group_inputs()["base"].to, [to("one.base"), slot(&copy, "base")]);
+    step(&mut desk, |desk| desk.duplicate(false));
+    assert_eq!(desk.group_inputs()["base"].to.len(), 2);
+}
+
+/// A graph in a file of that folder, with a picture beside it, alone and in a group.
+fn with_pictures(folder: &std::path::Path) -> Desk {
+    let text = r#"{ "format": "sabi", "version": 1,
+        "nodes": { "g": { "kind": "graph/group", "group": "Old" },
+                   "torn": { "kind": "source/image", "params": { "file": "tex/torn.png" } } },
+        "groups": { "Old": { "outputs": { "mask": "inner.mask" },
+            "nodes": { "inner": { "kind": "source/image", "params": { "file": "tex/torn.png" } } } } } }"#;
+    std::fs::create_dir_all(folder).expect("a folder");
+    let file = folder.join("test.sabi");
+    std::fs::write(&file, text).expect("a writable folder");
+    desk_with(Session::open(&file, None).expect("a graph"), 7)
+}
+
+fn picture_in(desk: &Desk, group: &str, node: &str) -> Option<Value> {
+    let group = desk.document().groups.get(group)?;
+    group.graph.node(node)?.params.get("file").cloned()
+}
+
+#[test]
+fn pictures_of_what_is_pasted_are_those_of_what_was_copied() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path().canonicalize().expect("a folder");
+    let [mut one, mut other] = ["one", "other"].map(|name| with_pictures(&root.join(name)));
+    one.select_all();
+    let text = one.copied().expect("two nodes");
+    step(&mut one, |desk| desk.paste(&text, [0.0; 2]));
+    let pasted = one.selection().iter().filter_map(|id| param(&one, id.as_str(), "file"));
+    assert_eq!(pasted.collect::<Vec<_>>(), [Value::from("tex/torn.png")]);
+    assert_eq!(one.document().groups.len(), 1, "the group is the same one");
+    step(&mut other, |desk| desk.paste(&text, [0.0; 2]));
+    let pasted = other
+        .selection()
+        .iter()
+        .filter_map(|id| param(&other, id.as_str(), "file"));
+    assert_eq!(pasted.collect::<Vec<_>>(), [Value::from("../one/tex/torn.png")]);
+    assert_eq!(
+        picture_in(&other, "Old 2", "inner"),
+        Some(Value::from("../one/tex/torn.png"))
+    );
+    let mut untitled = desk();
+    assert!(untitled.paste(&text, [0.0; 2]));
+    let whole = root.join("one/tex/torn.png").display().to_string();
+    assert_eq!(picture_in(&untitled, "Old", "inner"), Some(Value::from(whole.as_str())));
+}
+
+#[test]
+fn pictures_of_a_group_lead_to_the_same_through_the_library() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path().canonicalize().expect("a folder");
+    let mut one = with_pictures(&root.join("one"));
+    select(&mut one, &["g"]);
+    let kept = one.shelve(&root.join("library")).expect("a file");
+    let mut other = with_pictures(&root.join("deep/other"));
+    other.add_from_library(&kept, [0.0; 2], None).expect("a node");
+    assert_eq!(
+        picture_in(&other, "Old 2", "inner"),
+        Some(Value::from("../../one/tex/torn.png"))
+    );
+    one.add_from_library(&kept, [0.0; 2], None).expect("a node");
+    assert_eq!(picture_in(&one, "Old 2", "inner"), Some(Value::from("tex/torn.png")));
+}

@@ -186,3 +186,14 @@ fn groups_that_hold_themselves_end_a_heal_all_the_same() {
     step(&mut desk, |desk| desk.delete(true));
     assert_eq!(wire(&desk, "out.source"), "");
 }
+
+#[test]
+fn what_is_taken_out_of_its_wires_is_not_fed_from_outside_any_more() {
+    let groups = r#""groups": { "G": { "inputs": { "base": { "to": ["one.base"] } }, "outputs": { "material": "two.material" },
+        "nodes": { "one": { "kind": "effect/layer" }, "two": { "kind": "effect/relief", "inputs": { "base": "one" } } } } },"#;
+    let mut desk = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);
+    assert!(desk.enter(&id("g")));
+    select(&mut desk, &["one"]);
+    step(&mut desk, Desk::take_out);
+    assert_eq!(desk.group_inputs()["base"].to, [to("two.base")]);
+}

@@ -229,3 +229,15 @@ fn a_range_holds_for_everything_that_is_set() {
     desk.enter(&id("i"));
     step(&mut desk, |desk| desk.set_exposed_range("size", None));
 }
+
+#[test]
+fn a_color_that_is_taken_and_a_file_that_is_chosen_are_for_all_selected_nodes_of_the_kind() {
+    let mut desk = opened(
+        "",
+        r#""a": { "kind": "source/image" }, "b": { "kind": "source/image" }"#,
+    );
+    select(&mut desk, &["a", "b"]);
+    let knob = super::super::KnobAt::of_node(&id("a"), "file".to_owned());
+    step(&mut desk, |desk| desk.set_at(&knob, Value::from("torn.png")));
+    assert_eq!(param(&desk, "b", "file"), Some(Value::from("torn.png")));
+}

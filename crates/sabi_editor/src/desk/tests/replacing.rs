@@ -95,3 +95,27 @@ fn a_node_of_no_known_kind_can_be_replaced() {
     assert_eq!(wire(&desk, &format!("{new}.source")), "a");
     assert_eq!(wire(&desk, "l.source"), new.as_str());
 }
+
+#[test]
+fn an_instance_of_a_group_takes_the_place_of_a_node_and_of_another_instance() {
+    let groups = r#""groups": {
+        "One": { "inputs": { "source": { "to": ["l.source"] } }, "outputs": { "mask": "l.mask" },
+                 "nodes": { "l": { "kind": "adjust/levels" } } },
+        "Two": { "inputs": { "source": { "to": ["i.source"] } }, "outputs": { "other": "i.mask" },
+                 "nodes": { "i": { "kind": "adjust/invert" } } } },"#;
+    let nodes = r#""a": { "kind": "noise/cells" }, "x": { "kind": "adjust/clamp", "inputs": { "source": "a" }, "pos": [30, 40] },
+        "out": { "kind": "output/mask", "inputs": { "source": "x" } }"#;
+    let mut desk = opened(groups, nodes);
+    for (group, output) in [("One", "mask"), ("Two", "other")] {
+        let before = desk.wire_into(&to("out.source")).expect("a wire").node.clone();
+        assert!(step(&mut desk, |desk| desk.replace_by_group(&before, group)));
+        let now = desk.selected_one().cloned().expect("the instance");
+        assert_eq!(wire(&desk, &format!("{now}.source")), "a");
+        assert_eq!(wire(&desk, "out.source"), format!("{now}.{output}"));
+        assert_eq!(desk.node(&now).map(|node| node.pos), Some([30.0, 40.0]));
+    }
+    let now = desk.selected_one().cloned().expect("the instance");
+    let said = refused(&mut desk, |desk| desk.replace_by_group(&now, "Two"));
+    assert!(said.starts_with("this is a node of kind"), "{said}");
+    flat(&desk);
+}

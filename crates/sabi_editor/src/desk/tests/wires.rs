@@ -136,10 +136,9 @@ fn a_node_made_from_a_reader_is_not_put_before_it() {
 fn a_second_mask_is_blended_with_the_first_one() {
     let mut desk = two_masks();
     assert!(desk.may_merge(&from("b"), &to("layer.mask")));
-    assert!(
-        !desk.may_merge(&from("levels"), &to("layer.mask")),
-        "it is there already"
-    );
+    for same in ["levels", "levels.mask"] {
+        assert!(!desk.may_merge(&from(same), &to("layer.mask")), "it is there already");
+    }
     assert!(!desk.may_merge(&from("b"), &to("layer.base")) && !desk.may_merge(&from("b"), &to("layer.height_map")));
     for (_, how) in Merge::OFFERED {
         let Merge::Blend(mode) = how else { continue };
@@ -189,4 +188,22 @@ fn swapping_takes_along_the_knob_of_an_input_that_nothing_leads_to() {
     );
     step(&mut desk, Desk::swap_inputs);
     assert_eq!([wire(&desk, "m.below"), wire(&desk, "m.above")], ["", "a"]);
+}
+
+#[test]
+fn swapping_takes_along_what_feeds_an_input_from_outside() {
+    let groups = r#""groups": { "G": {
+        "inputs": { "one": { "to": ["m.below", "other.below"] }, "two": { "to": [] } },
+        "outputs": { "mask": "m.mask" },
+        "nodes": { "a": { "kind": "noise/cells" }, "other": { "kind": "blend/mask" },
+                   "m": { "kind": "blend/mask", "inputs": { "above": "a" } } } } },"#;
+    let mut desk = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);
+    assert!(desk.enter(&id("g")));
+    select(&mut desk, &["m"]);
+    step(&mut desk, Desk::swap_inputs);
+    assert_eq!([wire(&desk, "m.below"), wire(&desk, "m.above")], ["a", ""]);
+    assert_eq!(desk.group_inputs()["one"].to, [to("other.below"), to("m.above")]);
+    step(&mut desk, Desk::swap_inputs);
+    assert_eq!(wire(&desk, "m.above"), "a");
+    assert_eq!(desk.group_inputs()["one"].to, [to("other.below"), to("m.below")]);
 }

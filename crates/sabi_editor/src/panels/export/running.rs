@@ -43,15 +43,15 @@ impl Watch {
     }
 }
 
+/// A bake that can be begun beside the window.
+pub(crate) type Bake = Box<dyn FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + Send>;
+
 impl Running {
     /// Begins a piece of work beside the window.
-    pub(crate) fn start(
-        context: &egui::Context,
-        work: impl FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + Send + 'static,
-    ) -> Running {
+    pub(crate) fn start(context: &egui::Context, bake: Bake) -> Running {
         let watch = Arc::new(Watch::default());
         let watched = watch.clone();
-        let errand = Errand::start(context, move || work(watched.as_ref()));
+        let errand = Errand::start(context, move || bake(watched.as_ref()));
         Running { watch, errand }
     }
 }

@@ -1,7 +1,7 @@
 //! One entry of the library: a click adds it in the middle of the canvas, a drag where it is dropped.
 
 use egui::epaint::RectShape;
-use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{Align2, Color32, FontId, Key, Pos2, Rect, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
 use egui_phosphor::regular as icon;
 
 use crate::action::Action;
@@ -48,14 +48,14 @@ impl Shown<'_> {
         if ui.is_rect_visible(rect) {
             self.paint(ui, theme, editor, rect, response.hovered(), star.hovered());
         }
-        let at = ui.input(|input| input.pointer.latest_pos());
+        let (at, is_given_up) = ui.input(|input| (input.pointer.latest_pos(), input.key_pressed(Key::Escape)));
         let dragged = at.filter(|_| response.dragged());
         if let Some(at) = dragged {
             editor.canvas.ghost(ui, theme, &editor.desk, face, at);
         }
         let (place, into) = if response.clicked() {
             (Some(editor.canvas.middle()), None)
-        } else if let Some(at) = at.filter(|_| response.drag_stopped()) {
+        } else if let Some(at) = at.filter(|_| response.drag_stopped() && !is_given_up) {
             let wire = editor.canvas.wire_for(&editor.desk, face, at);
             (editor.canvas.place_at(at), wire.map(|wire| wire.to))
         } else {
