@@ -9,6 +9,7 @@ mod painting;
 mod showing;
 mod tools;
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::RenderState;
@@ -151,9 +152,26 @@ impl ModelView {
         self.surroundings.environment().is_some() && !self.tools.are_coming()
     }
 
-    /// Takes another environment: a built-in name, or a file.
+    /// The file of the environment, if it is in one of its own.
+    pub(crate) fn environment_file(&self) -> Option<&Path> {
+        self.surroundings.file()
+    }
+
+    /// Loads the environment once more, since its file has changed.
+    pub(crate) fn reread_environment(&mut self) {
+        self.surroundings.read_again();
+    }
+
+    /// Another number for every environment that was shown.
+    #[cfg(test)]
+    pub(crate) fn environment_number(&self) -> u64 {
+        self.surroundings.number()
+    }
+
+    /// Takes another environment: a built-in name, or a file, which is read anew if it was chosen already.
     pub(crate) fn choose_environment(&mut self, choice: &str) {
         self.surroundings.choose(choice);
+        self.surroundings.read_again();
     }
 
     /// Draws the model and lets it be turned.

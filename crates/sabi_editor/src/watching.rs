@@ -1,5 +1,5 @@
-//! Files that change while they are open: nodes, the model, pictures, group files and the library are read again, and the
-//! graph's own file is asked about, since what is here would be gone.
+//! Files that change while they are open: nodes, the model, the environment, pictures, group files and the library are read
+//! again, and the graph's own file is asked about, since what is here would be gone.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -33,6 +33,7 @@ struct Followed {
     named: Arc<BTreeSet<PathBuf>>,
     /// Folders and files of the library.
     library: Arc<[PathBuf]>,
+    environment: Option<PathBuf>,
 }
 
 impl Watching {
@@ -85,6 +86,9 @@ impl Editor {
         if followed.library.iter().any(|file| changes.files.contains(file)) {
             self.panels.library.forget();
         }
+        if followed.environment.iter().any(|file| changes.files.contains(file)) {
+            self.model_view.reread_environment();
+        }
         if !changes.files.is_disjoint(&followed.named) {
             self.desk.files_changed(&changes.files);
         }
@@ -102,6 +106,7 @@ impl Editor {
             loaded: stage.loaded_model(),
             named: stage.files.clone(),
             library: self.panels.library.files().clone(),
+            environment: self.model_view.environment_file().map(Path::to_owned),
         };
         if self.watching.followed.as_ref() == Some(&now) {
             return;
@@ -121,7 +126,13 @@ impl Editor {
                 nodes: Kinds::folders(now.graph.as_deref()),
                 graph: now.graph.clone(),
                 model: self.model_files(),
-                files: now.named.iter().chain(&*now.library).cloned().collect(),
+                files: now
+                    .named
+                    .iter()
+                    .chain(&*now.library)
+                    .chain(&now.environment)
+                    .cloned()
+                    .collect(),
             });
         }
         self.watching.followed = Some(now);

@@ -260,7 +260,7 @@ impl Editor {
     }
 
     fn take_environment(&mut self, path: &Path) {
-        let choice = path.display().to_string();
+        let choice = whole(path).display().to_string();
         self.model_view.choose_environment(&choice);
         self.settings.environment = choice;
     }

@@ -1,5 +1,6 @@
 //! The window as somebody uses it: by clicks and keys, without a screen.
 
+mod beginning;
 mod bends;
 mod building;
 mod commands;

@@ -1,5 +1,7 @@
 //! The light from all around, loaded beside the window.
 
+use std::path::Path;
+
 use egui::Context;
 use sabi_engine::view::Environment;
 use sabi_engine::{EngineError, built_in_environments, load_environment};
@@ -47,6 +49,17 @@ impl Surroundings {
     pub(super) fn choose(&mut self, choice: &str) {
         self.is_stand_in = false;
         choice.clone_into(&mut self.choice);
+    }
+
+    /// The file that was chosen; none where it is one of the program's own.
+    pub(super) fn file(&self) -> Option<&Path> {
+        let is_own = built_in_environments().any(|own| own == self.choice);
+        (!is_own).then(|| Path::new(&self.choice))
+    }
+
+    /// Loads what was chosen once more; what is shown stays until then, and if it cannot be read any more.
+    pub(super) fn read_again(&mut self) {
+        self.asked = None;
     }
 
     pub(super) fn environment(&self) -> Option<&Environment> {

@@ -1,5 +1,7 @@
 //! What somebody does with a window: pointing, dragging, typing, and finding things on it.
 
+use std::path::Path;
+
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Rect, TouchPhase, Vec2, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable, by};
@@ -130,6 +132,15 @@ impl Window {
             Some(event) => self.harness.event_modifiers(event, modifiers),
             None => self.harness.key_press_modifiers(modifiers, key),
         }
+        self.settle();
+    }
+
+    /// Drops a file or a folder on the window.
+    pub(super) fn dropped(&mut self, path: &Path) {
+        self.harness.input_mut().dropped_files.push(egui::DroppedFile {
+            path: Some(path.to_owned()),
+            ..egui::DroppedFile::default()
+        });
         self.settle();
     }
 

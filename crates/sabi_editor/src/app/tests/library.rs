@@ -200,12 +200,7 @@ fn a_dropped_folder_becomes_a_material() {
     for name in ["Bricks_diff_1k.png", "Bricks_rough_1k.png", "notes.txt"] {
         std::fs::write(folder.join(name), "").expect("a file");
     }
-    let dropped = egui::DroppedFile {
-        path: Some(folder),
-        ..egui::DroppedFile::default()
-    };
-    window.harness.input_mut().dropped_files.push(dropped);
-    window.settle();
+    window.dropped(&folder);
     let kinds = kinds(&window);
     assert_eq!(
         kinds.iter().filter(|kind| *kind == "source/image").count(),
@@ -216,12 +211,7 @@ fn a_dropped_folder_becomes_a_material() {
     assert_eq!(window.steps(), 1);
     let empty = window.path("empty");
     std::fs::create_dir_all(&empty).expect("a folder");
-    let dropped = egui::DroppedFile {
-        path: Some(empty.clone()),
-        ..egui::DroppedFile::default()
-    };
-    window.harness.input_mut().dropped_files.push(dropped);
-    window.settle();
+    window.dropped(&empty);
     let said = format!("{} holds no pictures", empty.display());
     assert!(window.harness.query_by_label(&said).is_some());
 }
@@ -230,12 +220,7 @@ fn a_dropped_folder_becomes_a_material() {
 fn a_dropped_picture_is_a_node_in_one_step() {
     let mut window = Window::of(GROUPED);
     let before = window.text();
-    let dropped = egui::DroppedFile {
-        path: Some(window.path("rust.png")),
-        ..egui::DroppedFile::default()
-    };
-    window.harness.input_mut().dropped_files.push(dropped);
-    window.settle();
+    window.dropped(&window.path("rust.png"));
     let added = window.editor().desk.selected_one().cloned().expect("the picture");
     assert_eq!(window.param(&added, "file").as_deref(), Some("\"rust.png\""));
     assert_eq!(window.steps(), 1);

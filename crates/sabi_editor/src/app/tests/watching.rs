@@ -244,3 +244,36 @@ fn a_device_that_goes_while_nothing_is_evaluated_is_noticed() {
     let kept = kept.expect("the work goes on");
     assert_eq!(kept.desk.session.file(), Some(watched.path("graph.sabi").as_path()));
 }
+
+/// An environment of the same light all around, as a Radiance file.
+fn light(value: u8) -> Vec<u8> {
+    let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();
+    bytes.extend([value, value, value, 128].repeat(8));
+    bytes
+}
+
+#[test]
+fn an_environment_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
+    let mut watched = Watched::of(PLAIN, &[("sky.hdr", &light(40))], 1.0);
+    let sky = watched.path("sky.hdr");
+    watched.window.dropped(&sky);
+    watched
+        .window
+        .until("it", |editor| editor.model_view.environment_file().is_some());
+    let number = |watched: &Watched| watched.window.editor().model_view.environment_number();
+    let before = number(&watched);
+    let comes = |watched: &mut Watched, after: u64| {
+        let is_other = move |editor: &Editor| editor.model_view.environment_number() > after;
+        watched.window.until("the environment", is_other);
+    };
+    comes(&mut watched, before.saturating_sub(1));
+    watched.rest();
+    let before = number(&watched);
+    watched.write("sky.hdr", light(200));
+    comes(&mut watched, before);
+    let before = number(&watched);
+    watched.write("sky.hdr", "nothing");
+    let is_said = |editor: &Editor| editor.notices.iter().any(|(_, said)| said.contains("sky.hdr"));
+    watched.window.until("the sentence", is_said);
+    assert_eq!(number(&watched), before);
+}
