@@ -251,7 +251,7 @@ impl Editor {
     }
 }
 
-const EDIT: &[Option<Command>] = &[
+pub(super) const EDIT: &[Option<Command>] = &[
     Some(Command::Undo),
     Some(Command::Redo),
     None,
@@ -273,7 +273,7 @@ const EDIT: &[Option<Command>] = &[
     Some(Command::Rename),
 ];
 
-const ARRANGE: &[Option<Command>] = &[
+pub(super) const ARRANGE: &[Option<Command>] = &[
     Some(Command::FrameAll),
     Some(Command::FrameSelected),
     None,

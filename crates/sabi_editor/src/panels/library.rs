@@ -8,7 +8,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{RichText, Ui};
+use egui::{Context, RichText, TextureId, Ui};
 use egui_phosphor::regular as icon;
 use sabi_engine::OpenGraph;
 use sabi_engine::catalog::{Catalog, Faces};
@@ -157,11 +157,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
                 ui.add_space(space::USUAL);
                 ui.label(RichText::new(own.to_uppercase()).small().color(theme.quiet));
             }
-            let picture = match &candidate.new {
-                New::Library(file) => editor.panels.keepsakes.find(ui.ctx(), file, KEPT_AS),
-                New::Kind(kind) => editor.panels.library.pictures.find(kind),
-                _ => None,
-            };
+            let picture = picture(editor, ui.ctx(), &candidate.new);
             let shown = entry::Shown {
                 candidate,
                 number,
@@ -181,6 +177,19 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
         match editor.settings.favorites.iter().position(|known| *known == key) {
             Some(at) => drop(editor.settings.favorites.remove(at)),
             None => editor.settings.favorites.push(key),
+        }
+    }
+}
+
+/// What an entry gives; for a group of the graph that is what its first instance gives here.
+pub(crate) fn picture(editor: &mut Editor, context: &Context, new: &New) -> Option<TextureId> {
+    match new {
+        New::Library(file) => editor.panels.keepsakes.find(context, file, KEPT_AS),
+        New::Kind(kind) => editor.panels.library.pictures.find(kind),
+        New::Group(group) => {
+            let mut nodes = editor.desk.graph().nodes();
+            let instance = nodes.find(|(_, node)| node.group.as_ref() == Some(group));
+            instance.and_then(|(id, _)| editor.thumbnail_of(id))
         }
     }
 }

@@ -5,6 +5,7 @@ use egui_kittest::kittest::Queryable;
 use sabi_engine::Seen;
 use sabi_graph::NodeId;
 
+use super::super::bars::{ARRANGE, EDIT};
 use super::Window;
 use super::hands::id;
 use crate::command::{Chord, Command, Habit, Scope};
@@ -263,6 +264,21 @@ impl Window {
             tried.push(command);
         }
         tried
+    }
+}
+
+#[test]
+fn the_entries_of_menus_do_what_their_keys_do() {
+    let mut window = window_with(Habit::Default);
+    for (menu, entries) in [("Edit", EDIT), ("Arrange", ARRANGE)] {
+        for command in entries.iter().flatten() {
+            let Some((selected, is_done)) = proof(*command) else {
+                continue;
+            };
+            let before = window.prepare(selected, command.scope());
+            window.press_entry(menu, command.title());
+            assert!(is_done(&mut window, &before), "{} in {menu}", command.title());
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use egui_kittest::kittest::Queryable;
 use sabi_graph::NodeId;
 
 use super::{Editor, Window};
-use crate::action::Shelf;
+use crate::action::{New, Shelf};
 use crate::dock::Panel;
 
 const GROUPED: &str = r#"{
@@ -155,6 +155,16 @@ fn nodes_that_come_with_the_program_have_pictures_in_the_library() {
     });
     assert!(window.editor().panels.library.has_picture("noise/cells"));
     assert!(!window.editor().panels.library.has_picture("graph/reroute"));
+}
+
+#[test]
+fn a_group_of_the_graph_has_the_picture_of_an_instance_in_the_library() {
+    let mut window = Window::of(GROUPED);
+    let instance = select_only(&mut window);
+    window.until("a picture", |editor| editor.thumbnail_of(&instance).is_some());
+    let context = window.harness.ctx.clone();
+    let group = New::Group("Wear".to_owned());
+    assert!(crate::panels::library::picture(window.harness.state_mut(), &context, &group).is_some());
 }
 
 #[test]

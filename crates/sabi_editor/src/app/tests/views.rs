@@ -2,7 +2,7 @@
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::{Queryable, by};
+use egui_kittest::kittest::{NodeT, Queryable, by};
 
 use super::Window;
 use super::commands::window_with;
@@ -21,10 +21,12 @@ impl Window {
     }
 
     /// Clicks an entry of a menu, which is named with its keys.
-    fn press_entry(&mut self, menu: &str, entry: &str) {
+    pub(super) fn press_entry(&mut self, menu: &str, entry: &str) {
         self.press(menu);
         let found = self.harness.query_all(by().role(Role::Button).label_contains(entry));
-        let at = found.map(|found| found.rect().center()).next_back();
+        // Others have longer names that begin with it.
+        let found = found.min_by_key(|found| found.accesskit_node().label().map_or(0, |label| label.len()));
+        let at = found.map(|found| found.rect().center());
         self.click_at(at.unwrap_or_else(|| panic!("{menu} has no {entry}")));
     }
 }
