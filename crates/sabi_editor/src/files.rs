@@ -9,7 +9,7 @@ pub(crate) mod system_dialog;
 use std::path::{Path, PathBuf};
 
 use egui::{Key, Modal, RichText, Ui};
-use sabi_engine::{Recovery, recoveries};
+use sabi_engine::{Recovery, canonical, recoveries};
 
 use crate::action::Action;
 use crate::app::Editor;
@@ -361,7 +361,19 @@ impl Editor {
 
 /// A file by its one name, where it is there.
 pub(crate) fn whole(file: &Path) -> PathBuf {
-    file.canonicalize().unwrap_or_else(|_| file.to_owned())
+    canonical(file).unwrap_or_else(|_| file.to_owned())
+}
+
+/// A file whose folder is the one of its name. What a link leads to may have another name, and others beside it.
+pub(crate) fn in_whole_folder(file: &Path) -> PathBuf {
+    match (
+        file.parent().filter(|folder| !folder.as_os_str().is_empty()),
+        file.file_name(),
+    ) {
+        (Some(folder), Some(name)) => whole(folder).join(name),
+        (None, Some(name)) => whole(Path::new(".")).join(name),
+        _ => file.to_owned(),
+    }
 }
 
 /// A graph file ends in .sabi, whatever was typed.

@@ -10,7 +10,7 @@ use sabi_engine::{
 };
 
 use crate::app::{Beginning, Editor, Folders, Handover};
-use crate::files::{examples, whole};
+use crate::files::{examples, in_whole_folder};
 use crate::settings::default_folder;
 
 /// How often a window is opened anew for a lost device before it is given up, where each was lost soon.
@@ -149,16 +149,16 @@ fn folders() -> Folders {
 /// The model to begin with: the one that was named, the one that the graph names, or one that comes with the program.
 fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> Result<PathBuf, EngineError> {
     if let Some(mesh) = &request.mesh {
-        return Ok(whole(mesh));
+        return Ok(in_whole_folder(mesh));
     }
     if let Some(model) = crate::app::model_of(session) {
-        return Ok(whole(&model));
+        return Ok(in_whole_folder(&model));
     }
     let folder = folders
         .examples
         .clone()
         .unwrap_or_else(|| std::env::temp_dir().join("sabi"));
-    unpacked(&folder)
+    unpacked(&folder).map(|model| in_whole_folder(&model))
 }
 
 fn unpacked(folder: &Path) -> Result<PathBuf, EngineError> {

@@ -68,7 +68,7 @@ pub use preview::{PreviewRequest, preview};
 pub use render::{RenderRequest, Turns, render};
 pub use report::{BakeReport, StageTime, StageTimes};
 pub use seams::Seams;
-pub use session::{FileState, Recovery, Session, moved_to, recoveries, with_near_paths, with_whole_paths};
+pub use session::{FileState, Recovery, Session, moved_to, recoveries, with_whole_paths};
 pub use sets::TextureSet;
 pub use setting::read_setting;
 pub use sheet::{PlaneHolds, SheetPlane};
@@ -85,4 +85,4 @@ pub use sabi_graph::{Fit, NodeRef, Overrides, nearest};
 pub use sabi_surface::load::Up;
 /// What is seen of a model, and how.
 pub use sabi_view as view;
-pub use whole_file::{free_graph_file, write_whole};
+pub use whole_file::{canonical, free_graph_file, write_whole};

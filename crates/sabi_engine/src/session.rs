@@ -14,7 +14,7 @@ use sabi_export::Staging;
 use sabi_graph::{Document, Edit, EditError, History};
 
 use moving::Moving;
-pub use moving::{moved_to, with_near_paths, with_whole_paths};
+pub use moving::{moved_to, with_whole_paths};
 use recovery::Kept;
 pub use recovery::{Recovery, recoveries};
 

@@ -28,10 +28,26 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
+/// A path by the one name of what it leads to, written as people write it: Windows has another spelling for its own use.
+///
+/// # Errors
+/// Nothing is there, or it cannot be reached.
+pub fn canonical(path: &Path) -> io::Result<PathBuf> {
+    path.canonicalize().map(|path| without_prefix(&path))
+}
+
+fn without_prefix(path: &Path) -> PathBuf {
+    let text = path.to_string_lossy();
+    let on_drive = text
+        .strip_prefix(r"\\?\")
+        .filter(|rest| rest.as_bytes().get(1) == Some(&b':'));
+    on_drive.map_or_else(|| path.to_owned(), PathBuf::from)
+}
+
 /// The file that a link leads to, however many there are in between; every other path as it is.
 pub(crate) fn behind_links(file: &Path) -> PathBuf {
     let is_link = fs::symlink_metadata(file).is_ok_and(|found| found.is_symlink());
-    let behind = is_link.then(|| file.canonicalize().ok()).flatten();
+    let behind = is_link.then(|| canonical(file).ok()).flatten();
     behind.unwrap_or_else(|| file.to_owned())
 }
 

@@ -70,7 +70,7 @@ impl Editor {
         self.keeping.kept = None;
         self.canvas = Default::default();
         self.look_at_nothing();
-        if let Some(model) = model.filter(|model| whole(model) != self.stage.model_file()) {
+        if let Some(model) = model.filter(|model| whole(model) != whole(self.stage.model_file())) {
             self.take_model(&model);
         }
     }
@@ -94,7 +94,12 @@ impl Editor {
         let model = self.stage.model_file();
         let own = model_of(&self.desk.session);
         let is_own = own.as_ref().is_some_and(|own| whole(own) == whole(model));
-        let is_stand_in = own.is_none() && self.folders.examples.as_ref().is_some_and(|of| model.starts_with(of));
+        let is_stand_in = own.is_none()
+            && self
+                .folders
+                .examples
+                .as_ref()
+                .is_some_and(|of| whole(model).starts_with(whole(of)));
         let has_redo = self.desk.session.redo_names().next().is_some();
         if is_own || is_stand_in || has_redo || self.stage.model_failure.is_some() {
             return;

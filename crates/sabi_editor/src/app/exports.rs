@@ -8,6 +8,7 @@ use sabi_engine::{
 };
 
 use super::Editor;
+use crate::files::whole;
 use crate::panels::export::{Bake, Running, folder_of};
 
 impl Editor {
@@ -28,19 +29,19 @@ impl Editor {
     /// Takes what came of an export, and begins the one that waits for its end.
     pub(super) fn follow_export(&mut self) {
         let is_over = self.panels.export.poll();
-        if is_over && let Some(bake) = self.panels.export.queued.take() {
+        if is_over && let Some(bake) = self.panels.export.queued.pop_front() {
             self.begin_export(bake);
         }
     }
 
     /// Writes the textures again where that is wanted at every save.
     pub(super) fn export_after_save(&mut self) {
-        let export = &mut self.panels.export;
+        let export = &self.panels.export;
         if !export.place.again {
             return;
         }
         let now = self.stage.model_file();
-        if let Some(before) = export.place.model.as_ref().filter(|before| *before != now) {
+        if let Some(before) = export.place.model.as_ref().filter(|before| whole(before) != whole(now)) {
             let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let sentence = format!(
                 "The textures were not written again: those that are there are of {}. Export them once to put those of {} \
@@ -51,11 +52,28 @@ impl Editor {
             self.say(sentence);
             return;
         }
-        if export.running.is_some() {
-            self.panels.export.queued = self.bake(false);
-        } else {
-            self.export();
+        match &export.running {
+            Some(running) => {
+                // A folder that textures are being written to is one that may have them.
+                let is_allowed = Some(&running.folder) == self.export_folder().as_ref();
+                self.queue_export(is_allowed);
+            }
+            None => self.export(),
         }
+    }
+
+    fn queue_export(&mut self, force: bool) {
+        if let Some(bake) = self.bake(force) {
+            let queued = &mut self.panels.export.queued;
+            // What is newer in the same folder takes its place.
+            queued.retain(|known| known.folder != bake.folder);
+            queued.push_back(bake);
+        }
+    }
+
+    /// Where textures go; none where that is not said, or hangs on the file that the graph does not have yet.
+    fn export_folder(&self) -> Option<PathBuf> {
+        folder_of(&self.panels.export.place.folder, self.desk.session.file())
     }
 
     /// Writes the textures beside the window's work; asks first where the folder has files of somebody else.
@@ -82,7 +100,7 @@ impl Editor {
 
     /// What writes the textures of the graph as it is now; says why where they cannot be written.
     fn bake(&mut self, force: bool) -> Option<Bake> {
-        let Some(folder) = folder_of(&self.panels.export.place.folder, self.desk.session.file()) else {
+        let Some(folder) = self.export_folder() else {
             let is_empty = self.panels.export.place.folder.trim().is_empty();
             self.say(match is_empty {
                 true => "Name the folder for the textures first.",
@@ -92,7 +110,7 @@ impl Editor {
             });
             return None;
         };
-        let request = self.bake_request(folder, force);
+        let request = self.bake_request(folder.clone(), force);
         let (open, kinds) = (self.desk.session.graph().clone(), self.desk.kinds().0.clone());
         self.panels.export.asks_force = needs_force(&open, &request);
         if self.panels.export.asks_force {
@@ -100,7 +118,10 @@ impl Editor {
             return None;
         }
         self.panels.export.place.model = Some(self.stage.model_file().to_owned());
-        Some(Box::new(move |progress| bake_graph(&open, &kinds, &request, progress)))
+        Some(Bake {
+            folder,
+            work: Box::new(move |progress| bake_graph(&open, &kinds, &request, progress)),
+        })
     }
 
     /// What the export panel says, for the model and the device of the window.

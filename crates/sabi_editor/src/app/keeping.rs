@@ -17,6 +17,8 @@ pub(super) struct Keeping {
     /// The states of the graph and of node files that were kept.
     pub(super) kept: Option<(u64, u64)>,
     pub(super) every: Duration,
+    /// Settings that could not be kept, which was said: the next ones are tried.
+    failed: Option<serde_json::Value>,
 }
 
 impl Default for Keeping {
@@ -25,6 +27,7 @@ impl Default for Keeping {
             at: Instant::now(),
             kept: None,
             every: KEEP_EVERY,
+            failed: None,
         }
     }
 }
@@ -72,12 +75,15 @@ impl Editor {
             return;
         };
         let now = self.settings.to_json();
-        if now == self.kept_settings {
+        if now == self.kept_settings || self.keeping.failed.as_ref() == Some(&now) {
             return;
         }
-        let before = std::mem::replace(&mut self.kept_settings, now);
-        if let Err(why) = self.settings.save(&folder, &before) {
-            self.say(why);
+        match self.settings.save(&folder, &self.kept_settings) {
+            Ok(()) => self.kept_settings = now,
+            Err(why) => {
+                self.keeping.failed = Some(now);
+                self.say(why);
+            }
         }
     }
 }

@@ -11,7 +11,7 @@ use sabi_engine::{Overlap, Up};
 
 use super::Editor;
 use crate::action::Action;
-use crate::files::whole;
+use crate::files::in_whole_folder;
 use crate::model_view::staying;
 use crate::reading::{LAST_UV, Reading, SCALES};
 use crate::settings::MOST_MODELS;
@@ -19,7 +19,7 @@ use crate::settings::MOST_MODELS;
 impl Editor {
     /// Takes another model, and remembers it on the strip.
     pub(crate) fn take_model(&mut self, path: &Path) {
-        let path = whole(path);
+        let path = in_whole_folder(path);
         self.stage.take_model(&path, self.settings.reading(&path));
         self.remember_model();
     }

@@ -1,17 +1,23 @@
 //! Nodes as text: a graph file of its own, so that it can be mailed, kept and read.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
-use sabi_engine::{with_near_paths, with_whole_paths};
-use sabi_graph::{Body, Document, Edit, Node, NodeId};
+use sabi_engine::canonical;
+use sabi_graph::{Body, Document, Edit, Node, NodeId, Value};
 
 use super::bringing::Brought;
 use super::copies::frames_around;
+use super::library::or_here;
 use super::{Desk, bringing};
+
+/// Key of the folder that the paths of a copy begin at.
+const FROM: &str = "folder";
 
 impl Desk {
     /// The selected nodes as the text of a graph file, with the groups that they are instances of and the frames around
-    /// them; none where nothing is selected. Paths in it are whole, so that they lead to the same from other graphs.
+    /// them; none where nothing is selected. The text
+    /// says from which folder its paths lead on, so that they lead to the same from other graphs.
     pub(crate) fn copied(&self) -> Option<String> {
         if self.selection.is_empty() {
             return None;
@@ -42,7 +48,21 @@ impl Desk {
             let body = Body::Main;
             copy.apply(Edit::AddFrame { body, id, frame }).ok()?;
         }
-        Some(with_whole_paths(&copy, self.session.graph().folder()).to_json())
+        if let Ok(folder) = canonical(or_here(self.session.graph().folder())) {
+            copy.extra
+                .insert(FROM.to_owned(), Value::Text(folder.display().to_string()));
+        }
+        Some(copy.to_json())
+    }
+
+    /// A copied document with paths that lead from here to where they led from there. Those of a folder that is not there, as on
+    /// another machine, stay as they are.
+    fn brought_here(&self, document: Document) -> Document {
+        let from = document.extra.get(FROM).and_then(Value::as_text).map(PathBuf::from);
+        match from.filter(|from| from.is_dir()) {
+            Some(from) => self.moved_here(&document, &from),
+            None => document,
+        }
     }
 
     /// Cuts the selected nodes: what [`Desk::copied`] gives, and they are gone.
@@ -54,9 +74,7 @@ impl Desk {
     /// Adds what a text holds, with its upper left corner at a place on the canvas.
     pub(crate) fn paste(&mut self, text: &str, pos: [f32; 2]) -> bool {
         let document = match Document::from_json(text) {
-            // Before a graph has a file there is no folder to begin at.
-            Ok(document) if !document.graph.is_empty() && self.session.file().is_none() => document,
-            Ok(document) if !document.graph.is_empty() => with_near_paths(&document, self.session.graph().folder()),
+            Ok(document) if !document.graph.is_empty() => self.brought_here(document),
             Ok(_) => return self.refuse("the clipboard holds a graph without nodes"),
             Err(_) => return self.refuse("the clipboard holds no nodes; copy some first"),
         };

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, free_graph_file, moved_to, write_whole};
+use sabi_engine::{OpenGraph, canonical, free_graph_file, moved_to, with_whole_paths, write_whole};
 use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
 
 use super::{Desk, Loose, bringing};
@@ -46,6 +46,18 @@ impl Desk {
                 self.say(format!("{} cannot be written: {error}", file.display()));
                 None
             }
+        }
+    }
+
+    /// A document of another folder as this graph can take it over: its paths lead where they led. Before a graph has a file
+    /// there is no folder that they could begin at.
+    pub(super) fn moved_here(&self, document: &Document, from: &Path) -> Document {
+        let here = self.session.graph().folder();
+        let is_same = canonical(or_here(from)).ok() == canonical(or_here(here)).ok();
+        match self.session.file() {
+            Some(_) => moved_to(document, from, here),
+            None if is_same => document.clone(),
+            None => with_whole_paths(document, from),
         }
     }
 
@@ -94,7 +106,7 @@ impl Desk {
                 return None;
             }
         };
-        let mut document = moved_to(&open.document, open.folder(), self.session.graph().folder());
+        let mut document = self.moved_here(&open.document, open.folder());
         let stem = file
             .file_stem()
             .map_or_else(|| "Group".to_owned(), |stem| stem.to_string_lossy().into_owned());
@@ -121,6 +133,15 @@ impl Desk {
             return None;
         }
         instance.group
+    }
+}
+
+/// A folder, which is the present one where it has no name.
+pub(super) fn or_here(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
     }
 }
 

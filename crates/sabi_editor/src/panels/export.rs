@@ -2,6 +2,7 @@
 
 mod running;
 
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -78,8 +79,8 @@ pub(crate) struct ExportPlace {
 pub(crate) struct Export {
     pub(crate) place: ExportPlace,
     pub(crate) running: Option<Running>,
-    /// What follows the running one, since a graph was saved meanwhile: of that graph, whichever is open by then.
-    pub(crate) queued: Option<Bake>,
+    /// What follows the running one, since graphs were saved meanwhile: of those graphs, whichever is open by then.
+    pub(crate) queued: VecDeque<Bake>,
     /// The folder has files of somebody else, and it is to be said whether maps go there all the same.
     pub(crate) asks_force: bool,
     /// The system's dialog for the folder, while it is open.
@@ -125,7 +126,7 @@ impl Export {
 
     /// Lets a running export go.
     pub(crate) fn cancel(&mut self) {
-        self.queued = None;
+        self.queued.clear();
         if let Some(running) = &self.running {
             running.watch.is_canceled.store(true, Ordering::Relaxed);
         }

@@ -7,6 +7,7 @@ use sabi_graph::{Document, Relocation};
 use sabi_nodes::kind::Role;
 
 use crate::source;
+use crate::whole_file::canonical;
 
 /// The way from one folder to another.
 pub(super) struct Moving {
@@ -39,14 +40,6 @@ pub fn with_whole_paths(document: &Document, folder: &Path) -> Document {
         is_file: &is_file,
         moved: &whole,
     })
-}
-
-/// The opposite: whole paths to what is near a folder begin there.
-pub fn with_near_paths(document: &Document, folder: &Path) -> Document {
-    match Moving::between(folder, folder, true) {
-        Some(moving) => moving.relocate(|relocation| document.relocated(relocation)),
-        None => document.clone(),
-    }
 }
 
 impl Moving {
@@ -95,7 +88,7 @@ fn real(folder: &Path) -> PathBuf {
     } else {
         folder
     };
-    let whole = folder.canonicalize().or_else(|_| std::path::absolute(folder));
+    let whole = canonical(folder).or_else(|_| std::path::absolute(folder));
     plain(&whole.unwrap_or_else(|_| folder.to_owned()))
 }
 

@@ -61,3 +61,41 @@ fn panels_stay_where_they_were_put_until_they_are_put_back() {
     window.press("All panels where they were at first");
     assert!(!window.editor().rects.contains_key(&Panel::History));
 }
+
+#[test]
+fn settings_that_could_not_be_kept_are_kept_with_the_next_ones() {
+    let mut window = Window::opened(CLOUDS);
+    let folder = window.path("settings");
+    let _ = fs::remove_file(folder.join("settings.json"));
+    // A folder stands where the file goes.
+    fs::create_dir_all(folder.join("settings.json")).expect("a folder");
+    let editor = window.harness.state_mut();
+    editor.settings.has_mini_map = true;
+    editor.keep_settings();
+    window.settle();
+    assert!(window.says("the settings cannot be kept in"));
+    fs::remove_dir(folder.join("settings.json")).expect("an empty folder");
+    let editor = window.harness.state_mut();
+    editor.settings.follows = false;
+    editor.keep_settings();
+    let (kept, _) = crate::settings::Settings::load(Some(&folder));
+    assert!(kept.has_mini_map && !kept.follows);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_model_behind_a_link_is_read_where_the_link_is() {
+    let window = Window::opened(CLOUDS);
+    let [real, link] = ["store/ab12.obj", "hero.obj"].map(|name| window.path(name));
+    fs::create_dir_all(window.path("store")).expect("a folder");
+    fs::write(&real, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a model");
+    std::os::unix::fs::symlink(&real, &link).expect("a link");
+    let mut window = window;
+    window.dropped(&link);
+    let model = window.editor().stage.model_file();
+    assert_eq!(
+        model.file_name(),
+        link.file_name(),
+        "what lies beside the link belongs to it"
+    );
+}

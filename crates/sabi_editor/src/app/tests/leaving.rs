@@ -146,9 +146,9 @@ fn a_save_while_textures_are_written_has_them_written_once_more() {
     editor.panels.export.place.again = true;
     editor.export();
     editor.save();
-    assert!(window.editor().panels.export.queued.is_some());
+    assert!(!window.editor().panels.export.queued.is_empty());
     window.until("both", |editor| {
-        editor.panels.export.running.is_none() && editor.panels.export.queued.is_none()
+        editor.panels.export.running.is_none() && editor.panels.export.queued.is_empty()
     });
 }
 
@@ -333,13 +333,20 @@ fn textures_of_a_saved_graph_are_written_although_another_one_is_opened_meanwhil
     editor.panels.export.place.folder = "maps".to_owned();
     editor.panels.export.place.again = true;
     editor.export();
+    // What the save writes has names of its own, so that it is seen which of the two is there.
+    editor.settings.export.names = "saved_{channel}".to_owned();
     editor.save();
     let other = window.path("deeper").join("other.sabi");
     fs::create_dir_all(window.path("deeper")).expect("a folder");
     fs::write(&other, super::graph_text("")).expect("a graph");
     window.harness.state_mut().open_file(&other);
     window.until("both", |editor| {
-        editor.panels.export.running.is_none() && editor.panels.export.queued.is_none()
+        editor.panels.export.running.is_none() && editor.panels.export.queued.is_empty()
     });
-    assert!(window.path("maps").is_dir() && !window.path("deeper").join("maps").exists());
+    let written = fs::read_dir(window.path("maps")).expect("a folder").flatten();
+    let names: Vec<_> = written
+        .map(|file| file.file_name().to_string_lossy().into_owned())
+        .collect();
+    assert!(names.iter().any(|name| name.starts_with("saved_")), "{names:?}");
+    assert!(!window.path("deeper").join("maps").exists());
 }

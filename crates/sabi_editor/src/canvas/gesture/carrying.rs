@@ -105,10 +105,14 @@ pub(super) fn drag(
     };
     // One of them is on the grid, and all keep their places beside each other.
     let first = from.values().next().copied().unwrap_or_default();
-    let offset = [0, 1].map(|axis| snapped(first[axis] + offset[axis]) - first[axis]);
-    let places = from
-        .iter()
-        .map(|(id, pos)| (id.clone(), [pos[0] + offset[0], pos[1] + offset[1]]));
+    // In more digits than places have, so that the one is exactly there.
+    let offset = [0, 1].map(|axis| f64::from(snapped(first[axis] + offset[axis])) - f64::from(first[axis]));
+    let places = from.iter().map(|(id, pos)| {
+        (
+            id.clone(),
+            [0, 1].map(|axis| (f64::from(pos[axis]) + offset[axis]) as f32),
+        )
+    });
     actions.push(Action::Move(places.collect()));
     if is_down {
         return;

@@ -272,3 +272,29 @@ fn pictures_of_a_group_lead_to_the_same_through_the_library() {
     one.add_from_library(&kept, [0.0; 2], None).expect("a node");
     assert_eq!(picture_in(&one, "Old 2", "inner"), Some(Value::from("tex/torn.png")));
 }
+
+#[test]
+fn what_is_pasted_where_it_was_copied_names_its_files_as_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut desk = with_pictures(folder.path());
+    for written in ["./tex/torn.png", "/somewhere/torn.png", "tex/../torn.png"] {
+        select(&mut desk, &["torn"]);
+        desk.set_knob(&id("torn"), "file", Some(Value::from(written)));
+        let text = desk.copied().expect("a node");
+        step(&mut desk, |desk| desk.paste(&text, [0.0; 2]));
+        let pasted = desk.selected_one().cloned().expect("the copy");
+        assert_eq!(param(&desk, pasted.as_str(), "file"), Some(Value::from(written)));
+    }
+    // As it comes from a machine that has other folders.
+    let text = desk
+        .copied()
+        .expect("a node")
+        .replace("\"folder\": \"", "\"folder\": \"/of/nobody");
+    let mut other = with_pictures(&folder.path().join("other"));
+    step(&mut other, |desk| desk.paste(&text, [0.0; 2]));
+    let pasted = other.selected_one().cloned().expect("the copy");
+    assert_eq!(
+        param(&other, pasted.as_str(), "file"),
+        Some(Value::from("tex/../torn.png"))
+    );
+}

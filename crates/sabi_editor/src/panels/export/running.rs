@@ -1,5 +1,6 @@
 //! An export that is made beside the window's work.
 
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
@@ -11,6 +12,8 @@ use crate::errand::Errand;
 pub(crate) struct Running {
     pub(super) watch: Arc<Watch>,
     pub(super) errand: Errand<Result<BakeReport, EngineError>>,
+    /// Where its textures go.
+    pub(crate) folder: PathBuf,
 }
 
 /// How far it is.
@@ -43,16 +46,23 @@ impl Watch {
     }
 }
 
+type BakeWork = dyn FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + Send;
+
 /// A bake that can be begun beside the window.
-pub(crate) type Bake = Box<dyn FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + Send>;
+pub(crate) struct Bake {
+    /// Where its textures go.
+    pub(crate) folder: PathBuf,
+    pub(crate) work: Box<BakeWork>,
+}
 
 impl Running {
     /// Begins a piece of work beside the window.
     pub(crate) fn start(context: &egui::Context, bake: Bake) -> Running {
         let watch = Arc::new(Watch::default());
         let watched = watch.clone();
-        let errand = Errand::start(context, move || bake(watched.as_ref()));
-        Running { watch, errand }
+        let Bake { folder, work } = bake;
+        let errand = Errand::start(context, move || work(watched.as_ref()));
+        Running { watch, errand, folder }
     }
 }
 
