@@ -276,7 +276,7 @@ impl Editor {
 
     /// Leaves the work to a window on another device, since this one's is gone.
     fn hand_over(&mut self, context: &Context) {
-        let mut desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
+        let mut desk = self.take_desk();
         // Should the other window never come, what is here is kept.
         keeping::keep_at_last(&mut desk, &self.panels.page.unsaved());
         self.canvas.drop_all();

@@ -225,6 +225,15 @@ impl Desk {
         path.collect::<Vec<_>>().join("/")
     }
 
+    /// Makes an edit as [`Desk::edit`] does, and selects what came of it.
+    fn edit_and_select(&mut self, step: &str, edits: Vec<Edit>, ids: impl IntoIterator<Item = NodeId>) -> bool {
+        let is_made = self.edit(step, edits);
+        if is_made {
+            self.select(ids);
+        }
+        is_made
+    }
+
     /// Makes an edit as a step of that name; says so where it is refused. Instances of a group follow what it publishes.
     pub(crate) fn edit(&mut self, step: &str, mut edits: Vec<Edit>) -> bool {
         if edits.is_empty() {

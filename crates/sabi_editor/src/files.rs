@@ -305,7 +305,7 @@ impl Editor {
 
     /// Saves under a name, unless a file is there that is another graph's: then that is asked about.
     fn save_unless_taken(&mut self, file: PathBuf) {
-        let whole = |path: &Path| path.canonicalize().ok();
+        let whole = |path: &Path| canonical(path).ok();
         let own = self.desk.session.file().and_then(whole);
         match whole(&file) {
             Some(found) if Some(&found) != own.as_ref() => self.files.question = Some(Question::Replace { file }),
@@ -366,12 +366,8 @@ pub(crate) fn whole(file: &Path) -> PathBuf {
 
 /// A file whose folder is the one of its name. What a link leads to may have another name, and others beside it.
 pub(crate) fn in_whole_folder(file: &Path) -> PathBuf {
-    match (
-        file.parent().filter(|folder| !folder.as_os_str().is_empty()),
-        file.file_name(),
-    ) {
+    match (file.parent(), file.file_name()) {
         (Some(folder), Some(name)) => whole(folder).join(name),
-        (None, Some(name)) => whole(Path::new(".")).join(name),
         _ => file.to_owned(),
     }
 }

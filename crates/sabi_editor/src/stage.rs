@@ -313,20 +313,10 @@ impl Stage {
     }
 
     fn take_faults(&mut self, faults: Faults) {
-        self.by_node.clear();
-        self.waiting.clear();
-        for fault in &faults.faults {
-            for node in with_groups(&fault.node) {
-                let known = self.by_node.entry(node.to_owned());
-                known.or_insert_with(|| fault.sentence.clone());
-            }
-        }
-        for waiting in &faults.waiting {
-            for node in with_groups(&waiting.node) {
-                let known = self.waiting.entry(node.to_owned());
-                known.or_insert_with(|| format!("waiting for {}", waiting.on));
-            }
-        }
+        let at_fault = faults.faults.iter();
+        self.by_node = told_at_groups_too(at_fault.map(|fault| (&*fault.node, fault.sentence.clone())));
+        let waiting = faults.waiting.iter();
+        self.waiting = told_at_groups_too(waiting.map(|it| (&*it.node, format!("waiting for {}", it.on))));
         self.faults = faults;
     }
 
@@ -377,7 +367,14 @@ impl Stage {
     }
 }
 
-/// A node's id, and those of the group instances that it stands in: `a/b/c`, `a/b`, `a`.
-fn with_groups(node: &str) -> impl Iterator<Item = &str> {
-    std::iter::successors(Some(node), |inner| inner.rsplit_once('/').map(|(outer, _)| outer))
+/// What is told of nodes, also at the group instances that they stand in, where the first is told: of `a/b/c` at `a/b` and `a`.
+fn told_at_groups_too<'n>(told: impl Iterator<Item = (&'n str, String)>) -> BTreeMap<String, String> {
+    let mut at_nodes = BTreeMap::new();
+    for (node, sentence) in told {
+        let nodes = std::iter::successors(Some(node), |inner| inner.rsplit_once('/').map(|(outer, _)| outer));
+        for node in nodes {
+            at_nodes.entry(node.to_owned()).or_insert_with(|| sentence.clone());
+        }
+    }
+    at_nodes
 }

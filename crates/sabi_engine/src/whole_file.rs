@@ -28,11 +28,17 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
-/// A path by the one name of what it leads to, written as people write it: Windows has another spelling for its own use.
+/// A path by the one name of what it leads to, written as people write it: Windows has another spelling for its own use. One
+/// without a name, such as the folder of a file that has none before it, is where the program was started.
 ///
 /// # Errors
 /// Nothing is there, or it cannot be reached.
 pub fn canonical(path: &Path) -> io::Result<PathBuf> {
+    let path = if path.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        path
+    };
     path.canonicalize().map(|path| without_prefix(&path))
 }
 

@@ -297,11 +297,7 @@ impl Desk {
     /// A path from the graph's folder on; that of one without a file is where the program was started, until it is saved.
     fn seen_from_own_folder(&self, path: &Path) -> String {
         let folder = self.session.graph().folder();
-        let folder = whole(if folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            folder
-        });
+        let folder = whole(folder);
         let path = whole(path);
         let common = folder
             .components()

@@ -55,10 +55,15 @@ impl Editor {
         self.keeping.kept = None;
     }
 
+    /// The work, with nothing in its place: the window is about to end.
+    pub(super) fn take_desk(&mut self) -> Desk {
+        std::mem::replace(&mut self.desk, Desk::new(Session::new(None)))
+    }
+
     /// Takes the work off the desk as the window ends. What is unsaved and was not let go is kept: systems end programs
     /// without asking them.
     pub(super) fn end_work(&mut self) {
-        let mut desk = std::mem::replace(&mut self.desk, Desk::new(Session::new(None)));
+        let mut desk = self.take_desk();
         let drafts = self.panels.page.unsaved();
         if self.files.may_close || !desk.session.is_dirty() && drafts.is_empty() {
             desk.session.close();

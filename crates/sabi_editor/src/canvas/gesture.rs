@@ -6,7 +6,7 @@ mod marking;
 use std::collections::BTreeMap;
 
 use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
-use sabi_graph::{NodeId, SlotRef};
+use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::ports::Place;
 use super::questions::MergeQuestion;
@@ -72,11 +72,8 @@ impl Gesture {
         let Gesture::Wire { loose, .. } = self else {
             return None;
         };
-        Some(match (loose, place) {
-            (Loose::From(from), Place::Input(to)) => from.node != to.node && desk.fits(from, to).is_ok(),
-            (Loose::Into(to), Place::Output(from)) => from.node != to.node && desk.fits(from, to).is_ok(),
-            _ => false,
-        })
+        let ends = ends(loose, place);
+        Some(ends.is_some_and(|(from, to)| from.node != to.node && desk.fits(from, to).is_ok()))
     }
 
     /// How little a place suits the wire in hand, among those that take it: one that has a wire already, then one that converts.
@@ -84,10 +81,8 @@ impl Gesture {
         let Gesture::Wire { loose, .. } = self else {
             return (false, false);
         };
-        let (from, to) = match (loose, place) {
-            (Loose::From(from), Place::Input(to)) => (from, to),
-            (Loose::Into(to), Place::Output(from)) => (from, to),
-            _ => return (true, true),
+        let Some((from, to)) = ends(loose, place) else {
+            return (true, true);
         };
         let is_taken = matches!(place, Place::Input(_)) && desk.wire_into(to).is_some();
         let converts = desk.input(to).is_none_or(|port| port.ty != desk.carried(from));
@@ -100,6 +95,14 @@ impl Gesture {
             return false;
         };
         line.windows(2).any(|piece| wire.is_crossed([piece[0], piece[1]]))
+    }
+}
+
+/// Where a loose wire begins and ends that is dropped at a place; none where both are of one side.
+fn ends<'w>(loose: &'w Loose, place: &'w Place) -> Option<(&'w OutputRef, &'w SlotRef)> {
+    match (loose, place) {
+        (Loose::From(from), Place::Input(to)) | (Loose::Into(to), Place::Output(from)) => Some((from, to)),
+        _ => None,
     }
 }
 
@@ -304,11 +307,10 @@ impl Canvas {
         at: Pos2,
         actions: &mut Vec<Action>,
     ) {
-        let (from, to) = match (loose, place) {
-            (Loose::From(from), Place::Input(to)) => (from, to),
-            (Loose::Into(to), Place::Output(from)) => (from, to),
-            _ => return,
+        let Some((from, to)) = ends(&loose, &place) else {
+            return;
         };
+        let (from, to) = (from.clone(), to.clone());
         if off.as_ref() == Some(&to) {
             return;
         }

@@ -8,7 +8,6 @@ use sabi_graph::{Body, Document, Edit, Node, NodeId, Value};
 
 use super::bringing::Brought;
 use super::copies::frames_around;
-use super::library::or_here;
 use super::{Desk, bringing};
 
 /// Key of the folder that the paths of a copy begin at.
@@ -48,7 +47,7 @@ impl Desk {
             let body = Body::Main;
             copy.apply(Edit::AddFrame { body, id, frame }).ok()?;
         }
-        if let Ok(folder) = canonical(or_here(self.session.graph().folder())) {
+        if let Ok(folder) = canonical(self.session.graph().folder()) {
             copy.extra
                 .insert(FROM.to_owned(), Value::Text(folder.display().to_string()));
         }

@@ -58,11 +58,7 @@ impl Desk {
         let ids = copies.ids();
         let mut edits = self.adding_all(copies);
         self.refeed(&mut edits, fed);
-        let is_made = self.edit("Duplicate", edits);
-        if is_made {
-            self.select(ids);
-        }
-        is_made
+        self.edit_and_select("Duplicate", edits, ids)
     }
 
     /// Copies under new ids; a copy keeps its seed, so that it looks like what it was made of.
@@ -119,11 +115,7 @@ impl Desk {
     pub(super) fn add_all(&mut self, step: &str, mut edits: Vec<Edit>, copies: Copies) -> bool {
         let ids = copies.ids();
         edits.extend(self.adding_all(copies));
-        let is_made = self.edit(step, edits);
-        if is_made {
-            self.select(ids);
-        }
-        is_made
+        self.edit_and_select(step, edits, ids)
     }
 
     /// The edits that add nodes which read each other: all of them first, then their wires and frames.

@@ -32,11 +32,7 @@ impl Desk {
         let border = Border::around(self, &ids, &instance);
         let mut edits = self.definition(&name, &ids, &border);
         edits.extend(self.instance_edits(&name, &ids, &border));
-        let is_made = self.edit("Group", edits);
-        if is_made {
-            self.select([instance]);
-        }
-        is_made
+        self.edit_and_select("Group", edits, [instance])
     }
 
     /// A node outside that is made from nodes inside and that nodes inside are made from: a group would lead in a circle.

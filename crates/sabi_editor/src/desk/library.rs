@@ -53,7 +53,7 @@ impl Desk {
     /// there is no folder that they could begin at.
     pub(super) fn moved_here(&self, document: &Document, from: &Path) -> Document {
         let here = self.session.graph().folder();
-        let is_same = canonical(or_here(from)).ok() == canonical(or_here(here)).ok();
+        let is_same = canonical(from).ok() == canonical(here).ok();
         match self.session.file() {
             Some(_) => moved_to(document, from, here),
             None if is_same => document.clone(),
@@ -133,15 +133,6 @@ impl Desk {
             return None;
         }
         instance.group
-    }
-}
-
-/// A folder, which is the present one where it has no name.
-pub(super) fn or_here(folder: &Path) -> &Path {
-    if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
     }
 }
 

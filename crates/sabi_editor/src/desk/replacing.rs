@@ -134,11 +134,7 @@ impl Desk {
             body: self.body(),
             id: id.clone(),
         });
-        let is_made = self.edit(&format!("Replace by {}", entry.label), edits);
-        if is_made {
-            self.select([new_id]);
-        }
-        is_made
+        self.edit_and_select(&format!("Replace by {}", entry.label), edits, [new_id])
     }
 
     /// The inputs of a new kind that take what leads to the old ones: those of the same name first, then others that fit.

@@ -54,11 +54,7 @@ impl Desk {
             at[1] = bottom + GAP;
         }
         let edits = adding.edits;
-        let is_made = self.edit("Add texture set", edits);
-        if is_made {
-            self.select(materials);
-        }
-        is_made
+        self.edit_and_select("Add texture set", edits, materials)
     }
 }
 

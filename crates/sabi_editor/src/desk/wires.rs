@@ -199,11 +199,7 @@ impl Desk {
             port: None,
         };
         let edits = vec![self.adding(&id, node), self.tie(&blended, to)];
-        let is_made = self.edit("Blend masks", edits);
-        if is_made {
-            self.select([id]);
-        }
-        is_made
+        self.edit_and_select("Blend masks", edits, [id])
     }
 
     /// The edit that ties a loose wire to a node of the given face at its first port that fits; none where none does.

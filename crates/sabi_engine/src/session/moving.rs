@@ -83,11 +83,6 @@ fn is_file(files: &BTreeMap<String, Vec<String>>, kind: &str, param: &str) -> bo
 
 /// A folder by its one name, as far as it is there.
 fn real(folder: &Path) -> PathBuf {
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
     let whole = canonical(folder).or_else(|_| std::path::absolute(folder));
     plain(&whole.unwrap_or_else(|_| folder.to_owned()))
 }

@@ -134,8 +134,8 @@ fn the_window_stays_until_textures_are_written() {
     assert!(window.path("maps").is_dir());
 }
 
-#[test]
-fn a_save_while_textures_are_written_has_them_written_once_more() {
+/// A window that writes textures and is to write them at every save.
+fn exporting_at_every_save() -> Window {
     let mut window = Window::opened(
         r#""clouds": { "kind": "noise/simplex" },
         "out": { "kind": "output/mask", "inputs": { "source": "clouds" }, "params": { "name": "clouds" } }"#,
@@ -145,6 +145,13 @@ fn a_save_while_textures_are_written_has_them_written_once_more() {
     editor.panels.export.place.folder = "maps".to_owned();
     editor.panels.export.place.again = true;
     editor.export();
+    window
+}
+
+#[test]
+fn a_save_while_textures_are_written_has_them_written_once_more() {
+    let mut window = exporting_at_every_save();
+    let editor = window.harness.state_mut();
     editor.save();
     assert!(!window.editor().panels.export.queued.is_empty());
     window.until("both", |editor| {
@@ -324,15 +331,8 @@ fn the_window_is_called_after_its_graph() {
 
 #[test]
 fn textures_of_a_saved_graph_are_written_although_another_one_is_opened_meanwhile() {
-    let mut window = Window::opened(
-        r#""clouds": { "kind": "noise/simplex" },
-        "out": { "kind": "output/mask", "inputs": { "source": "clouds" }, "params": { "name": "clouds" } }"#,
-    );
+    let mut window = exporting_at_every_save();
     let editor = window.harness.state_mut();
-    editor.settings.export.size = 512;
-    editor.panels.export.place.folder = "maps".to_owned();
-    editor.panels.export.place.again = true;
-    editor.export();
     // What the save writes has names of its own, so that it is seen which of the two is there.
     editor.settings.export.names = "saved_{channel}".to_owned();
     editor.save();
