@@ -1,7 +1,10 @@
 //! What can be put into a graph, as an artist meets it: names, ports and knobs, whatever a kind is made of.
 
+pub(crate) mod check;
+pub(crate) mod describe;
 mod faces;
 mod knob;
+pub(crate) mod node_file;
 mod picture;
 #[cfg(test)]
 mod tests;
@@ -19,7 +22,7 @@ pub use picture::picture_of;
 pub use sabi_nodes::curve_points;
 pub use sabi_nodes::kind::Role as KnobRole;
 
-use crate::kinds::Kinds;
+use crate::opening::kinds::Kinds;
 
 /// A kind of node, or one group instance, as an artist meets it.
 #[derive(Clone, Debug, PartialEq)]

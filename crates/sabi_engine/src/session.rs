@@ -5,6 +5,8 @@ mod moving;
 mod recovery;
 #[cfg(test)]
 mod tests;
+pub(crate) mod watch;
+pub(crate) mod whole_file;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,10 +20,10 @@ pub use moving::{moved_to, with_whole_paths};
 use recovery::Kept;
 pub use recovery::{Recovery, recoveries};
 
-use crate::document::OpenGraph;
+use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
-use crate::node_file::NodeDraft;
-use crate::whole_file::behind_links;
+use crate::opening::document::OpenGraph;
+use crate::session::whole_file::behind_links;
 
 /// What a graph is called before it has a file.
 const UNTITLED: &str = "untitled.sabi";

@@ -3,7 +3,7 @@
 use sabi_image::{Pixels as Samples, decode};
 use sabi_view::Pixels;
 
-use crate::thumbnail::smaller;
+use crate::evaluating::thumbnail::smaller;
 
 include!(concat!(env!("OUT_DIR"), "/pictures.rs"));
 
@@ -34,7 +34,7 @@ pub fn picture_of(kind: &str, side: u32) -> Option<Pixels> {
 mod tests {
     use super::*;
     use crate::catalog::Catalog;
-    use crate::kinds::Kinds;
+    use crate::opening::kinds::Kinds;
 
     #[test]
     fn every_node_that_gives_something_has_a_picture_of_more_than_its_ground() {

@@ -1,7 +1,7 @@
 use sabi_graph::{Body, Document, PortType, Value};
 
 use super::{Catalog, Faces, KnobRole};
-use crate::kinds::Kinds;
+use crate::opening::kinds::Kinds;
 
 fn catalog() -> Catalog {
     Catalog::new(&Kinds::builtin())

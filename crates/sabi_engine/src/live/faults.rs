@@ -11,9 +11,9 @@ use super::news::{Faults, News, NodeFault, Waiting, Warning};
 use super::set_aside::{Opened, open_groups};
 use super::wish::Seen;
 use super::worker::{Job, Worker};
-use crate::modelless::{all_nodes, planner};
-use crate::outputs::clashes;
-use crate::pictures;
+use crate::evaluating::outputs::clashes;
+use crate::opening::modelless::{all_nodes, planner};
+use crate::opening::pictures;
 
 /// The graph of a wish, flat, and where in it the wanted results are.
 pub(super) struct Laid {

@@ -7,7 +7,7 @@ use sabi_view::Pixels;
 
 use super::stage::{Stage, no_sheet};
 use crate::error::EngineError;
-use crate::sheet::rgb_codes;
+use crate::evaluating::sheet::rgb_codes;
 
 impl Stage {
     /// A result in texture space as a square picture, clear where no chart lies.

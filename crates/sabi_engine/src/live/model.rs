@@ -9,7 +9,7 @@ use super::stage::Stage;
 use super::trouble::Trouble;
 use super::worker::{Job, Worker};
 use crate::error::{EngineError, ErrorKind};
-use crate::prepare::{ModelOptions, Prepared};
+use crate::opening::prepare::{ModelOptions, Prepared};
 
 /// A model, at one size or two.
 pub(super) struct Loaded {

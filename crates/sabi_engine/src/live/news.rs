@@ -10,11 +10,11 @@ use sabi_graph::{Fit, NodeRef, PortType};
 use sabi_view::{Pixels, Placement, ViewModel};
 
 use super::wish::Seen;
+use crate::baking::sets::TextureSet;
 use crate::error::EngineError;
-use crate::looks::Shown;
-use crate::prepare::Prepared;
-use crate::sets::TextureSet;
-use crate::sheet::SheetPlane;
+use crate::evaluating::looks::Shown;
+use crate::evaluating::sheet::SheetPlane;
+use crate::opening::prepare::Prepared;
 
 /// Something that a window is told. What is handed over never changes again.
 pub enum News {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use sabi_graph::{FlatGraph, Found, GROUP_KIND, NodeId, NodeRef, Overrides};
 
-use crate::document::OpenGraph;
 use crate::error::EngineError;
+use crate::opening::document::OpenGraph;
 
 /// A kind that there is not: what is of it has no result, and what hangs on it waits.
 const SET_ASIDE: &str = "graph/set-aside";

@@ -15,8 +15,8 @@ use super::trouble::Trouble;
 use super::wish::Seen;
 use super::worker::{Job, Key, SentShown, Worker};
 use crate::error::{EngineError, ErrorKind};
-use crate::looks::Shows;
-use crate::modelless::targets;
+use crate::evaluating::looks::Shows;
+use crate::opening::modelless::targets;
 
 impl Worker {
     /// Shows everything coarse, or in full where there is nothing coarser or that would only flicker.

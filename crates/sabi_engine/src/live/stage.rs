@@ -14,14 +14,14 @@ use super::news::LiveModel;
 use super::trouble::Trouble;
 use super::wish::{LiveOptions, Wish};
 use crate::AdapterChoice;
+use crate::baking::sets::{TextureSet, shown_by, texture_sets};
 use crate::error::{EngineError, ErrorKind};
-use crate::looks::{Shown, Shows, models_own, shown};
-use crate::prepare::{ModelOptions, Prepared};
-use crate::sets::{TextureSet, shown_by, texture_sets};
-use crate::sheet::Sheet;
-use crate::solidity;
+use crate::evaluating::looks::{Shown, Shows, models_own, shown};
+use crate::evaluating::sheet::Sheet;
+use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions};
+use crate::opening::prepare::{ModelOptions, Prepared};
+use crate::opening::solidity;
 use crate::stages::Progress;
-use crate::workpiece::{Workpiece, WorkpieceOptions};
 
 /// Rays of a place in a first picture while a knob is moved.
 const FEW_RAYS: u32 = 8;

@@ -7,8 +7,8 @@ use sabi_gpu::Gpu;
 use sabi_view::{Background, Camera, Environment, MaterialLook, Pixels, Pose, Renderer, Shot, Viewpoint};
 
 use super::news::LiveModel;
-use crate::environment::{built_in_environments, load_environment};
 use crate::error::EngineError;
+use crate::opening::environment::{built_in_environments, load_environment};
 
 /// Pictures from slightly different places within each pixel: an outline on a clear background shows its steps.
 const SAMPLES: u32 = 4;

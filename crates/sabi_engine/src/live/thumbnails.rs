@@ -17,7 +17,7 @@ use super::trouble::Trouble;
 use super::wish::Wish;
 use super::worker::{Job, Key, Worker};
 use crate::error::EngineError;
-use crate::looks::Shows;
+use crate::evaluating::looks::Shows;
 
 impl Worker {
     /// Takes pictures of the nodes that give something else than on their last one.

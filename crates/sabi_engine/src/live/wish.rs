@@ -8,9 +8,9 @@ use sabi_export::SetKey;
 use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::NodeRef;
 
-use crate::document::OpenGraph;
-use crate::kinds::Kinds;
-use crate::prepare::ModelOptions;
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::opening::prepare::ModelOptions;
 
 /// How a graph is evaluated while it is worked on.
 #[derive(Clone, Debug)]

@@ -6,8 +6,8 @@ use std::path::{Component, Path, PathBuf};
 use sabi_graph::{Document, Relocation};
 use sabi_nodes::kind::Role;
 
+use crate::session::whole_file::canonical;
 use crate::source;
-use crate::whole_file::canonical;
 
 /// The way from one folder to another.
 pub(super) struct Moving {

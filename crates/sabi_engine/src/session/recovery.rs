@@ -8,9 +8,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde_json::{Value as Json, json};
 
+use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
-use crate::node_file::NodeDraft;
-use crate::whole_file::{rooted, write_whole};
+use crate::session::whole_file::{rooted, write_whole};
 
 /// Tells two sessions of one process apart.
 static SESSIONS: AtomicU64 = AtomicU64::new(0);

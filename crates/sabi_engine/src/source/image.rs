@@ -10,7 +10,7 @@ use sabi_surface::model::Wrap;
 use super::projection::Projection;
 use super::sampler::Sampler;
 use super::texels::Ground;
-use crate::pictures::OpenPicture;
+use crate::opening::pictures::OpenPicture;
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/image";

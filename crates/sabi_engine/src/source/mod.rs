@@ -23,8 +23,8 @@ use sabi_plan::{SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
-use crate::kept_rays::KeptRays;
-use crate::pictures::{OpenPicture, Pictures, path_of};
+use crate::evaluating::kept_rays::KeptRays;
+use crate::opening::pictures::{OpenPicture, Pictures, path_of};
 
 pub(crate) use levels::Levels;
 pub(crate) use model::NAME as SOURCE_MODEL;

@@ -1,0 +1,12 @@
+//! Results written as a set of textures.
+
+pub(crate) mod bake;
+pub(crate) mod bake_request;
+pub(crate) mod folder;
+pub(crate) mod maps;
+pub(crate) mod mixing;
+pub(crate) mod model_copy;
+pub(crate) mod picture_file;
+pub(crate) mod report;
+pub(crate) mod seams;
+pub(crate) mod sets;

@@ -1,0 +1,277 @@
+//! The main job: a graph on a model becomes a PBR set.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use sabi_export::{BakeWriter, Committed, Padding};
+use sabi_gpu::{Run, RunOptions};
+use sabi_graph::FlatGraph;
+use sabi_plan::{Mode, Plan, PlannedResult, Target};
+use serde_json::{Map, Value as Json, json};
+
+use crate::baking::bake_request::{BakeRequest, names, set_options};
+use crate::baking::folder::is_foreign_folder;
+use crate::baking::maps::{MapWriter, SetWork, WrittenMaps};
+use crate::baking::model_copy::{open_copy, write_copy};
+use crate::baking::report::{BakeReport, StageTime, StageTimes};
+use crate::baking::seams::ModelSeams;
+use crate::baking::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
+use crate::catalog::describe::describe_unwrapping;
+use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::looks::models_own;
+use crate::evaluating::outputs::{clashes, nothing_comes_out, outputs};
+use crate::evaluating::workpiece::{Workpiece, stop_if_canceled};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::opening::modelless::{refuse_faults, targets};
+use crate::opening::overlap::Sharing;
+use crate::source::{OUTPUT_MASK, mask_name};
+use crate::stages::Progress;
+
+/// How long one submission of a bake may take: long enough to cost nothing, short enough to be stopped.
+const SUBMISSION: Duration = Duration::from_millis(200);
+
+/// Bakes; nothing is replaced before everything is complete, and no model is loaded for a graph with a fault.
+pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
+    // A preset that is not there is said before anything is read.
+    set_options(request)?;
+    let mut reading = StageTime::default();
+    let open = reading.time(|| OpenGraph::open(&request.graph))?;
+    let kinds = reading.time(|| Kinds::beside(Some(&request.graph)));
+    bake_open(&open, kinds, reading, request, progress)
+}
+
+/// Bakes a graph as it is at hand, saved or not.
+pub fn bake_graph(
+    open: &OpenGraph,
+    kinds: &Kinds,
+    request: &BakeRequest,
+    progress: &dyn Progress,
+) -> Result<BakeReport, EngineError> {
+    bake_open(open, kinds.clone(), StageTime::default(), request, progress)
+}
+
+/// Bakes what was read in that time.
+fn bake_open(
+    open: &OpenGraph,
+    kinds: Kinds,
+    mut reading: StageTime,
+    request: &BakeRequest,
+    progress: &dyn Progress,
+) -> Result<BakeReport, EngineError> {
+    let options = set_options(request)?;
+    let graph = reading.time(|| Workpiece::flat_graph(open, &kinds, &request.workpiece))?;
+    let outputs = reading.time(|| sound_outputs(open, &graph, &kinds))?;
+    // A folder that cannot be written to is found before the work, not after it.
+    refuse_foreign_folder(request, &graph)?;
+    let mut writer = BakeWriter::create(&request.output)?;
+    let mut workpiece = Workpiece::open(open, graph, kinds, &request.workpiece, progress)?;
+    workpiece.times.load.add(reading.total());
+    let read = workpiece.read_files(open);
+    refuse_read_report(request, &read)?;
+    writer.protect(read);
+    workpiece.warn(bare_materials(&workpiece.prepared.model, &workpiece.prepared.atlas));
+    let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
+    let sets = texture_sets(model, atlas, request.material.as_deref())?;
+    let mut serving = serve(open, &workpiece.graph, &outputs, model, atlas, &sets)?;
+    let copy = open_copy(request, &workpiece.prepared, &sets, &mut serving, &mut writer)?;
+    workpiece.warn(std::mem::take(&mut serving.warnings));
+    let own_looks = serving.model.map(|_| models_own(workpiece.fit));
+    workpiece.graph.nodes.extend(own_looks);
+    let wanted = wanted(&workpiece.graph, &outputs, &serving);
+    let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, workpiece.gpu.limits())?;
+    let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
+    let sets = set_works(&workpiece.graph, &plan, sets, &serving.nodes);
+    let map_writer = MapWriter {
+        workpiece: &workpiece,
+        plan: &plan,
+        options,
+        padding: request.padding.map_or(Padding::Infinite, Padding::Texels),
+        seams: ModelSeams::new(request.seams, &workpiece.prepared),
+        run_options: RunOptions {
+            is_canceled: &|| progress.is_canceled(),
+            ..RunOptions::new(SUBMISSION, request.workpiece.budget_bytes)
+        },
+    };
+    let mut encode = workpiece.times.encode;
+    let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
+    stop_if_canceled(progress)?;
+    encode.time(|| write_copy(copy, &mut writer, &mut written))?;
+    let committed = encode.time(|| writer.commit())?;
+    let told = workpiece.warnings.iter().chain(&written.warnings);
+    let warnings: Vec<String> = told.cloned().chain(left_over(&committed)).collect();
+    let times = StageTimes {
+        encode,
+        ..workpiece.times
+    };
+    let json = report(request, &workpiece, &plan, &run, &written, &times, &warnings);
+    Ok(BakeReport {
+        times,
+        files: file_names(&committed),
+        warnings,
+        json,
+    })
+}
+
+fn file_names(committed: &Committed) -> Vec<String> {
+    let names = committed.files.iter().filter_map(|file| file.file_name());
+    names.map(|name| name.to_string_lossy().into_owned()).collect()
+}
+
+/// A sentence for each file that an earlier bake left.
+fn left_over(committed: &Committed) -> impl Iterator<Item = String> {
+    let paths = committed.left_over.iter().map(|path| path.display());
+    paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now"))
+}
+
+/// The graph's outputs, by id; refuses a graph that has none, or in which something that they need is at fault.
+fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<Vec<usize>, EngineError> {
+    let found = outputs(graph);
+    let mut messages: Vec<String> = nothing_comes_out(graph).into_iter().chain(clashes(graph)).collect();
+    for message in &mut messages {
+        *message = open.said(&message);
+    }
+    if let Err(faults) = refuse_faults(open, graph, kinds, &targets(found.iter().copied())) {
+        if messages.is_empty() {
+            return Err(faults);
+        }
+        messages.extend(faults.messages);
+    }
+    if messages.is_empty() {
+        return Ok(found);
+    }
+    Err(EngineError {
+        kind: ErrorKind::BadInput,
+        messages,
+    })
+}
+
+/// Whether a bake would be refused because its folder has files but no earlier maps, and `force` would let it be made.
+pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
+    let graph = open.flatten(&request.workpiece.overrides);
+    // What is wrong with either, the bake says.
+    graph.is_ok_and(|graph| {
+        refuse_foreign_folder(request, &graph).is_err_and(|error| error.kind == ErrorKind::CannotWrite)
+    })
+}
+
+/// A mistyped folder must not fill somebody's pictures with maps.
+fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(), EngineError> {
+    if request.force || !is_foreign_folder(&request.output, graph, &names(request)?) {
+        return Ok(());
+    }
+    let why = format!(
+        "the folder {} has files but no earlier maps; choose another with -o, or bake into it with --force",
+        request.output.display()
+    );
+    Err(EngineError::new(ErrorKind::CannotWrite, why))
+}
+
+/// What is to be evaluated: outputs that serve a set, and masks.
+fn wanted(graph: &FlatGraph, outputs: &[usize], serving: &Serving) -> Vec<Target> {
+    let is_served = |node: usize| serving.nodes.iter().any(|nodes| nodes.values().any(|of| *of == node));
+    let is_used = |node: &usize| graph.nodes[*node].kind == OUTPUT_MASK || is_served(*node);
+    targets(outputs.iter().copied().filter(is_used).chain(serving.model))
+}
+
+/// A report must not take the place of a picture, a group or a buffer.
+fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), EngineError> {
+    let Some((path, real)) = request
+        .report
+        .as_ref()
+        .and_then(|path| Some((path, path.canonicalize().ok()?)))
+    else {
+        return Ok(());
+    };
+    if read
+        .iter()
+        .all(|input| input.canonicalize().ok().as_ref() != Some(&real))
+    {
+        return Ok(());
+    }
+    let why = "this very bake reads it; name another file";
+    let why = format!("cannot write the report {}: {why}", path.display());
+    Err(EngineError::new(ErrorKind::CannotWrite, why))
+}
+
+/// Which planned results go into which set.
+fn set_works<'p>(
+    graph: &FlatGraph,
+    plan: &'p Plan,
+    sets: Vec<TextureSet>,
+    serving: &[BTreeMap<u32, usize>],
+) -> Vec<SetWork<'p>> {
+    let is_mask = |result: &&PlannedResult| graph.nodes[result.target.node].kind == OUTPUT_MASK;
+    let masks = || plan.results.iter().filter(is_mask);
+    let result = |node: usize| plan.results.iter().find(|result| result.target.node == node);
+    let work = |(set, nodes): (TextureSet, &BTreeMap<u32, usize>)| SetWork {
+        key: set.key,
+        name: set.name,
+        materials: nodes
+            .iter()
+            .filter_map(|(material, node)| Some((*material, result(*node)?)))
+            .collect(),
+        masks: masks()
+            .map(|result| (mask_name(&graph.nodes[result.target.node]), result))
+            .collect(),
+    };
+    sets.into_iter().zip(serving).map(work).collect()
+}
+
+fn report(
+    request: &BakeRequest,
+    workpiece: &Workpiece,
+    plan: &Plan,
+    run: &Run,
+    written: &WrittenMaps,
+    times: &StageTimes,
+    warnings: &[String],
+) -> Json {
+    let adapter = workpiece.gpu.summary();
+    let atlas = &workpiece.prepared.atlas;
+    let mut nodes_ms = Map::new();
+    for step in &run.report.steps {
+        for (node, share) in &step.nodes {
+            // A fused kernel's time is shared out by cost: it cannot be measured node by node.
+            let ms = step.run.as_secs_f64() * 1000.0 * f64::from(*share);
+            let before = nodes_ms.get(node).and_then(Json::as_f64).unwrap_or(0.0);
+            nodes_ms.insert(node.clone(), json!(((before + ms) * 100.0).round() / 100.0));
+        }
+    }
+    let mut json = json!({
+        "sabi": env!("CARGO_PKG_VERSION"),
+        "graph": request.graph.display().to_string(),
+        "mesh": {
+            "file": request.workpiece.model.path.display().to_string(),
+            "triangles": workpiece.prepared.model.mesh.triangles.len(),
+            "charts": atlas.charts.len(),
+            "coverage": rounded(atlas.report.coverage),
+            "overlap": Sharing::of(&workpiece.prepared).json(&workpiece.prepared),
+            "unwrapped": describe_unwrapping(&workpiece.prepared),
+        },
+        "adapter": { "name": adapter.name, "kind": adapter.kind.to_string() },
+        "size": atlas.size,
+        "nodes": plan.nodes.len(),
+        "passes": plan.passes(),
+        "finish_passes": written.finish_passes,
+        "fused": plan.fused(),
+        "peak_texture_bytes": run.report.pool.peak_bytes,
+        "atlas_cached": workpiece.prepared.atlas_was_cached,
+        "rays_cached": run.report.found_on_disk,
+        "unwrapping_cached": workpiece.prepared.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
+        "stages_ms": times.json(),
+        "nodes_ms": nodes_ms,
+        "outputs": written.outputs.iter().map(sabi_export::OutputRecord::to_json).collect::<Vec<_>>(),
+        "constants": written.constants.iter().map(sabi_export::ConstantRecord::to_json).collect::<Vec<_>>(),
+        "warnings": warnings,
+    });
+    if let Some(copy) = &written.copy {
+        json["model"] = copy.clone();
+    }
+    json
+}
+
+fn rounded(value: f32) -> f64 {
+    (f64::from(value) * 10_000.0).round() / 10_000.0
+}

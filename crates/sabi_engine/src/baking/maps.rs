@@ -1,0 +1,311 @@
+//! Results become maps: read back, brought into the model's own layout, and written.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use sabi_export::{
+    BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, Padding, PaddingMap, SeamSamples, SetKey,
+    SetLayout, SetOptions,
+};
+use sabi_gpu::{PlaneData, Run, RunOptions};
+use sabi_graph::PortType;
+use sabi_nodes::kind::Channel as Stored;
+use sabi_nodes::link::Plane;
+use sabi_plan::{Plan, PlannedResult, SlotRef};
+
+use crate::baking::mixing::Mixing;
+use crate::baking::seams::ModelSeams;
+use crate::error::EngineError;
+use crate::evaluating::looks::slot_of;
+use crate::evaluating::workpiece::{Workpiece, stop_if_canceled};
+use crate::opening::prepare::{Overlap, Prepared};
+use crate::stages::{Progress, Stage};
+
+/// One texture set: which results go into it.
+pub(crate) struct SetWork<'p> {
+    /// Which set.
+    pub(crate) key: SetKey,
+    /// Stem of its files.
+    pub(crate) name: String,
+    /// By material of the model, the result that serves it; empty if none does.
+    pub(crate) materials: BTreeMap<u32, &'p PlannedResult>,
+    /// More maps by name.
+    pub(crate) masks: Vec<(String, &'p PlannedResult)>,
+}
+
+/// What was written.
+#[derive(Default)]
+pub(crate) struct WrittenMaps {
+    pub(crate) outputs: Vec<OutputRecord>,
+    pub(crate) constants: Vec<ConstantRecord>,
+    pub(crate) warnings: Vec<String>,
+    /// The report's entry for the copy of the model.
+    pub(crate) copy: Option<serde_json::Value>,
+    /// Kernels that only exports need.
+    pub(crate) finish_passes: usize,
+}
+
+/// Writes the maps of texture sets, one plane at a time.
+pub(crate) struct MapWriter<'a> {
+    pub(crate) workpiece: &'a Workpiece,
+    pub(crate) plan: &'a Plan,
+    pub(crate) options: SetOptions,
+    pub(crate) padding: Padding,
+    pub(crate) seams: ModelSeams<'a>,
+    pub(crate) run_options: RunOptions<'a>,
+}
+
+/// Layouts and padding of sets that are written together take at most about this much.
+const LAYOUT_BUDGET_BYTES: usize = 1 << 30;
+/// A layout's source and cover, and the padding's source.
+const LAYOUT_PIXEL_BYTES: usize = 9;
+
+/// Stored channels, and for each the exported ones with the first of their values in a texel.
+const MAPS: [(Stored, &[(Channel, usize)]); 4] = [
+    (Stored::Color, &[(Channel::BaseColor, 0), (Channel::Opacity, 3)]),
+    (
+        Stored::Surface,
+        &[(Channel::Roughness, 0), (Channel::Metallic, 1), (Channel::Occlusion, 2)],
+    ),
+    (Stored::Height, &[(Channel::Height, 0)]),
+    (Stored::Emission, &[(Channel::Emission, 0)]),
+];
+
+impl MapWriter<'_> {
+    /// Writes all sets under temporary names. A plane is read back once for all sets that fit into memory together.
+    pub(crate) fn write(
+        &self,
+        run: &mut Run,
+        sets: &[SetWork<'_>],
+        writer: &mut BakeWriter,
+        progress: &dyn Progress,
+    ) -> Result<WrittenMaps, EngineError> {
+        let atlas = &self.workpiece.prepared.atlas;
+        let set_bytes = (atlas.size as usize).pow(2) * LAYOUT_PIXEL_BYTES;
+        let mut maps = Maps {
+            from: self,
+            writer,
+            written: WrittenMaps::default(),
+            done: 0,
+            of: 0,
+            progress,
+        };
+        maps.of = sets
+            .iter()
+            .map(|set| set.masks.len() + if set.materials.is_empty() { 0 } else { MAPS.len() + 1 })
+            .sum();
+        for together in sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)) {
+            let open: Vec<OpenSet<'_>> = together
+                .iter()
+                .map(|work| {
+                    let layout = set_layout(&self.workpiece.prepared, work.key);
+                    OpenSet {
+                        work,
+                        mixing: Mixing::new(atlas, &work.materials),
+                        padding: PaddingMap::new(&layout, self.padding),
+                        layout,
+                        seams: OnceLock::new(),
+                    }
+                })
+                .collect();
+            for result in &self.plan.results {
+                let is_served = |set: &&OpenSet<'_>| match set.mixing.results[..] {
+                    [served] => std::ptr::eq(served, result),
+                    _ => false,
+                };
+                let served: Vec<&OpenSet<'_>> = open.iter().filter(is_served).collect();
+                maps.material(run, &[result], &served)?;
+                maps.masks(run, result, &open)?;
+            }
+            for set in open.iter().filter(|set| set.mixing.results.len() > 1) {
+                maps.material(run, &set.mixing.results, &[set])?;
+            }
+        }
+        let mut written = maps.written;
+        // Planes were read one after the other; a reader of the report wants one set after the other.
+        written
+            .outputs
+            .sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
+        written
+            .constants
+            .sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
+        Ok(written)
+    }
+
+    fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
+        Ok(self.workpiece.gpu.read(&self.workpiece.surface, self.plan, run, slot)?)
+    }
+}
+
+/// A texture set with its layout at hand.
+struct OpenSet<'a> {
+    work: &'a SetWork<'a>,
+    mixing: Mixing<'a>,
+    layout: SetLayout,
+    padding: PaddingMap,
+    seams: OnceLock<SeamSamples>,
+}
+
+/// Maps on their way to disk.
+struct Maps<'a> {
+    from: &'a MapWriter<'a>,
+    writer: &'a mut BakeWriter,
+    written: WrittenMaps,
+    done: usize,
+    of: usize,
+    progress: &'a dyn Progress,
+}
+
+impl Maps<'_> {
+    /// The maps of a material, of all sets that take them from the same results.
+    fn material(
+        &mut self,
+        run: &mut Run,
+        results: &[&PlannedResult],
+        sets: &[&OpenSet<'_>],
+    ) -> Result<(), EngineError> {
+        if sets.is_empty() {
+            return Ok(());
+        }
+        let workpiece = self.from.workpiece;
+        let file_from_working = workpiece.prepared.file_from_working(&workpiece.fit) as f32;
+        for (stored, channels) in MAPS {
+            let scale = if stored == Stored::Height {
+                file_from_working
+            } else {
+                1.0
+            };
+            let plane = |result: &&PlannedResult| {
+                let slot = slot_of(result, Plane::Material(stored));
+                slot.map(|slot| self.from.read(run, slot)).transpose()
+            };
+            let planes = results.iter().map(plane).collect::<Result<Vec<_>, EngineError>>()?;
+            for set in sets {
+                for (channel, first) in channels {
+                    self.channel(set, channel, &planes, *first, |[x, y, z, w]| {
+                        [x * scale, y * scale, z * scale, w * scale]
+                    })?;
+                }
+                self.advance();
+            }
+        }
+        let mut normals = Vec::new();
+        for result in results {
+            normals.push(self.normals(run, result)?);
+        }
+        for set in sets {
+            self.channel(set, &Channel::Normal, &normals, 0, |normal| normal)?;
+            self.advance();
+        }
+        Ok(())
+    }
+
+    /// The normals of a result; none where it is flat.
+    fn normals(&mut self, run: &mut Run, result: &PlannedResult) -> Result<Option<PlaneData>, EngineError> {
+        let slot = |channel| slot_of(result, Plane::Material(channel));
+        let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));
+        if height.is_none() && slope.is_none() {
+            return Ok(None);
+        }
+        self.written.finish_passes += 1;
+        let Workpiece { gpu, surface, .. } = self.from.workpiece;
+        Ok(Some(gpu.normals(
+            surface,
+            run,
+            height,
+            slope,
+            &self.from.run_options,
+        )?))
+    }
+
+    /// The maps that mask outputs add to every set.
+    fn masks(&mut self, run: &Run, result: &PlannedResult, sets: &[OpenSet<'_>]) -> Result<(), EngineError> {
+        let mut planes = Vec::new();
+        for set in sets {
+            let named = set.work.masks.iter().filter(|(_, mask)| std::ptr::eq(*mask, result));
+            for (name, _) in named {
+                if planes.is_empty() {
+                    // A mask or color has one plane.
+                    planes.push(Some(self.from.read(run, result.slots[0])?));
+                }
+                let is_color = result.stored.ty == PortType::Color;
+                let gray = |[r, g, b, _]: [f32; 4]| if is_color { [luminance([r, g, b]); 4] } else { [r; 4] };
+                self.channel(set, &Channel::Mask(name.clone()), &planes, 0, gray)?;
+                self.advance();
+            }
+        }
+        Ok(())
+    }
+
+    fn advance(&mut self) {
+        self.done += 1;
+        self.progress.advance(Stage::Encode, self.done, self.of);
+    }
+
+    /// Writes one channel; without a plane, what the channel is where nothing sets it. Planes are one for each result of the
+    /// set, or one for all of it.
+    fn channel(
+        &mut self,
+        set: &OpenSet<'_>,
+        channel: &Channel,
+        planes: &[Option<PlaneData>],
+        first: usize,
+        value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
+    ) -> Result<(), EngineError> {
+        // A large map takes seconds to encode.
+        stop_if_canceled(self.progress)?;
+        let texel = |index| match set.mixing.texel(planes, index) {
+            Some(stored) => value(stored),
+            None => {
+                let mut values = [0.0; 4];
+                for (value, neutral) in values.iter_mut().skip(first).zip(channel.neutral()) {
+                    *value = *neutral;
+                }
+                values
+            }
+        };
+        let mut pixels = if planes.iter().all(Option::is_none) {
+            ChannelPixels::neutral(channel, set.padding.source.len())
+        } else {
+            set.padding.gather(&set.layout, channel, first, texel)
+        };
+        if *channel == Channel::Normal && !set.layout.shared.is_empty() {
+            // The mean of unit vectors is shorter than one.
+            for normal in pixels.data.chunks_exact_mut(3) {
+                let length = normal.iter().map(|part| part * part).sum::<f32>().sqrt();
+                if length > 0.0 {
+                    normal.iter_mut().for_each(|part| *part /= length);
+                }
+            }
+        }
+        if planes.iter().any(Option::is_some) && self.from.seams.erase(&set.layout, &set.seams, channel, &mut pixels) {
+            set.padding.pad(channel, &mut pixels);
+        }
+        let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
+        let done = writer.channel(channel, pixels)?;
+        if done.not_finite > 0 {
+            self.written.warnings.push(format!(
+                "{} values of {} in '{}' were no numbers and were replaced; look for a division by zero in the graph",
+                done.not_finite,
+                channel.name(),
+                set.work.name
+            ));
+        }
+        self.written.outputs.extend(done.outputs);
+        self.written.constants.extend(done.constant);
+        Ok(())
+    }
+}
+
+/// The layout of a set, with what charts that share a place get.
+pub(crate) fn set_layout(prepared: &Prepared, key: SetKey) -> SetLayout {
+    match prepared.overlap {
+        Overlap::Merge => SetLayout::merged(&prepared.atlas, key),
+        Overlap::First | Overlap::Unwrap => SetLayout::new(&prepared.atlas, key),
+    }
+}
+
+/// Luminance of a linear color (Rec. 709), as `lib/core.wgsl` has it.
+fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}

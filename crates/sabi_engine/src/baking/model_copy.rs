@@ -1,0 +1,102 @@
+//! The copy of the model that wears the new maps.
+
+use std::collections::BTreeSet;
+
+use sabi_export::{BakeWriter, CopiedFile, ModelCopy};
+use sabi_surface::model::Model;
+use serde_json::{Value as Json, json};
+
+use crate::baking::bake_request::BakeRequest;
+use crate::baking::maps::WrittenMaps;
+use crate::baking::sets::{Serving, TextureSet};
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::prepare::Prepared;
+
+/// Begins the copy where one is asked for; what an artist should know of it is added to the warnings of `serving`.
+pub(crate) fn open_copy(
+    request: &BakeRequest,
+    prepared: &Prepared,
+    sets: &[TextureSet],
+    serving: &mut Serving,
+    writer: &mut BakeWriter,
+) -> Result<Option<ModelCopy>, EngineError> {
+    if !request.model {
+        return Ok(None);
+    }
+    let model = &prepared.model;
+    let served = sets.iter().zip(&serving.nodes).filter(|(_, nodes)| !nodes.is_empty());
+    let served: Vec<&TextureSet> = served.map(|(set, _)| set).collect();
+    refuse_tiles(&served)?;
+    let baked: BTreeSet<u32> = if model.mesh.is_one_sheet && !served.is_empty() {
+        (0..model.materials.len() as u32).collect()
+    } else {
+        served.iter().map(|set| set.key.material).collect()
+    };
+    let options = &request.workpiece.model;
+    let uv_set = prepared
+        .unwrapped
+        .as_ref()
+        .map_or(options.uv, |unwrapped| unwrapped.uv_set);
+    let copy = ModelCopy::open(&options.path, model, uv_set, &baked)?;
+    // Known to be refused now, and not after the work.
+    writer.check(&copy.file_name())?;
+    writer.keep_model_maps();
+    if has_vertex_colors(model, &baked) {
+        serving.warnings.push(
+            "the model has vertex colors, and programs that show its copy multiply base color by them; remove them \
+             from the model where they are not meant as paint"
+                .to_owned(),
+        );
+    }
+    Ok(Some(copy))
+}
+
+/// A glTF material has one texture for each map, so it cannot have tiles.
+fn refuse_tiles(served: &[&TextureSet]) -> Result<(), EngineError> {
+    let Some(set) = served.iter().find(|set| set.key.udim.is_some()) else {
+        return Ok(());
+    };
+    let of_material = served.iter().filter(|other| other.key.material == set.key.material);
+    let tiles: Vec<String> = of_material
+        .filter_map(|set| set.key.udim)
+        .map(|udim| udim.to_string())
+        .collect();
+    let why = format!(
+        "--model cannot be done: '{}' lies in the UDIM tiles {}, and a material of glTF has one picture for each map; \
+         bake without --model, or move its UVs into one tile",
+        set.name,
+        tiles.join(", ")
+    );
+    Err(EngineError::new(ErrorKind::BadInput, why))
+}
+
+/// Whether any vertex of a baked material is colored other than white.
+fn has_vertex_colors(model: &Model, baked: &BTreeSet<u32>) -> bool {
+    let mesh = &model.mesh;
+    let triangles = mesh.triangles.iter().zip(&mesh.triangle_material);
+    let mut vertices = triangles
+        .filter(|(_, material)| baked.contains(*material))
+        .flat_map(|(corners, _)| corners);
+    !mesh.colors.is_empty() && vertices.any(|vertex| mesh.colors.get(*vertex as usize) != Some(&[1.0; 4]))
+}
+
+/// Stages the copy beside the maps, and adds it to what was written.
+pub(crate) fn write_copy(
+    copy: Option<ModelCopy>,
+    writer: &mut BakeWriter,
+    written: &mut WrittenMaps,
+) -> Result<(), EngineError> {
+    let Some(copy) = copy else { return Ok(()) };
+    let maps = writer.take_model_maps();
+    let finished = copy.finish(maps, writer.names())?;
+    written.warnings.extend(finished.warnings);
+    let mut stage = |file: &CopiedFile| -> Result<Json, EngineError> {
+        writer.extra_file(&file.name, &file.bytes)?;
+        Ok(json!({ "path": file.name, "blake3": blake3::hash(&file.bytes).to_hex().to_string() }))
+    };
+    let mut entry = stage(&finished.copy)?;
+    let beside: Result<Vec<Json>, EngineError> = finished.beside.iter().map(stage).collect();
+    entry["files"] = Json::Array(beside?);
+    written.copy = Some(entry);
+    Ok(())
+}

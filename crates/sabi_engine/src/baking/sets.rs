@@ -1,0 +1,248 @@
+//! The texture sets of a model, and what of the graph goes into them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_export::{SetKey, set_keys, set_names};
+use sabi_graph::FlatGraph;
+use sabi_surface::atlas::Atlas;
+use sabi_surface::model::{Model, ModelMaterial};
+
+use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::outputs::{idle, masks, materials, outputs, quoted, served};
+use crate::opening::document::OpenGraph;
+
+/// One texture set of a model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureSet {
+    /// Which set.
+    pub key: SetKey,
+    /// Stem of its files.
+    pub name: String,
+}
+
+impl TextureSet {
+    /// What it is called among others: the stem of its files, and the number of its tile where its material has several.
+    pub fn title(&self) -> String {
+        match self.key.udim {
+            Some(number) => format!("{} {number}", self.name),
+            None => self.name.clone(),
+        }
+    }
+}
+
+/// The sets of the model's materials, or of those that go by the wanted name: their own, or the stem of their files.
+/// Never empty.
+pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -> Result<Vec<TextureSet>, EngineError> {
+    let stems = sheet_names(model);
+    let covering = atlas.charts.iter().filter(|chart| chart.texels > 0);
+    let covered: BTreeSet<u32> = covering.map(|chart| chart.sheet).collect();
+    let mut keys = set_keys(atlas);
+    keys.retain(|key| covered.contains(&key.material));
+    let names = |key: &SetKey| {
+        let [name, stem] = names_of(model, &stems, key.material);
+        if model.mesh.is_one_sheet {
+            [stem, stem]
+        } else {
+            [name, stem]
+        }
+    };
+    let chosen = keys
+        .iter()
+        .filter(|key| wanted.is_none_or(|wanted| names(key).contains(&wanted)));
+    let sets: Vec<TextureSet> = chosen
+        .map(|key| TextureSet {
+            key: *key,
+            name: names(key)[1].to_owned(),
+        })
+        .collect();
+    match wanted {
+        _ if !sets.is_empty() => Ok(sets),
+        Some(wanted) => {
+            let mut known: Vec<&str> = keys.iter().map(|key| names(key)[1]).collect();
+            known.dedup();
+            let why = format!("the model has no material '{wanted}'; it has {}", known.join(", "));
+            Err(EngineError::new(ErrorKind::Usage, why))
+        }
+        None => Err(EngineError::new(
+            ErrorKind::BadInput,
+            "the model has no surface that maps could be made for",
+        )),
+    }
+}
+
+/// A stem for each material's files; the model's own where all materials share one sheet.
+fn sheet_names(model: &Model) -> Vec<String> {
+    if !model.mesh.is_one_sheet {
+        return set_names(model);
+    }
+    // Named as a lone unnamed material would be.
+    set_names(&Model {
+        stem: model.stem.clone(),
+        materials: vec![ModelMaterial::default()],
+        ..Model::default()
+    })
+}
+
+/// The materials in use, numbers rising.
+fn used_materials(atlas: &Atlas) -> Vec<u32> {
+    let used: BTreeSet<u32> = atlas.charts.iter().map(|chart| chart.material).collect();
+    used.into_iter().collect()
+}
+
+/// A sentence for each material that gets no maps, because none of its surface reaches a texel.
+pub(crate) fn bare_materials(model: &Model, atlas: &Atlas) -> Vec<String> {
+    let stems = set_names(model);
+    let mut bare = used_materials(atlas);
+    let covering = atlas.charts.iter().filter(|chart| chart.texels > 0);
+    let covered: BTreeSet<u32> = covering.map(|chart| chart.material).collect();
+    bare.retain(|material| !covered.contains(material));
+    let sentence = |material: u32| {
+        let [name, _] = names_of(model, &stems, material);
+        format!("the material '{name}' gets no maps: its UVs cover no texel; unwrap it, or bake at a larger size")
+    };
+    bare.into_iter().map(sentence).collect()
+}
+
+/// A material's own name, or where it has none the stem of its files; and that stem.
+fn names_of<'m>(model: &'m Model, stems: &'m [String], material: u32) -> [&'m str; 2] {
+    let index = material as usize;
+    let stem = stems.get(index).map_or(model.stem.as_str(), String::as_str);
+    let own = model.materials.get(index).map_or("", |material| material.name.as_str());
+    [if own.is_empty() { stem } else { own }, stem]
+}
+
+/// Which of several sets a preview shows, in a sentence; nothing where there is no choice.
+pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<String> {
+    let first = sets.first().filter(|_| sets.len() > 1)?;
+    let tile = first
+        .key
+        .udim
+        .map_or(String::new(), |number| format!("tile {number} of "));
+    let name = &first.name;
+    Some(if sets.iter().all(|set| set.key.material == first.key.material) {
+        format!("this shows {tile}'{name}', the first of its {} tiles", sets.len())
+    } else {
+        format!(
+            "this shows {tile}'{name}', the first of {} texture sets; choose another with --material",
+            sets.len()
+        )
+    })
+}
+
+/// What becomes of a material that no output serves.
+fn untouched(name: &str) -> String {
+    format!(
+        "the material '{name}' keeps the maps it has, since no output serves it; to bake it, list it in 'materials' of an \
+         output"
+    )
+}
+
+/// Which nodes each set's maps of a material come from.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Serving {
+    /// By set, and there by material of the model, the node: an output, or [`Serving::model`]. Empty for a set that no
+    /// output serves.
+    pub(crate) nodes: Vec<BTreeMap<u32, usize>>,
+    /// A node that the graph does not have yet, at its end, where a part of a sheet is to show the model's own looks.
+    pub(crate) model: Option<usize>,
+    /// What is probably not meant.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// Finds the outputs that serve the sets; `outputs` are those of the graph. On a sheet, materials that no output serves
+/// keep their own looks.
+pub(crate) fn serve(
+    open: &OpenGraph,
+    graph: &FlatGraph,
+    outputs: &[usize],
+    model: &Model,
+    atlas: &Atlas,
+    sets: &[TextureSet],
+) -> Result<Serving, EngineError> {
+    let stems = set_names(model);
+    let used = used_materials(atlas);
+    let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
+    let by_material = served(graph, outputs, &names);
+    let found = used.iter().zip(&by_material);
+    let found: BTreeMap<u32, usize> = found.filter_map(|(&index, &output)| Some((index, output?))).collect();
+    let is_one_sheet = model.mesh.is_one_sheet;
+    let mut left: Vec<u32> = match is_one_sheet {
+        true => used.clone(),
+        false => sets.iter().map(|set| set.key.material).collect(),
+    };
+    left.dedup();
+    left.retain(|material| !found.contains_key(material));
+    let shows_model = is_one_sheet && !found.is_empty() && !left.is_empty();
+    let own = shows_model.then_some(graph.nodes.len());
+    let of_set = |set: &TextureSet| -> BTreeMap<u32, usize> {
+        let own = left.iter().filter_map(|&material| Some((material, own?)));
+        let found = found.iter().map(|(&material, &output)| (material, output));
+        let is_there = |(material, _): &(u32, usize)| is_one_sheet || *material == set.key.material;
+        found.chain(own).filter(is_there).collect()
+    };
+    let nodes: Vec<BTreeMap<u32, usize>> = sets.iter().map(of_set).collect();
+    let name = |&material: &u32| names_of(model, &stems, material)[0];
+    if nodes.iter().all(BTreeMap::is_empty) && masks(graph, outputs).is_empty() {
+        let (left, has) = (quoted(left.iter().map(name)), quoted(used.iter().map(name)));
+        let why = format!(
+            "no output serves {left}, so there is nothing to bake; the model has {has}: list one of them in 'materials' of an output"
+        );
+        return Err(EngineError::new(ErrorKind::BadInput, open.said(why)));
+    }
+    let mut warnings = idle(graph, outputs, &names);
+    if !materials(graph, outputs).is_empty() {
+        warnings.extend(left.iter().map(name).map(untouched));
+    }
+    Ok(Serving {
+        nodes,
+        model: own,
+        warnings,
+    })
+}
+
+/// Which node each material of a model is shown by: the output that serves it, or else a node of the model's own looks,
+/// which the graph does not have yet and is at its end. And outputs that serve nothing, in sentences.
+pub(crate) fn shown_by(graph: &FlatGraph, model: &Model, atlas: &Atlas) -> (BTreeMap<u32, usize>, Vec<String>) {
+    let outputs = outputs(graph);
+    let stems = set_names(model);
+    let used = used_materials(atlas);
+    let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
+    let by_material = served(graph, &outputs, &names);
+    let shown = used.iter().zip(by_material);
+    let shown = shown.map(|(&material, output)| (material, output.unwrap_or(graph.nodes.len())));
+    (shown.collect(), idle(graph, &outputs, &names))
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_export::SetKey;
+
+    use super::{TextureSet, which_is_shown};
+
+    #[test]
+    fn a_preview_of_one_of_several_sets_says_which() {
+        let set = |material: u32, name: &str, udim: Option<u32>| TextureSet {
+            key: SetKey {
+                material,
+                uv_tile: [0, 0],
+                udim,
+            },
+            name: name.to_owned(),
+        };
+        let wood = [set(0, "wood", Some(1001)), set(0, "wood", Some(1002))];
+        let cases = [
+            (vec![set(0, "wood", None)], None),
+            (
+                wood.to_vec(),
+                Some("this shows tile 1001 of 'wood', the first of its 2 tiles"),
+            ),
+            (
+                [wood.to_vec(), vec![set(1, "steel", None)]].concat(),
+                Some("this shows tile 1001 of 'wood', the first of 3 texture sets; choose another with --material"),
+            ),
+        ];
+        for (sets, words) in cases {
+            assert_eq!(which_is_shown(&sets).as_deref(), words);
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! `sabi check`: everything about a graph that can be known without a model.
+
+use std::path::Path;
+
+use sabi_graph::{FlatGraph, Overrides};
+
+use crate::error::EngineError;
+use crate::evaluating::outputs::{clashes, nothing_comes_out, outputs};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::opening::modelless::{all_nodes, explained, planner, targets};
+
+/// What was found in one graph.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct CheckReport {
+    /// Number of nodes after groups are inlined.
+    pub nodes: usize,
+    /// Kernel passes of a bake.
+    pub passes: usize,
+    /// What is wrong.
+    pub errors: Vec<String>,
+    /// What has no effect, or is probably not meant.
+    pub warnings: Vec<String>,
+}
+
+/// Checks a graph file, its groups, its variants and the node kinds it uses.
+pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
+    let open = OpenGraph::open(path)?;
+    let kinds = Kinds::beside(Some(path));
+    // A faulty file beside the graph is no fault of a graph that does not use it.
+    let mut report = CheckReport {
+        warnings: kinds.faults.iter().map(ToString::to_string).collect(),
+        ..CheckReport::default()
+    };
+    let graph = open.flatten(&Overrides::default())?;
+    let (errors, warnings) = faults(&open, &graph, &kinds);
+    report.errors.extend(errors);
+    report.warnings.extend(warnings);
+    report.warnings.extend(nothing_comes_out(&graph));
+    report.nodes = graph.nodes.len();
+    let wanted = targets(outputs(&graph));
+    let files = open.file_contents(&graph, &kinds, 0..graph.nodes.len());
+    report.passes = planner(&graph, &kinds, &files).plan(&wanted).0.passes();
+    for variant in open.document.graph.variants().keys() {
+        check_variant(&open, &kinds, variant, &mut report);
+    }
+    Ok(report)
+}
+
+/// What is wrong, and what has no effect.
+fn faults(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, Vec<String>) {
+    let (mut errors, mut warnings) = (Vec::new(), Vec::new());
+    let files = open.file_contents(graph, kinds, 0..graph.nodes.len());
+    for error in planner(graph, kinds, &files).resolve(&all_nodes(graph)).errors {
+        let found = if error.is_warning() { &mut warnings } else { &mut errors };
+        found.extend(explained(open, kinds, &error));
+    }
+    errors.extend(clashes(graph));
+    (errors, warnings)
+}
+
+/// What a variant makes wrong that is right without it.
+fn check_variant(open: &OpenGraph, kinds: &Kinds, variant: &str, report: &mut CheckReport) {
+    let overrides = Overrides {
+        variant: Some(variant.to_owned()),
+        ..Overrides::default()
+    };
+    match open.flatten(&overrides) {
+        Err(error) => report.errors.extend(error.messages),
+        Ok(graph) => {
+            let mut fresh = faults(open, &graph, kinds).0;
+            fresh.retain(|sentence| !report.errors.contains(sentence));
+            let said = fresh.iter().map(|sentence| format!("variant '{variant}': {sentence}"));
+            report.errors.extend(said);
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! What each material of a model looks like, still on the device.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::Duration;
+
+use sabi_export::Channel;
+use sabi_gpu::{DeviceMaps, MaterialSlots, Run, RunOptions};
+use sabi_graph::{Fit, FlatNode, PortType};
+use sabi_nodes::kind::Channel as Stored;
+use sabi_nodes::link::Plane;
+use sabi_plan::{Mode, Plan, PlannedResult, SlotRef, Target};
+use sabi_view::{MaterialLook, NodeLook, NodeType};
+
+use crate::baking::sets::shown_by;
+use crate::error::EngineError;
+use crate::evaluating::workpiece::Workpiece;
+use crate::opening::modelless::targets;
+use crate::source::SOURCE_MODEL;
+use crate::stages::Progress;
+
+/// A node that shows the model's own looks. No node of a file can have its id.
+pub(crate) fn models_own(fit: Fit) -> FlatNode {
+    FlatNode {
+        id: "(model)".to_owned(),
+        kind: SOURCE_MODEL.to_owned(),
+        version: 1,
+        params: BTreeMap::new(),
+        inputs: BTreeMap::new(),
+        muted: false,
+        seeds: Vec::new(),
+        length_scale: 1.0,
+        fit,
+        file: None,
+    }
+}
+
+/// What is shown of a model.
+pub struct Shown {
+    /// What its materials look like.
+    pub looks: Vec<MaterialLook>,
+    /// For each material of the model which of the looks it has.
+    pub look_of_material: Vec<usize>,
+    /// Whether these are materials, which are lit, and no node's number or color.
+    pub is_lit: bool,
+    /// Lowest and highest height, working units.
+    pub height_range: [f32; 2],
+}
+
+/// Which result each material shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Shows {
+    /// All of them the only one.
+    One,
+    /// Each that of the node that serves it.
+    Served(BTreeMap<u32, usize>),
+}
+
+/// How long one submission may take.
+const SUBMISSION: Duration = Duration::from_millis(200);
+
+/// Evaluates what is shown: one node, or else the outputs, and the model's own looks where no output serves a material.
+pub fn show(workpiece: &mut Workpiece, seen: Option<&Target>, progress: &dyn Progress) -> Result<Shown, EngineError> {
+    let (wanted, shows) = match seen {
+        Some(target) => (vec![target.clone()], Shows::One),
+        None => {
+            let (serving, idle) = shown_by(&workpiece.graph, &workpiece.prepared.model, &workpiece.prepared.atlas);
+            workpiece.warn(idle);
+            if serving.values().any(|&node| node == workpiece.graph.nodes.len()) {
+                workpiece.graph.nodes.push(models_own(workpiece.fit));
+            }
+            let nodes: BTreeSet<usize> = serving.values().copied().collect();
+            (targets(nodes), Shows::Served(serving))
+        }
+    };
+    let limits = workpiece.gpu.limits();
+    let plan = workpiece.plan(&wanted, Mode::Bake { fuse: true }, limits)?;
+    let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
+    let options = RunOptions {
+        is_canceled: &|| progress.is_canceled(),
+        ..RunOptions::new(SUBMISSION, workpiece.budget_bytes)
+    };
+    shown(workpiece, &plan, &mut run, &shows, &options)
+}
+
+/// What each material looks like by the results of a run.
+pub(crate) fn shown(
+    workpiece: &Workpiece,
+    plan: &Plan,
+    run: &mut Run,
+    shows: &Shows,
+    options: &RunOptions<'_>,
+) -> Result<Shown, EngineError> {
+    let (are_opaque, height_range) = value_extents(workpiece, plan, run, options)?;
+    // Materials that cover no triangle look plain.
+    let mut looks = vec![plain()];
+    for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
+        looks.push(MaterialLook {
+            is_opaque,
+            ..look(workpiece, run, result, options)?
+        });
+    }
+    let of_material = |material: u32| match shows {
+        Shows::One => Some(looks.len() - 1),
+        Shows::Served(serving) => {
+            let node = serving.get(&material)?;
+            Some(1 + plan.results.iter().position(|result| result.target.node == *node)?)
+        }
+    };
+    let materials = 0..workpiece.prepared.model.materials.len() as u32;
+    Ok(Shown {
+        look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
+        is_lit: looks.iter().all(|look| look.node.is_none()),
+        height_range,
+        looks,
+    })
+}
+
+/// Which results are opaque everywhere; and the lowest and the highest height of all of them, working units, 0 where nothing
+/// sets it.
+fn value_extents(
+    workpiece: &Workpiece,
+    plan: &Plan,
+    run: &Run,
+    options: &RunOptions<'_>,
+) -> Result<(Vec<bool>, [f32; 2]), EngineError> {
+    const ALPHA: u32 = 3;
+    let mut asked = Vec::new();
+    for (at, result) in plan.results.iter().enumerate() {
+        for (channel, component) in [(Stored::Color, ALPHA), (Stored::Height, 0)] {
+            if let Some(slot) = slot_of(result, Plane::Material(channel)) {
+                asked.push((at, run.texture(slot)?, component));
+            }
+        }
+    }
+    let components: Vec<_> = asked
+        .iter()
+        .map(|(_, texture, component)| (texture, *component))
+        .collect();
+    let extents = workpiece.gpu.extents(&workpiece.surface, &components, options)?;
+    let mut are_opaque = vec![true; plan.results.len()];
+    let mut heights = [f32::INFINITY, f32::NEG_INFINITY];
+    for ((at, _, component), extent) in asked.iter().zip(extents) {
+        if *component == ALPHA {
+            are_opaque[*at] = extent.not_numbers == 0 && extent.range.is_none_or(|[low, _]| low >= 1.0);
+        } else if let Some([low, high]) = extent.range {
+            heights = [heights[0].min(low), heights[1].max(high)];
+        }
+    }
+    Ok((are_opaque, if heights[0] <= heights[1] { heights } else { [0.0; 2] }))
+}
+
+/// What one result looks like, taken for opaque: a material with its maps, anything else as the number or color it is. Where
+/// charts share a place it is what a bake or a preview writes there; see [`Workpiece::shares`].
+fn look(
+    workpiece: &Workpiece,
+    run: &mut Run,
+    result: &PlannedResult,
+    options: &RunOptions<'_>,
+) -> Result<MaterialLook, EngineError> {
+    let Workpiece { gpu, surface, .. } = workpiece;
+    let shares = workpiece.shares()?;
+    let holds = match result.stored.ty {
+        PortType::Mask => NodeType::Mask,
+        PortType::Color => NodeType::Color,
+        PortType::Vector => NodeType::Vector,
+        PortType::Material => {
+            let maps = gpu.device_maps(surface, run, material_slots(result), shares, options)?;
+            return Ok(MaterialLook { maps, ..plain() });
+        }
+    };
+    let texture = gpu.shown_texture(surface, run, result.slots[0], shares)?;
+    Ok(MaterialLook {
+        node: Some(NodeLook { texture, holds }),
+        ..plain()
+    })
+}
+
+/// Where the planes of a material are.
+fn material_slots(result: &PlannedResult) -> MaterialSlots {
+    let slot = |channel| slot_of(result, Plane::Material(channel));
+    MaterialSlots {
+        color: slot(Stored::Color),
+        surface: slot(Stored::Surface),
+        height: slot(Stored::Height),
+        slope: slot(Stored::Slope),
+        emission: slot(Stored::Emission),
+    }
+}
+
+/// The slot of a plane of a result.
+pub(crate) fn slot_of(result: &PlannedResult, plane: Plane) -> Option<SlotRef> {
+    let at = result.stored.planes().iter().position(|stored| *stored == plane)?;
+    result.slots.get(at).copied()
+}
+
+/// What a material is where nothing sets it, as it would be exported.
+fn plain() -> MaterialLook {
+    let [color, opacity] = [Channel::BaseColor, Channel::Opacity].map(|channel| channel.neutral());
+    let surface = [Channel::Roughness, Channel::Metallic, Channel::Occlusion].map(|channel| channel.neutral()[0]);
+    MaterialLook {
+        maps: DeviceMaps::default(),
+        color: [color[0], color[1], color[2], opacity[0]],
+        surface,
+        is_opaque: true,
+        node: None,
+    }
+}

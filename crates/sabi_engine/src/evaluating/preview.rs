@@ -1,0 +1,132 @@
+//! Any node's result in texture space, as a picture or as exact numbers.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use sabi_graph::PortType;
+use sabi_image::{PngData, PngOptions, encode_exr, encode_png, quantize_u8};
+use sabi_plan::Mode;
+
+use crate::baking::picture_file::PictureFiles;
+use crate::baking::sets::{texture_sets, which_is_shown};
+use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::seen_node::graph_and_target;
+use crate::evaluating::sheet::{Sheet, SheetPlane, rgb_codes};
+use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::opening::modelless::refuse_faults;
+use crate::stages::Progress;
+
+/// What to look at.
+pub struct PreviewRequest {
+    /// The graph file.
+    pub graph: PathBuf,
+    /// Model, overrides, fit, adapter.
+    pub workpiece: WorkpieceOptions,
+    /// Node id, or `id.port`.
+    pub node: String,
+    /// `.png` for a picture, `.exr` for the exact values.
+    pub output: PathBuf,
+    /// The material whose layout is shown; the first one if none.
+    pub material: Option<String>,
+}
+
+/// Writes one node's result.
+pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<String>, EngineError> {
+    let is_exact = match request.output.extension().and_then(|ending| ending.to_str()) {
+        Some("png") => false,
+        Some("exr") => true,
+        _ => {
+            let why = format!(
+                "{}: a preview is a .png or, for exact values, an .exr",
+                request.output.display()
+            );
+            return Err(EngineError::new(ErrorKind::Usage, why));
+        }
+    };
+    let open = OpenGraph::open(&request.graph)?;
+    let kinds = Kinds::beside(Some(&request.graph));
+    let (graph, target) = graph_and_target(&open, &kinds, &request.workpiece, &request.node)?;
+    let nothing = || {
+        let why = format!(
+            "node '{}' is muted and passes nothing on, so there is nothing to see; unmute it",
+            request.node
+        );
+        EngineError::new(ErrorKind::BadInput, open.said(why))
+    };
+    let rehearsed = refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
+    rehearsed.results.first().ok_or_else(nothing)?;
+    let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
+    let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
+    let sets = texture_sets(model, atlas, request.material.as_deref())?;
+    workpiece.warn(which_is_shown(&sets));
+    let key = sets[0].key;
+    let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, workpiece.gpu.limits())?;
+    let run = workpiece.run(&plan, Duration::from_millis(200), progress, None)?;
+    let result = plan.results.first().ok_or_else(nothing)?;
+    let sheet = Sheet::new(&workpiece.prepared, key);
+    let planes = sheet.planes(&workpiece, &plan, &run, result)?;
+    let size = sheet.layout.size;
+    let bytes = if is_exact {
+        exact(size, &planes)
+    } else {
+        picture(size, result.stored.ty, &planes[0])
+    }?;
+    stop_if_canceled(progress)?;
+    let output = std::slice::from_ref(&request.output);
+    let mut file = PictureFiles::begin(output, workpiece.read_files(&open))?;
+    file.add(bytes)?;
+    file.commit()?;
+    Ok(workpiece.warnings)
+}
+
+fn exact(size: u32, planes: &[SheetPlane]) -> Result<Vec<u8>, EngineError> {
+    let mut channels: Vec<(String, Vec<f32>)> = Vec::new();
+    for SheetPlane {
+        name,
+        components,
+        values,
+        ..
+    } in planes
+    {
+        let names: &[&str] = if *components == 1 {
+            &["Y"]
+        } else {
+            &["R", "G", "B", "A"]
+        };
+        let prefix = if name.is_empty() {
+            String::new()
+        } else {
+            format!("{name}.")
+        };
+        for (at, component) in names.iter().enumerate().take(*components) {
+            let values = values.iter().skip(at).step_by(*components).copied().collect();
+            channels.push((format!("{prefix}{component}"), values));
+        }
+    }
+    let channels: Vec<(&str, &[f32])> = channels
+        .iter()
+        .map(|(name, values)| (name.as_str(), values.as_slice()))
+        .collect();
+    encode_exr(size, size, &channels).map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
+}
+
+/// Masks as gray, colors in sRGB, vectors with −1..1 brought to 0..1.
+fn picture(size: u32, ty: PortType, plane: &SheetPlane) -> Result<Vec<u8>, EngineError> {
+    let rgb = plane
+        .values
+        .chunks_exact(plane.components)
+        .flat_map(|values| rgb_codes(ty, values));
+    let (codes, channels): (Vec<u8>, u8) = match ty {
+        PortType::Mask => (plane.values.iter().map(|value| quantize_u8(*value)).collect(), 1),
+        _ => (rgb.collect(), 3),
+    };
+    let options = PngOptions {
+        channels,
+        bits: 8,
+        srgb_chunk: matches!(ty, PortType::Color | PortType::Material),
+    };
+    encode_png(size, size, PngData::U8(&codes), options)
+        .map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
+}

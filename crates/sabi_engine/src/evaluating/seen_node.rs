@@ -1,0 +1,55 @@
+//! The node that somebody wants to see, by the name on a command line.
+
+use sabi_graph::{FlatGraph, NodeRef, nearest};
+use sabi_plan::Target;
+
+use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+
+/// The flat graph, and what of it is to be seen: the node itself, or what is behind a group instance or a reroute.
+pub(crate) fn graph_and_target(
+    open: &OpenGraph,
+    kinds: &Kinds,
+    options: &WorkpieceOptions,
+    node: &str,
+) -> Result<(FlatGraph, Target), EngineError> {
+    let (id, port) = match node.split_once('.') {
+        Some((id, port)) => (id, Some(port.to_owned())),
+        None => (node, None),
+    };
+    let wanted = NodeRef {
+        node: id.to_owned(),
+        port,
+    };
+    let (graph, found) = Workpiece::flat_graph_and_find(open, kinds, options, &[wanted])?;
+    let refused = |why: String| EngineError::new(ErrorKind::Usage, open.said(why));
+    let found = found
+        .into_iter()
+        .next()
+        .transpose()
+        .map_err(|error| refused(error.to_string()))?;
+    if let Some(from) = found.flatten() {
+        let target = Target {
+            node: from.node,
+            port: from.port,
+        };
+        return Ok((graph, target));
+    }
+    if open.document.graph.node(id).is_some() {
+        let why = format!("nothing is connected behind '{node}', so there is nothing to see");
+        return Err(refused(why));
+    }
+    Err(no_such_node(&graph, node))
+}
+
+fn no_such_node(graph: &FlatGraph, text: &str) -> EngineError {
+    let ids = || graph.nodes.iter().map(|node| node.id.as_str());
+    let advice = match nearest(text, ids()) {
+        Some(near) => format!("did you mean '{near}'?"),
+        None => format!("there are: {}", ids().collect::<Vec<_>>().join(", ")),
+    };
+    let why = format!("the graph has no node '{text}'; {advice}");
+    EngineError::new(ErrorKind::Usage, why)
+}

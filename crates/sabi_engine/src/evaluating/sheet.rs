@@ -1,0 +1,123 @@
+//! A result in texture space: its values laid out as the maps of a texture set are.
+
+use sabi_export::{Channel, Cover, Padding, PaddingMap, SetKey, SetLayout};
+use sabi_gpu::Run;
+use sabi_graph::PortType;
+use sabi_image::{quantize_u8, srgb8_from_linear};
+use sabi_nodes::kind::Channel as Stored;
+use sabi_nodes::link::Plane;
+use sabi_plan::{Plan, PlannedResult};
+
+use crate::baking::maps::set_layout;
+use crate::error::EngineError;
+use crate::evaluating::workpiece::Workpiece;
+use crate::opening::prepare::Prepared;
+
+/// Texels by which results are continued outside of charts, to be looked at.
+const PADDING: Padding = Padding::Texels(4);
+
+/// How a texture set is laid out.
+pub(crate) struct Sheet {
+    pub(crate) layout: SetLayout,
+    padding: PaddingMap,
+}
+
+/// What the numbers of a plane are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaneHolds {
+    /// Numbers each of its own, 0..1 shown as black to white.
+    Numbers,
+    /// A linear color, shown in sRGB; a fourth number is its opacity.
+    Color,
+    /// Numbers of −1..1, shown as 0..1.
+    Signed,
+}
+
+/// One plane of a result in texture space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SheetPlane {
+    /// What it is of a material: empty for its base color, and for results that have one plane.
+    pub name: &'static str,
+    /// How a display shows its numbers.
+    pub holds: PlaneHolds,
+    /// Numbers for each pixel.
+    pub components: usize,
+    /// The exact values, row by row from the top.
+    pub values: Vec<f32>,
+}
+
+impl Sheet {
+    pub(crate) fn new(prepared: &Prepared, key: SetKey) -> Sheet {
+        let layout = set_layout(prepared, key);
+        Sheet {
+            padding: PaddingMap::new(&layout, PADDING),
+            layout,
+        }
+    }
+
+    /// For each pixel whether a chart lies there, so that its value is one of the surface and no padding.
+    pub(crate) fn is_owned(&self) -> Vec<bool> {
+        self.layout.cover.iter().map(|cover| *cover == Cover::Owned).collect()
+    }
+
+    /// The planes of a result, read back. A material shows its base color first.
+    pub(crate) fn planes(
+        &self,
+        workpiece: &Workpiece,
+        plan: &Plan,
+        run: &Run,
+        result: &PlannedResult,
+    ) -> Result<Vec<SheetPlane>, EngineError> {
+        let planes = result.stored.planes().into_iter().zip(&result.slots);
+        let laid_out = planes.map(|(plane, &slot)| {
+            let data = workpiece.gpu.read(&workpiece.surface, plan, run, slot)?;
+            let (name, holds, components) = shape_of(plane);
+            let one = |first| {
+                let channel = Channel::Mask(String::new());
+                let gathered = self
+                    .padding
+                    .gather(&self.layout, &channel, first, |index| data.texel(index));
+                gathered.data
+            };
+            let parts: Vec<Vec<f32>> = (0..components).map(one).collect();
+            let pixels = 0..self.padding.source.len();
+            Ok(SheetPlane {
+                name,
+                holds,
+                components,
+                values: pixels
+                    .flat_map(|pixel| parts.iter().map(move |part| part[pixel]))
+                    .collect(),
+            })
+        });
+        laid_out.collect()
+    }
+}
+
+/// A plane's name, what its numbers are, and how many a texel of it has.
+fn shape_of(plane: Plane) -> (&'static str, PlaneHolds, usize) {
+    use PlaneHolds::{Color, Numbers, Signed};
+    match plane {
+        Plane::Mask => ("", Numbers, 1),
+        Plane::Color => ("", Color, 3),
+        Plane::Vector => ("", Signed, 3),
+        Plane::Material(Stored::Color) => ("", Color, 4),
+        Plane::Material(Stored::Surface) => ("surface", Numbers, 3),
+        Plane::Material(Stored::Height) => ("height", Numbers, 1),
+        Plane::Material(Stored::Slope) => ("slope", Signed, 3),
+        Plane::Material(Stored::Emission) => ("emission", Color, 3),
+    }
+}
+
+/// What a display shows of a texel's values: masks as gray, colors in sRGB, vectors with −1..1 brought to 0..1.
+pub(crate) fn rgb_codes(ty: PortType, values: &[f32]) -> [u8; 3] {
+    let code = |at: usize| {
+        let value = values.get(at).copied().unwrap_or_default();
+        match ty {
+            PortType::Mask => quantize_u8(values.first().copied().unwrap_or_default()),
+            PortType::Color | PortType::Material => srgb8_from_linear(value),
+            PortType::Vector => quantize_u8(value * 0.5 + 0.5),
+        }
+    };
+    [0, 1, 2].map(code)
+}

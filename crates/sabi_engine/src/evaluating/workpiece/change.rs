@@ -1,0 +1,47 @@
+//! Another graph for the model that is loaded.
+
+use std::sync::OnceLock;
+
+use sabi_gpu::GpuSurface;
+use sabi_graph::FlatGraph;
+
+use super::{Workpiece, surface_key};
+use crate::error::EngineError;
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::opening::levels::Levels;
+
+impl Workpiece {
+    /// Takes another graph, or the same one after an edit; `graph` is `open` without its groups. Nothing is loaded again: only
+    /// the tables of the surface are made anew where the document has another fit or seed.
+    pub fn set_graph(&mut self, open: &OpenGraph, graph: FlatGraph) -> Result<(), EngineError> {
+        let fit = self.chosen.0.unwrap_or(open.document.fit);
+        let seed = self.chosen.1.unwrap_or(open.document.seed);
+        if (fit, seed) != (self.fit, self.seed) {
+            let tables = self.prepared.tables(&fit, seed);
+            let levels = Levels::new(&self.prepared, &fit);
+            self.surface = GpuSurface::upload(&self.gpu, &self.prepared.atlas, &tables, levels.of(0))?;
+            self.surface_key = surface_key(&self.prepared, &tables);
+            (self.tables, self.levels) = (tables, levels);
+            (self.fit, self.seed) = (fit, seed);
+            self.bvh_on_device = OnceLock::new();
+        }
+        self.path.clone_from(&open.path);
+        self.pictures = open.pictures.clone();
+        self.graph = graph;
+        self.begin_warnings();
+        Ok(())
+    }
+
+    /// Takes other node kinds, such as those of node files that were read again.
+    pub fn set_kinds(&mut self, mut kinds: Kinds) {
+        kinds.adapt_to(&self.prepared.model);
+        self.kinds = kinds;
+        self.begin_warnings();
+    }
+
+    /// Forgets what was said of the last graph.
+    fn begin_warnings(&mut self) {
+        self.warnings = self.of_model.iter().cloned().chain(self.kinds.left_out()).collect();
+    }
+}

@@ -1,0 +1,14 @@
+//! Bringing a graph, its node kinds and a model into memory.
+
+pub(crate) mod cache_dir;
+pub(crate) mod document;
+pub(crate) mod environment;
+pub(crate) mod kinds;
+pub(crate) mod levels;
+pub(crate) mod modelless;
+pub(crate) mod overlap;
+pub(crate) mod overridden;
+pub(crate) mod pictures;
+pub(crate) mod prepare;
+pub(crate) mod setting;
+pub(crate) mod solidity;

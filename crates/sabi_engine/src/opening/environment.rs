@@ -1,0 +1,176 @@
+//! What lights the model: Sabi's own environments by name, or a picture of one.
+
+use std::path::{Path, PathBuf};
+
+use sabi_graph::nearest;
+use sabi_image::{Declared, Pixels};
+use sabi_surface::disk::{self, Kind};
+use sabi_surface::load::{Unread, read_plain};
+use sabi_view::{Environment, Panorama};
+
+use crate::Gpu;
+use crate::error::{EngineError, ErrorKind};
+
+/// Sabi's own environments, the one that is shown unless told otherwise first; `cargo xtask assets` writes them.
+const BUILT_IN: [(&str, &[u8]); 3] = [
+    ("studio", include_bytes!("../../../../assets/environments/studio.hdr")),
+    (
+        "overcast",
+        include_bytes!("../../../../assets/environments/overcast.hdr"),
+    ),
+    ("low_sun", include_bytes!("../../../../assets/environments/low_sun.hdr")),
+];
+
+/// Files of environments larger than this are not read.
+const SIZE_LIMIT_BYTES: u64 = 1 << 30;
+
+/// The number in the magic rises whenever what is kept of the same panorama comes out differently. Each takes 1 or 4 MiB.
+const KIND: Kind = Kind {
+    magic: b"sabi light2\n",
+    prefix: "light",
+    limit_bytes: 64 << 20,
+};
+
+/// Names of Sabi's own environments, the one that is shown unless told otherwise first.
+pub fn built_in_environments() -> impl Iterator<Item = &'static str> {
+    BUILT_IN.iter().map(|(name, _)| *name)
+}
+
+/// An environment on the device, and sentences about what had to be mended. `choice` is the name of one of Sabi's own or
+/// the path of a picture, see [`read_panorama`]. What takes long is kept in the cache folder, if there is one.
+pub fn load_environment(
+    gpu: &Gpu,
+    choice: &str,
+    cache_dir: Option<&Path>,
+) -> Result<(Environment, Vec<String>), EngineError> {
+    let (panorama, mut remarks) = read_panorama(choice)?;
+    let (environment, remark) = environment_of(gpu, &panorama, cache_dir)?;
+    remarks.extend(remark);
+    Ok((environment, remarks))
+}
+
+/// A panorama on the device, and a sentence where what takes long could not be kept in the cache folder.
+pub(crate) fn environment_of(
+    gpu: &Gpu,
+    panorama: &Panorama,
+    cache_dir: Option<&Path>,
+) -> Result<(Environment, Option<String>), EngineError> {
+    let Some(folder) = cache_dir.map(|folder| folder.join("light")) else {
+        return Ok((Environment::new(gpu, panorama)?, None));
+    };
+    let key = key_of(gpu, panorama);
+    if let Some(kept) = disk::read(&folder, &KIND, &key)
+        && let Ok(environment) = Environment::from_prefiltered(gpu, panorama, &kept)
+    {
+        return Ok((environment, None));
+    }
+    let environment = Environment::new(gpu, panorama)?;
+    let mut remark = None;
+    if let Err(error) = disk::keep(&folder, &KIND, &key, &environment.prefiltered_bytes(gpu)?) {
+        remark = Some(format!(
+            "what was made of the environment could not be kept in {} ({error}), so it will be made again; free some \
+             space there or choose another cache folder",
+            folder.display()
+        ));
+    }
+    Ok((environment, remark))
+}
+
+/// What the result depends on: the light, and who rounds it.
+fn key_of(gpu: &Gpu, panorama: &Panorama) -> [u8; 32] {
+    let mut hasher = blake3::Hasher::new();
+    let summary = gpu.summary();
+    for text in [&summary.name, &summary.driver, &summary.backend] {
+        hasher.update(&(text.len() as u64).to_le_bytes());
+        hasher.update(text.as_bytes());
+    }
+    hasher.update(&panorama.width().to_le_bytes());
+    hasher.update(&panorama.height().to_le_bytes());
+    for row in panorama.rgb().chunks(panorama.width() as usize) {
+        let bytes: Vec<u8> = row
+            .as_flattened()
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect();
+        hasher.update(&bytes);
+    }
+    *hasher.finalize().as_bytes()
+}
+
+/// The light of one of Sabi's own environments by its name, or of a latitude-longitude picture by its path: OpenEXR and
+/// Radiance HDR hold light as it is; other pictures count as sRGB unless they say that they are linear.
+pub fn read_panorama(choice: &str) -> Result<(Panorama, Vec<String>), EngineError> {
+    if let Some((name, bytes)) = BUILT_IN.iter().find(|(name, _)| *name == choice) {
+        return decoded(name, bytes);
+    }
+    let path = PathBuf::from(choice);
+    let is_name = !choice.contains(['.', '/', '\\']);
+    let bytes = read_plain(&path, SIZE_LIMIT_BYTES).map_err(|unread| match unread {
+        Unread::Missing if is_name => no_such(choice),
+        other => unreadable(&path, other),
+    })?;
+    decoded(choice, &bytes)
+}
+
+/// There is neither an environment nor a file of that name.
+fn no_such(choice: &str) -> EngineError {
+    let own = built_in_environments().collect::<Vec<_>>().join(", ");
+    let advice = match nearest(choice, built_in_environments()) {
+        Some(near) => format!("did you mean {near}?"),
+        None => "choose one of those, or give the path of a picture".to_owned(),
+    };
+    let sentence = format!("there is no environment '{choice}', and no file of that name; Sabi has {own}; {advice}");
+    EngineError::new(ErrorKind::Usage, sentence)
+}
+
+fn unreadable(path: &Path, unread: Unread) -> EngineError {
+    let shown = path.display();
+    let (kind, sentence) = match unread {
+        Unread::Missing => {
+            let own = built_in_environments().collect::<Vec<_>>().join(", ");
+            let sentence =
+                format!("there is no environment {shown}; check the path, or choose one of Sabi's own: {own}");
+            (ErrorKind::MissingInput, sentence)
+        }
+        Unread::Folder => (
+            ErrorKind::MissingInput,
+            format!("{shown} is a folder; give the path of an environment in it"),
+        ),
+        Unread::NotPlain => (
+            ErrorKind::MissingInput,
+            format!("{shown} is a pipe or a device, which may have no end; give the path of a picture file"),
+        ),
+        Unread::TooLarge(bytes) => (
+            ErrorKind::BadInput,
+            format!(
+                "{shown} has {} MiB; environments of up to {} MiB are read, so make it smaller",
+                bytes >> 20,
+                SIZE_LIMIT_BYTES >> 20
+            ),
+        ),
+        Unread::Other(reason) => (ErrorKind::MissingInput, format!("{shown} cannot be read: {reason}")),
+    };
+    EngineError::new(kind, sentence)
+}
+
+/// The light in the bytes of a picture file; `name` stands in messages.
+fn decoded(name: &str, bytes: &[u8]) -> Result<(Panorama, Vec<String>), EngineError> {
+    let picture = sabi_image::decode(name, bytes).map_err(|error| EngineError::new(ErrorKind::BadInput, error))?;
+    let is_light = matches!(picture.pixels, Pixels::F32(_));
+    let is_linear = is_light || picture.color_space == Declared::Linear;
+    let linear = picture.linear_rgba(!is_linear);
+    drop(picture);
+    let (panorama, mut remarks) = Panorama::new(linear.width, linear.height, &linear.rgba)?;
+    if !is_light {
+        let weak =
+            "it has no light brighter than white, so lamps and sun will look weak; an HDR or OpenEXR picture has";
+        remarks.push(weak.to_owned());
+    }
+    remarks
+        .iter_mut()
+        .for_each(|remark| *remark = format!("{name}: {remark}"));
+    Ok((panorama, remarks))
+}
+
+#[cfg(test)]
+mod tests;

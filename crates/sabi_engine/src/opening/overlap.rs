@@ -1,0 +1,201 @@
+//! Charts that share a place on the maps: how many, of which kind, in which materials, and what to do about it.
+
+use std::collections::BTreeMap;
+
+use sabi_export::{set_keys, set_names};
+use sabi_surface::atlas::{Chart, PAIRS_LIMIT};
+use serde_json::{Value as Json, json};
+
+use crate::opening::prepare::{Overlap, Prepared};
+
+/// Materials that are named in a report; more would tell nobody more.
+const MATERIALS: usize = 10;
+
+/// What is shared in one material.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Shared {
+    /// Texels that pairs of charts share, added up.
+    texels: u64,
+    /// Pairs that lie on each other exactly and wind the same way.
+    stacked: u32,
+    /// Pairs that lie on each other exactly, one of them mirrored.
+    mirrored: u32,
+    /// Pairs in different UV tiles, and charts larger than one: a texture repeats there.
+    tiling: u32,
+    /// Pairs that share a part only.
+    partial: u32,
+}
+
+/// What charts of a model share.
+pub(crate) struct Sharing {
+    by_material: BTreeMap<u32, Shared>,
+    /// Share of the owned texels whose place another chart claims as well.
+    share: f64,
+    /// Whether there are more pairs than the atlas lists, so that the numbers of them are the least there are.
+    is_cut: bool,
+}
+
+impl Sharing {
+    /// Looks at all pairs that the atlas lists. In UDIM layouts charts of different tiles share nothing.
+    pub(crate) fn of(prepared: &Prepared) -> Sharing {
+        let atlas = &prepared.atlas;
+        let udims: Vec<u32> = set_keys(atlas)
+            .iter()
+            .filter(|key| key.udim.is_some())
+            .map(|key| key.material)
+            .collect();
+        let mut by_material: BTreeMap<u32, Shared> = BTreeMap::new();
+        for &(a, b, texels) in &atlas.report.overlapping_charts {
+            let [first, second] = [a, b].map(|chart| &atlas.charts[chart as usize]);
+            let apart = first.uv_tile != second.uv_tile;
+            if apart && udims.contains(&first.sheet) {
+                continue;
+            }
+            let shared = by_material.entry(first.material).or_default();
+            shared.texels += texels;
+            let whole = |chart: &Chart| u64::from(chart.texels) == texels;
+            let kind = match () {
+                () if apart => &mut shared.tiling,
+                () if !(whole(first) && whole(second)) => &mut shared.partial,
+                () if first.mirrored == second.mirrored => &mut shared.stacked,
+                () => &mut shared.mirrored,
+            };
+            *kind += 1;
+        }
+        for chart in &atlas.charts {
+            let [x0, y0, x1, y1] = chart.bounds;
+            if (x1 - x0).max(y1 - y0) > atlas.size {
+                let shared = by_material.entry(chart.material).or_default();
+                shared.tiling += 1;
+                shared.texels += u64::from(chart.texels);
+            }
+        }
+        let owned: u64 = atlas.charts.iter().map(|chart| u64::from(chart.texels)).sum();
+        let texels = if by_material.is_empty() {
+            0
+        } else {
+            atlas.report.overlap_texels
+        };
+        let share = texels as f64 / owned.max(1) as f64;
+        Sharing {
+            by_material,
+            share,
+            is_cut: atlas.report.overlapping_charts.len() >= PAIRS_LIMIT,
+        }
+    }
+
+    /// The worst first.
+    fn worst(&self) -> Vec<(u32, Shared)> {
+        let mut sorted: Vec<(u32, Shared)> = self
+            .by_material
+            .iter()
+            .map(|(&material, &shared)| (material, shared))
+            .collect();
+        sorted.sort_by_key(|&(material, shared)| (std::cmp::Reverse(shared.texels), material));
+        sorted
+    }
+
+    fn total(&self) -> Shared {
+        self.by_material.values().fold(Shared::default(), |sum, shared| Shared {
+            texels: sum.texels + shared.texels,
+            stacked: sum.stacked + shared.stacked,
+            mirrored: sum.mirrored + shared.mirrored,
+            tiling: sum.tiling + shared.tiling,
+            partial: sum.partial + shared.partial,
+        })
+    }
+
+    /// For reports: the share of the surface, pairs by kind, and the worst materials by name.
+    pub(crate) fn json(&self, prepared: &Prepared) -> Json {
+        let names = set_names(&prepared.model);
+        let kinds = |shared: Shared| {
+            json!({
+                "stacked": shared.stacked, "mirrored": shared.mirrored, "tiling": shared.tiling, "partial": shared.partial,
+            })
+        };
+        let of_material = |(material, shared): (u32, Shared)| {
+            let mut entry = kinds(shared);
+            entry["material"] = json!(names.get(material as usize));
+            entry["texels"] = json!(shared.texels);
+            entry
+        };
+        let mut report = kinds(self.total());
+        report["texels"] = json!(if self.by_material.is_empty() {
+            0
+        } else {
+            prepared.atlas.report.overlap_texels
+        });
+        report["more_than_counted"] = json!(self.is_cut);
+        report["share"] = json!((self.share * 10_000.0).round() / 10_000.0);
+        report["materials"] = self.worst().into_iter().take(MATERIALS).map(of_material).collect();
+        report
+    }
+
+    /// What maps hold where charts share a place, and which way of taking them would suit this model better.
+    pub(crate) fn warning(&self, prepared: &Prepared) -> Option<String> {
+        let (material, _) = *self.worst().first()?;
+        let total = self.total();
+        let kinds = [
+            (total.stacked, "stacked"),
+            (total.mirrored, "mirrored"),
+            (total.tiling, "tiling"),
+            (total.partial, "partly shared"),
+        ];
+        let kinds: Vec<String> = kinds
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, word)| format!("{count} {word}"))
+            .collect();
+        let least = if self.is_cut { "at least " } else { "" };
+        let names = set_names(&prepared.model);
+        let name = names.get(material as usize).map_or("", String::as_str);
+        let share = match self.share {
+            share if share <= 0.0 => "UV charts repeat the unit square".to_owned(),
+            share if share < 0.001 => "UV charts overlap on less than 0.1 % of the surface".to_owned(),
+            share => format!("UV charts overlap on {:.1} % of the surface", 100.0 * share),
+        };
+        let copies = total.tiling == 0 && total.partial == 0;
+        let (hold, advice) = advice(prepared.overlap, prepared.unwrapped.is_some(), copies);
+        Some(format!(
+            "{share} ({least}{}), most of all in '{name}': maps hold {hold} there; {advice}",
+            kinds.join(", ")
+        ))
+    }
+}
+
+/// What maps hold where charts share a place, and what to do about it.
+fn advice(overlap: Overlap, was_unwrapped: bool, copies: bool) -> (&'static str, &'static str) {
+    let hold = match overlap {
+        Overlap::Merge => "the mean of all results",
+        Overlap::First | Overlap::Unwrap => "the first one's result",
+    };
+    let advice = match overlap {
+        _ if was_unwrapped => {
+            "the model was unwrapped already, so a larger --size helps, or UVs that are made in a modeling program"
+        }
+        Overlap::Merge if copies => "--overlap unwrap gives each a place of its own",
+        Overlap::Merge => "--overlap unwrap suits it better: each gets a place of its own",
+        Overlap::First | Overlap::Unwrap if copies => {
+            "--overlap merge takes the mean of all, --overlap unwrap gives each a place of its own"
+        }
+        Overlap::First | Overlap::Unwrap => "--overlap unwrap gives each a place of its own",
+    };
+    (hold, advice)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_model_with_uvs_of_its_own_is_advised_to_be_unwrapped() {
+        for overlap in [Overlap::First, Overlap::Merge, Overlap::Unwrap] {
+            for copies in [false, true] {
+                let told = |was_unwrapped| advice(overlap, was_unwrapped, copies).1;
+                assert!(told(false).contains("--overlap unwrap"), "{overlap:?}");
+                assert!(!told(true).contains("--overlap"), "{overlap:?}");
+                assert!(told(true).contains("a larger --size"), "{overlap:?}");
+            }
+        }
+    }
+}

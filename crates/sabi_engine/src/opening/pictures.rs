@@ -1,0 +1,251 @@
+//! Pictures that nodes name: known by what is in their files, decoded when they are used, shared by all nodes that use them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::time::SystemTime;
+use std::{fmt, fs};
+
+use sabi_graph::{FlatGraph, FlatNode, Value};
+use sabi_image::{Picture, Pixels};
+use sabi_nodes::kind::Role;
+use sabi_plan::{FileContents, FileFault};
+use sabi_surface::load::{Unread, read_plain};
+
+use crate::opening::kinds::Kinds;
+use crate::source::Levels;
+
+/// Files of pictures larger than this are not read.
+const SIZE_LIMIT_BYTES: u64 = 1 << 30;
+/// Decoded pictures that are kept for their next use take at most this, unless a single one takes more.
+const KEPT_BYTES: u64 = 2 << 30;
+
+/// Why a picture cannot be had, as a sentence, and whether its file is missing.
+type Fault = (String, bool);
+
+/// The pictures of a session; clones share them.
+#[derive(Clone, Default)]
+pub struct Pictures {
+    held: Arc<Mutex<Held>>,
+}
+
+#[derive(Default)]
+struct Held {
+    /// Files by path, as they were last seen.
+    known: BTreeMap<PathBuf, Known>,
+    /// Pictures by the hash of their file's bytes, the one used last at the end.
+    decoded: Vec<([u8; 32], Arc<OpenPicture>)>,
+}
+
+/// A file that has a picture, by its header.
+#[derive(Clone, Copy)]
+struct Known {
+    stamp: Option<Stamp>,
+    /// Hash of the file's bytes.
+    content: [u8; 32],
+}
+
+/// Length and time of a file: another picture has another one.
+type Stamp = (u64, SystemTime);
+
+fn stamp(path: &Path) -> Option<Stamp> {
+    let metadata = fs::metadata(path).ok()?;
+    Some((metadata.len(), metadata.modified().ok()?))
+}
+
+impl Held {
+    /// A decoded picture, which is now the one used last.
+    fn used(&mut self, content: &[u8; 32]) -> Option<Arc<OpenPicture>> {
+        let at = self.decoded.iter().position(|(own, _)| own == content)?;
+        let entry = self.decoded.remove(at);
+        let picture = entry.1.clone();
+        self.decoded.push(entry);
+        Some(picture)
+    }
+
+    /// Lets go of those that were not used for longest until no more than `limit` bytes are kept or one is left.
+    fn shrink(&mut self, limit: u64) {
+        let mut bytes: u64 = self.decoded.iter().map(|(_, picture)| picture.bytes()).sum();
+        while bytes > limit && self.decoded.len() > 1 {
+            bytes -= self.decoded.remove(0).1.bytes();
+        }
+    }
+}
+
+impl fmt::Debug for Pictures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.lock().known.keys()).finish()
+    }
+}
+
+/// A decoded picture.
+pub(crate) struct OpenPicture {
+    /// As its file has it.
+    pub(crate) picture: Arc<Picture>,
+    /// Whether it holds infinite or undefined numbers.
+    pub(crate) has_non_numbers: bool,
+    levels: [OnceLock<Arc<Levels>>; 2],
+}
+
+impl OpenPicture {
+    fn new(picture: Picture) -> OpenPicture {
+        let is_odd = |values: &[f32]| values.iter().any(|value| !value.is_finite());
+        OpenPicture {
+            has_non_numbers: matches!(&picture.pixels, Pixels::F32(values) if is_odd(values)),
+            picture: Arc::new(picture),
+            levels: [const { OnceLock::new() }; 2],
+        }
+    }
+
+    /// Memory that it takes so far.
+    fn bytes(&self) -> u64 {
+        let own = match &self.picture.pixels {
+            Pixels::U8(values) => size_of_val(values.as_slice()),
+            Pixels::U16(values) => size_of_val(values.as_slice()),
+            Pixels::F32(values) => size_of_val(values.as_slice()),
+        };
+        let levels = self.levels.iter().filter_map(OnceLock::get);
+        own as u64 + levels.map(|levels| levels.bytes()).sum::<u64>()
+    }
+
+    /// The picture and its halves; with `is_srgb` the sRGB curve is undone on everything but alpha.
+    pub(crate) fn levels(&self, is_srgb: bool) -> Arc<Levels> {
+        let make = || Arc::new(Levels::new(self.picture.clone(), is_srgb, 1));
+        self.levels[usize::from(is_srgb)].get_or_init(make).clone()
+    }
+}
+
+impl Pictures {
+    /// What is in the files that these nodes name; muted nodes name none.
+    pub(crate) fn contents(
+        &self,
+        folder: &Path,
+        graph: &FlatGraph,
+        kinds: &Kinds,
+        nodes: impl IntoIterator<Item = usize>,
+    ) -> FileContents {
+        let named = nodes.into_iter().filter_map(|index| {
+            let node = graph.nodes.get(index).filter(|node| !node.muted)?;
+            let (param, path) = named_file(node, kinds)?;
+            let content = self.content(&path_of(folder, node, path), path);
+            let content = content.map_err(|(why, is_missing)| FileFault {
+                param: param.to_owned(),
+                why,
+                is_missing,
+            });
+            Some((index, content))
+        });
+        named.collect()
+    }
+
+    /// What is in the file at a path, read again if it was saved again; `written` is that path as the graph has it.
+    fn content(&self, path: &Path, written: &str) -> Result<[u8; 32], Fault> {
+        // Taken first, so that a file that is saved meanwhile looks changed the next time.
+        let stamp = stamp(path);
+        if let Some(known) = self.lock().known.get(path)
+            && known.stamp == stamp
+            && stamp.is_some()
+        {
+            return Ok(known.content);
+        }
+        let bytes = read(path, written)?;
+        sabi_image::check_header(written, &bytes).map_err(|error| (error.to_string(), false))?;
+        let content = *blake3::hash(&bytes).as_bytes();
+        self.lock().known.insert(path.to_owned(), Known { stamp, content });
+        Ok(content)
+    }
+
+    /// The picture at a path, as it was when [`Pictures::contents`] last looked: results are kept under that content.
+    pub(crate) fn open(&self, path: &Path, written: &str) -> Result<Arc<OpenPicture>, Fault> {
+        let known = self.lock().known.get(path).map(|known| known.content);
+        let content = known.map_or_else(|| self.content(path, written), Ok)?;
+        if let Some(picture) = self.lock().used(&content) {
+            return Ok(picture);
+        }
+        let bytes = read(path, written)?;
+        if *blake3::hash(&bytes).as_bytes() != content {
+            let why = format!("{written} was saved again while it was in use; do this once more to use the new one");
+            return Err((why, false));
+        }
+        let picture = sabi_image::decode(written, &bytes).map_err(|error| (error.to_string(), false))?;
+        let picture = Arc::new(OpenPicture::new(picture));
+        let mut held = self.lock();
+        held.decoded.push((content, picture.clone()));
+        held.shrink(KEPT_BYTES);
+        Ok(picture)
+    }
+
+    /// Lets go of all pictures; they are read again when they are needed again.
+    pub(crate) fn forget(&self) {
+        *self.lock() = Held::default();
+    }
+
+    /// Reads these files again when they are used next: some are written so soon after one another that neither length nor
+    /// time tells.
+    pub(crate) fn look_again(&self, files: &BTreeSet<PathBuf>) {
+        self.lock().known.retain(|file, _| !files.contains(file));
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Held> {
+        // What is held is put in whole, so a panic elsewhere leaves nothing half made.
+        self.held.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The files that the nodes of a graph name.
+pub(crate) fn files(folder: &Path, graph: &FlatGraph, kinds: &Kinds) -> Vec<PathBuf> {
+    let named = graph.nodes.iter().filter_map(|node| {
+        let (_, path) = named_file(node, kinds)?;
+        (!path.is_empty()).then(|| path_of(folder, node, path))
+    });
+    named.collect()
+}
+
+/// Where a path in a node leads: it starts at the folder of the file that the node was written in. `folder` is the
+/// graph's.
+pub(crate) fn path_of(folder: &Path, node: &FlatNode, path: &str) -> PathBuf {
+    match &node.file {
+        Some(group) => folder.join(group).with_file_name("").join(path),
+        None => folder.join(path),
+    }
+}
+
+/// The parameter with which a node names a file, and the path; empty when none was chosen.
+fn named_file<'n>(node: &'n FlatNode, kinds: &'n Kinds) -> Option<(&'n str, &'n str)> {
+    let params = &kinds.sources.get(&node.kind)?.params;
+    let param = params.iter().find(|param| param.role == Role::File)?;
+    match node.params.get(&param.name) {
+        Some(Value::Text(path)) => Some((param.name.as_str(), path.as_str())),
+        None => Some((param.name.as_str(), "")),
+        // Told with the other values that do not fit.
+        Some(_) => None,
+    }
+}
+
+fn read(path: &Path, written: &str) -> Result<Vec<u8>, Fault> {
+    if written.is_empty() {
+        let why = "no picture is chosen; give the path of one, relative to the file that the node is in";
+        return Err((why.to_owned(), true));
+    }
+    let shown = path.display();
+    read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| match unread {
+        Unread::Missing => {
+            let why = format!("there is no file {shown}; check the path, relative to the file that the node is in");
+            (why, true)
+        }
+        Unread::Folder => (format!("{shown} is a folder; give the path of a picture in it"), true),
+        Unread::NotPlain => {
+            let why = format!("{shown} is a pipe or a device, which may have no end; give the path of a picture file");
+            (why, true)
+        }
+        Unread::TooLarge(bytes) => {
+            let mib = bytes >> 20;
+            let why = format!("{shown} has {mib} MiB; pictures of up to 1024 MiB are read, so make it smaller");
+            (why, false)
+        }
+        Unread::Other(reason) => (format!("{shown} cannot be read: {reason}"), true),
+    })
+}
+
+#[cfg(test)]
+mod tests;

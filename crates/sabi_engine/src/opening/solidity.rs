@@ -1,0 +1,127 @@
+//! What rays cannot rely on: models that are open, inside out, pass through themselves, or have no clear inside.
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use sabi_plan::{Plan, Step};
+use sabi_surface::model::Mesh;
+
+use crate::opening::prepare::Prepared;
+
+/// Sentences about the model for a plan that shoots rays; none for others.
+pub(crate) fn warnings(plan: &Plan, prepared: &Prepared) -> Vec<String> {
+    let shoots = |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some());
+    if !plan.steps.iter().any(shoots) {
+        return Vec::new();
+    }
+    of_model(prepared).to_vec()
+}
+
+/// The same whatever is planned; found once for a model.
+pub(crate) fn of_model(prepared: &Prepared) -> &[String] {
+    prepared.solidity.get_or_init(|| about(prepared))
+}
+
+fn about(prepared: &Prepared) -> Vec<String> {
+    let report = &prepared.atlas.report;
+    let mut told = Vec::new();
+    if report.border_edges > 0 {
+        told.push(format!(
+            "The model is open at {}: rays that should end inside of it leave there, so thickness, edges and creases are \
+             weaker near its openings, and a sheet without thickness has none.",
+            edges(report.border_edges)
+        ));
+    } else {
+        told.extend(about_inside(&prepared.model.mesh).map(str::to_owned));
+    }
+    if report.nonmanifold_edges > 0 {
+        told.push(format!(
+            "More than two faces meet at {}: it is not clear there what is inside, so edges and thickness may be wrong.",
+            edges(report.nonmanifold_edges)
+        ));
+    }
+    let crossings = crossings(prepared);
+    if crossings > 0 {
+        told.push(format!(
+            "The model passes through itself at {}: what lies inside it counts as close by, so creases and occlusion are \
+             stronger there and thickness ends at what is buried.",
+            edges(crossings)
+        ));
+    }
+    told
+}
+
+/// Edges that pass through a face of the same piece, each counted for each of its triangles. Parts that are put together
+/// from several pieces are meant to reach into each other.
+fn crossings(prepared: &Prepared) -> u32 {
+    let mesh = &prepared.model.mesh;
+    let bvh = prepared.hierarchy();
+    let pieces = &prepared.pieces.triangle_piece;
+    let place = |vertex: u32| Vec3::from(mesh.positions[vertex as usize]);
+    let crosses = |triangle: u32, [from, to]: [u32; 2]| {
+        let (start, way) = (place(from), place(to) - place(from));
+        let length = way.length();
+        let own = mesh.triangles[triangle as usize].map(place);
+        let counts = |other: u32| {
+            let corners = mesh.triangles[other as usize].map(place);
+            let normal = (corners[1] - corners[0])
+                .cross(corners[2] - corners[0])
+                .normalize_or_zero();
+            let beyond = [start, start + way].map(|end| (end - corners[0]).dot(normal));
+            // Both ends stand off the face, on either side of it: faces that touch do not pass through each other.
+            pieces[other as usize] == pieces[triangle as usize]
+                && beyond[0] * beyond[1] < 0.0
+                && beyond.iter().all(|beyond| beyond.abs() > OFF_FACE * length)
+                && !own.iter().any(|corner| corners.contains(corner))
+        };
+        bvh.any_of(start.to_array(), way.to_array(), length, counts)
+    };
+    let of_triangle = |(triangle, [a, b, c]): (usize, &[u32; 3])| {
+        let edges = [[*a, *b], [*b, *c], [*c, *a]];
+        edges.into_iter().filter(|edge| crosses(triangle as u32, *edge)).count() as u32
+    };
+    mesh.triangles.par_iter().enumerate().map(of_triangle).sum()
+}
+
+/// How far an edge's ends stand off a face that it passes through, as a share of its length.
+const OFF_FACE: f32 = 1e-3;
+
+fn edges(count: u32) -> String {
+    match count {
+        1 => "an edge".to_owned(),
+        count => format!("{count} edges"),
+    }
+}
+
+/// What is wrong with the inside of a closed model.
+fn about_inside(mesh: &Mesh) -> Option<&'static str> {
+    let (volume, area) = measured(mesh);
+    if volume.abs() <= LEAST_VOLUME * area.powf(1.5) {
+        return Some(
+            "The model has no inside: its faces lie back to back, so rays pass between them, and thickness, edges and \
+             creases find nothing. Give it a thickness in a modeling program.",
+        );
+    }
+    (volume < 0.0).then_some(
+        "The model is inside out: its faces look inward, so edges and creases change places and all of it counts as buried. \
+         Turn its faces around in a modeling program.",
+    )
+}
+
+/// Less volume than this for an area is what rounding leaves of none: a sheet of paper has dozens of times as much.
+const LEAST_VOLUME: f64 = 1e-6;
+
+/// The volume that the faces enclose, below 0 where they look inward, and their area.
+fn measured(mesh: &Mesh) -> (f64, f64) {
+    let place = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
+    // From a corner of its own, so that a model far from the middle of its scene loses nothing to rounding.
+    let Some(origin) = mesh.triangles.first().map(|triangle| place(triangle[0])) else {
+        return (0.0, 0.0);
+    };
+    let measures = mesh.triangles.iter().map(|triangle| {
+        let [a, b, c] = triangle.map(|vertex| place(vertex) - origin);
+        (a.dot(b.cross(c)) / 6.0, (b - a).cross(c - a).length() / 2.0)
+    });
+    measures.fold((0.0, 0.0), |(volume, area), (more, wider)| {
+        (volume + more, area + wider)
+    })
+}

@@ -1,0 +1,4 @@
+//! Lit pictures of a model.
+
+pub(crate) mod displace;
+pub(crate) mod render;

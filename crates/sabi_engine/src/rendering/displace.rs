@@ -1,0 +1,110 @@
+//! A model that the heights of its looks displace.
+
+use sabi_gpu::AdapterKind;
+use sabi_surface::atlas::Atlas;
+use sabi_surface::displace::{DisplaceOptions, HeightPlane, displaced, texel_length};
+use sabi_view::{MaterialLook, ViewModel};
+
+use crate::error::EngineError;
+use crate::evaluating::looks::Shown;
+use crate::evaluating::workpiece::Workpiece;
+
+/// Most triangles of a displaced copy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Triangles {
+    /// As many as the adapter draws at ease: 2 million, 500 000 by a software driver.
+    Fitting,
+    /// So many.
+    AtMost(usize),
+}
+
+impl Triangles {
+    fn budget(self, kind: AdapterKind) -> usize {
+        match (self, kind) {
+            (Triangles::AtMost(count), _) => count,
+            (Triangles::Fitting, AdapterKind::Cpu) => 500_000,
+            (Triangles::Fitting, _) => DisplaceOptions::default().triangle_budget,
+        }
+    }
+}
+
+/// A finer copy of the model with what is shown of it, displaced by the heights of the look that each material has.
+pub(crate) fn displaced_model(
+    workpiece: &mut Workpiece,
+    shown: &Shown,
+    triangles: Triangles,
+) -> Result<ViewModel, EngineError> {
+    let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
+    let model_from_working = 1.0 / workpiece.prepared.working_from_model(&workpiece.fit);
+    let of_looks = shown.looks.iter();
+    let heights: Vec<Option<Vec<f32>>> = of_looks
+        .map(|look| heights_of(workpiece, look, model_from_working))
+        .collect::<Result<_, _>>()?;
+    let options = DisplaceOptions {
+        // A map holds no hill that is narrower than two texels.
+        edge_length: 2.0 * texel_length(&model.mesh, atlas),
+        triangle_budget: triangles.budget(workpiece.gpu.summary().kind),
+    };
+    let height = |chart: u32, texel: [f32; 2]| match plane_of(chart, atlas, shown, &heights) {
+        Some(plane) => plane.at(chart, texel),
+        // Where nothing sets a height the surface stays, and pulls its neighbors down to it.
+        None => Some(0.0),
+    };
+    let copy = displaced(&model.mesh, atlas, &options, height);
+    let made = ViewModel::displaced(
+        &workpiece.gpu,
+        &copy,
+        model,
+        atlas,
+        &workpiece.surface,
+        model_from_working,
+    )?;
+    let flat = heights.iter().all(Option::is_none).then(|| {
+        "--displace changes nothing: what is shown has no height; the material view of a graph whose layers have one does"
+            .to_owned()
+    });
+    workpiece.warn(flat.or(copy.note));
+    Ok(made)
+}
+
+/// The heights on a chart, if what its material looks like has any.
+fn plane_of<'h>(
+    chart: u32,
+    atlas: &'h Atlas,
+    shown: &Shown,
+    heights: &'h [Option<Vec<f32>>],
+) -> Option<HeightPlane<'h>> {
+    let material = atlas.charts.get(chart as usize)?.material;
+    let look = *shown.look_of_material.get(material as usize)?;
+    let heights = heights.get(look)?.as_ref()?;
+    Some(HeightPlane::new(atlas, heights))
+}
+
+/// Heights of a look, model units, page by page and row by row; none where it has none.
+fn heights_of(
+    workpiece: &Workpiece,
+    look: &MaterialLook,
+    model_from_working: f64,
+) -> Result<Option<Vec<f32>>, EngineError> {
+    let Some(map) = &look.maps.height else {
+        return Ok(None);
+    };
+    let mut heights = workpiece.gpu.read_numbers(map)?;
+    for height in &mut heights {
+        *height = (f64::from(*height) * model_from_working) as f32;
+    }
+    Ok(Some(heights))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_software_driver_is_given_fewer_triangles_unless_the_artist_says_how_many() {
+        assert_eq!(Triangles::Fitting.budget(AdapterKind::Discrete), 2_000_000);
+        assert_eq!(Triangles::Fitting.budget(AdapterKind::Integrated), 2_000_000);
+        assert_eq!(Triangles::Fitting.budget(AdapterKind::Cpu), 500_000);
+        assert_eq!(Triangles::AtMost(7).budget(AdapterKind::Cpu), 7);
+    }
+}

@@ -1,0 +1,295 @@
+//! A lit picture of a model with what a graph makes of it, or several from all around.
+
+use std::path::PathBuf;
+
+use glam::UVec2;
+use sabi_image::{ImageError, PngData, PngOptions, encode_exr, encode_png};
+use sabi_view::{
+    Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
+    ViewModel, ViewTransform, Viewpoint, aspect_of,
+};
+
+use crate::baking::picture_file::PictureFiles;
+use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::looks::{Shown, show};
+use crate::evaluating::outputs::outputs;
+use crate::evaluating::seen_node::graph_and_target;
+use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
+use crate::opening::document::OpenGraph;
+use crate::opening::environment::{environment_of, read_panorama};
+use crate::opening::kinds::Kinds;
+use crate::opening::modelless::{refuse_faults, targets};
+use crate::rendering::displace::{Triangles, displaced_model};
+use crate::stages::{Progress, Stage};
+
+/// The view in which there is light.
+const LIT: &str = "material";
+/// Most frames of a turntable.
+const MOST_FRAMES: u32 = 9999;
+
+/// What to draw.
+pub struct RenderRequest {
+    /// The graph file.
+    pub graph: PathBuf,
+    /// Model, overrides, fit, adapter.
+    pub workpiece: WorkpieceOptions,
+    /// `.png` for what a display shows, `.exr` for the light itself; of a turntable, what its frames are named after.
+    pub output: PathBuf,
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// A built-in environment's name, or a file.
+    pub environment: String,
+    /// How far the environment is turned about +Y, degrees.
+    pub rotate: f32,
+    /// Where the eye is.
+    pub camera: Viewpoint,
+    /// Whether lines of sight are parallel.
+    pub is_orthographic: bool,
+    /// What is shown: a view's name, or `node:ID`.
+    pub view: String,
+    /// What is behind the model.
+    pub background: Background,
+    /// From light to what a display shows.
+    pub transform: ViewTransform,
+    /// Stops by which all light is made stronger.
+    pub exposure: f32,
+    /// Lights besides the environment.
+    pub lights: Vec<Light>,
+    /// Lines over the model.
+    pub lines: Vec<Lines>,
+    /// Whether heights are followed, so that they hide one another and throw shadows.
+    pub has_relief: bool,
+    /// Whether a finer copy is drawn that heights displace, of so many triangles; heights are not followed on it.
+    pub displace: Option<Triangles>,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// So many frames from all around instead of one.
+    pub turntable: Option<u32>,
+    /// What goes around in them.
+    pub turns: Turns,
+}
+
+/// What goes around on a turntable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Turns {
+    /// The eye, around the model.
+    #[default]
+    Camera,
+    /// The environment and all lights, while the eye stays.
+    Light,
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rendered {
+    /// The pictures.
+    pub files: Vec<PathBuf>,
+    /// What the artist should know.
+    pub warnings: Vec<String>,
+}
+
+/// Draws; nothing is replaced before every picture is complete.
+pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Rendered, EngineError> {
+    let paths = file_names(request)?;
+    let (mode, node) = view_of(&request.view)?;
+    let open = OpenGraph::open(&request.graph)?;
+    let kinds = Kinds::beside(Some(&request.graph));
+    let (graph, seen) = match node {
+        Some(node) => {
+            let (graph, target) = graph_and_target(&open, &kinds, &request.workpiece, node)?;
+            (graph, Some(target))
+        }
+        None => (Workpiece::flat_graph(&open, &kinds, &request.workpiece)?, None),
+    };
+    let faulty = match &seen {
+        Some(target) => vec![target.clone()],
+        None => targets(outputs(&graph)),
+    };
+    refuse_faults(&open, &graph, &kinds, &faulty)?;
+    let (panorama, remarks) = read_panorama(&request.environment)?;
+    let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
+    workpiece.warn(remarks);
+    let mut inputs = workpiece.read_files(&open);
+    inputs.push(PathBuf::from(&request.environment));
+    let mut files = PictureFiles::begin(&paths, inputs)?;
+    let cache_dir = request.workpiece.model.cache_dir.as_deref();
+    let (environment, remark) = environment_of(&workpiece.gpu, &panorama, cache_dir)?;
+    workpiece.warn(remark);
+    let shown = show(&mut workpiece, seen.as_ref(), progress)?;
+    let model = view_model(request, &mut workpiece, &shown)?;
+    let scene = Scene {
+        model: &model,
+        looks: &shown.looks,
+        look_of_material: &shown.look_of_material,
+        environment: &environment,
+        lights: &request.lights,
+    };
+    let mode = if shown.is_lit { mode } else { Mode::Node };
+    let range = shown.height_range;
+    draw(request, &workpiece, &scene, (mode, range), &mut files, progress)?;
+    stop_if_canceled(progress)?;
+    files.commit()?;
+    Ok(Rendered {
+        files: paths,
+        warnings: workpiece.warnings,
+    })
+}
+
+/// The files to be written: one, or one for each frame.
+fn file_names(request: &RenderRequest) -> Result<Vec<PathBuf>, EngineError> {
+    let refused = |why: String| EngineError::new(ErrorKind::Usage, why);
+    let output = &request.output;
+    let Some(ending @ ("png" | "exr")) = output.extension().and_then(|ending| ending.to_str()) else {
+        return Err(refused(format!(
+            "{}: a picture is a .png, or an .exr of its light",
+            output.display()
+        )));
+    };
+    if ending == "exr" && request.view != LIT {
+        return Err(refused(format!(
+            "{}: an .exr holds light, and the view '{}' shows none; write a .png, or show the material",
+            output.display(),
+            request.view
+        )));
+    }
+    let Some(frames) = request.turntable else {
+        return Ok(vec![output.clone()]);
+    };
+    if !(1..=MOST_FRAMES).contains(&frames) {
+        return Err(refused(format!(
+            "--turntable takes 1 to {MOST_FRAMES} frames, not {frames}"
+        )));
+    }
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    let frame = |number: u32| output.with_file_name(format!("{stem}_{number:04}.{ending}"));
+    Ok((0..frames).map(frame).collect())
+}
+
+/// What a view's name says: how the model is shown, and the node that is looked at.
+fn view_of(view: &str) -> Result<(Mode, Option<&str>), EngineError> {
+    if let Some(node) = view.strip_prefix("node:") {
+        return Ok((Mode::Material, Some(node)));
+    }
+    let mode = view.parse().map_err(|why| EngineError::new(ErrorKind::Usage, why))?;
+    Ok((mode, None))
+}
+
+/// The model as it is drawn: as it is, or a displaced copy.
+fn view_model(request: &RenderRequest, workpiece: &mut Workpiece, shown: &Shown) -> Result<ViewModel, EngineError> {
+    if let Some(triangles) = request.displace {
+        return displaced_model(workpiece, shown, triangles);
+    }
+    let (gpu, prepared) = (&workpiece.gpu, &workpiece.prepared);
+    let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
+    let (model, atlas) = (&prepared.model, &prepared.atlas);
+    Ok(ViewModel::new(
+        gpu,
+        model,
+        atlas,
+        &workpiece.surface,
+        model_from_working,
+    )?)
+}
+
+fn draw(
+    request: &RenderRequest,
+    workpiece: &Workpiece,
+    scene: &Scene<'_>,
+    (mode, height_range): (Mode, [f32; 2]),
+    files: &mut PictureFiles,
+    progress: &dyn Progress,
+) -> Result<(), EngineError> {
+    let gpu = &workpiece.gpu;
+    let renderer = Renderer::new(gpu)?;
+    let mut canvas = Canvas::new(gpu, request.size)?;
+    let frames = request.turntable.unwrap_or(1);
+    let has_light = request.output.extension().is_some_and(|ending| ending == "exr");
+    for frame in 0..frames {
+        stop_if_canceled(progress)?;
+        let around = 360.0 * frame as f32 / frames as f32;
+        let [of_camera, of_light] = match request.turns {
+            Turns::Camera => [around, 0.0],
+            Turns::Light => [0.0, around],
+        };
+        let mut camera = camera_of(request, workpiece);
+        camera.turn(of_camera);
+        let lights: Vec<Light> = scene.lights.iter().map(|light| light.turned(of_light)).collect();
+        let scene = &Scene {
+            lights: &lights,
+            ..*scene
+        };
+        let shot = Shot {
+            environment_turn_degrees: request.rotate + of_light,
+            exposure_stops: request.exposure,
+            transform: request.transform,
+            background: request.background,
+            mode,
+            has_relief: request.has_relief && request.displace.is_none(),
+            height_range,
+            lines: request.lines.clone(),
+            samples: request.samples,
+            ..Shot::new(camera)
+        };
+        files.add(if has_light {
+            encode_light(request.size, &renderer.light(gpu, &mut canvas, scene, &shot)?)?
+        } else {
+            renderer.draw(gpu, &mut canvas, scene, &shot)?;
+            encode(&canvas.read(gpu)?, request.background == Background::Clear)?
+        })?;
+        progress.advance(Stage::Draw, frame as usize + 1, frames as usize);
+    }
+    Ok(())
+}
+
+fn camera_of(request: &RenderRequest, workpiece: &Workpiece) -> Camera {
+    let mesh = &workpiece.prepared.model.mesh;
+    let bounds = Placement::of(mesh).box_in_view(mesh);
+    let aspect = aspect_of(UVec2::from(request.size).as_vec2());
+    let mut camera = Camera::seen_from(request.camera, bounds, aspect);
+    if request.is_orthographic {
+        camera.lens = Lens::Orthographic;
+    }
+    camera
+}
+
+/// A PNG of a picture, with alpha where it is asked for.
+fn encode(picture: &Pixels, with_alpha: bool) -> Result<Vec<u8>, EngineError> {
+    let [width, height] = picture.size;
+    let options = PngOptions {
+        channels: if with_alpha { 4 } else { 3 },
+        bits: 8,
+        srgb_chunk: true,
+    };
+    let rgb: Vec<u8>;
+    let codes = if with_alpha {
+        &picture.rgba
+    } else {
+        let (pixels, _) = picture.rgba.as_chunks::<4>();
+        rgb = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+        &rgb
+    };
+    encode_png(width, height, PngData::U8(codes), options).map_err(cannot_write)
+}
+
+/// An OpenEXR file of light, alpha premultiplied.
+fn encode_light([width, height]: [u32; 2], light: &[[f32; 4]]) -> Result<Vec<u8>, EngineError> {
+    let channel = |at: usize| -> Vec<f32> { light.iter().map(|pixel| pixel[at]).collect() };
+    let [r, g, b, a] = [0, 1, 2, 3].map(channel);
+    encode_exr(width, height, &[("R", &r), ("G", &g), ("B", &b), ("A", &a)]).map_err(cannot_write)
+}
+
+fn cannot_write(error: ImageError) -> EngineError {
+    EngineError::new(ErrorKind::CannotWrite, error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_view_is_a_mode_or_a_node() {
+        assert_eq!(view_of("roughness").unwrap(), (Mode::Roughness, None));
+        assert_eq!(view_of("node:rust.mask").unwrap(), (Mode::Material, Some("rust.mask")));
+        assert!(view_of("rust").is_err());
+    }
+}
