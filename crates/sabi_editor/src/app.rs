@@ -32,11 +32,12 @@ use keys::KeyState;
 pub(crate) use keys::told_by_system;
 
 use crate::canvas::Canvas;
-use crate::command::{Command, KeyMap};
+use crate::command::Command;
 use crate::desk::Desk;
 use crate::dock::{self, Layout, Panel};
 use crate::files::{Files, Question};
 use crate::flat_view::FlatView;
+use crate::key_map::KeyMap;
 use crate::knobs::KnobMemory;
 use crate::model_view::ModelView;
 use crate::panels;

@@ -28,7 +28,7 @@ use egui::{Pos2, Rect, Sense, Ui, pos2, vec2};
 use sabi_graph::NodeId;
 
 use crate::action::Action;
-use crate::command::{Command, Habit};
+use crate::command::{CanvasCommand, Habit};
 use crate::desk::Desk;
 use crate::search::Candidate;
 use crate::theme::Theme;
@@ -128,33 +128,20 @@ impl Canvas {
         actions
     }
 
-    /// Does what a command asks of the canvas itself; none where it is for the desk.
-    pub(crate) fn command(&mut self, command: Command, ui: &Ui, desk: &Desk) -> Option<Vec<Action>> {
-        let actions = match command {
-            Command::AddMenu => {
-                self.open_menu(ui, None);
-                Vec::new()
-            }
-            Command::FrameAll => {
-                self.frame_all(desk);
-                Vec::new()
-            }
-            Command::FrameSelected => {
-                self.frame_nodes(desk, desk.selection().iter());
-                Vec::new()
-            }
-            Command::Rename => {
+    /// Performs a command about the view of the graph.
+    pub(crate) fn command(&mut self, command: CanvasCommand, ui: &Ui, desk: &Desk) -> Vec<Action> {
+        match command {
+            CanvasCommand::AddMenu => self.open_menu(ui, None),
+            CanvasCommand::ShowAll => self.frame_all(desk),
+            CanvasCommand::ShowSelected => self.frame_nodes(desk, desk.selection().iter()),
+            CanvasCommand::Rename => {
                 self.renaming = desk.selected_one().map(|id| Renaming::node(id.clone(), desk.title(id)));
-                Vec::new()
             }
-            Command::NextPort | Command::PreviousPort => {
-                self.step_port(desk, command == Command::NextPort);
-                Vec::new()
-            }
-            Command::Wire => self.wire_by_key(desk),
-            _ => return None,
-        };
-        Some(actions)
+            CanvasCommand::NextPort => self.step_port(desk, true),
+            CanvasCommand::PreviousPort => self.step_port(desk, false),
+            CanvasCommand::Wire => return self.wire_by_key(desk),
+        }
+        Vec::new()
     }
 
     /// Where something new stands: under the pointer, or in the middle of what is seen.

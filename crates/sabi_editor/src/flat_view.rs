@@ -15,7 +15,7 @@ use sabi_engine::{Inspected, LiveModel, SetKey};
 use sabi_graph::NodeRef;
 
 use crate::app::Taken;
-use crate::command::Command;
+use crate::command::TextureCommand;
 use crate::errand::{Errand, Failed};
 use crate::stage::Stage;
 use crate::theme::{Theme, space, type_size};
@@ -179,14 +179,13 @@ impl FlatView {
         shown.is_some_and(|shown| Arc::ptr_eq(&shown.of.0, values))
     }
 
-    /// Does what a key means here.
-    pub(crate) fn command(&mut self, command: Command) {
+    /// Performs a command about the 2D view.
+    pub(crate) fn command(&mut self, command: TextureCommand) {
         match command {
-            Command::FitFlat => (self.pan, self.zoom) = (Vec2::ZERO, None),
-            Command::TrueSize => self.zoom = Some(1.0),
-            Command::TileFlat => self.is_tiled = !self.is_tiled,
-            Command::UvWires => self.has_wires = !self.has_wires,
-            _ => {}
+            TextureCommand::ShowAll => (self.pan, self.zoom) = (Vec2::ZERO, None),
+            TextureCommand::TrueSize => self.zoom = Some(1.0),
+            TextureCommand::Tile => self.is_tiled = !self.is_tiled,
+            TextureCommand::UvWires => self.has_wires = !self.has_wires,
         }
     }
 

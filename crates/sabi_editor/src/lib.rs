@@ -9,6 +9,7 @@ mod dock;
 mod errand;
 mod files;
 mod flat_view;
+mod key_map;
 mod knobs;
 mod model_view;
 mod mouse;

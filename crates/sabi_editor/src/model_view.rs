@@ -23,7 +23,8 @@ use sabi_engine::{LiveModel, Seen};
 
 use crate::action::Action;
 use crate::app::Taken;
-use crate::command::{Command, Habit, KeyMap, Scope};
+use crate::command::{Habit, Scope, ViewportCommand};
+use crate::key_map::KeyMap;
 use crate::knobs::Lengths;
 use crate::mouse::{self, Drags};
 use crate::stage::{Picture, Stage};
@@ -304,10 +305,10 @@ impl ModelView {
         pick(bvh, &prepared.model.mesh, &prepared.atlas, ray, &model.placement)
     }
 
-    /// Does what a key means here.
+    /// Performs a command about the camera and overlays.
     pub(crate) fn command(
         &mut self,
-        command: Command,
+        command: ViewportCommand,
         stage: &Stage,
         seen: &Seen,
         rect: Rect,
@@ -320,25 +321,23 @@ impl ModelView {
         let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
         let from = |viewpoint| Camera::seen_from(viewpoint, bounds, aspect(rect));
         match command {
-            Command::FrameModel => self.camera.frame_box(bounds[0], bounds[1], aspect(rect)),
-            Command::FocusModel => {
+            ViewportCommand::ShowAll => self.camera.frame_box(bounds[0], bounds[1], aspect(rect)),
+            ViewportCommand::Focus => {
                 if let Some(picked) = pointer.and_then(|at| self.picked(&model, rect, at)) {
                     self.camera.focus(picked.position_view, None);
                 }
             }
-            Command::Front => self.camera = from(Viewpoint::FRONT),
-            Command::Right => self.camera = from(Viewpoint::at(90.0, 0.0)),
-            Command::Top => self.camera = from(Viewpoint::at(0.0, 90.0)),
-            Command::Lens => {
+            ViewportCommand::Front => self.camera = from(Viewpoint::FRONT),
+            ViewportCommand::Right => self.camera = from(Viewpoint::at(90.0, 0.0)),
+            ViewportCommand::Top => self.camera = from(Viewpoint::at(0.0, 90.0)),
+            ViewportCommand::Lens => {
                 self.camera.lens = match self.camera.lens {
                     Lens::Perspective => Lens::Orthographic,
                     Lens::Orthographic => Lens::Perspective,
                 }
             }
-            Command::Wires => self.toggle_lines(Lines::Wires),
-            Command::Seams => self.toggle_lines(Lines::Seams),
-            Command::Wipe => self.wipe = if self.wipe.is_some() { None } else { Some(0.5) },
-            _ => return,
+            ViewportCommand::Wires => self.toggle_lines(Lines::Wires),
+            ViewportCommand::Seams => self.toggle_lines(Lines::Seams),
         }
         self.moved = Some(Instant::now());
     }

@@ -7,8 +7,11 @@ use egui_phosphor::regular as icon;
 
 use super::{Editor, NOTICE_LASTS, dress};
 use crate::action::Action;
-use crate::command::{Command, Habit, KeyMap};
+use crate::command::{
+    ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, Habit, LookCommand, WindowCommand,
+};
 use crate::dock::{self, Panel};
+use crate::key_map::KeyMap;
 use crate::theme::{Shade, Theme, space, type_size};
 
 impl Editor {
@@ -32,12 +35,17 @@ impl Editor {
                     ui.menu_button("Window", |ui| self.window_menu(ui, actions));
                     ui.menu_button("Help", |ui| self.commands(ui, HELP, actions));
                     ui.add_space(space::WIDE);
-                    self.button(ui, icon::ARROW_U_UP_LEFT, Command::Undo, actions);
-                    self.button(ui, icon::ARROW_U_UP_RIGHT, Command::Redo, actions);
-                    self.button(ui, icon::FLOPPY_DISK, Command::Save, actions);
-                    self.button(ui, icon::EXPORT, Command::Export, actions);
+                    self.button(ui, icon::ARROW_U_UP_LEFT, Command::Graph(GraphCommand::Undo), actions);
+                    self.button(ui, icon::ARROW_U_UP_RIGHT, Command::Graph(GraphCommand::Redo), actions);
+                    self.button(ui, icon::FLOPPY_DISK, Command::File(FileCommand::Save), actions);
+                    self.button(ui, icon::EXPORT, Command::File(FileCommand::Export), actions);
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                        self.button(ui, icon::SLIDERS_HORIZONTAL, Command::UseView, actions);
+                        self.button(
+                            ui,
+                            icon::SLIDERS_HORIZONTAL,
+                            Command::Window(WindowCommand::UseView),
+                            actions,
+                        );
                         ui.with_layout(Layout::centered_and_justified(egui::Direction::LeftToRight), |ui| {
                             ui.label(RichText::new(self.marked_name()).color(self.theme.quiet));
                         });
@@ -92,7 +100,14 @@ impl Editor {
     }
 
     fn file_menu(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        self.commands(ui, &[Some(Command::New), Some(Command::Open)], actions);
+        self.commands(
+            ui,
+            &[
+                Some(Command::File(FileCommand::New)),
+                Some(Command::File(FileCommand::Open)),
+            ],
+            actions,
+        );
         ui.menu_button("Recent", |ui| {
             for path in &self.settings.recent {
                 if ui.button(path.display().to_string()).clicked() {
@@ -109,7 +124,12 @@ impl Editor {
         ui.separator();
         self.commands(
             ui,
-            &[Some(Command::Save), Some(Command::SaveAs), None, Some(Command::Export)],
+            &[
+                Some(Command::File(FileCommand::Save)),
+                Some(Command::File(FileCommand::SaveAs)),
+                None,
+                Some(Command::File(FileCommand::Export)),
+            ],
             actions,
         );
     }
@@ -128,9 +148,9 @@ impl Editor {
         self.commands(
             ui,
             &[
-                Some(Command::UseView),
-                Some(Command::MiniMap),
-                Some(Command::Flat),
+                Some(Command::Window(WindowCommand::UseView)),
+                Some(Command::Look(LookCommand::MiniMap)),
+                Some(Command::Look(LookCommand::FlatPictures)),
                 None,
             ],
             actions,
@@ -146,7 +166,14 @@ impl Editor {
                 ui.selectable_value(&mut self.settings.habit, habit, name);
             }
         });
-        self.commands(ui, &[Some(Command::Larger), Some(Command::Smaller)], actions);
+        self.commands(
+            ui,
+            &[
+                Some(Command::Window(WindowCommand::Larger)),
+                Some(Command::Window(WindowCommand::Smaller)),
+            ],
+            actions,
+        );
         if before != (self.settings.shade, self.settings.habit) {
             self.take_settings(ui.ctx());
         }
@@ -252,41 +279,44 @@ impl Editor {
 }
 
 pub(super) const EDIT: &[Option<Command>] = &[
-    Some(Command::Undo),
-    Some(Command::Redo),
+    Some(Command::Graph(GraphCommand::Undo)),
+    Some(Command::Graph(GraphCommand::Redo)),
     None,
-    Some(Command::AddMenu),
-    Some(Command::Duplicate),
-    Some(Command::DuplicateWired),
-    Some(Command::Copy),
-    Some(Command::CutNodes),
-    Some(Command::Paste),
-    Some(Command::Delete),
-    Some(Command::Heal),
+    Some(Command::Canvas(CanvasCommand::AddMenu)),
+    Some(Command::Graph(GraphCommand::Duplicate)),
+    Some(Command::Graph(GraphCommand::DuplicateWired)),
+    Some(Command::Graph(GraphCommand::Copy)),
+    Some(Command::Graph(GraphCommand::Cut)),
+    Some(Command::Graph(GraphCommand::Paste)),
+    Some(Command::Graph(GraphCommand::Delete)),
+    Some(Command::Graph(GraphCommand::Heal)),
     None,
-    Some(Command::Mute),
-    Some(Command::SwapInputs),
-    Some(Command::TakeOut),
-    Some(Command::Group),
-    Some(Command::Ungroup),
-    Some(Command::Frame),
-    Some(Command::Rename),
+    Some(Command::Graph(GraphCommand::Mute)),
+    Some(Command::Graph(GraphCommand::SwapInputs)),
+    Some(Command::Graph(GraphCommand::TakeOut)),
+    Some(Command::Graph(GraphCommand::Group)),
+    Some(Command::Graph(GraphCommand::Ungroup)),
+    Some(Command::Graph(GraphCommand::Frame)),
+    Some(Command::Canvas(CanvasCommand::Rename)),
 ];
 
 pub(super) const ARRANGE: &[Option<Command>] = &[
-    Some(Command::FrameAll),
-    Some(Command::FrameSelected),
+    Some(Command::Canvas(CanvasCommand::ShowAll)),
+    Some(Command::Canvas(CanvasCommand::ShowSelected)),
     None,
-    Some(Command::SelectAll),
-    Some(Command::SelectUp),
-    Some(Command::SelectDown),
+    Some(Command::Arrange(ArrangeCommand::SelectAll)),
+    Some(Command::Arrange(ArrangeCommand::SelectUp)),
+    Some(Command::Arrange(ArrangeCommand::SelectDown)),
     None,
-    Some(Command::AlignLeft),
-    Some(Command::AlignRight),
-    Some(Command::AlignTop),
-    Some(Command::AlignBottom),
-    Some(Command::Straighten),
-    Some(Command::LayOut),
+    Some(Command::Arrange(ArrangeCommand::AlignLeft)),
+    Some(Command::Arrange(ArrangeCommand::AlignRight)),
+    Some(Command::Arrange(ArrangeCommand::AlignTop)),
+    Some(Command::Arrange(ArrangeCommand::AlignBottom)),
+    Some(Command::Arrange(ArrangeCommand::Straighten)),
+    Some(Command::Arrange(ArrangeCommand::LayOut)),
 ];
 
-const HELP: &[Option<Command>] = &[Some(Command::Help), Some(Command::Keys)];
+const HELP: &[Option<Command>] = &[
+    Some(Command::Window(WindowCommand::Help)),
+    Some(Command::Window(WindowCommand::Keys)),
+];

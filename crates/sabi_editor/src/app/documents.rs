@@ -8,6 +8,7 @@ use sabi_graph::{Edit, Preview, Value};
 
 use super::Editor;
 use crate::action::{Action, Shelf};
+use crate::command::Favorite;
 use crate::desk::Desk;
 use crate::files::{examples, whole};
 use crate::panels::library::KEPT_AS;
@@ -199,12 +200,12 @@ impl Editor {
         }
     }
 
-    /// Adds the favorite of that number where the pointer is.
-    pub(super) fn add_favorite(&mut self, at: usize, ui: &Ui) {
-        let key = self.settings.favorites.get(at).cloned();
+    /// Adds a node of a favorite where the pointer is.
+    pub(super) fn add_favorite(&mut self, favorite: Favorite, ui: &Ui) {
+        let key = self.settings.favorites.get(favorite.index()).cloned();
         let found = key.and_then(|key| self.candidates().iter().find(|known| known.new.key() == key));
         let Some(kind) = found.map(|found| found.new.clone()) else {
-            let number = at + 1;
+            let number = favorite.index() + 1;
             self.say(format!(
                 "There is no favorite {number}; a star in the library makes one."
             ));

@@ -7,8 +7,9 @@ use egui::{Context, Event, EventFilter, Id, Key, Modifiers, Popup, Ui};
 use super::Editor;
 use crate::action::Action;
 use crate::canvas::{Way, focus_id};
-use crate::command::{Chord, Command, Scope};
+use crate::command::{Command, GraphCommand, Scope};
 use crate::dock::Panel;
+use crate::key_map::Chord;
 
 /// What the system holds comes within this time after it was asked for.
 const PASTE_WITHIN: Duration = Duration::from_secs(2);
@@ -97,7 +98,7 @@ impl Editor {
             .take()
             .is_some_and(|at| at.elapsed() < PASTE_WITHIN);
         let usual = self.keys.command(Scope::Canvas, Modifiers::COMMAND, Key::V);
-        asked || self.active == Panel::Canvas && usual == Some(Command::Paste)
+        asked || self.active == Panel::Canvas && usual == Some(Command::Graph(GraphCommand::Paste))
     }
 
     /// Asks the system for what it holds, which comes as an event and only if it holds a text.

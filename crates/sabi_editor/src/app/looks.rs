@@ -5,7 +5,6 @@ use sabi_graph::{NodeId, NodeRef};
 
 use super::Editor;
 use crate::action::LookAsk;
-use crate::command::Command;
 use crate::model_view::Showing;
 
 impl Editor {
@@ -166,35 +165,6 @@ impl Editor {
                 self.model_view.wipe = if is_compared { None } else { Some(0.5) };
             }
             LookAsk::Unpin => self.pinned = None,
-        }
-    }
-
-    /// Does what a key means for what is shown where.
-    pub(super) fn command_of_looks(&mut self, command: Command) {
-        let selected = self.desk.selected_one().cloned();
-        match command {
-            Command::Flat => self.settings.is_flat = !self.settings.is_flat,
-            Command::MiniMap => self.settings.has_mini_map = !self.settings.has_mini_map,
-            Command::Preview => {
-                let Some(id) = selected else {
-                    self.say("Select the node to show first.");
-                    return;
-                };
-                self.look_at(&id, None);
-                self.look(LookAsk::Follow);
-            }
-            Command::Follow => {
-                self.settings.follows = !self.settings.follows;
-                self.say(match self.settings.follows {
-                    true => "The model shows the node that is clicked.",
-                    false => "The model shows the outputs whatever is clicked.",
-                });
-            }
-            Command::Lock => {
-                let chosen = selected.map(|id| self.chosen(&id));
-                self.locked = if self.locked == chosen { None } else { chosen };
-            }
-            _ => {}
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What is asked for is done here, and nowhere else.
 
+mod commands;
 mod publishing;
 
 use egui::Ui;
@@ -8,14 +9,10 @@ use sabi_graph::{NodeId, SlotRef};
 use super::Editor;
 use crate::action::{Action, FrameAsk, LayerAsk, New, WireAsk};
 use crate::canvas::Way;
-use crate::command::Command;
-use crate::desk::{Align, Desk, KnobAt, Loose};
+use crate::desk::{Desk, KnobAt, Loose};
 use crate::dock::Panel;
 use crate::files::Next;
 use crate::knobs::KnobEvent;
-
-/// How much larger or smaller one step makes the interface.
-const SCALE_STEP: f32 = 1.1;
 
 impl Editor {
     /// Does what a panel asks for.
@@ -226,123 +223,6 @@ impl Editor {
             }
         }
         desk.session.end();
-    }
-
-    /// Does what a command asks of the canvas itself; says whether it did.
-    fn command_canvas(&mut self, command: Command, ui: &Ui) -> bool {
-        if matches!(command, Command::AddMenu | Command::Rename) {
-            // What they open is there.
-            self.bring_up(Panel::Canvas);
-        }
-        let Some(actions) = self.canvas.command(command, ui, &self.desk) else {
-            return false;
-        };
-        for action in actions {
-            self.perform(action, ui);
-        }
-        true
-    }
-
-    /// Does what a key or a menu entry means.
-    pub(super) fn command(&mut self, command: Command, ui: &Ui) {
-        if self.command_canvas(command, ui) {
-            return;
-        }
-        if let Some(at) = command.favorite() {
-            self.add_favorite(at, ui);
-            return;
-        }
-        let desk = &mut self.desk;
-        match command {
-            Command::Undo => desk.undo(),
-            Command::Redo => desk.redo(),
-            Command::Delete => drop(desk.delete(false)),
-            Command::Heal => drop(desk.delete(true)),
-            Command::TakeOut => drop(desk.take_out()),
-            Command::SwapInputs => drop(desk.swap_inputs()),
-            Command::Mute => drop(desk.mute()),
-            Command::Duplicate => drop(desk.duplicate(false)),
-            Command::DuplicateWired => drop(desk.duplicate(true)),
-            Command::Copy => self.copy(ui),
-            Command::CutNodes => {
-                if let Some(text) = desk.cut_out() {
-                    ui.ctx().copy_text(text);
-                }
-            }
-            Command::Paste => self.ask_paste(ui.ctx()),
-            Command::Frame => drop(desk.frame()),
-            Command::AlignLeft => drop(desk.align(Align::Left)),
-            Command::AlignRight => drop(desk.align(Align::Right)),
-            Command::AlignTop => drop(desk.align(Align::Top)),
-            Command::AlignBottom => drop(desk.align(Align::Bottom)),
-            Command::Straighten => drop(desk.straighten()),
-            Command::LayOut => drop(desk.lay_out()),
-            Command::SelectAll => desk.select_all(),
-            Command::SelectUp => desk.select_stream(true),
-            Command::SelectDown => desk.select_stream(false),
-            Command::Group => drop(desk.make_group()),
-            Command::Ungroup => drop(desk.dissolve_groups()),
-            Command::Enter => {
-                if let Some(id) = desk.selected_one().cloned() {
-                    desk.enter(&id);
-                }
-            }
-            Command::Leave => {
-                if !self.canvas.let_go() {
-                    self.desk.leave();
-                }
-            }
-            Command::Preview | Command::Follow | Command::Lock | Command::Flat | Command::MiniMap => {
-                self.command_of_looks(command);
-            }
-            _ => self.command_of_window(command, ui),
-        }
-    }
-
-    fn command_of_window(&mut self, command: Command, ui: &Ui) {
-        match command {
-            Command::New => self.files.ask_new(&mut self.desk),
-            Command::Open => self.files.ask_open(&self.desk),
-            Command::Save => self.save(),
-            Command::SaveAs => self.files.ask_save(&self.desk),
-            Command::Export => {
-                self.bring_up(Panel::Export);
-                self.export();
-            }
-            Command::NextPanel => self.step_panel(true, ui.ctx()),
-            Command::PreviousPanel => self.step_panel(false, ui.ctx()),
-            Command::Help => {
-                self.panels.page.show_node();
-                self.bring_up(Panel::Page);
-            }
-            Command::Keys => self.files.shows_keys = !self.files.shows_keys,
-            Command::UseView => self.toggle_use_view(),
-            Command::Larger => self.scale_by(SCALE_STEP, ui),
-            Command::Smaller => self.scale_by(1.0 / SCALE_STEP, ui),
-            Command::FitFlat | Command::TrueSize | Command::TileFlat | Command::UvWires => {
-                self.flat_view.command(command)
-            }
-            _ => {
-                let rect = self.rects.get(&Panel::Viewport).copied();
-                let pointer = ui.input(|input| input.pointer.hover_pos());
-                let seen = self.seen();
-                if let Some(rect) = rect {
-                    self.model_view.command(command, &self.stage, &seen, rect, pointer);
-                }
-            }
-        }
-    }
-
-    fn scale_by(&mut self, factor: f32, ui: &Ui) {
-        self.settings.scale = (self.settings.scale * factor).clamp(0.5, 3.0);
-        ui.ctx().set_zoom_factor(self.settings.scale);
-    }
-
-    fn copy(&mut self, ui: &Ui) {
-        match self.desk.copied() {
-            Some(text) => ui.ctx().copy_text(text),
-            None => self.say("Select the nodes to copy first"),
-        }
     }
 
     /// Shows a node, in the group that it is in.

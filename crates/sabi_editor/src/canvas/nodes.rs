@@ -10,6 +10,7 @@ use sabi_graph::NodeId;
 use super::snapshot::{Hand, Key};
 use super::{Around, CARD_ZOOM, Canvas, bend, body, card, node_rect, ports, sides, tips};
 use crate::action::{Action, FrameAsk};
+use crate::command::{CanvasCommand, Command, GraphCommand, LookCommand, WindowCommand};
 use crate::desk::{TITLE_HEIGHT, is_bend};
 use crate::knobs::KnobEvent;
 
@@ -173,7 +174,6 @@ fn context_menu(
     around: &Around<'_>,
     actions: &mut Vec<Action>,
 ) {
-    use crate::command::Command;
     if response.secondary_clicked() && !around.desk.is_selected(id) {
         actions.push(Action::Select(vec![id.clone()]));
     }
@@ -192,24 +192,24 @@ fn context_menu(
         }
         ui_menu.separator();
         let commands = [
-            Command::Preview,
-            Command::Lock,
-            Command::Mute,
-            Command::Rename,
-            Command::Duplicate,
-            Command::DuplicateWired,
-            Command::Copy,
-            Command::Group,
-            Command::Ungroup,
-            Command::Frame,
-            Command::TakeOut,
-            Command::Heal,
-            Command::Delete,
-            Command::Help,
+            Command::Look(LookCommand::Preview),
+            Command::Look(LookCommand::Lock),
+            Command::Graph(GraphCommand::Mute),
+            Command::Canvas(CanvasCommand::Rename),
+            Command::Graph(GraphCommand::Duplicate),
+            Command::Graph(GraphCommand::DuplicateWired),
+            Command::Graph(GraphCommand::Copy),
+            Command::Graph(GraphCommand::Group),
+            Command::Graph(GraphCommand::Ungroup),
+            Command::Graph(GraphCommand::Frame),
+            Command::Graph(GraphCommand::TakeOut),
+            Command::Graph(GraphCommand::Heal),
+            Command::Graph(GraphCommand::Delete),
+            Command::Window(WindowCommand::Help),
         ];
         for command in commands
             .into_iter()
-            .filter(|command| is_group || *command != Command::Ungroup)
+            .filter(|command| is_group || *command != Command::Graph(GraphCommand::Ungroup))
         {
             if ui_menu.button(command.title()).clicked() {
                 actions.push(Action::Do(command));

@@ -4,7 +4,8 @@ use egui::{Event, Key, Response, RichText, Ui, WidgetInfo, WidgetType, Window};
 use egui_phosphor::regular as icon;
 
 use crate::app::{Editor, told_by_system};
-use crate::command::{Chord, Command, Scope};
+use crate::command::{Command, Scope};
+use crate::key_map::Chord;
 use crate::mouse::grips;
 
 const SCOPES: [(Scope, &str); 4] = [

@@ -10,6 +10,7 @@ use super::Next;
 use super::examples::EXAMPLES;
 use crate::action::Action;
 use crate::app::Editor;
+use crate::command::{Command, FileCommand};
 use crate::theme::{Theme, space, type_size};
 
 pub(super) fn show(editor: &mut Editor, ui: &Ui, actions: &mut Vec<Action>) {
@@ -39,7 +40,7 @@ pub(super) fn show(editor: &mut Editor, ui: &Ui, actions: &mut Vec<Action>) {
                 next = Some(Next::New);
             }
             if card(left, &theme, "Open…", "A graph of yours") {
-                actions.push(Action::Do(crate::command::Command::Open));
+                actions.push(Action::Do(Command::File(FileCommand::Open)));
                 is_over = true;
             }
             left.add_space(space::USUAL);

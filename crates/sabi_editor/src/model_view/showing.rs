@@ -6,7 +6,7 @@ use egui_phosphor::regular as icon;
 
 use super::{ModelView, Subject};
 use crate::action::{Action, LookAsk};
-use crate::command::Command;
+use crate::command::{Command, LookCommand, ViewportCommand};
 use crate::stage::Stage;
 use crate::theme::{Theme, space, type_size};
 
@@ -63,7 +63,11 @@ pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: 
         None => drop(ui.weak("Click a node to compare with it")),
     }
     ui.separator();
-    for command in [Command::Follow, Command::Lock, Command::Wipe] {
+    for command in [
+        Command::Look(LookCommand::Follow),
+        Command::Look(LookCommand::Lock),
+        Command::Look(LookCommand::Compare),
+    ] {
         ui.weak(format!("{}  {}", subject.keys.shown(command), command.title()));
     }
 }
@@ -72,11 +76,11 @@ pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: 
 pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Action>) {
     ui.set_min_width(200.0);
     for command in [
-        Command::FrameModel,
-        Command::Front,
-        Command::Right,
-        Command::Top,
-        Command::Lens,
+        Command::Viewport(ViewportCommand::ShowAll),
+        Command::Viewport(ViewportCommand::Front),
+        Command::Viewport(ViewportCommand::Right),
+        Command::Viewport(ViewportCommand::Top),
+        Command::Viewport(ViewportCommand::Lens),
     ] {
         let keys = subject.keys.shown(command);
         let entry = ui.add(egui::Button::new(command.title()).shortcut_text(keys));
@@ -85,8 +89,8 @@ pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Act
             asked.push(Action::Do(command));
         }
     }
-    let look = subject.keys.shown(Command::FocusModel);
-    ui.weak(format!("{look}  {}", Command::FocusModel.title()));
+    let look = subject.keys.shown(Command::Viewport(ViewportCommand::Focus));
+    ui.weak(format!("{look}  {}", Command::Viewport(ViewportCommand::Focus).title()));
 }
 
 /// Says on the picture what it shows; of two pictures, on either side of the line between them.

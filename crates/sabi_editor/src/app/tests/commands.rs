@@ -8,9 +8,12 @@ use sabi_graph::NodeId;
 use super::super::bars::{ARRANGE, EDIT};
 use super::Window;
 use super::hands::id;
-use crate::command::{Chord, Command, Habit, Scope};
+use crate::command::{
+    ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, Habit, LookCommand, Scope, WindowCommand,
+};
 use crate::dock::Panel;
 use crate::files::{PathFor, Question};
+use crate::key_map::Chord;
 
 /// Two masks in a blend, which is a layer's mask; the layer on paint is the material.
 const NODES: &str = r#"
@@ -80,80 +83,112 @@ impl Window {
 type Proof = (&'static [&'static str], fn(&mut Window, &Before) -> bool);
 
 fn proof(command: Command) -> Option<Proof> {
-    on_nodes(command)
-        .or_else(|| on_places(command))
-        .or_else(|| of_looks(command))
+    match command {
+        Command::File(command) => of_file(command),
+        Command::Window(command) => of_window(command),
+        Command::Graph(command) => of_graph(command),
+        Command::Arrange(command) => Some(of_arrange(command)),
+        Command::Canvas(command) => of_canvas(command),
+        Command::Look(command) => of_look(command),
+        Command::Viewport(_) | Command::Texture(_) | Command::Favorite(_) => None,
+    }
 }
 
-fn on_nodes(command: Command) -> Option<Proof> {
+fn of_file(command: FileCommand) -> Option<Proof> {
     let proof: Proof = match command {
-        Command::AddMenu => (&[], |window, _| {
-            let is_open = window.has("Find a node");
-            window.key(Key::Escape);
-            is_open && !window.has("Find a node")
+        FileCommand::Open => (&[], |window, _| window.is_asked_for(&PathFor::Open)),
+        FileCommand::SaveAs => (&[], |window, _| window.is_asked_for(&PathFor::Save)),
+        FileCommand::Export => (&[], |window, _| {
+            window.editor().rects.contains_key(&Panel::Export) && window.says("Name the folder for the textures")
         }),
-        Command::Delete => (&["mix"], |window, _| {
-            window.desk().graph().len() == 5 && window.reads(&id("layer"), "mask").is_empty()
-        }),
-        Command::Heal => (&["mix"], |window, _| {
-            window.desk().graph().len() == 5 && window.reads(&id("layer"), "mask") == "clouds"
-        }),
-        Command::CutNodes => (&["mix"], |window, _| window.desk().graph().len() == 5),
-        Command::TakeOut => (&["mix"], |window, _| {
-            window.desk().graph().len() == 6
-                && window.reads(&id("layer"), "mask") == "clouds"
-                && window.reads(&id("mix"), "below").is_empty()
-        }),
-        Command::SwapInputs => (&["mix"], |window, _| {
-            window.reads(&id("mix"), "below") == "dots" && window.reads(&id("mix"), "above") == "clouds"
-        }),
-        Command::Mute => (&["mix"], |window, _| {
-            window.desk().node(&id("mix")).expect("a node").muted
-        }),
-        Command::Duplicate => (&["mix"], |window, _| {
-            let copy = window.desk().selected_one().expect("the copy").clone();
-            window.desk().graph().len() == 7 && window.reads(&copy, "below").is_empty()
-        }),
-        Command::DuplicateWired => (&["mix"], |window, _| {
-            let copy = window.desk().selected_one().expect("the copy").clone();
-            copy != id("mix") && window.reads(&copy, "below") == "clouds"
-        }),
-        Command::Frame => (&["clouds", "dots"], |window, _| {
-            window.desk().graph().frames().len() == 1
-        }),
-        Command::Rename => (&["mix"], |window, _| {
-            window.keys(Modifiers::COMMAND, Key::A);
-            window.typed("Worn");
-            window.key(Key::Enter);
-            window.desk().title(&id("mix")) == "Worn"
-        }),
-        Command::Group => (&["mix", "clouds"], |window, _| {
-            window.desk().document().groups.len() == 1
-        }),
-        Command::Undo | Command::Redo | Command::Ungroup | Command::Enter | Command::Leave => return None,
-        _ => return None,
+        FileCommand::New | FileCommand::Save => return None,
     };
     Some(proof)
 }
 
-fn on_places(command: Command) -> Option<Proof> {
+fn of_window(command: WindowCommand) -> Option<Proof> {
     let proof: Proof = match command {
-        Command::AlignLeft => (&["clouds", "dots"], |window, _| window.place("dots")[0] == 0.0),
-        Command::AlignRight => (&["clouds", "dots"], |window, _| window.place("clouds")[0] == 10.0),
-        Command::AlignTop => (&["clouds", "mix"], |window, _| window.place("mix")[1] == 0.0),
-        Command::AlignBottom => (&["clouds", "mix"], |window, before| {
+        WindowCommand::NextPanel | WindowCommand::PreviousPanel => {
+            (&[], |window, _| window.editor().active != Panel::Canvas)
+        }
+        WindowCommand::Help => (&["mix"], |window, _| {
+            window.editor().rects.contains_key(&Panel::Page) && window.has("blend/mask")
+        }),
+        WindowCommand::UseView => (&[], |window, _| {
+            let is_use = !window.editor().rects.contains_key(&Panel::Canvas);
+            window.keys(Modifiers::COMMAND, Key::Space);
+            is_use && window.editor().rects.contains_key(&Panel::Canvas)
+        }),
+        WindowCommand::Larger => (&[], |window, _| window.is_scaled(1.1)),
+        WindowCommand::Smaller => (&[], |window, _| window.is_scaled(1.0 / 1.1)),
+        WindowCommand::Keys => return None,
+    };
+    Some(proof)
+}
+
+fn of_graph(command: GraphCommand) -> Option<Proof> {
+    let proof: Proof = match command {
+        GraphCommand::Delete => (&["mix"], |window, _| {
+            window.desk().graph().len() == 5 && window.reads(&id("layer"), "mask").is_empty()
+        }),
+        GraphCommand::Heal => (&["mix"], |window, _| {
+            window.desk().graph().len() == 5 && window.reads(&id("layer"), "mask") == "clouds"
+        }),
+        GraphCommand::Cut => (&["mix"], |window, _| window.desk().graph().len() == 5),
+        GraphCommand::TakeOut => (&["mix"], |window, _| {
+            window.desk().graph().len() == 6
+                && window.reads(&id("layer"), "mask") == "clouds"
+                && window.reads(&id("mix"), "below").is_empty()
+        }),
+        GraphCommand::SwapInputs => (&["mix"], |window, _| {
+            window.reads(&id("mix"), "below") == "dots" && window.reads(&id("mix"), "above") == "clouds"
+        }),
+        GraphCommand::Mute => (&["mix"], |window, _| {
+            window.desk().node(&id("mix")).expect("a node").muted
+        }),
+        GraphCommand::Duplicate => (&["mix"], |window, _| {
+            let copy = window.desk().selected_one().expect("the copy").clone();
+            window.desk().graph().len() == 7 && window.reads(&copy, "below").is_empty()
+        }),
+        GraphCommand::DuplicateWired => (&["mix"], |window, _| {
+            let copy = window.desk().selected_one().expect("the copy").clone();
+            copy != id("mix") && window.reads(&copy, "below") == "clouds"
+        }),
+        GraphCommand::Frame => (&["clouds", "dots"], |window, _| {
+            window.desk().graph().frames().len() == 1
+        }),
+        GraphCommand::Group => (&["mix", "clouds"], |window, _| {
+            window.desk().document().groups.len() == 1
+        }),
+        GraphCommand::Undo
+        | GraphCommand::Redo
+        | GraphCommand::Copy
+        | GraphCommand::Paste
+        | GraphCommand::Ungroup
+        | GraphCommand::Enter
+        | GraphCommand::Leave => return None,
+    };
+    Some(proof)
+}
+
+fn of_arrange(command: ArrangeCommand) -> Proof {
+    match command {
+        ArrangeCommand::AlignLeft => (&["clouds", "dots"], |window, _| window.place("dots")[0] == 0.0),
+        ArrangeCommand::AlignRight => (&["clouds", "dots"], |window, _| window.place("clouds")[0] == 10.0),
+        ArrangeCommand::AlignTop => (&["clouds", "mix"], |window, _| window.place("mix")[1] == 0.0),
+        ArrangeCommand::AlignBottom => (&["clouds", "mix"], |window, before| {
             let bottom = |node: &str| window.place(node)[1] + window.desk().size(&id(node))[1];
             (bottom("clouds") - bottom("mix")).abs() < 1.0 && window.places() != before.places
         }),
-        Command::Straighten => (&["clouds", "mix"], |window, _| {
+        ArrangeCommand::Straighten => (&["clouds", "mix"], |window, _| {
             let [one, other] = [window.port(&id("clouds"), "mask"), window.port(&id("mix"), "below")];
             (one.y - other.y).abs() < 1.0
         }),
-        Command::LayOut => (&[], |window, before| {
+        ArrangeCommand::LayOut => (&[], |window, before| {
             window.places() != before.places && window.place("mix")[0] < window.place("layer")[0]
         }),
-        Command::SelectAll => (&[], |window, _| window.desk().selection().len() == 6),
-        Command::SelectUp => (&["mix"], |window, _| {
+        ArrangeCommand::SelectAll => (&[], |window, _| window.desk().selection().len() == 6),
+        ArrangeCommand::SelectUp => (&["mix"], |window, _| {
             window
                 .desk()
                 .selection()
@@ -161,7 +196,7 @@ fn on_places(command: Command) -> Option<Proof> {
                 .map(NodeId::as_str)
                 .eq(["clouds", "dots", "mix"])
         }),
-        Command::SelectDown => (&["mix"], |window, _| {
+        ArrangeCommand::SelectDown => (&["mix"], |window, _| {
             window
                 .desk()
                 .selection()
@@ -169,63 +204,63 @@ fn on_places(command: Command) -> Option<Proof> {
                 .map(NodeId::as_str)
                 .eq(["layer", "mix", "out"])
         }),
-        _ => return None,
+    }
+}
+
+fn of_canvas(command: CanvasCommand) -> Option<Proof> {
+    let proof: Proof = match command {
+        CanvasCommand::AddMenu => (&[], |window, _| {
+            let is_open = window.has("Find a node");
+            window.key(Key::Escape);
+            is_open && !window.has("Find a node")
+        }),
+        CanvasCommand::Rename => (&["mix"], |window, _| {
+            window.keys(Modifiers::COMMAND, Key::A);
+            window.typed("Worn");
+            window.key(Key::Enter);
+            window.desk().title(&id("mix")) == "Worn"
+        }),
+        CanvasCommand::ShowSelected => (&["clouds"], |window, before| {
+            let rect = window.rect(&id("clouds"));
+            window.zoom() >= before.zoom && (rect.center() - window.on_canvas([0.5, 0.5])).length() < 2.0
+        }),
+        CanvasCommand::ShowAll => (&[], |window, before| {
+            let at = window.on_canvas([0.5, 0.5]);
+            window.wheel(at, 300.0);
+            let key = window.editor().keys().shown(Command::Canvas(CanvasCommand::ShowAll));
+            window.chord(&key);
+            (window.screen([0.0, 0.0]) - before.screen).length() < 1.0
+        }),
+        CanvasCommand::NextPort | CanvasCommand::PreviousPort | CanvasCommand::Wire => return None,
     };
     Some(proof)
 }
 
-fn of_looks(command: Command) -> Option<Proof> {
+fn of_look(command: LookCommand) -> Option<Proof> {
     let proof: Proof = match command {
-        Command::FrameSelected => (&["clouds"], |window, before| {
-            let rect = window.rect(&id("clouds"));
-            window.zoom() >= before.zoom && (rect.center() - window.on_canvas([0.5, 0.5])).length() < 2.0
-        }),
-        Command::FrameAll => (&[], |window, before| {
-            let at = window.on_canvas([0.5, 0.5]);
-            window.wheel(at, 300.0);
-            let key = window.editor().keys().shown(Command::FrameAll);
-            window.chord(&key);
-            (window.screen([0.0, 0.0]) - before.screen).length() < 1.0
-        }),
-        Command::Preview => (&["mix"], |window, _| {
+        LookCommand::Preview => (&["mix"], |window, _| {
             let editor = window.harness.state_mut();
             let is_shown = editor.shown.as_ref().is_some_and(|node| node.node == "mix");
             is_shown && editor.settings.follows && editor.seen() == Seen::Node(editor.chosen(&id("mix")))
         }),
-        Command::Follow => (&["mix"], |window, _| {
+        LookCommand::Follow => (&["mix"], |window, _| {
             let follows = window.editor().settings.follows;
             window.harness.state_mut().settings.follows = true;
             !follows
         }),
-        Command::Lock => (&["mix"], |window, _| {
+        LookCommand::Lock => (&["mix"], |window, _| {
             let locked = window.harness.state_mut().locked.take();
             locked.is_some_and(|node| node.node == "mix")
         }),
-        Command::Flat => (&[], |window, _| {
+        LookCommand::FlatPictures => (&[], |window, _| {
             std::mem::take(&mut window.harness.state_mut().settings.is_flat)
         }),
-        Command::MiniMap => (&[], |window, _| {
+        LookCommand::MiniMap => (&[], |window, _| {
             let is_shown = window.has("Mini map");
             window.key(Key::N);
             is_shown && !window.has("Mini map")
         }),
-        Command::NextPanel | Command::PreviousPanel => (&[], |window, _| window.editor().active != Panel::Canvas),
-        Command::Help => (&["mix"], |window, _| {
-            window.editor().rects.contains_key(&Panel::Page) && window.has("blend/mask")
-        }),
-        Command::UseView => (&[], |window, _| {
-            let is_use = !window.editor().rects.contains_key(&Panel::Canvas);
-            window.keys(Modifiers::COMMAND, Key::Space);
-            is_use && window.editor().rects.contains_key(&Panel::Canvas)
-        }),
-        Command::Larger => (&[], |window, _| window.is_scaled(1.1)),
-        Command::Smaller => (&[], |window, _| window.is_scaled(1.0 / 1.1)),
-        Command::Open => (&[], |window, _| window.is_asked_for(&PathFor::Open)),
-        Command::SaveAs => (&[], |window, _| window.is_asked_for(&PathFor::Save)),
-        Command::Export => (&[], |window, _| {
-            window.editor().rects.contains_key(&Panel::Export) && window.says("Name the folder for the textures")
-        }),
-        _ => return None,
+        LookCommand::Compare => return None,
     };
     Some(proof)
 }
@@ -355,10 +390,10 @@ fn undo_redo_groups_and_files_by_their_keys() {
     for (habit, name) in Habit::ALL {
         let mut window = window_with(habit);
         let before = window.prepare(&["mix", "clouds"], Scope::Canvas);
-        window.chord(Command::Group.keys(habit)[0]);
+        window.chord(Command::Graph(GraphCommand::Group).keys(habit)[0]);
         let group = window.desk().selected_one().expect("an instance").clone();
         let grouped = window.text();
-        for enter in Command::Enter.keys(habit) {
+        for enter in Command::Graph(GraphCommand::Enter).keys(habit) {
             window.chord(enter);
             assert_eq!(window.desk().path().len(), 1, "{enter} in {name}");
             window.key(Key::Escape);
@@ -369,8 +404,8 @@ fn undo_redo_groups_and_files_by_their_keys() {
                 "the instance that was left is selected"
             );
         }
-        for undo in Command::Undo.keys(habit) {
-            for redo in Command::Redo.keys(habit) {
+        for undo in Command::Graph(GraphCommand::Undo).keys(habit) {
+            for redo in Command::Graph(GraphCommand::Redo).keys(habit) {
                 window.chord(undo);
                 assert_eq!(window.text(), before.text, "{undo} in {name}");
                 window.chord(redo);
@@ -378,7 +413,7 @@ fn undo_redo_groups_and_files_by_their_keys() {
             }
         }
         window.harness.state_mut().desk.select([group]);
-        window.chord(Command::Ungroup.keys(habit)[0]);
+        window.chord(Command::Graph(GraphCommand::Ungroup).keys(habit)[0]);
         assert_eq!(window.desk().document().groups.len(), 0, "{name}");
         window.chord("Ctrl+S");
         assert!(!window.harness.state_mut().desk.session.is_dirty(), "{name}");

@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable, by};
 use super::Window;
 use super::commands::window_with;
 use super::hands::id;
-use crate::command::{Command, Habit, Scope};
+use crate::command::{Command, Habit, Scope, ViewportCommand};
 use crate::dock::Panel;
 
 impl Window {
@@ -36,11 +36,11 @@ fn the_model_follows_its_keys() {
     let mut window = window_with(Habit::Default);
     window.until("a picture of the model", |editor| editor.model_view.drawn > 0);
     for (command, keys) in [
-        (Command::Front, "1"),
-        (Command::Right, "3"),
-        (Command::Top, "7"),
-        (Command::Lens, "5"),
-        (Command::FrameModel, "A"),
+        (Command::Viewport(ViewportCommand::Front), "1"),
+        (Command::Viewport(ViewportCommand::Right), "3"),
+        (Command::Viewport(ViewportCommand::Top), "7"),
+        (Command::Viewport(ViewportCommand::Lens), "5"),
+        (Command::Viewport(ViewportCommand::ShowAll), "A"),
     ] {
         window.prepare(&[], Scope::Viewport);
         let camera = window.editor().model_view.camera;

@@ -6,7 +6,7 @@ use egui_phosphor::regular as icon;
 
 use crate::action::Action;
 use crate::app::Editor;
-use crate::command::Command;
+use crate::command::{Command, Favorite};
 use crate::search::Candidate;
 use crate::theme::{Theme, space, type_size};
 
@@ -99,10 +99,10 @@ impl Shown<'_> {
             let at = pos2(rect.left() + 4.0, rect.center().y);
             write(at, Align2::LEFT_CENTER, icon::STAR, type_size::BODY, color);
         }
-        let command = self.number.and_then(Command::of_favorite);
-        if let Some(command) = command {
+        let favorite = self.number.and_then(|number| Favorite::ALL.get(number));
+        if let Some(favorite) = favorite {
             let at = pos2(rect.left() + 20.0, rect.center().y);
-            let keys = editor.keys().shown(command);
+            let keys = editor.keys().shown(Command::Favorite(*favorite));
             write(at, Align2::LEFT_CENTER, &keys, type_size::SMALL, theme.quiet);
         }
         let mut left = rect.left() + STAR;

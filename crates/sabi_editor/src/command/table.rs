@@ -1,0 +1,121 @@
+//! The commands: their names in settings, titles, scopes and keys.
+
+use super::{
+    ArrangeCommand, CanvasCommand, Command, Favorite, FileCommand, GraphCommand, Habit, LookCommand, Scope,
+    TextureCommand, ViewportCommand, WindowCommand,
+};
+
+/// Rows of a command, its name in settings, title, scope, keys, and keys of Blender and Substance where they differ. The
+/// generated matches have no wildcard: a command without a row does not compile.
+macro_rules! commands {
+    ($($group:ident($kind:ident::$variant:ident) $name:literal $title:literal $scope:ident [$($chord:literal),*]
+        $(blender [$($blender:literal),*])? $(substance [$($substance:literal),*])?;)*) => {
+        impl Command {
+            /// All commands, in the order of the list of keys.
+            pub(crate) const ALL: &[Command] = &[$(Command::$group($kind::$variant),)*];
+
+            /// Name in settings.
+            pub(crate) fn name(self) -> &'static str {
+                match self { $(Command::$group($kind::$variant) => $name,)* }
+            }
+
+            /// Title in menus and in the list of keys.
+            pub(crate) fn title(self) -> &'static str {
+                match self { $(Command::$group($kind::$variant) => $title,)* }
+            }
+
+            /// Scope in which its keys mean it.
+            pub(crate) fn scope(self) -> Scope {
+                match self { $(Command::$group($kind::$variant) => Scope::$scope,)* }
+            }
+
+            /// Keys that ask for it.
+            pub(crate) fn keys(self, habit: Habit) -> &'static [&'static str] {
+                match self {
+                    $(Command::$group($kind::$variant) => {
+                        let usual: &'static [&'static str] = &[$($chord),*];
+                        $(if habit == Habit::Blender { return &[$($blender),*]; })?
+                        $(if habit == Habit::Substance { return &[$($substance),*]; })?
+                        let _ = habit;
+                        usual
+                    })*
+                }
+            }
+        }
+    };
+}
+
+commands! {
+    File(FileCommand::New) "new" "New graph" Window ["Ctrl+N"];
+    File(FileCommand::Open) "open" "Open…" Window ["Ctrl+O"];
+    File(FileCommand::Save) "save" "Save" Window ["Ctrl+S"];
+    File(FileCommand::SaveAs) "save_as" "Save as…" Window ["Ctrl+Shift+S"];
+    File(FileCommand::Export) "export" "Export textures" Window ["Ctrl+E"];
+    Graph(GraphCommand::Undo) "undo" "Undo" Window ["Ctrl+Z"];
+    Graph(GraphCommand::Redo) "redo" "Redo" Window ["Ctrl+Shift+Z", "Ctrl+Y"];
+    Window(WindowCommand::NextPanel) "next_panel" "To the next panel" Window ["F6"];
+    Window(WindowCommand::PreviousPanel) "previous_panel" "To the panel before" Window ["Shift+F6"];
+    Window(WindowCommand::Help) "help" "Page of the node" Window ["F1"];
+    Window(WindowCommand::Keys) "keys" "All keys" Window ["Ctrl+/"];
+    Window(WindowCommand::UseView) "use_view" "Only model and knobs" Window ["Ctrl+Space"];
+    Window(WindowCommand::Larger) "larger" "Larger interface" Window ["Ctrl+="];
+    Window(WindowCommand::Smaller) "smaller" "Smaller interface" Window ["Ctrl+-"];
+    Canvas(CanvasCommand::AddMenu) "add_menu" "Add a node" Canvas ["Tab", "Space", "Shift+A"] blender ["Shift+A", "Space"] substance ["Space", "Tab"];
+    Graph(GraphCommand::Delete) "delete" "Delete" Canvas ["Delete"] blender ["X", "Delete"];
+    Graph(GraphCommand::Heal) "heal" "Delete and heal the wires" Canvas ["Backspace"] blender ["Ctrl+X", "Backspace"];
+    Graph(GraphCommand::TakeOut) "take_out" "Take out of the wires" Canvas ["Alt+X"];
+    Graph(GraphCommand::SwapInputs) "swap_inputs" "Swap inputs" Canvas ["X", "Alt+S"] blender ["Alt+S"];
+    Graph(GraphCommand::Mute) "mute" "Mute" Canvas ["M"];
+    Graph(GraphCommand::Duplicate) "duplicate" "Duplicate" Canvas ["Ctrl+D"] blender ["Shift+D", "Ctrl+D"];
+    Graph(GraphCommand::DuplicateWired) "duplicate_wired" "Duplicate with inputs" Canvas ["Ctrl+Shift+D"];
+    Graph(GraphCommand::Copy) "copy" "Copy" Canvas ["Ctrl+C"];
+    Graph(GraphCommand::Cut) "cut_nodes" "Cut" Canvas ["Ctrl+X"] blender [];
+    Graph(GraphCommand::Paste) "paste" "Paste" Canvas ["Ctrl+V"];
+    Graph(GraphCommand::Frame) "frame" "Frame the nodes" Canvas ["C"] blender ["Ctrl+J"];
+    Canvas(CanvasCommand::Rename) "rename" "Rename" Canvas ["F2"];
+    Arrange(ArrangeCommand::AlignLeft) "align_left" "Align left" Canvas ["Ctrl+Left"];
+    Arrange(ArrangeCommand::AlignRight) "align_right" "Align right" Canvas ["Ctrl+Right"];
+    Arrange(ArrangeCommand::AlignTop) "align_top" "Align top" Canvas ["Ctrl+Up"];
+    Arrange(ArrangeCommand::AlignBottom) "align_bottom" "Align bottom" Canvas ["Ctrl+Down"];
+    Arrange(ArrangeCommand::Straighten) "straighten" "Straighten wires" Canvas ["Q"];
+    Arrange(ArrangeCommand::LayOut) "lay_out" "Lay out" Canvas ["L"] blender ["V"];
+    Arrange(ArrangeCommand::SelectAll) "select_all" "Select all" Canvas ["Ctrl+A"] blender ["A", "Ctrl+A"];
+    Arrange(ArrangeCommand::SelectUp) "select_up" "Select what it is made from" Canvas ["Ctrl+L"] blender ["L"];
+    Arrange(ArrangeCommand::SelectDown) "select_down" "Select what is made from it" Canvas ["Ctrl+Shift+L"] blender ["Shift+L"];
+    Canvas(CanvasCommand::ShowSelected) "frame_selected" "Show the selected nodes" Canvas ["F"] blender ["Period", "F"];
+    Canvas(CanvasCommand::ShowAll) "frame_all" "Show all nodes" Canvas ["A"] blender ["Home"];
+    Graph(GraphCommand::Group) "group" "Group" Canvas ["Ctrl+G"];
+    Graph(GraphCommand::Ungroup) "ungroup" "Ungroup" Canvas ["Ctrl+Shift+G"] blender ["Ctrl+Alt+G"];
+    Graph(GraphCommand::Enter) "enter" "Go into the group" Canvas ["Enter"] blender ["Tab", "Enter"];
+    Graph(GraphCommand::Leave) "leave" "Go out of the group" Canvas ["Escape"];
+    Look(LookCommand::Preview) "preview" "Show in the 2D view and on the model" Canvas ["V", "R"] blender ["R"];
+    Look(LookCommand::Follow) "follow" "The model follows clicks, or shows the outputs" Canvas ["Shift+V"];
+    Look(LookCommand::Lock) "lock" "Keep showing this node on the model" Canvas ["P"];
+    Look(LookCommand::FlatPictures) "flat" "Pictures on nodes flat or on the model" Canvas ["T"];
+    Look(LookCommand::MiniMap) "mini_map" "Mini map" Canvas ["N"];
+    Canvas(CanvasCommand::NextPort) "next_port" "To the next port" Canvas ["Ctrl+Tab", "J"];
+    Canvas(CanvasCommand::PreviousPort) "previous_port" "To the port before" Canvas ["Ctrl+Shift+Tab", "K"];
+    Canvas(CanvasCommand::Wire) "wire" "Take or drop a wire at the port" Canvas ["W"];
+    Favorite(Favorite::First) "favorite_1" "Add favorite 1" Canvas ["1"];
+    Favorite(Favorite::Second) "favorite_2" "Add favorite 2" Canvas ["2"];
+    Favorite(Favorite::Third) "favorite_3" "Add favorite 3" Canvas ["3"];
+    Favorite(Favorite::Fourth) "favorite_4" "Add favorite 4" Canvas ["4"];
+    Favorite(Favorite::Fifth) "favorite_5" "Add favorite 5" Canvas ["5"];
+    Favorite(Favorite::Sixth) "favorite_6" "Add favorite 6" Canvas ["6"];
+    Favorite(Favorite::Seventh) "favorite_7" "Add favorite 7" Canvas ["7"];
+    Favorite(Favorite::Eighth) "favorite_8" "Add favorite 8" Canvas ["8"];
+    Favorite(Favorite::Ninth) "favorite_9" "Add favorite 9" Canvas ["9"];
+    Viewport(ViewportCommand::ShowAll) "frame_model" "Show all of the model" Viewport ["A", "Home"] blender ["Home"];
+    Viewport(ViewportCommand::Focus) "focus_model" "Look at what is under the pointer" Viewport ["F"] blender ["Period", "F"];
+    Viewport(ViewportCommand::Front) "front" "From the front" Viewport ["1"];
+    Viewport(ViewportCommand::Right) "right" "From the right" Viewport ["3"];
+    Viewport(ViewportCommand::Top) "top" "From above" Viewport ["7"];
+    Viewport(ViewportCommand::Lens) "lens" "Perspective or parallel" Viewport ["5"];
+    Viewport(ViewportCommand::Wires) "wires" "Triangles" Viewport ["W"];
+    Viewport(ViewportCommand::Seams) "seams" "Seams" Viewport ["S"];
+    Look(LookCommand::Compare) "wipe" "Compare with the locked node" Viewport ["C"];
+    Texture(TextureCommand::ShowAll) "fit_flat" "Show all of the texture" Flat ["A", "F"];
+    Texture(TextureCommand::TrueSize) "true_size" "One texel a pixel" Flat ["Z"];
+    Texture(TextureCommand::Tile) "tile_flat" "Repeat the texture" Flat ["T"];
+    Texture(TextureCommand::UvWires) "uv_wires" "UV wires" Flat ["W"];
+}
