@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overlap, Overrides, Prepared, Seams,
-    Silent, WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, NoProgress, Overlap, Overrides,
+    Prepared, Seams, WorkpieceOptions, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
 use sabi_image::{Pixels, decode};
@@ -66,7 +66,9 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         force: false,
         model: copies_model,
     };
-    bake(&request, &Silent).unwrap_or_else(|error| panic!("{error}")).json
+    bake(&request, &NoProgress)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .json
 }
 
 /// Codes of a map, as a part of the highest one.
@@ -144,7 +146,7 @@ fn a_copied_model_shows_the_maps_that_were_baked() {
         }])
     );
     let model = ModelOptions::new(&project("assets/meshes/bench.glb"), SIZE);
-    let owned = owned(&Prepared::open(&model, &Silent).unwrap()).remove(0);
+    let owned = owned(&Prepared::open(&model, &NoProgress).unwrap()).remove(0);
     let both = |file: &str| [&first, &second].map(|folder| folder.join(file));
     for (channel, steps) in STEPS {
         let furthest = furthest(&owned, both(&format!("bench_{channel}.png")));
@@ -276,7 +278,7 @@ fn a_copy_of_an_unwrapped_model_shows_the_maps_that_were_baked_and_keeps_its_tri
             ..ModelOptions::new(&copy, SIZE)
         };
         bake_to(&folder.path().join("second"), MODEL, of_copy(uv), false);
-        let prepared = Prepared::open(&of_copy(uv), &Silent).unwrap();
+        let prepared = Prepared::open(&of_copy(uv), &NoProgress).unwrap();
         assert_eq!(prepared.unwrapped, None, "{name}");
         assert_shows(folder.path(), name.split('.').next().unwrap(), &prepared);
         // The sets that the model had are still there, before the new one.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use sabi_engine::{ModelOptions, Prepared, Silent};
+use sabi_engine::{ModelOptions, NoProgress, Prepared};
 use sabi_export::{Cover, NONE, Padding, PaddingMap, SetLayout, layouts};
 use sabi_surface::atlas::GHOST_BIT;
 use serde_json::Value as Json;
@@ -39,7 +39,7 @@ fn baked(folder: &Path, graph: &str) -> (Json, SetLayout, Vec<Option<u32>>) {
     fs::write(folder.join("cube.obj"), CUBE).expect("a model");
     fs::write(folder.join("cube.mtl"), LIBRARY).expect("a library");
     let options = ModelOptions::new(&folder.join("cube.obj"), SIZE);
-    let prepared = Prepared::open(&options, &Silent).expect("a model");
+    let prepared = Prepared::open(&options, &NoProgress).expect("a model");
     let report = bake_to(folder, graph, options, true);
     let atlas = &prepared.atlas;
     let layout = layouts(atlas).remove(0);

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Seams, Silent,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, NoProgress, Overrides, Seams,
     WorkpieceOptions, bake,
 };
 use serde_json::Value as Json;
@@ -67,7 +67,7 @@ impl Baked {
             model: false,
             report: None,
         };
-        let baked = bake(&request, &Silent).unwrap_or_else(|error| panic!("{error}\n{graph}"));
+        let baked = bake(&request, &NoProgress).unwrap_or_else(|error| panic!("{error}\n{graph}"));
         Baked {
             _folder: folder,
             output,

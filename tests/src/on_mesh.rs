@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Pictures, Prepared,
-    Silent, Workpiece, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, NoProgress, OpenGraph, Overrides, Pictures,
+    Prepared, Workpiece, WorkpieceOptions,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -100,7 +100,7 @@ impl OnMesh {
             caster: CasterChoice::Auto,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         };
-        let mut prepared = Prepared::open(&options.model, &Silent).unwrap_or_else(|error| panic!("{error}"));
+        let mut prepared = Prepared::open(&options.model, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
         tamper(&mut prepared);
         let tables = prepared.tables(&open.document.fit, open.document.seed);
         let workpiece = Workpiece::assemble(&open, flat_graph(graph), kinds, prepared, device(), &options)
@@ -126,7 +126,7 @@ impl OnMesh {
         let plan = plan.unwrap_or_else(|error| panic!("{node}: {error}"));
         let mut run = self
             .workpiece
-            .run(&plan, SUBMISSION, &Silent, asked.cache)
+            .run(&plan, SUBMISSION, &NoProgress, asked.cache)
             .unwrap_or_else(|error| panic!("{node}: {error}"));
         let result = &plan.results[0];
         let gpu = &self.workpiece.gpu;

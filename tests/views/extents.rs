@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use sabi_engine::{DEFAULT_BUDGET_BYTES, Silent};
+use sabi_engine::{DEFAULT_BUDGET_BYTES, NoProgress};
 use sabi_gpu::{RunOptions, ValueExtent};
 use sabi_plan::Mode;
 use sabi_surface::atlas::GHOST_BIT;
@@ -21,7 +21,7 @@ fn extents(nodes: &str, node: &str, plane: usize, component: u32, mesh: &Path) -
     let plan = workpiece
         .plan(&[target], Mode::Bake { fuse: true }, limits)
         .expect("a plan");
-    let run = workpiece.run(&plan, SUBMISSION, &Silent, None).expect("a run");
+    let run = workpiece.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
     let slot = plan.results[0].slots[plane];
     let (gpu, surface) = (&workpiece.gpu, &workpiece.surface);
     let texture = run.texture(slot).expect("a result");

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use glam::Vec2;
-use sabi_engine::{Kinds, ModelOptions, Overlap, Prepared, Seams, Silent};
+use sabi_engine::{Kinds, ModelOptions, NoProgress, Overlap, Prepared, Seams};
 use sabi_gpu::Shares;
 use sabi_image::{LinearPicture, decode};
 use sabi_plan::Mode as Plans;
@@ -155,7 +155,7 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     let limits = workpiece.gpu.limits();
     let plan = workpiece.plan(&[target], Plans::Bake { fuse: true }, limits);
     let plan = plan.expect("a plan");
-    let mut run = workpiece.run(&plan, SUBMISSION, &Silent, None).expect("a run");
+    let mut run = workpiece.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
     let (gpu, surface) = (&workpiece.gpu, &workpiece.surface);
     let shares = Shares::upload(gpu, workpiece.prepared.shared_texels().groups()).expect("shares");
     // One of each format that a plane has.
@@ -187,7 +187,7 @@ fn models_whose_charts_have_places_of_their_own_share_nothing() {
                 overlap,
                 ..ModelOptions::new(&mesh, 64)
             };
-            let prepared = Prepared::open(&model, &Silent).expect("a model");
+            let prepared = Prepared::open(&model, &NoProgress).expect("a model");
             assert!(prepared.shared_texels().is_empty(), "{}", mesh.display());
         }
     }

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use sabi_engine::{Progress, Stage};
+use sabi_engine::{Phase, Progress};
 
 use crate::exit::Exit;
 use crate::terminal::Terminal;
@@ -16,7 +16,7 @@ static CANCELED: AtomicBool = AtomicBool::new(false);
 /// One bar that shows the stage at hand.
 pub(crate) struct Bars {
     bar: ProgressBar,
-    stage: Mutex<Option<Stage>>,
+    phase: Mutex<Option<Phase>>,
 }
 
 impl Bars {
@@ -34,7 +34,7 @@ impl Bars {
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         Bars {
             bar,
-            stage: Mutex::new(None),
+            phase: Mutex::new(None),
         }
     }
 
@@ -51,12 +51,12 @@ impl Drop for Bars {
 }
 
 impl Progress for Bars {
-    fn advance(&self, stage: Stage, done: usize, of: usize) {
-        tracing::debug!(stage = stage.label(), done, of);
-        let mut shown = self.stage.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if *shown != Some(stage) {
-            *shown = Some(stage);
-            self.bar.set_message(stage.label());
+    fn advance(&self, phase: Phase, done: usize, of: usize) {
+        tracing::debug!(phase = phase.label(), done, of);
+        let mut shown = self.phase.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if *shown != Some(phase) {
+            *shown = Some(phase);
+            self.bar.set_message(phase.label());
         }
         self.bar.set_length(of as u64);
         self.bar.set_position(done as u64);

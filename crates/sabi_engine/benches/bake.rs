@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, Overrides, Prepared, Seams, Silent,
-    WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, NoProgress, Overrides, Prepared,
+    Seams, WorkpieceOptions, bake,
 };
 use serde_json::{Value as Json, json};
 
@@ -80,7 +80,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         model: false,
     };
     let started = Instant::now();
-    let mut json = bake(&request, &Silent).unwrap().json;
+    let mut json = bake(&request, &NoProgress).unwrap().json;
     json["whole_ms"] = json!(started.elapsed().as_secs_f64() * 1000.0);
     json
 }
@@ -185,7 +185,7 @@ fn bench_atlas(folder: &Path, model: &Path) {
             ..options.clone()
         };
         let started = Instant::now();
-        Prepared::link(loaded, &options, &Silent).unwrap();
+        Prepared::link(loaded, &options, &NoProgress).unwrap();
         started.elapsed()
     };
     row("linked atlas at 2048², cold", seconds(|| atlas(None)), "s", "≤ 0.6 s");

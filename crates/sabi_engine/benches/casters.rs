@@ -16,7 +16,7 @@ use bvh2::Bvh2;
 use glam::Vec3;
 use kernel::{Kernel, Machine};
 use rayon::prelude::*;
-use sabi_engine::{ModelOptions, Prepared, Silent};
+use sabi_engine::{ModelOptions, NoProgress, Prepared};
 use sabi_surface::bvh::Bvh;
 
 const SIZE: u32 = 1024;
@@ -116,7 +116,7 @@ fn main() {
     let shared = root.join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
     let own = root.join("assets/meshes/figure.glb");
     let model = if shared.is_file() { shared } else { own };
-    let prepared = Prepared::open(&ModelOptions::new(&model, SIZE), &Silent).unwrap();
+    let prepared = Prepared::open(&ModelOptions::new(&model, SIZE), &NoProgress).unwrap();
     let machine = Machine::open();
     println!("{}\n\n| what | measured | aim |\n|---|---|---|", machine.name);
     for reach in REACHES {

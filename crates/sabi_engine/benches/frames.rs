@@ -12,7 +12,7 @@ use sabi_engine::view::{
     Target, ViewModel, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Shown, Silent,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, NoProgress, OpenGraph, Overrides, Shown,
     Workpiece, WorkpieceOptions, show,
 };
 
@@ -43,7 +43,7 @@ fn workpiece(root: &Path) -> Workpiece {
     let open = OpenGraph::open(&path).unwrap();
     let kinds = Kinds::beside(Some(&path));
     let graph = Workpiece::flat_graph(&open, &kinds, &options).unwrap();
-    Workpiece::open(&open, graph, kinds, &options, &Silent).unwrap()
+    Workpiece::open(&open, graph, kinds, &options, &NoProgress).unwrap()
 }
 
 /// Light from above and less from below, which is all that a time depends on.
@@ -77,7 +77,7 @@ impl Stage {
     fn new() -> Stage {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let mut workpiece = workpiece(&root);
-        let shown = show(&mut workpiece, None, &Silent).unwrap();
+        let shown = show(&mut workpiece, None, &NoProgress).unwrap();
         let gpu = &workpiece.gpu;
         let name = &gpu.summary().name;
         println!("{name}\n\n| what | measured | aim on a software driver |\n|---|---|---|");

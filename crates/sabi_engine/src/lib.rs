@@ -8,16 +8,16 @@ mod error;
 mod evaluating;
 mod live;
 mod opening;
+mod phases;
 mod rendering;
 mod session;
 mod source;
-mod stages;
 
 pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
     BakeRequest, DEFAULT_NAMES, default_padding, export_channels, export_presets, why_no_names,
 };
-pub use baking::report::{BakeReport, StageTime, StageTimes};
+pub use baking::report::{BakeReport, PhaseTime, PhaseTimes};
 pub use baking::seams::Seams;
 pub use baking::sets::TextureSet;
 pub use catalog::check::{CheckReport, check};
@@ -41,11 +41,11 @@ pub use opening::kinds::Kinds;
 pub use opening::pictures::Pictures;
 pub use opening::prepare::{ModelOptions, Overlap, Prepared, Unwrapping};
 pub use opening::setting::read_setting;
+pub use phases::{NoProgress, Phase, Progress};
 pub use rendering::displace::Triangles;
 pub use rendering::render::{RenderRequest, Turns, render};
 pub use session::watch::{Changes, Watched, Watcher};
 pub use session::{FileState, Recovery, Session, moved_to, recoveries, with_whole_paths};
-pub use stages::{Progress, Silent, Stage};
 
 pub use sabi_export::SetKey;
 pub use sabi_gpu::{

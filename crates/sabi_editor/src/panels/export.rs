@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use egui::{RichText, TextEdit, Ui};
-use sabi_engine::{BakeReport, DEFAULT_NAMES, Stage, export_channels, export_presets, why_no_names};
+use sabi_engine::{BakeReport, DEFAULT_NAMES, Phase, export_channels, export_presets, why_no_names};
 
 use crate::app::Editor;
 use crate::errand::Failed;
@@ -248,8 +248,8 @@ fn switches(editor: &mut Editor, ui: &mut Ui) {
 fn progress(editor: &mut Editor, ui: &mut Ui, theme: &Theme) {
     if let Some(running) = &editor.panels.export.running {
         let watch = &running.watch;
-        let stage = watch.stage.lock().ok().and_then(|stage| *stage);
-        ui.label(stage.map_or("Reading", Stage::label));
+        let phase = watch.phase.lock().ok().and_then(|phase| *phase);
+        ui.label(phase.map_or("Reading", Phase::label));
         ui.add(
             egui::ProgressBar::new(watch.share())
                 .fill(theme.accent)

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, OpenGraph, Overrides, Pictures, Prepared,
-    Silent, Workpiece, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, NoProgress, OpenGraph, Overrides, Pictures,
+    Prepared, Workpiece, WorkpieceOptions,
 };
 use sabi_gpu::StepTime;
 use sabi_graph::{Document, Fit};
@@ -82,7 +82,7 @@ fn bare_seconds(prepared: &Prepared, rays: u32) -> (f64, f64) {
 }
 
 pub(crate) fn bench_rays(folder: &Path, model: &Path) {
-    let prepared = Prepared::open(&ModelOptions::new(model, SIZE), &Silent).unwrap();
+    let prepared = Prepared::open(&ModelOptions::new(model, SIZE), &NoProgress).unwrap();
     for (rays, aim) in [(16, "≤ 1.6 s"), (3, "≤ 0.4 s")] {
         let nodes = format!(
             r#""rays": {{ "kind": "surface/occlusion", "params": {{ "distance": {DISTANCE}, "rays": {rays} }} }}"#
@@ -121,14 +121,14 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
     let kinds = Kinds::builtin();
     let graph = Workpiece::flat_graph(&open, &kinds, &options).unwrap();
     let node = graph.nodes.iter().position(|node| node.id == "filter").unwrap();
-    let mut workpiece = Workpiece::open(&open, graph, kinds, &options, &Silent).unwrap();
+    let mut workpiece = Workpiece::open(&open, graph, kinds, &options, &NoProgress).unwrap();
     workpiece.times_ghosts = true;
     let limits = workpiece.gpu.limits();
     let target = Target { node, port: None };
     let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, limits).unwrap();
     let mut once = || {
         let report = workpiece
-            .run(&plan, Duration::from_millis(200), &Silent, None)
+            .run(&plan, Duration::from_millis(200), &NoProgress, None)
             .unwrap()
             .report;
         let of_filter = |step: &&StepTime| step.nodes.iter().any(|(id, _)| id == "filter");

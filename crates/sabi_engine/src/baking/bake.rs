@@ -14,7 +14,7 @@ use crate::baking::bake_request::{BakeRequest, names, set_options};
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::maps::{MapWriter, SetWork, WrittenMaps};
 use crate::baking::model_copy::{open_copy, write_copy};
-use crate::baking::report::{BakeReport, StageTime, StageTimes};
+use crate::baking::report::{BakeReport, PhaseTime, PhaseTimes};
 use crate::baking::seams::ModelSeams;
 use crate::baking::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::catalog::describe::describe_unwrapping;
@@ -26,8 +26,8 @@ use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{refuse_faults, targets};
 use crate::opening::overlap::Sharing;
+use crate::phases::Progress;
 use crate::source::{OUTPUT_MASK, mask_name};
-use crate::stages::Progress;
 
 /// How long one submission of a bake may take: long enough to cost nothing, short enough to be stopped.
 const SUBMISSION: Duration = Duration::from_millis(200);
@@ -36,7 +36,7 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
     // A preset that is not there is said before anything is read.
     set_options(request)?;
-    let mut reading = StageTime::default();
+    let mut reading = PhaseTime::default();
     let open = reading.time(|| OpenGraph::open(&request.graph))?;
     let kinds = reading.time(|| Kinds::beside(Some(&request.graph)));
     bake_open(&open, kinds, reading, request, progress)
@@ -49,14 +49,14 @@ pub fn bake_graph(
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    bake_open(open, kinds.clone(), StageTime::default(), request, progress)
+    bake_open(open, kinds.clone(), PhaseTime::default(), request, progress)
 }
 
 /// Bakes what was read in that time.
 fn bake_open(
     open: &OpenGraph,
     kinds: Kinds,
-    mut reading: StageTime,
+    mut reading: PhaseTime,
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
@@ -101,7 +101,7 @@ fn bake_open(
     let committed = encode.time(|| writer.commit())?;
     let told = workpiece.warnings.iter().chain(&written.warnings);
     let warnings: Vec<String> = told.cloned().chain(left_over(&committed)).collect();
-    let times = StageTimes {
+    let times = PhaseTimes {
         encode,
         ..workpiece.times
     };
@@ -225,7 +225,7 @@ fn report(
     plan: &Plan,
     run: &Run,
     written: &WrittenMaps,
-    times: &StageTimes,
+    times: &PhaseTimes,
     warnings: &[String],
 ) -> Json {
     let adapter = workpiece.gpu.summary();

@@ -19,7 +19,7 @@ use crate::error::EngineError;
 use crate::evaluating::looks::slot_of;
 use crate::evaluating::workpiece::{Workpiece, stop_if_canceled};
 use crate::opening::prepare::{Overlap, Prepared};
-use crate::stages::{Progress, Stage};
+use crate::phases::{Phase, Progress};
 
 /// One texture set: which results go into it.
 pub(crate) struct SetWork<'p> {
@@ -239,7 +239,7 @@ impl Maps<'_> {
 
     fn advance(&mut self) {
         self.done += 1;
-        self.progress.advance(Stage::Encode, self.done, self.of);
+        self.progress.advance(Phase::Encode, self.done, self.of);
     }
 
     /// Writes one channel; without a plane, what the channel is where nothing sets it. Planes are one for each result of the

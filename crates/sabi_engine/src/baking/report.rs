@@ -6,11 +6,11 @@ use serde_json::{Value as Json, json};
 
 /// Time of one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StageTime {
+pub struct PhaseTime {
     total: Duration,
 }
 
-impl StageTime {
+impl PhaseTime {
     /// Runs something and adds the time it took.
     pub fn time<T>(&mut self, work: impl FnOnce() -> T) -> T {
         let started = Instant::now();
@@ -37,24 +37,24 @@ impl StageTime {
 
 /// Times of a bake's stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StageTimes {
+pub struct PhaseTimes {
     /// Reading the graph, the model and its pictures, and bringing the surface onto the device.
-    pub load: StageTime,
+    pub load: PhaseTime,
     /// Building or finding the atlas.
-    pub atlas: StageTime,
+    pub atlas: PhaseTime,
     /// Opening the device and making kernels.
-    pub compile: StageTime,
+    pub compile: PhaseTime,
     /// Running the plan.
-    pub run: StageTime,
+    pub run: PhaseTime,
     /// Normals, readback, padding, encoding and writing.
-    pub encode: StageTime,
+    pub encode: PhaseTime,
 }
 
 /// What a bake did; [`BakeReport::json`] is the report file.
 #[derive(Clone, Debug)]
 pub struct BakeReport {
     /// Stage times.
-    pub times: StageTimes,
+    pub times: PhaseTimes,
     /// Names of the files that were written.
     pub files: Vec<String>,
     /// What the artist should know.
@@ -63,7 +63,7 @@ pub struct BakeReport {
     pub json: Json,
 }
 
-impl StageTimes {
+impl PhaseTimes {
     /// As `stages_ms` of the report.
     pub fn json(&self) -> Json {
         json!({

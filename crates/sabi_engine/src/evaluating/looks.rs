@@ -15,8 +15,8 @@ use crate::baking::sets::shown_by;
 use crate::error::EngineError;
 use crate::evaluating::workpiece::Workpiece;
 use crate::opening::modelless::targets;
+use crate::phases::Progress;
 use crate::source::SOURCE_MODEL;
-use crate::stages::Progress;
 
 /// A node that shows the model's own looks. No node of a file can have its id.
 pub(crate) fn models_own(fit: Fit) -> FlatNode {

@@ -16,7 +16,7 @@ use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::refuse_faults;
-use crate::stages::Progress;
+use crate::phases::Progress;
 
 /// What to look at.
 pub struct PreviewRequest {

@@ -15,7 +15,7 @@ use sabi_nodes::kind::Shape;
 use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Target};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
-use crate::baking::report::StageTimes;
+use crate::baking::report::PhaseTimes;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::kept_rays::KeptRays;
 use crate::opening::document::OpenGraph;
@@ -27,8 +27,8 @@ use crate::opening::pictures::{Pictures, files};
 use crate::opening::prepare::{ModelOptions, Prepared};
 use crate::opening::setting::read_typed;
 use crate::opening::solidity;
+use crate::phases::{Phase, Progress};
 use crate::source::{Files, Ground, Sources};
-use crate::stages::{Progress, Stage};
 
 /// How a graph and a model are brought together.
 pub struct WorkpieceOptions {
@@ -71,7 +71,7 @@ pub struct Workpiece {
     /// Whether runs say what part of them the filling of ghosts took.
     pub times_ghosts: bool,
     /// Time spent so far.
-    pub times: StageTimes,
+    pub times: PhaseTimes,
     /// What the artist should know.
     pub warnings: Vec<String>,
     pictures: Pictures,
@@ -121,9 +121,9 @@ impl Workpiece {
         options: &WorkpieceOptions,
         progress: &dyn Progress,
     ) -> Result<Workpiece, EngineError> {
-        let mut times = StageTimes::default();
+        let mut times = PhaseTimes::default();
         let model = times.load.time(|| Prepared::load_model(&options.model))?;
-        progress.advance(Stage::Load, 1, 1);
+        progress.advance(Phase::Load, 1, 1);
         stop_if_canceled(progress)?;
         let prepared = times.atlas.time(|| Prepared::link(model, &options.model, progress))?;
         stop_if_canceled(progress)?;
@@ -145,7 +145,7 @@ impl Workpiece {
         options: &WorkpieceOptions,
     ) -> Result<Workpiece, EngineError> {
         let prepared: Arc<Prepared> = prepared.into();
-        let mut times = StageTimes::default();
+        let mut times = PhaseTimes::default();
         let chosen = (options.fit.or(options.overrides.fit), options.overrides.seed);
         let fit = chosen.0.unwrap_or(open.document.fit);
         let seed = chosen.1.unwrap_or(open.document.seed);
@@ -314,7 +314,7 @@ impl Workpiece {
         let options = RunOptions {
             submission,
             is_canceled: &|| progress.is_canceled(),
-            progress: &|done, of| progress.advance(Stage::Run, done, of),
+            progress: &|done, of| progress.advance(Phase::Run, done, of),
             budget_bytes: self.budget_bytes,
             caster: self.caster,
             hits: self.hits,

@@ -7,7 +7,7 @@ use sabi_graph::NodeRef;
 
 use super::news::News;
 use super::wish::{Seen, Wish};
-use crate::stages::{Progress, Stage};
+use crate::phases::{Phase, Progress};
 
 /// A wish, and when it was made.
 pub(super) type Asked = (Wish, Instant);
@@ -150,7 +150,7 @@ pub(super) struct Watch<'m> {
 }
 
 impl Progress for Watch<'_> {
-    fn advance(&self, _stage: Stage, _done: usize, _of: usize) {}
+    fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {
         if self.gives_way {
@@ -168,7 +168,7 @@ pub(super) struct LoadWatch<'m> {
 }
 
 impl Progress for LoadWatch<'_> {
-    fn advance(&self, _stage: Stage, _done: usize, _of: usize) {}
+    fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {
         self.mailbox.is_other_wanted(self.model_revision)

@@ -21,7 +21,7 @@ use crate::evaluating::sheet::Sheet;
 use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions};
 use crate::opening::prepare::{ModelOptions, Prepared};
 use crate::opening::solidity;
-use crate::stages::Progress;
+use crate::phases::Progress;
 
 /// Rays of a place in a first picture while a knob is moved.
 const FEW_RAYS: u32 = 8;

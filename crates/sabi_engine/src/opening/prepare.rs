@@ -14,7 +14,7 @@ use sabi_surface::unwrap::{UnwrapReport, unwrap_cached};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::workpiece::stop_if_canceled;
-use crate::stages::{Progress, Stage};
+use crate::phases::{Phase, Progress};
 
 /// How a model is taken.
 #[derive(Clone, Debug)]
@@ -115,7 +115,7 @@ impl Prepared {
     /// Loads a model and builds its atlas.
     pub fn open(options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
         let model = Prepared::load_model(options)?;
-        progress.advance(Stage::Load, 1, 1);
+        progress.advance(Phase::Load, 1, 1);
         stop_if_canceled(progress)?;
         Prepared::link(model, options, progress)
     }
@@ -136,7 +136,7 @@ impl Prepared {
 
     /// Builds or finds the atlas of a loaded model, which is unwrapped first where it has to be.
     pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
-        progress.advance(Stage::Atlas, 0, 1);
+        progress.advance(Phase::Atlas, 0, 1);
         let refused = |error: String| refused(options, &error);
         let mut unwrapped = None;
         if options.overlap == Overlap::Unwrap || needs_unwrapping(&mut model) {
@@ -153,7 +153,7 @@ impl Prepared {
             built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
         }
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(with_advice(&error)))?;
-        progress.advance(Stage::Atlas, 1, 1);
+        progress.advance(Phase::Atlas, 1, 1);
         let (largest_side, farthest) = extents(&model);
         // After the atlas, which has refused meshes that are not whole.
         let pieces = Arc::new(Pieces::of(&model.mesh));
@@ -176,11 +176,11 @@ impl Prepared {
 
     /// The same model with an atlas of another size. The model itself, and what rays are followed through, are shared.
     pub fn resized(&self, options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
-        progress.advance(Stage::Atlas, 0, 1);
+        progress.advance(Phase::Atlas, 0, 1);
         let cache_dir = options.cache_folder();
         let built = cached(cache_dir.as_deref(), &self.model.mesh, &AtlasOptions::new(options.size));
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, &with_advice(&error)))?;
-        progress.advance(Stage::Atlas, 1, 1);
+        progress.advance(Phase::Atlas, 1, 1);
         Ok(Prepared {
             model: self.model.clone(),
             unwrapped: self.unwrapped.clone(),

@@ -19,8 +19,8 @@ use crate::opening::document::OpenGraph;
 use crate::opening::environment::{environment_of, read_panorama};
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{refuse_faults, targets};
+use crate::phases::{Phase, Progress};
 use crate::rendering::displace::{Triangles, displaced_model};
-use crate::stages::{Progress, Stage};
 
 /// The view in which there is light.
 const LIT: &str = "material";
@@ -236,7 +236,7 @@ fn draw(
             renderer.draw(gpu, &mut canvas, scene, &shot)?;
             encode(&canvas.read(gpu)?, request.background == Background::Clear)?
         })?;
-        progress.advance(Stage::Draw, frame as usize + 1, frames as usize);
+        progress.advance(Phase::Draw, frame as usize + 1, frames as usize);
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
-use sabi_engine::{BakeReport, EngineError, Progress, Stage};
+use sabi_engine::{BakeReport, EngineError, Phase, Progress};
 
 use crate::errand::Errand;
 
@@ -22,13 +22,13 @@ pub(super) struct Watch {
     pub(super) is_canceled: AtomicBool,
     done: AtomicUsize,
     of: AtomicUsize,
-    pub(super) stage: Mutex<Option<Stage>>,
+    pub(super) phase: Mutex<Option<Phase>>,
 }
 
 impl Progress for Watch {
-    fn advance(&self, stage: Stage, done: usize, of: usize) {
-        if let Ok(mut known) = self.stage.lock() {
-            *known = Some(stage);
+    fn advance(&self, phase: Phase, done: usize, of: usize) {
+        if let Ok(mut known) = self.phase.lock() {
+            *known = Some(phase);
         }
         self.done.store(done, Ordering::Relaxed);
         self.of.store(of, Ordering::Relaxed);

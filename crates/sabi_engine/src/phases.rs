@@ -2,7 +2,7 @@
 
 /// A part of a bake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
+pub enum Phase {
     /// Reading the graph and the model.
     Load,
     /// Building the linked atlas.
@@ -15,15 +15,15 @@ pub enum Stage {
     Draw,
 }
 
-impl Stage {
+impl Phase {
     /// A word for progress bars.
     pub fn label(self) -> &'static str {
         match self {
-            Stage::Load => "Reading",
-            Stage::Atlas => "Linking the atlas",
-            Stage::Run => "Evaluating",
-            Stage::Encode => "Writing maps",
-            Stage::Draw => "Drawing",
+            Phase::Load => "Reading",
+            Phase::Atlas => "Linking the atlas",
+            Phase::Run => "Evaluating",
+            Phase::Encode => "Writing maps",
+            Phase::Draw => "Drawing",
         }
     }
 }
@@ -31,17 +31,17 @@ impl Stage {
 /// Listens to a piece of work, and may stop it.
 pub trait Progress: Sync {
     /// So many of so many steps of a stage are done.
-    fn advance(&self, stage: Stage, done: usize, of: usize);
+    fn advance(&self, stage: Phase, done: usize, of: usize);
     /// Asked between steps; `true` ends the work with an error of kind `Interrupted`.
     fn is_canceled(&self) -> bool;
 }
 
 /// Listens to nothing.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
+pub struct NoProgress;
 
-impl Progress for Silent {
-    fn advance(&self, _stage: Stage, _done: usize, _of: usize) {}
+impl Progress for NoProgress {
+    fn advance(&self, _stage: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {
         false
