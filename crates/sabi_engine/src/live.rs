@@ -11,7 +11,7 @@ mod model;
 mod news;
 mod set_aside;
 mod show;
-mod stage;
+mod sized_model;
 mod studio;
 mod thumbnails;
 mod trouble;

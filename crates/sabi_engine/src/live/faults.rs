@@ -121,8 +121,8 @@ impl Worker {
                 .collect();
             faults.waiting.extend(waiting);
         }
-        if let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) {
-            for sentence in stage.warnings() {
+        if let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) {
+            for sentence in sized.warnings() {
                 if faults.warnings.iter().all(|known| known.sentence != *sentence) {
                     faults.warnings.push(Warning {
                         node: None,

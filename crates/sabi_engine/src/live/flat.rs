@@ -5,11 +5,11 @@ use sabi_gpu::Run;
 use sabi_plan::{Plan, PlannedResult};
 use sabi_view::Pixels;
 
-use super::stage::{Stage, no_sheet};
+use super::sized_model::{SizedModel, no_sheet};
 use crate::error::EngineError;
 use crate::evaluating::sheet::rgb_codes;
 
-impl Stage {
+impl SizedModel {
     /// A result in texture space as a square picture, clear where no chart lies.
     pub(super) fn flat_picture(
         &mut self,

@@ -12,7 +12,7 @@ use super::mailbox::Watch;
 use super::model::Loaded;
 use super::news::{Inspected, News};
 use super::show::evaluate;
-use super::stage::Stage;
+use super::sized_model::SizedModel;
 use super::trouble::Trouble;
 use super::worker::{Job, Worker};
 use crate::error::EngineError;
@@ -47,19 +47,19 @@ impl Worker {
             sent,
             ..
         } = self;
-        let Some(stage) = loaded.as_mut().and_then(Loaded::best) else {
+        let Some(sized) = loaded.as_mut().and_then(Loaded::best) else {
             return Ok(());
         };
         let wanted = std::slice::from_ref(target);
-        let plan = stage.plan(&laid.sound(wanted, broken));
+        let plan = sized.plan(&laid.sound(wanted, broken));
         let Some(result) = plan.results.first() else {
             return Ok(());
         };
         let set = job.wish.set;
-        let marks = [u8::from(stage.is_approximate(&plan))];
+        let marks = [u8::from(sized.is_approximate(&plan))];
         let key = *blake3::Hasher::new()
             .update(&marks)
-            .update(&stage.model.index_of_set(set).to_le_bytes())
+            .update(&sized.model.index_of_set(set).to_le_bytes())
             .update(&result.key)
             .finalize()
             .as_bytes();
@@ -71,12 +71,12 @@ impl Worker {
             mailbox,
             gives_way: true,
         };
-        let (plan, run) = evaluate(stage, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
+        let (plan, run) = evaluate(sized, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
         let Some(result) = plan.results.first() else {
             return Ok(());
         };
-        let size = stage.model.size;
-        let values = stage.inspected((&plan, &run), result, set);
+        let size = sized.model.size;
+        let values = sized.inspected((&plan, &run), result, set);
         let values = values.map_err(|error| Trouble::of_results(gpu, size, error))?;
         sent.inspected = now;
         self.tell(News::Inspected {
@@ -88,7 +88,7 @@ impl Worker {
     }
 }
 
-impl Stage {
+impl SizedModel {
     fn inspected(
         &mut self,
         (plan, run): (&Plan, &Run),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::faults::Laid;
 use super::mailbox::LoadWatch;
 use super::news::News;
-use super::stage::Stage;
+use super::sized_model::SizedModel;
 use super::trouble::Trouble;
 use super::worker::{Job, Worker};
 use crate::error::{EngineError, ErrorKind};
@@ -17,21 +17,21 @@ pub(super) struct Loaded {
     /// How it is taken; its size is the full one.
     options: Arc<ModelOptions>,
     /// None where the full size is no larger.
-    pub(super) coarse: Option<Stage>,
+    pub(super) coarse: Option<SizedModel>,
     /// None until it was asked for, and where it cannot be had.
-    pub(super) full: Option<Stage>,
+    pub(super) full: Option<SizedModel>,
     /// Whether the full size cannot be had.
     is_full_refused: bool,
 }
 
 impl Loaded {
     /// Where first pictures are made.
-    pub(super) fn first(&mut self) -> Option<&mut Stage> {
+    pub(super) fn first(&mut self) -> Option<&mut SizedModel> {
         self.coarse.as_mut().or(self.full.as_mut())
     }
 
     /// Where coarse or full pictures are made.
-    pub(super) fn at(&mut self, is_coarse: bool) -> Option<&mut Stage> {
+    pub(super) fn at(&mut self, is_coarse: bool) -> Option<&mut SizedModel> {
         match is_coarse {
             true => self.coarse.as_mut(),
             false => self.full.as_mut(),
@@ -39,11 +39,11 @@ impl Loaded {
     }
 
     /// Where pictures are as good as they get.
-    pub(super) fn best(&mut self) -> Option<&mut Stage> {
+    pub(super) fn best(&mut self) -> Option<&mut SizedModel> {
         self.full.as_mut().or(self.coarse.as_mut())
     }
 
-    pub(super) fn stages(&self) -> impl Iterator<Item = &Stage> {
+    pub(super) fn sizes(&self) -> impl Iterator<Item = &SizedModel> {
         self.coarse.iter().chain(&self.full)
     }
 }
@@ -68,17 +68,17 @@ impl Worker {
         };
         let opened = Prepared::open(&options, &watch).and_then(|prepared| {
             let model = (Arc::new(prepared), wish.model_revision);
-            Stage::new(&self.gpu, &self.options, wish, model, is_coarse)
+            SizedModel::new(&self.gpu, &self.options, wish, model, is_coarse)
         });
-        let stage = match opened {
-            Ok(stage) => stage,
+        let sized = match opened {
+            Ok(sized) => sized,
             Err(error) => return self.model_failed(job, error),
         };
-        self.tell_model(&stage);
+        self.tell_model(&sized);
         let (coarse, full) = if is_coarse {
-            (Some(stage), None)
+            (Some(sized), None)
         } else {
-            (None, Some(stage))
+            (None, Some(sized))
         };
         self.loaded = Some(Loaded {
             revision: wish.model_revision,
@@ -111,15 +111,15 @@ impl Worker {
             model_revision: loaded.revision,
         };
         let resized = coarse.model.prepared.resized(&options, &watch);
-        let stage = resized.and_then(|prepared| {
+        let sized = resized.and_then(|prepared| {
             let model = (Arc::new(prepared), loaded.revision);
-            Stage::new(&self.gpu, &self.options, &job.wish, model, false)
+            SizedModel::new(&self.gpu, &self.options, &job.wish, model, false)
         });
-        match stage {
-            Ok(stage) => {
-                self.tell_model(&stage);
+        match sized {
+            Ok(sized) => {
+                self.tell_model(&sized);
                 if let Some(loaded) = &mut self.loaded {
-                    loaded.full = Some(stage);
+                    loaded.full = Some(sized);
                 }
                 Ok(())
             }
@@ -132,14 +132,14 @@ impl Worker {
 
     /// Puts the graph on the first size of the model.
     pub(super) fn take_graph(&mut self, job: &Job, laid: &Laid) -> Result<(), Trouble> {
-        let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) else {
+        let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
             return Ok(());
         };
-        let is_another = stage.take(&job.wish, &laid.graph);
+        let is_another = sized.take(&job.wish, &laid.graph);
         if is_another.map_err(|error| Trouble::of(&self.gpu, error))?
-            && let Some(stage) = self.loaded.as_mut().and_then(Loaded::first)
+            && let Some(sized) = self.loaded.as_mut().and_then(Loaded::first)
         {
-            let news = model_news(stage);
+            let news = model_news(sized);
             self.tell(news);
         }
         Ok(())
@@ -150,24 +150,24 @@ impl Worker {
         self.load_full(job)?;
         let Some(Loaded {
             coarse,
-            full: Some(stage),
+            full: Some(sized),
             ..
         }) = &mut self.loaded
         else {
             return Ok(false);
         };
         if coarse.is_some() {
-            let is_another = stage.take(&job.wish, &laid.graph);
+            let is_another = sized.take(&job.wish, &laid.graph);
             if is_another.map_err(|error| Trouble::of(&self.gpu, error))? {
-                let news = model_news(stage);
+                let news = model_news(sized);
                 self.tell(news);
             }
         }
         Ok(true)
     }
 
-    fn tell_model(&self, stage: &Stage) {
-        self.tell(model_news(stage));
+    fn tell_model(&self, sized: &SizedModel) {
+        self.tell(model_news(sized));
     }
 
     fn model_failed(&self, job: &Job, error: EngineError) -> Result<(), Trouble> {
@@ -184,10 +184,10 @@ impl Worker {
     }
 }
 
-fn model_news(stage: &Stage) -> News {
+fn model_news(sized: &SizedModel) -> News {
     News::Model {
-        model_revision: stage.model.model_revision,
-        size: stage.model.size,
-        model: stage.model.clone(),
+        model_revision: sized.model.model_revision,
+        size: sized.model.size,
+        model: sized.model.clone(),
     }
 }

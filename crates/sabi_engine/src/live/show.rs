@@ -10,7 +10,7 @@ use sabi_plan::{Plan, Target};
 use super::faults::{Broken, Laid};
 use super::mailbox::Watch;
 use super::news::News;
-use super::stage::{Stage, Tally};
+use super::sized_model::{SizedModel, Tally};
 use super::trouble::Trouble;
 use super::wish::Seen;
 use super::worker::{Job, Key, SentShown, Worker};
@@ -95,14 +95,14 @@ impl Worker {
             mailbox,
             ..
         } = self;
-        let Some(stage) = loaded.as_mut().and_then(|loaded| loaded.at(is_coarse)) else {
+        let Some(sized) = loaded.as_mut().and_then(|loaded| loaded.at(is_coarse)) else {
             return Ok(());
         };
-        let Some((wanted, shows)) = wanted(stage, laid, seen) else {
+        let Some((wanted, shows)) = wanted(sized, laid, seen) else {
             return Ok(());
         };
-        let plan = stage.plan(&laid.sound(&wanted, broken));
-        let key = shown_key(stage, &plan, &shows);
+        let plan = sized.plan(&laid.sound(&wanted, broken));
+        let key = shown_key(sized, &plan, &shows);
         let before = sent.shown.get(seen).copied();
         let is_known = |sent: SentShown| if is_coarse { sent.coarse } else { sent.full } == Some(key);
         if is_coarse {
@@ -115,11 +115,11 @@ impl Worker {
             return Ok(());
         }
         let watch = Watch { mailbox, gives_way };
-        let (plan, mut run) = evaluate(stage, laid, broken, (&wanted, plan), &watch, &mut job.tally)?;
+        let (plan, mut run) = evaluate(sized, laid, broken, (&wanted, plan), &watch, &mut job.tally)?;
         if is_worse(&plan) {
             return Ok(());
         }
-        let looks = stage.looks(&plan, &mut run, &shows, &watch)?;
+        let looks = sized.looks(&plan, &mut run, &shows, &watch)?;
         let now = SentShown {
             coarse: job.coarse_keys.get(seen).copied(),
             full: (!is_coarse).then_some(key),
@@ -130,7 +130,7 @@ impl Worker {
             revision: job.wish.revision,
             seen: seen.clone(),
             is_coarse,
-            model: stage.model.clone(),
+            model: sized.model.clone(),
             shown: Arc::new(looks),
         };
         self.tell(news);
@@ -141,27 +141,27 @@ impl Worker {
     /// Lets go of all results, so that the next wish has room.
     pub(super) fn forget_results(&mut self) {
         if let Some(loaded) = &mut self.loaded {
-            for stage in loaded.coarse.iter_mut().chain(&mut loaded.full) {
-                stage.cache.clear();
+            for sized in loaded.coarse.iter_mut().chain(&mut loaded.full) {
+                sized.cache.clear();
             }
         }
     }
 }
 
 /// The results that something seen is made of, and which material shows which; none where a node is not there.
-fn wanted(stage: &Stage, laid: &Laid, seen: &Seen) -> Option<(Vec<Target>, Shows)> {
+fn wanted(sized: &SizedModel, laid: &Laid, seen: &Seen) -> Option<(Vec<Target>, Shows)> {
     match seen {
         Seen::Node(node) => Some((vec![laid.found.get(node)?.clone()], Shows::One)),
         Seen::Outputs => {
-            let nodes: BTreeSet<usize> = stage.serving.values().copied().collect();
-            Some((targets(nodes), Shows::Served(stage.serving.clone())))
+            let nodes: BTreeSet<usize> = sized.serving.values().copied().collect();
+            Some((targets(nodes), Shows::Served(sized.serving.clone())))
         }
     }
 }
 
 /// Runs a plan for what is wanted; where a node's result cannot be made, another one without what needs it.
 pub(super) fn evaluate(
-    stage: &mut Stage,
+    sized: &mut SizedModel,
     laid: &Laid,
     broken: &mut BTreeMap<String, Broken>,
     (wanted, mut plan): (&[Target], Plan),
@@ -169,13 +169,13 @@ pub(super) fn evaluate(
     tally: &mut Tally,
 ) -> Result<(Plan, Run), Trouble> {
     loop {
-        match stage.run(&plan, watch, tally) {
+        match sized.run(&plan, watch, tally) {
             Ok(run) => return Ok((plan, run)),
             Err(Trouble::Node { node, why }) => {
                 if !laid.take_down(broken, &node, &why) {
                     return Err(Trouble::Failed(EngineError::new(ErrorKind::BadInput, why)));
                 }
-                plan = stage.plan(&laid.sound(wanted, broken));
+                plan = sized.plan(&laid.sound(wanted, broken));
             }
             Err(trouble) => return Err(trouble),
         }
@@ -183,9 +183,9 @@ pub(super) fn evaluate(
 }
 
 /// Names what is shown: what each material wears, and whether that may differ once nothing moves.
-fn shown_key(stage: &Stage, plan: &Plan, shows: &Shows) -> Key {
+fn shown_key(sized: &SizedModel, plan: &Plan, shows: &Shows) -> Key {
     let mut hash = blake3::Hasher::new();
-    hash.update(&[u8::from(stage.is_approximate(plan))]);
+    hash.update(&[u8::from(sized.is_approximate(plan))]);
     match shows {
         Shows::One => plan.results.iter().for_each(|result| {
             hash.update(&result.key);

@@ -11,7 +11,7 @@ use super::mailbox::Watch;
 use super::model::Loaded;
 use super::news::News;
 use super::show::evaluate;
-use super::stage::Stage;
+use super::sized_model::SizedModel;
 use super::studio::Studio;
 use super::trouble::Trouble;
 use super::wish::Wish;
@@ -22,7 +22,7 @@ use crate::evaluating::looks::Shows;
 impl Worker {
     /// Takes pictures of the nodes that give something else than on their last one.
     pub(super) fn show_thumbnails(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
-        let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) else {
+        let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
             return Ok(());
         };
         let nodes = job.wish.thumbnails.iter();
@@ -31,8 +31,8 @@ impl Worker {
             .collect();
         let all: BTreeSet<Target> = targets.iter().map(|(_, target)| target.clone()).collect();
         let all: Vec<Target> = all.into_iter().collect();
-        let plan = stage.plan(&laid.sound(&all, &self.broken));
-        let keys = keys(stage, &plan, &job.wish);
+        let plan = sized.plan(&laid.sound(&all, &self.broken));
+        let keys = keys(sized, &plan, &job.wish);
         for (node, target) in targets {
             let Some(key) = keys.get(&target) else { continue };
             if self.sent.thumbnails.get(&node) == Some(key) {
@@ -74,7 +74,7 @@ impl Worker {
             options,
             ..
         } = self;
-        let Some(stage) = loaded.as_mut().and_then(Loaded::first) else {
+        let Some(sized) = loaded.as_mut().and_then(Loaded::first) else {
             return Ok(None);
         };
         let watch = Watch {
@@ -82,19 +82,19 @@ impl Worker {
             gives_way: true,
         };
         let wanted = std::slice::from_ref(target);
-        let plan = stage.plan(&laid.sound(wanted, broken));
-        let (plan, mut run) = evaluate(stage, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
+        let plan = sized.plan(&laid.sound(wanted, broken));
+        let (plan, mut run) = evaluate(sized, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
         let Some(result) = plan.results.first() else {
             return Ok(None);
         };
-        let size = stage.model.size;
+        let size = sized.model.size;
         let trouble = |error: EngineError| Trouble::of_results(gpu, size, error);
         let side = options.thumbnail_px;
         if job.wish.is_flat {
-            let picture = stage.flat_picture((&plan, &run), result, side, job.wish.set);
+            let picture = sized.flat_picture((&plan, &run), result, side, job.wish.set);
             return picture.map(Some).map_err(trouble);
         }
-        let looks = stage.looks(&plan, &mut run, &Shows::One, &watch)?;
+        let looks = sized.looks(&plan, &mut run, &Shows::One, &watch)?;
         let Some(look) = looks.looks.last() else {
             return Ok(None);
         };
@@ -103,16 +103,16 @@ impl Worker {
         }
         let picture = studio
             .as_mut()
-            .map(|studio| studio.picture(gpu, side, &stage.model, look));
+            .map(|studio| studio.picture(gpu, side, &sized.model, look));
         picture.transpose().map_err(trouble)
     }
 }
 
 /// What the pictures of results show, by the results.
-fn keys(stage: &Stage, plan: &Plan, wish: &Wish) -> BTreeMap<Target, Key> {
-    let marks = [u8::from(stage.is_approximate(plan)), u8::from(wish.is_flat)];
+fn keys(sized: &SizedModel, plan: &Plan, wish: &Wish) -> BTreeMap<Target, Key> {
+    let marks = [u8::from(sized.is_approximate(plan)), u8::from(wish.is_flat)];
     let set = if wish.is_flat {
-        stage.model.index_of_set(wish.set)
+        sized.model.index_of_set(wish.set)
     } else {
         0
     };

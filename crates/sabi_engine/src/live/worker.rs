@@ -13,7 +13,7 @@ use super::faults::Broken;
 use super::mailbox::Mailbox;
 use super::model::Loaded;
 use super::news::{Faults, LiveTimes, News};
-use super::stage::Tally;
+use super::sized_model::Tally;
 use super::studio::Studio;
 use super::trouble::Trouble;
 use super::wish::{LiveOptions, Seen, Wish};
@@ -152,10 +152,10 @@ impl Worker {
         };
         let outcome = self.answer_in_order(&mut job);
         if outcome.is_ok()
-            && let Some(stage) = self.loaded.as_mut().and_then(Loaded::best)
+            && let Some(sized) = self.loaded.as_mut().and_then(Loaded::best)
         {
             // The window picks with it, and must not wait for it.
-            stage.model.prepared.hierarchy();
+            sized.model.prepared.hierarchy();
         }
         if job.tally.steps + job.tally.cache_hits > 0 {
             self.tell_times(&job);
@@ -209,17 +209,17 @@ impl Worker {
             self.show_full(job, &laid)?;
         }
         self.inspect(job, &laid)?;
-        if let Some(stage) = self.loaded.as_mut().and_then(Loaded::first) {
-            stage.look_at_solidity();
+        if let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) {
+            sized.look_at_solidity();
         }
         self.tell_faults(job, &laid);
         Ok(())
     }
 
     fn tell_times(&self, job: &Job) {
-        let stages = self.loaded.iter().flat_map(Loaded::stages);
-        let (texture_bytes, budget_bytes) = stages
-            .map(|stage| stage.cache.bytes())
+        let sizes = self.loaded.iter().flat_map(Loaded::sizes);
+        let (texture_bytes, budget_bytes) = sizes
+            .map(|sized| sized.cache.bytes())
             .fold((0, 0), |(held, allowed), (more, most)| (held + more, allowed + most));
         let times = LiveTimes {
             nodes: job

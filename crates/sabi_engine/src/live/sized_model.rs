@@ -27,7 +27,7 @@ use crate::phases::Progress;
 const FEW_RAYS: u32 = 8;
 
 /// The model at one size.
-pub(super) struct Stage {
+pub(super) struct SizedModel {
     pub(super) workpiece: Workpiece,
     pub(super) cache: ResultCache,
     pub(super) model: Arc<LiveModel>,
@@ -69,7 +69,7 @@ impl Tally {
     }
 }
 
-impl Stage {
+impl SizedModel {
     /// Brings a model onto the device.
     pub(super) fn new(
         gpu: &Arc<Gpu>,
@@ -77,7 +77,7 @@ impl Stage {
         wish: &Wish,
         (prepared, model_revision): (Arc<Prepared>, u64),
         is_coarse: bool,
-    ) -> Result<Stage, EngineError> {
+    ) -> Result<SizedModel, EngineError> {
         let workpiece_options = WorkpieceOptions {
             model: ModelOptions {
                 cache_dir: options.cache_dir.clone(),
@@ -100,7 +100,7 @@ impl Stage {
         } else {
             options.cache_bytes - of_coarse
         };
-        Ok(Stage {
+        Ok(SizedModel {
             model: live_model(&workpiece, model_revision)?,
             workpiece,
             cache: ResultCache::new(cache_bytes),
@@ -142,7 +142,7 @@ impl Stage {
 
     /// The wanted texture set, or the first where the model does not have it, laid out; with what results are read from.
     pub(super) fn sheet(&mut self, wanted: Option<SetKey>) -> Result<(&Workpiece, &TextureSet, &Sheet), EngineError> {
-        let Stage {
+        let SizedModel {
             model,
             sheet,
             workpiece,
