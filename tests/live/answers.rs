@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sabi_engine::{AdapterChoice, Gpu, LiveOptions, News, Seen};
 use sabi_tests::device;
 
-use crate::window::{COARSE, FULL, Window, bytes, graph, node, options, wish};
+use crate::window::{COARSE, FULL, Window, bytes, graph, node, options, request};
 
 /// A layer of rust over a base, where clouds are dense.
 fn rusty(at: f32) -> String {
@@ -22,7 +22,7 @@ fn rusty(at: f32) -> String {
 #[test]
 fn a_wish_is_answered_coarse_first_and_then_at_full_size() {
     let window = Window::new();
-    let told = window.answer(wish(1, graph(&rusty(0.5))));
+    let told = window.answer(request(1, graph(&rusty(0.5))));
     assert_eq!(told.coarse_and_full(), [true, false]);
     let sizes: Vec<u32> = told.shown().iter().map(|(_, _, model, _)| model.size).collect();
     assert_eq!(sizes, [COARSE, FULL]);
@@ -37,9 +37,9 @@ fn a_wish_is_answered_coarse_first_and_then_at_full_size() {
 #[test]
 fn a_size_that_is_no_larger_than_the_coarse_one_is_shown_at_once() {
     let window = Window::new();
-    let small = sabi_engine::Wish {
+    let small = sabi_engine::LiveRequest {
         coarse_size: FULL,
-        ..wish(1, graph(&rusty(0.5)))
+        ..request(1, graph(&rusty(0.5)))
     };
     assert_eq!(window.answer(small).coarse_and_full(), [false]);
 }
@@ -52,29 +52,29 @@ fn a_coarse_picture_that_would_only_flicker_is_left_out() {
         ..options()
     };
     let window = Window::on(gpu, patient);
-    let first = window.answer(wish(1, graph(&rusty(0.5))));
+    let first = window.answer(request(1, graph(&rusty(0.5))));
     assert_eq!(
         first.coarse_and_full(),
         [true, false],
         "nobody knows yet how long it takes"
     );
-    let next = window.answer(wish(2, graph(&rusty(0.6))));
+    let next = window.answer(request(2, graph(&rusty(0.6))));
     assert_eq!(next.coarse_and_full(), [false]);
-    let same = window.answer(wish(3, graph(&rusty(0.6))));
+    let same = window.answer(request(3, graph(&rusty(0.6))));
     assert_eq!(same.coarse_and_full(), [false; 0]);
 }
 
 #[test]
 fn an_edit_evaluates_its_node_and_what_hangs_below_it() {
     let window = Window::new();
-    let first = window.answer(wish(1, graph(&rusty(0.5))));
+    let first = window.answer(request(1, graph(&rusty(0.5))));
     assert_eq!(first.evaluated(), ["base", "clouds", "cut", "rust"]);
-    let edited = window.answer(wish(2, graph(&rusty(0.6))));
+    let edited = window.answer(request(2, graph(&rusty(0.6))));
     assert_eq!(edited.evaluated(), ["cut", "rust"]);
     assert_eq!(edited.times().steps, 4, "two nodes at two sizes");
     assert_eq!(edited.times().cache_hits, 4);
     assert!(edited.times().texture_bytes > 0);
-    let back = window.answer(wish(3, graph(&rusty(0.5))));
+    let back = window.answer(request(3, graph(&rusty(0.5))));
     assert_eq!(back.evaluated(), [""; 0], "what was made before is still known");
     assert_eq!(back.coarse_and_full(), [true, false]);
 }
@@ -82,18 +82,18 @@ fn an_edit_evaluates_its_node_and_what_hangs_below_it() {
 #[test]
 fn what_changes_nothing_that_is_seen_is_not_shown_again() {
     let window = Window::new();
-    window.answer(wish(1, graph(&rusty(0.5))));
+    window.answer(request(1, graph(&rusty(0.5))));
     let more = rusty(0.5) + r#", "aside": { "kind": "noise/cells" }"#;
-    let told = window.answer(wish(2, graph(&more)));
+    let told = window.answer(request(2, graph(&more)));
     assert!(told.shown().is_empty() && told.evaluated().is_empty());
 }
 
 #[test]
 fn a_node_is_shown_in_place_of_the_outputs_and_both_at_once() {
     let window = Window::new();
-    let both = sabi_engine::Wish {
+    let both = sabi_engine::LiveRequest {
         seen: vec![Seen::Outputs, Seen::Node(node("cut")), Seen::Node(node("gone"))],
-        ..wish(1, graph(&rusty(0.5)))
+        ..request(1, graph(&rusty(0.5)))
     };
     let told = window.answer(both);
     let lit: Vec<(bool, bool)> = told
@@ -107,7 +107,7 @@ fn a_node_is_shown_in_place_of_the_outputs_and_both_at_once() {
 #[test]
 fn a_graph_without_outputs_shows_the_model_as_it_came() {
     let window = Window::new();
-    let told = window.answer(wish(1, graph("")));
+    let told = window.answer(request(1, graph("")));
     assert_eq!(told.coarse_and_full(), [true, false]);
 }
 
@@ -117,17 +117,17 @@ fn a_storm_of_wishes_ends_with_the_last_one_and_its_bytes() {
     let last = 40;
     let at = |revision: u64| 0.3 + 0.01 * revision as f32;
     for revision in 0..last {
-        let moving = sabi_engine::Wish {
+        let moving = sabi_engine::LiveRequest {
             is_moving: true,
-            ..wish(revision, graph(&rusty(at(revision))))
+            ..request(revision, graph(&rusty(at(revision))))
         };
-        window.live.ask(moving);
+        window.live.submit(moving);
     }
-    let told = window.answer(wish(last, graph(&rusty(at(last)))));
+    let told = window.answer(request(last, graph(&rusty(at(last)))));
     let shown = told.shown();
     let (revision, is_coarse, _, stormy) = shown.last().expect("a picture");
     assert_eq!((*revision, *is_coarse), (last, false));
-    let fresh = Window::new().answer(wish(last, graph(&rusty(at(last)))));
+    let fresh = Window::new().answer(request(last, graph(&rusty(at(last)))));
     let (.., fresh) = fresh.shown().pop().expect("a picture");
     assert_eq!(bytes(stormy), bytes(fresh));
 }
@@ -135,13 +135,13 @@ fn a_storm_of_wishes_ends_with_the_last_one_and_its_bytes() {
 #[test]
 fn every_wish_that_is_begun_shows_its_first_picture_however_many_follow() {
     let window = Window::new();
-    window.answer(wish(0, graph(&rusty(0.2))));
+    window.answer(request(0, graph(&rusty(0.2))));
     // The next wish comes as soon as there is any news of the last one: none of them is ever at rest.
     let mut coarse = 0;
     for revision in 1..=8 {
         window
             .live
-            .ask(wish(revision, graph(&rusty(0.2 + 0.05 * revision as f32))));
+            .submit(request(revision, graph(&rusty(0.2 + 0.05 * revision as f32))));
         let is_first =
             |news: &News| matches!(news, News::Shown { revision: of, is_coarse: true, .. } if *of == revision);
         let told = window.until(is_first);
@@ -153,8 +153,8 @@ fn every_wish_that_is_begun_shows_its_first_picture_however_many_follow() {
 #[test]
 fn a_newer_wish_ends_the_older_one() {
     let window = Window::new();
-    window.answer(wish(0, graph(&rusty(0.2))));
-    window.live.ask(wish(1, graph(&rusty(0.4))));
+    window.answer(request(0, graph(&rusty(0.2))));
+    window.live.submit(request(1, graph(&rusty(0.4))));
     let is_coarse = |news: &News| {
         matches!(
             news,
@@ -166,7 +166,7 @@ fn a_newer_wish_ends_the_older_one() {
         )
     };
     window.until(is_coarse);
-    let told = window.answer(wish(2, graph(&rusty(0.6))));
+    let told = window.answer(request(2, graph(&rusty(0.6))));
     let is_done = |news: &News| matches!(news, News::Done { revision: 1 });
     assert!(!told.all.iter().any(is_done), "nobody waited for the rest of the first");
     assert_eq!(told.shown().last().map(|(revision, ..)| *revision), Some(2));
@@ -175,9 +175,9 @@ fn a_newer_wish_ends_the_older_one() {
 #[test]
 fn the_exact_values_of_a_node_are_told_once() {
     let window = Window::new();
-    let looking = |revision: u64, at: f32| sabi_engine::Wish {
+    let looking = |revision: u64, at: f32| sabi_engine::LiveRequest {
         inspected: Some(node("cut")),
-        ..wish(revision, graph(&rusty(at)))
+        ..request(revision, graph(&rusty(at)))
     };
     let values = |told: &crate::window::Told| {
         let mut found = told.all.iter().filter_map(|news| match news {
@@ -198,10 +198,10 @@ fn the_exact_values_of_a_node_are_told_once() {
 #[test]
 fn another_fit_is_told_with_a_model_of_its_lengths() {
     let window = Window::new();
-    window.answer(wish(1, graph(&rusty(0.5))));
+    window.answer(request(1, graph(&rusty(0.5))));
     let mut longer = graph(&rusty(0.5));
     longer.document.fit = sabi_engine::Fit::Length(2.0);
-    let told = window.answer(wish(2, longer));
+    let told = window.answer(request(2, longer));
     assert_eq!(told.coarse_and_full(), [true, false]);
     assert!(
         told.shown()
@@ -213,7 +213,7 @@ fn another_fit_is_told_with_a_model_of_its_lengths() {
 #[test]
 fn dropping_in_the_middle_of_work_joins() {
     let window = Window::new();
-    window.live.ask(wish(1, graph(&rusty(0.5))));
+    window.live.submit(request(1, graph(&rusty(0.5))));
     window.news();
     drop(window);
 }
@@ -222,9 +222,9 @@ fn dropping_in_the_middle_of_work_joins() {
 fn a_lost_device_is_told_and_ends_the_work() {
     let gpu = Arc::new(Gpu::open(&AdapterChoice::Cpu).expect("an adapter, as all tests have"));
     let window = Window::on(gpu.clone(), options());
-    window.answer(wish(1, graph(&rusty(0.5))));
+    window.answer(request(1, graph(&rusty(0.5))));
     gpu.device().destroy();
-    window.live.ask(wish(2, graph(&rusty(0.6))));
+    window.live.submit(request(2, graph(&rusty(0.6))));
     let told = window.until(|news| matches!(news, News::Lost(_)));
     let Some(News::Lost(error)) = told.all.last() else {
         panic!("something came after the end");
@@ -242,7 +242,7 @@ fn results_that_do_not_fit_are_told_and_a_smaller_graph_goes_on() {
         ..options()
     };
     let window = Window::on(device(), tight);
-    let told = window.answer(wish(1, graph(&rusty(0.5))));
+    let told = window.answer(request(1, graph(&rusty(0.5))));
     let errors: Vec<String> = told
         .all
         .iter()
@@ -259,9 +259,9 @@ fn results_that_do_not_fit_are_told_and_a_smaller_graph_goes_on() {
         );
     }
     let mask = r#""clouds": { "kind": "noise/simplex" }"#;
-    let small = sabi_engine::Wish {
+    let small = sabi_engine::LiveRequest {
         seen: vec![Seen::Node(node("clouds"))],
-        ..wish(2, graph(mask))
+        ..request(2, graph(mask))
     };
     assert_eq!(window.answer(small).coarse_and_full(), [true, false]);
 }

@@ -6,11 +6,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-use sabi_engine::{Faults, Live, ModelOptions, News, NodeFault, OpenGraph, Waiting, Wish};
+use sabi_engine::{Faults, Live, LiveRequest, ModelOptions, News, NodeFault, OpenGraph, Waiting};
 use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_tests::{MeshFile, Quad, device};
 
-use crate::window::{FULL, Window, document, graph, node, options, wish};
+use crate::window::{FULL, Window, document, graph, node, options, request};
 
 fn fault(node: &str, sentence: &str) -> NodeFault {
     NodeFault {
@@ -36,9 +36,9 @@ const HALF_WIRED: &str = r#"
 #[test]
 fn a_faulty_node_leaves_the_others() {
     let window = Window::new();
-    let all = Wish {
+    let all = LiveRequest {
         thumbnails: ["blurred", "sharp", "clouds", "plain"].map(node).to_vec(),
-        ..wish(1, graph(HALF_WIRED))
+        ..request(1, graph(HALF_WIRED))
     };
     let told = window.answer(all);
     let faults = told.faults().expect("faults");
@@ -52,7 +52,7 @@ fn a_faulty_node_leaves_the_others() {
 #[test]
 fn faults_are_told_when_they_change_and_only_then() {
     let window = Window::new();
-    let faults = |revision: u64, nodes: &str| window.answer(wish(revision, graph(nodes))).faults().cloned();
+    let faults = |revision: u64, nodes: &str| window.answer(request(revision, graph(nodes))).faults().cloned();
     assert!(faults(1, HALF_WIRED).is_some());
     assert_eq!(faults(2, HALF_WIRED), None);
     let mended = HALF_WIRED.replace(r#""filter/blur""#, r#""filter/blur", "inputs": { "source": "clouds" }"#);
@@ -64,20 +64,20 @@ fn what_was_shown_stays_while_something_is_at_fault() {
     let window = Window::new();
     let wired = r#""plain": { "kind": "source/material" },
         "out": { "kind": "output/material", "inputs": { "material": "plain" } }"#;
-    window.answer(wish(1, graph(wired)));
+    window.answer(request(1, graph(wired)));
     let loose = wired.replace(r#", "inputs": { "material": "plain" }"#, "");
-    let told = window.answer(wish(2, graph(&loose)));
+    let told = window.answer(request(2, graph(&loose)));
     assert!(told.shown().is_empty());
     assert_eq!(told.faults().map(|faults| faults.faults.len()), Some(1));
     // Nothing has to be made for what is there already.
-    let back = window.answer(wish(3, graph(wired)));
+    let back = window.answer(request(3, graph(wired)));
     assert!(back.shown().is_empty() && back.evaluated().is_empty());
 }
 
 #[test]
 fn a_graph_that_is_at_fault_from_the_start_shows_the_model_all_the_same() {
     let window = Window::new();
-    let told = window.answer(wish(1, graph(r#""out": { "kind": "output/material" }"#)));
+    let told = window.answer(request(1, graph(r#""out": { "kind": "output/material" }"#)));
     assert_eq!(told.coarse_and_full(), [true, false]);
 }
 
@@ -86,9 +86,9 @@ fn a_group_file_that_is_missing_is_told_and_the_rest_goes_on() {
     let window = Window::new();
     let nodes = r#""i": { "kind": "graph/group", "group": "gone.sabi" }, "clouds": { "kind": "noise/simplex" },
         "after": { "kind": "adjust/invert", "inputs": { "source": "i.mask" } }"#;
-    let told = window.answer(Wish {
+    let told = window.answer(LiveRequest {
         thumbnails: ["i", "after", "clouds"].map(node).to_vec(),
-        ..wish(1, graph(nodes))
+        ..request(1, graph(nodes))
     });
     let faults = told.faults().expect("faults");
     let [fault] = faults.faults.as_slice() else {
@@ -125,13 +125,13 @@ fn a_picture_that_cannot_be_decoded_is_the_fault_of_its_node() {
         "plain": { "kind": "source/material", "params": { "color": "#112233" } },
         "out": { "kind": "output/material", "inputs": { "material": "plain" } }"##;
     let text = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
-    let beside = |revision: u64| Wish {
+    let beside = |revision: u64| LiveRequest {
         graph: Arc::new(OpenGraph {
             path: folder.path().join("live.sabi"),
             ..document(&text)
         }),
         thumbnails: ["torn", "after", "clouds"].map(node).to_vec(),
-        ..wish(revision, document(&text))
+        ..request(revision, document(&text))
     };
     let window = Window::new();
     let told = window.answer(beside(1));
@@ -160,10 +160,10 @@ fn warnings_stay_as_long_as_what_they_are_about() {
     let sheet = sheet.write();
     let window = Window::new();
     let warnings = |revision: u64, nodes: &str| {
-        let wished = Wish {
+        let wished = LiveRequest {
             model: Arc::new(ModelOptions::new(sheet.path(), FULL)),
             thumbnails: vec![node("buried")],
-            ..wish(revision, graph(nodes))
+            ..request(revision, graph(nodes))
         };
         let told = window.answer(wished);
         told.faults().map(|faults| faults.warnings.clone())
@@ -195,7 +195,7 @@ fn the_files_that_a_graph_hangs_on_are_told_when_they_change_whether_they_are_th
     let files = |revision: u64, nodes: &str| {
         let mut graph = graph(nodes);
         graph.path = folder.path().join("graph.sabi");
-        let told = window.answer(wish(revision, graph));
+        let told = window.answer(request(revision, graph));
         let named = told.all.iter().find_map(|news| match news {
             sabi_engine::News::Files { files, .. } => Some(files.clone()),
             _ => None,
@@ -239,7 +239,7 @@ fn a_mistake_of_the_program_ends_one_answer_and_not_the_evaluation() {
         let _ = wake.send(());
     });
     let answer = |revision: u64| {
-        live.ask(wish(revision, graph(HALF_WIRED)));
+        live.submit(request(revision, graph(HALF_WIRED)));
         let mut told = Vec::new();
         while !told
             .iter()

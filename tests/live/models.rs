@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{ModelOptions, News, Wish};
+use sabi_engine::{LiveRequest, ModelOptions, News};
 use sabi_tests::{NodeFolder, project};
 
-use crate::window::{FULL, Window, graph, wish};
+use crate::window::{FULL, Window, graph, request};
 
 const PLAIN: &str = r#"
     "plain": { "kind": "source/material" },
     "out": { "kind": "output/material", "inputs": { "material": "plain" } }"#;
 
-fn on_model(revision: u64, model_revision: u64, path: &str) -> Wish {
-    Wish {
+fn on_model(revision: u64, model_revision: u64, path: &str) -> LiveRequest {
+    LiveRequest {
         model: Arc::new(ModelOptions::new(&project(path), FULL)),
         model_revision,
-        ..wish(revision, graph(PLAIN))
+        ..request(revision, graph(PLAIN))
     }
 }
 
@@ -42,7 +42,7 @@ fn a_model_that_cannot_be_read_keeps_the_last_one() {
         r#""source/material""#,
         r#""source/material", "params": { "roughness": 0.1 }"#,
     ));
-    let still = Wish {
+    let still = LiveRequest {
         graph: Arc::new(recolored),
         ..on_model(3, 2, "assets/meshes/gone.glb")
     };
@@ -73,11 +73,11 @@ fn level(value: f32) -> String {
 #[test]
 fn node_kinds_that_were_read_again_are_used() {
     let folder = NodeFolder::new(&[("own/level", &level(0.25))]);
-    let wished = |revision: u64, kinds_revision: u64| Wish {
+    let wished = |revision: u64, kinds_revision: u64| LiveRequest {
         kinds: Arc::new(folder.kinds()),
         kinds_revision,
         seen: vec![sabi_engine::Seen::Node(crate::window::node("level"))],
-        ..wish(revision, graph(r#""level": { "kind": "own/level" }"#))
+        ..request(revision, graph(r#""level": { "kind": "own/level" }"#))
     };
     let window = Window::new();
     assert_eq!(window.answer(wished(1, 1)).coarse_and_full(), [true, false]);

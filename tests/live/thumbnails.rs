@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{ModelOptions, News, SetKey, TextureSet, Wish};
+use sabi_engine::{LiveRequest, ModelOptions, News, SetKey, TextureSet};
 use sabi_tests::project;
 
-use crate::window::{FULL, Told, Window, document, graph, node, wish};
+use crate::window::{FULL, Told, Window, document, graph, node, request};
 
 const NODES: &str = r##"
     "clouds": { "kind": "noise/simplex" },
@@ -14,10 +14,10 @@ const NODES: &str = r##"
     "paint": { "kind": "source/material", "params": { "color": "#00ff00" } },
     "out": { "kind": "output/material", "inputs": { "material": "paint" } }"##;
 
-fn pictured(revision: u64, nodes: &str, thumbnails: &[&str]) -> Wish {
-    Wish {
+fn pictured(revision: u64, nodes: &str, thumbnails: &[&str]) -> LiveRequest {
+    LiveRequest {
         thumbnails: thumbnails.iter().map(|id| node(id)).collect(),
-        ..wish(revision, graph(nodes))
+        ..request(revision, graph(nodes))
     }
 }
 
@@ -68,7 +68,7 @@ fn a_thumbnail_shows_the_model_in_what_the_node_gives_on_a_clear_ground() {
 #[test]
 fn flat_thumbnails_show_texture_space() {
     let window = Window::new();
-    let flat = |revision: u64, is_flat: bool| Wish {
+    let flat = |revision: u64, is_flat: bool| LiveRequest {
         is_flat,
         ..pictured(revision, NODES, &["red"])
     };
@@ -90,7 +90,7 @@ fn flat_thumbnails_show_texture_space() {
 fn of_several_texture_sets_the_wanted_one_is_shown_where_texture_space_is() {
     let window = Window::new();
     let model = ModelOptions::new(&project("assets/meshes/chair.glb"), FULL);
-    let wished = |revision: u64, set: Option<SetKey>| Wish {
+    let wished = |revision: u64, set: Option<SetKey>| LiveRequest {
         model: Arc::new(model.clone()),
         model_revision: 1,
         inspected: Some(node("red")),
@@ -135,9 +135,9 @@ fn a_group_instance_and_a_node_inside_it_have_thumbnails() {
             "way": { "kind": "graph/reroute", "inputs": { "source": "wear_1" } } } }"#;
     let window = Window::new();
     let all = ["wear_1", "wear_1/bend", "wear_1/noise", "way"];
-    let wished = Wish {
+    let wished = LiveRequest {
         thumbnails: all.map(node).to_vec(),
-        ..wish(1, document(grouped))
+        ..request(1, document(grouped))
     };
     let told = window.answer(wished);
     assert_eq!(told.pictured(), all);

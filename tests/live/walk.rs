@@ -6,10 +6,10 @@ mod edits;
 use std::sync::Arc;
 
 use edits::{FIRST, Step, Walk};
-use sabi_engine::{Faults, Shown, Wish};
+use sabi_engine::{Faults, LiveRequest, Shown};
 use sabi_graph::History;
 
-use crate::window::{Told, Window, bytes, document, wish};
+use crate::window::{Told, Window, bytes, document, request};
 
 const EDITS: u64 = 200;
 /// So many edits are shown to the end; those between are overtaken by others.
@@ -34,7 +34,7 @@ impl Screen {
         }
     }
 
-    fn answer(&mut self, window: &Window, wished: Wish) {
+    fn answer(&mut self, window: &Window, wished: LiveRequest) {
         self.take(&window.answer(wished));
     }
 
@@ -63,9 +63,9 @@ fn results_after_a_walk_are_those_of_a_fresh_evaluation() {
             Step::Undo => history.undo(document).map(drop),
             Step::Redo => history.redo(document).map(drop),
         };
-        let wished = wish(revision, open.clone());
+        let wished = request(revision, open.clone());
         if revision % EVERY != 0 {
-            window.live.ask(wished);
+            window.live.submit(wished);
             continue;
         }
         screen.answer(&window, wished.clone());

@@ -7,8 +7,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use sabi_engine::{
-    Faults, Gpu, Kinds, Live, LiveModel, LiveOptions, LiveTimes, ModelOptions, News, NodeRef, OpenGraph, Pictures,
-    Seen, Shown, Wish,
+    Faults, Gpu, Kinds, Live, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelOptions, News, NodeRef, OpenGraph,
+    Pictures, Seen, Shown,
 };
 use sabi_graph::Document;
 use sabi_tests::{device, project};
@@ -62,8 +62,8 @@ pub(crate) fn node(id: &str) -> NodeRef {
 }
 
 /// What the outputs of a graph make of the cube.
-pub(crate) fn wish(revision: u64, graph: OpenGraph) -> Wish {
-    Wish {
+pub(crate) fn request(revision: u64, graph: OpenGraph) -> LiveRequest {
+    LiveRequest {
         revision,
         graph: Arc::new(graph),
         kinds: Arc::new(Kinds::builtin()),
@@ -132,9 +132,9 @@ impl Window {
     }
 
     /// Wishes, and waits until all of it was told.
-    pub(crate) fn answer(&self, wish: Wish) -> Told {
-        let asked = wish.revision;
-        self.live.ask(wish);
+    pub(crate) fn answer(&self, request: LiveRequest) -> Told {
+        let asked = request.revision;
+        self.live.submit(request);
         self.until(|news| matches!(news, News::Done { revision } if *revision == asked))
     }
 }

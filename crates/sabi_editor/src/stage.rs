@@ -10,8 +10,8 @@ use std::time::Duration;
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use sabi_engine::view::Pixels;
 use sabi_engine::{
-    EngineError, Faults, Gpu, Inspected, Live, LiveModel, LiveOptions, LiveTimes, ModelOptions, News, OpenGraph, Seen,
-    SetKey, Shown, Wish,
+    EngineError, Faults, Gpu, Inspected, Live, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelOptions, News,
+    OpenGraph, Seen, SetKey, Shown,
 };
 use sabi_graph::{Document, NodeRef};
 
@@ -214,7 +214,7 @@ impl Stage {
         }
         self.let_go(desk, &wanted);
         self.wishes += 1;
-        self.live.ask(Wish {
+        self.live.submit(LiveRequest {
             revision: self.wishes,
             graph: self.graph.clone(),
             kinds: kinds.clone(),

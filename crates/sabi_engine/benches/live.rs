@@ -13,8 +13,8 @@ use sabi_engine::view::{
     Background, Camera, Environment, MaterialLook, Mode, Renderer, Scene, Shot, Target, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, Gpu, Kinds, Live, LiveModel, LiveOptions, ModelOptions, News, NodeRef, OpenGraph, Seen, Shown, Wish,
-    default_cache_dir, load_environment,
+    AdapterChoice, Gpu, Kinds, Live, LiveModel, LiveOptions, LiveRequest, ModelOptions, News, NodeRef, OpenGraph, Seen,
+    Shown, default_cache_dir, load_environment,
 };
 
 const MOVES: usize = 15;
@@ -115,10 +115,10 @@ impl Window {
     }
 
     /// Wishes and draws what comes, until all has come.
-    fn answer(&mut self, wish: Wish) -> Move {
+    fn answer(&mut self, request: LiveRequest) -> Move {
         let asked = Instant::now();
         let mut made = Move::default();
-        self.live.ask(wish);
+        self.live.submit(request);
         loop {
             self.woken.recv().unwrap();
             for news in self.live.news() {
@@ -194,8 +194,8 @@ struct Slider {
 }
 
 impl Slider {
-    fn wish(&self, revision: u64) -> Wish {
-        Wish {
+    fn request(&self, revision: u64) -> LiveRequest {
+        LiveRequest {
             revision,
             graph: Arc::new(graph(self.folder.path(), 0.2 + 0.02 * revision as f32)),
             kinds: self.kinds.clone(),
@@ -213,17 +213,17 @@ impl Slider {
     }
 
     /// Thumbnails alone, of all nodes.
-    fn still(&self, revision: u64) -> Wish {
+    fn still(&self, revision: u64) -> LiveRequest {
         let all = ["clouds", "cut", "levels", "turned", "both", "base", "rust", "out"];
         let node = |id: &str| NodeRef {
             node: id.to_owned(),
             port: None,
         };
-        Wish {
+        LiveRequest {
             seen: Vec::new(),
             thumbnails: all.map(node).to_vec(),
             is_moving: false,
-            ..self.wish(revision)
+            ..self.request(revision)
         }
     }
 }
@@ -261,13 +261,13 @@ fn main() {
         model: Arc::new(ModelOptions::new(&peer_model(), 512)),
     };
     let mut window = Window::new(&gpu, options);
-    let first = window.answer(slider.wish(0));
+    let first = window.answer(slider.request(0));
     row("the first time: coarse", first.told[0], "");
     row("the first time: full", first.told[1], "");
-    window.answer(slider.wish(1));
+    window.answer(slider.request(1));
     let moves: Vec<Move> = (2..)
         .take(MOVES)
-        .map(|revision| window.answer(slider.wish(revision)))
+        .map(|revision| window.answer(slider.request(revision)))
         .collect();
     report(&moves);
     let [alone, posed] = pictures(&window, moves.iter().find_map(|made| made.last.as_ref()).unwrap());

@@ -9,13 +9,13 @@ mod inspect;
 mod mailbox;
 mod model;
 mod news;
+mod request;
 mod set_aside;
 mod show;
 mod sized_model;
 mod studio;
 mod thumbnails;
 mod trouble;
-mod wish;
 mod worker;
 
 use std::sync::Arc;
@@ -27,7 +27,7 @@ use sabi_graph::NodeRef;
 use crate::error::{EngineError, ErrorKind};
 use mailbox::{Forgotten, Mailbox};
 pub use news::{Faults, Inspected, LiveModel, LiveTimes, News, NodeFault, Waiting, Warning};
-pub use wish::{LiveOptions, Seen, Wish};
+pub use request::{LiveOptions, LiveRequest, Seen};
 use worker::Worker;
 
 /// Evaluates a graph while it is worked on. Dropping it stops the work at its next step and waits for that.
@@ -56,8 +56,8 @@ impl Live {
     }
 
     /// Wishes for something else than before. Work that is of no use any more ends at its next step.
-    pub fn ask(&self, wish: Wish) {
-        self.mailbox.ask(wish);
+    pub fn submit(&self, request: LiveRequest) {
+        self.mailbox.submit(request);
     }
 
     /// Says that pictures were let go of: where they are wished for again, they are told again. What is told once is otherwise

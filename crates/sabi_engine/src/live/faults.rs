@@ -8,8 +8,8 @@ use sabi_plan::{FileContents, PlanError, Target};
 
 use super::model::Loaded;
 use super::news::{Faults, News, NodeFault, Waiting, Warning};
+use super::request::Seen;
 use super::set_aside::{Opened, open_groups};
-use super::wish::Seen;
 use super::worker::{Job, Worker};
 use crate::evaluating::outputs::clashes;
 use crate::opening::modelless::{all_nodes, planner};
@@ -35,19 +35,19 @@ pub(super) struct Broken {
 impl Worker {
     /// Flattens the graph of a wish and tells what is wrong with it; nothing where it cannot be flattened.
     pub(super) fn lay_out(&mut self, job: &Job) -> Option<Laid> {
-        let wish = &job.wish;
-        let seen = wish.seen.iter().filter_map(|seen| match seen {
+        let request = &job.request;
+        let seen = request.seen.iter().filter_map(|seen| match seen {
             Seen::Node(node) => Some(node),
             Seen::Outputs => None,
         });
-        let named = seen.chain(&wish.inspected).chain(&wish.thumbnails);
+        let named = seen.chain(&request.inspected).chain(&request.thumbnails);
         let named: Vec<NodeRef> = named.cloned().collect::<BTreeSet<_>>().into_iter().collect();
         let mut files = BTreeSet::new();
         let Opened {
             graph,
             found,
             set_aside,
-        } = match open_groups(&wish.graph, &named, &mut files) {
+        } = match open_groups(&request.graph, &named, &mut files) {
             Ok(opened) => opened,
             Err(error) => {
                 self.tell_files(job, files);
@@ -62,7 +62,7 @@ impl Worker {
                 return None;
             }
         };
-        files.extend(pictures::files(wish.graph.folder(), &graph, &wish.kinds));
+        files.extend(pictures::files(request.graph.folder(), &graph, &request.kinds));
         self.tell_files(job, files);
         let mut other = clashes(&graph);
         let mut targets = BTreeMap::new();
@@ -79,7 +79,9 @@ impl Worker {
                 Err(error) => other.push(error.to_string()),
             }
         }
-        let contents = wish.graph.file_contents(&graph, &wish.kinds, 0..graph.nodes.len());
+        let contents = request
+            .graph
+            .file_contents(&graph, &request.kinds, 0..graph.nodes.len());
         let laid = Laid {
             faults: with_set_aside(faults_of(job, &graph, &contents, other), set_aside),
             graph,
@@ -98,7 +100,7 @@ impl Worker {
         }
         self.sent.files = Some(files.clone());
         self.tell(News::Files {
-            revision: job.wish.revision,
+            revision: job.request.revision,
             files,
         });
     }
@@ -140,7 +142,7 @@ impl Worker {
         }
         self.sent.faults = Some(faults.clone());
         self.tell(News::Faults {
-            revision: job.wish.revision,
+            revision: job.request.revision,
             faults,
         });
     }
@@ -212,7 +214,7 @@ fn with_set_aside(mut faults: Faults, set_aside: BTreeMap<String, String>) -> Fa
 
 /// What is wrong with all nodes of a graph, whoever needs them.
 fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<String>) -> Faults {
-    let resolved = planner(graph, &job.wish.kinds, contents).resolve(&all_nodes(graph));
+    let resolved = planner(graph, &job.request.kinds, contents).resolve(&all_nodes(graph));
     let (warnings, errors): (Vec<&PlanError>, Vec<&PlanError>) =
         resolved.errors.iter().partition(|error| error.is_warning());
     let faults: Vec<NodeFault> = errors

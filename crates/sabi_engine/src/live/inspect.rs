@@ -20,7 +20,7 @@ use crate::error::EngineError;
 impl Worker {
     /// Tells the values of the inspected node, if they have changed.
     pub(super) fn inspect(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
-        let inspected = job.wish.inspected.clone();
+        let inspected = job.request.inspected.clone();
         let Some((node, target)) = inspected.and_then(|node| laid.found.get(&node).map(|target| (node, target))) else {
             return Ok(());
         };
@@ -29,7 +29,7 @@ impl Worker {
         match self.inspect_one(job, laid, node, target) {
             Err(Trouble::Failed(error)) => {
                 self.tell(News::Failed {
-                    revision: job.wish.revision,
+                    revision: job.request.revision,
                     error,
                 });
                 Ok(())
@@ -55,7 +55,7 @@ impl Worker {
         let Some(result) = plan.results.first() else {
             return Ok(());
         };
-        let set = job.wish.set;
+        let set = job.request.set;
         let marks = [u8::from(sized.is_approximate(&plan))];
         let key = *blake3::Hasher::new()
             .update(&marks)
@@ -80,7 +80,7 @@ impl Worker {
         let values = values.map_err(|error| Trouble::of_results(gpu, size, error))?;
         sent.inspected = now;
         self.tell(News::Inspected {
-            revision: job.wish.revision,
+            revision: job.request.revision,
             node,
             values: Arc::new(values),
         });

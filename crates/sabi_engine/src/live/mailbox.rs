@@ -6,11 +6,11 @@ use std::time::Instant;
 use sabi_graph::NodeRef;
 
 use super::news::News;
-use super::wish::{Seen, Wish};
+use super::request::{LiveRequest, Seen};
 use crate::phases::{Phase, Progress};
 
 /// A wish, and when it was made.
-pub(super) type Asked = (Wish, Instant);
+pub(super) type Asked = (LiveRequest, Instant);
 
 /// The last wish on its way to the worker, and news on their way to the window.
 #[derive(Default)]
@@ -21,7 +21,7 @@ pub(super) struct Mailbox {
 
 #[derive(Default)]
 struct State {
-    wish: Option<Asked>,
+    request: Option<Asked>,
     news: Vec<News>,
     forgotten: Forgotten,
     is_working: bool,
@@ -37,8 +37,8 @@ pub(super) struct Forgotten {
 
 impl Mailbox {
     /// Puts a wish in the place of the last one.
-    pub(super) fn ask(&self, wish: Wish) {
-        self.lock().wish = Some((wish, Instant::now()));
+    pub(super) fn submit(&self, request: LiveRequest) {
+        self.lock().request = Some((request, Instant::now()));
         self.changed.notify_one();
     }
 
@@ -62,7 +62,7 @@ impl Mailbox {
             if state.is_closed {
                 return None;
             }
-            if let Some(asked) = state.wish.take() {
+            if let Some(asked) = state.request.take() {
                 state.is_working = true;
                 return Some(asked);
             }
@@ -83,19 +83,19 @@ impl Mailbox {
     /// Whether the work at hand is of no use any more.
     pub(super) fn is_superseded(&self) -> bool {
         let state = self.lock();
-        state.is_closed || state.wish.is_some()
+        state.is_closed || state.request.is_some()
     }
 
     /// Whether loading this model is of no use any more: another one is wished for, or none.
     fn is_other_wanted(&self, model_revision: u64) -> bool {
         let state = self.lock();
-        let wished = state.wish.as_ref().map(|(wish, _)| wish.model_revision);
+        let wished = state.request.as_ref().map(|(request, _)| request.model_revision);
         state.is_closed || wished.is_some_and(|wished| wished != model_revision)
     }
 
     pub(super) fn is_busy(&self) -> bool {
         let state = self.lock();
-        !state.is_closed && (state.is_working || state.wish.is_some())
+        !state.is_closed && (state.is_working || state.request.is_some())
     }
 
     pub(super) fn tell(&self, news: News) {

@@ -51,24 +51,28 @@ impl Loaded {
 impl Worker {
     /// Loads the model if it is another one, coarse where that is enough for a first picture.
     pub(super) fn load_first(&mut self, job: &Job) -> Result<(), Trouble> {
-        let wish = &job.wish;
-        if self.tried == Some(wish.model_revision) {
+        let request = &job.request;
+        if self.tried == Some(request.model_revision) {
             return Ok(());
         }
-        self.tried = Some(wish.model_revision);
-        let is_coarse = wish.coarse_size < wish.model.size;
+        self.tried = Some(request.model_revision);
+        let is_coarse = request.coarse_size < request.model.size;
         let options = ModelOptions {
-            size: if is_coarse { wish.coarse_size } else { wish.model.size },
+            size: if is_coarse {
+                request.coarse_size
+            } else {
+                request.model.size
+            },
             cache_dir: self.options.cache_dir.clone(),
-            ..(*wish.model).clone()
+            ..(*request.model).clone()
         };
         let watch = LoadWatch {
             mailbox: &self.mailbox,
-            model_revision: wish.model_revision,
+            model_revision: request.model_revision,
         };
         let opened = Prepared::open(&options, &watch).and_then(|prepared| {
-            let model = (Arc::new(prepared), wish.model_revision);
-            SizedModel::new(&self.gpu, &self.options, wish, model, is_coarse)
+            let model = (Arc::new(prepared), request.model_revision);
+            SizedModel::new(&self.gpu, &self.options, request, model, is_coarse)
         });
         let sized = match opened {
             Ok(sized) => sized,
@@ -81,8 +85,8 @@ impl Worker {
             (None, Some(sized))
         };
         self.loaded = Some(Loaded {
-            revision: wish.model_revision,
-            options: wish.model.clone(),
+            revision: request.model_revision,
+            options: request.model.clone(),
             coarse,
             full,
             is_full_refused: false,
@@ -113,7 +117,7 @@ impl Worker {
         let resized = coarse.model.prepared.resized(&options, &watch);
         let sized = resized.and_then(|prepared| {
             let model = (Arc::new(prepared), loaded.revision);
-            SizedModel::new(&self.gpu, &self.options, &job.wish, model, false)
+            SizedModel::new(&self.gpu, &self.options, &job.request, model, false)
         });
         match sized {
             Ok(sized) => {
@@ -135,7 +139,7 @@ impl Worker {
         let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
             return Ok(());
         };
-        let is_another = sized.take(&job.wish, &laid.graph);
+        let is_another = sized.take(&job.request, &laid.graph);
         if is_another.map_err(|error| Trouble::of(&self.gpu, error))?
             && let Some(sized) = self.loaded.as_mut().and_then(Loaded::first)
         {
@@ -157,7 +161,7 @@ impl Worker {
             return Ok(false);
         };
         if coarse.is_some() {
-            let is_another = sized.take(&job.wish, &laid.graph);
+            let is_another = sized.take(&job.request, &laid.graph);
             if is_another.map_err(|error| Trouble::of(&self.gpu, error))? {
                 let news = model_news(sized);
                 self.tell(news);
@@ -174,7 +178,7 @@ impl Worker {
         match Trouble::of(&self.gpu, error) {
             Trouble::Failed(error) => {
                 self.tell(News::ModelFailed {
-                    model_revision: job.wish.model_revision,
+                    model_revision: job.request.model_revision,
                     error,
                 });
                 Ok(())

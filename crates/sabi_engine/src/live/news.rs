@@ -9,7 +9,7 @@ use sabi_export::SetKey;
 use sabi_graph::{Fit, NodeRef, PortType};
 use sabi_view::{Pixels, Placement, ViewModel};
 
-use super::wish::Seen;
+use super::request::Seen;
 use crate::baking::sets::TextureSet;
 use crate::error::EngineError;
 use crate::evaluating::looks::Shown;

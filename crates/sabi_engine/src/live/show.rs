@@ -10,9 +10,9 @@ use sabi_plan::{Plan, Target};
 use super::faults::{Broken, Laid};
 use super::mailbox::Watch;
 use super::news::News;
+use super::request::Seen;
 use super::sized_model::{SizedModel, Tally};
 use super::trouble::Trouble;
-use super::wish::Seen;
 use super::worker::{Job, Key, SentShown, Worker};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::looks::Shows;
@@ -59,7 +59,7 @@ impl Worker {
     fn show(&mut self, job: &mut Job, laid: &Laid, is_coarse: bool) -> Result<(), Trouble> {
         // A first picture is finished once it was begun, so that a stream of wishes has something to show.
         let gives_way = !is_coarse && !job.is_full_first;
-        for seen in job.wish.seen.clone() {
+        for seen in job.request.seen.clone() {
             if gives_way {
                 self.go_on()?;
             }
@@ -69,7 +69,7 @@ impl Worker {
                         self.forget_results();
                     }
                     self.tell(News::Failed {
-                        revision: job.wish.revision,
+                        revision: job.request.revision,
                         error,
                     });
                     return Ok(());
@@ -127,7 +127,7 @@ impl Worker {
         };
         sent.shown.insert(seen.clone(), now);
         let news = News::Shown {
-            revision: job.wish.revision,
+            revision: job.request.revision,
             seen: seen.clone(),
             is_coarse,
             model: sized.model.clone(),

@@ -11,8 +11,8 @@ use sabi_plan::{Mode, Plan, Step, Target};
 use sabi_view::ViewModel;
 
 use super::news::LiveModel;
+use super::request::{LiveOptions, LiveRequest};
 use super::trouble::Trouble;
-use super::wish::{LiveOptions, Wish};
 use crate::AdapterChoice;
 use crate::baking::sets::{TextureSet, shown_by, texture_sets};
 use crate::error::{EngineError, ErrorKind};
@@ -74,7 +74,7 @@ impl SizedModel {
     pub(super) fn new(
         gpu: &Arc<Gpu>,
         options: &LiveOptions,
-        wish: &Wish,
+        request: &LiveRequest,
         (prepared, model_revision): (Arc<Prepared>, u64),
         is_coarse: bool,
     ) -> Result<SizedModel, EngineError> {
@@ -82,7 +82,7 @@ impl SizedModel {
             model: ModelOptions {
                 cache_dir: options.cache_dir.clone(),
                 size: prepared.atlas.size,
-                ..(*wish.model).clone()
+                ..(*request.model).clone()
             },
             overrides: Overrides::default(),
             fit: None,
@@ -91,8 +91,8 @@ impl SizedModel {
             budget_bytes: options.budget_bytes,
         };
         let graph = FlatGraph::default();
-        let kinds = (*wish.kinds).clone();
-        let workpiece = Workpiece::assemble(&wish.graph, graph, kinds, prepared, gpu.clone(), &workpiece_options)?;
+        let kinds = (*request.kinds).clone();
+        let workpiece = Workpiece::assemble(&request.graph, graph, kinds, prepared, gpu.clone(), &workpiece_options)?;
         // Coarse results have a quarter of a full one's texels, or fewer.
         let of_coarse = options.cache_bytes / 4;
         let cache_bytes = if is_coarse {
@@ -110,29 +110,33 @@ impl SizedModel {
             noted: Vec::new(),
             sources: BTreeSet::new(),
             shoots: false,
-            kinds_revision: wish.kinds_revision,
+            kinds_revision: request.kinds_revision,
             is_coarse,
             submission: options.submission,
         })
     }
 
     /// Takes the graph of a wish. Says whether the model is another one to those who draw it.
-    pub(super) fn take(&mut self, wish: &Wish, graph: &FlatGraph) -> Result<bool, EngineError> {
-        if self.kinds_revision != wish.kinds_revision {
-            self.workpiece.set_kinds((*wish.kinds).clone());
-            self.kinds_revision = wish.kinds_revision;
+    pub(super) fn take(&mut self, request: &LiveRequest, graph: &FlatGraph) -> Result<bool, EngineError> {
+        if self.kinds_revision != request.kinds_revision {
+            self.workpiece.set_kinds((*request.kinds).clone());
+            self.kinds_revision = request.kinds_revision;
         }
         let prepared = &self.workpiece.prepared;
         let (serving, idle) = shown_by(graph, &prepared.model, &prepared.atlas);
         self.serving = serving;
         // Materials that no output serves are shown by a node of the model's own looks at the end of the graph.
         let mut graph = graph.clone();
-        graph.nodes.push(models_own(wish.graph.document.fit));
-        self.workpiece.set_graph(&wish.graph, graph)?;
+        graph.nodes.push(models_own(request.graph.document.fit));
+        self.workpiece.set_graph(&request.graph, graph)?;
         self.idle = idle;
         self.sources.clear();
         self.shoots = false;
-        self.workpiece.hits = if wish.is_moving { Hits::Remembered } else { Hits::Shot };
+        self.workpiece.hits = if request.is_moving {
+            Hits::Remembered
+        } else {
+            Hits::Shot
+        };
         let is_another = self.workpiece.fit != self.model.fit;
         if is_another {
             self.model = live_model(&self.workpiece, self.model.model_revision)?;

@@ -10,11 +10,11 @@ use super::faults::Laid;
 use super::mailbox::Watch;
 use super::model::Loaded;
 use super::news::News;
+use super::request::LiveRequest;
 use super::show::evaluate;
 use super::sized_model::SizedModel;
 use super::studio::Studio;
 use super::trouble::Trouble;
-use super::wish::Wish;
 use super::worker::{Job, Key, Worker};
 use crate::error::EngineError;
 use crate::evaluating::looks::Shows;
@@ -25,14 +25,14 @@ impl Worker {
         let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
             return Ok(());
         };
-        let nodes = job.wish.thumbnails.iter();
+        let nodes = job.request.thumbnails.iter();
         let targets: Vec<(NodeRef, Target)> = nodes
             .filter_map(|node| Some((node.clone(), laid.found.get(node)?.clone())))
             .collect();
         let all: BTreeSet<Target> = targets.iter().map(|(_, target)| target.clone()).collect();
         let all: Vec<Target> = all.into_iter().collect();
         let plan = sized.plan(&laid.sound(&all, &self.broken));
-        let keys = keys(sized, &plan, &job.wish);
+        let keys = keys(sized, &plan, &job.request);
         for (node, target) in targets {
             let Some(key) = keys.get(&target) else { continue };
             if self.sent.thumbnails.get(&node) == Some(key) {
@@ -43,7 +43,7 @@ impl Worker {
                 Ok(Some(picture)) => {
                     self.sent.thumbnails.insert(node.clone(), *key);
                     self.tell(News::Thumbnail {
-                        revision: job.wish.revision,
+                        revision: job.request.revision,
                         node,
                         picture,
                     });
@@ -52,7 +52,7 @@ impl Worker {
                 Err(Trouble::Failed(error)) => {
                     // The others would most likely fail as well.
                     self.tell(News::Failed {
-                        revision: job.wish.revision,
+                        revision: job.request.revision,
                         error,
                     });
                     return Ok(());
@@ -90,8 +90,8 @@ impl Worker {
         let size = sized.model.size;
         let trouble = |error: EngineError| Trouble::of_results(gpu, size, error);
         let side = options.thumbnail_px;
-        if job.wish.is_flat {
-            let picture = sized.flat_picture((&plan, &run), result, side, job.wish.set);
+        if job.request.is_flat {
+            let picture = sized.flat_picture((&plan, &run), result, side, job.request.set);
             return picture.map(Some).map_err(trouble);
         }
         let looks = sized.looks(&plan, &mut run, &Shows::One, &watch)?;
@@ -109,10 +109,10 @@ impl Worker {
 }
 
 /// What the pictures of results show, by the results.
-fn keys(sized: &SizedModel, plan: &Plan, wish: &Wish) -> BTreeMap<Target, Key> {
-    let marks = [u8::from(sized.is_approximate(plan)), u8::from(wish.is_flat)];
-    let set = if wish.is_flat {
-        sized.model.index_of_set(wish.set)
+fn keys(sized: &SizedModel, plan: &Plan, request: &LiveRequest) -> BTreeMap<Target, Key> {
+    let marks = [u8::from(sized.is_approximate(plan)), u8::from(request.is_flat)];
+    let set = if request.is_flat {
+        sized.model.index_of_set(request.set)
     } else {
         0
     };

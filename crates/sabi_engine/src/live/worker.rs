@@ -13,10 +13,10 @@ use super::faults::Broken;
 use super::mailbox::Mailbox;
 use super::model::Loaded;
 use super::news::{Faults, LiveTimes, News};
+use super::request::{LiveOptions, LiveRequest, Seen};
 use super::sized_model::Tally;
 use super::studio::Studio;
 use super::trouble::Trouble;
-use super::wish::{LiveOptions, Seen, Wish};
 use crate::error::{EngineError, ErrorKind};
 
 /// Names what a picture shows.
@@ -63,7 +63,7 @@ pub(super) struct SentShown {
 
 /// The answer to one wish in the making.
 pub(super) struct Job {
-    pub(super) wish: Wish,
+    pub(super) request: LiveRequest,
     pub(super) asked: Instant,
     pub(super) tally: Tally,
     pub(super) latency: Option<Duration>,
@@ -97,10 +97,10 @@ impl Worker {
     /// Answers wishes until nobody wishes any more, or the device is gone.
     pub(super) fn work(self) {
         let mut worker = LastWords(self);
-        while let Some((wish, asked)) = worker.0.mailbox.next() {
-            let revision = wish.revision;
+        while let Some((request, asked)) = worker.0.mailbox.next() {
+            let revision = request.revision;
             // Whatever a mistake leaves half made is let go of.
-            match catch_unwind(AssertUnwindSafe(|| worker.0.answer(wish, asked))) {
+            match catch_unwind(AssertUnwindSafe(|| worker.0.answer(request, asked))) {
                 Ok(Ok(())) => {}
                 Ok(Err(loss)) => {
                     worker.0.mailbox.close();
@@ -139,11 +139,11 @@ impl Worker {
     }
 
     /// Answers one wish; an error is the loss of the device.
-    fn answer(&mut self, wish: Wish, asked: Instant) -> Result<(), EngineError> {
-        let revision = wish.revision;
+    fn answer(&mut self, request: LiveRequest, asked: Instant) -> Result<(), EngineError> {
+        let revision = request.revision;
         self.forget_told();
         let mut job = Job {
-            wish,
+            request,
             asked,
             tally: Tally::default(),
             latency: None,
@@ -201,7 +201,7 @@ impl Worker {
         if self.broken.len() != broken {
             self.tell_faults(job, &laid);
         }
-        if job.wish.is_moving {
+        if job.request.is_moving {
             self.show_full(job, &laid)?;
             self.show_thumbnails(job, &laid)?;
         } else {
@@ -235,7 +235,7 @@ impl Worker {
             latency: job.latency,
         };
         self.tell(News::Times {
-            revision: job.wish.revision,
+            revision: job.request.revision,
             times,
         });
     }

@@ -48,7 +48,7 @@ impl Default for LiveOptions {
 /// What a window wants to know of a graph on a model. A newer wish takes the place of an older one. Nodes and ports that are not
 /// there are left out of the answer.
 #[derive(Clone, Debug)]
-pub struct Wish {
+pub struct LiveRequest {
     /// Stands in all news about it; rises with every edit.
     pub revision: u64,
     /// The graph.
