@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{AdapterChoice, Gpu, LiveOptions, News, Seen};
+use sabi_engine::{AdapterChoice, Gpu, LiveEvent, LiveOptions, Seen};
 use sabi_tests::device;
 
 use crate::window::{COARSE, FULL, Window, bytes, graph, node, options, request};
@@ -26,7 +26,7 @@ fn a_wish_is_answered_coarse_first_and_then_at_full_size() {
     assert_eq!(told.coarse_and_full(), [true, false]);
     let sizes: Vec<u32> = told.shown().iter().map(|(_, _, model, _)| model.size).collect();
     assert_eq!(sizes, [COARSE, FULL]);
-    let models = told.all.iter().filter(|news| matches!(news, News::Model { .. }));
+    let models = told.all.iter().filter(|event| matches!(event, LiveEvent::Model { .. }));
     assert_eq!(models.count(), 2, "each size of the model is told once");
     assert!(told.times().latency.is_some());
     assert!(!window.live.is_busy());
@@ -142,10 +142,9 @@ fn every_wish_that_is_begun_shows_its_first_picture_however_many_follow() {
         window
             .live
             .submit(request(revision, graph(&rusty(0.2 + 0.05 * revision as f32))));
-        let is_first =
-            |news: &News| matches!(news, News::Shown { revision: of, is_coarse: true, .. } if *of == revision);
+        let is_first = |event: &LiveEvent| matches!(event, LiveEvent::Shown { revision: of, is_coarse: true, .. } if *of == revision);
         let told = window.until(is_first);
-        coarse += told.all.iter().filter(|news| is_first(news)).count();
+        coarse += told.all.iter().filter(|event| is_first(event)).count();
     }
     assert_eq!(coarse, 8);
 }
@@ -155,10 +154,10 @@ fn a_newer_wish_ends_the_older_one() {
     let window = Window::new();
     window.answer(request(0, graph(&rusty(0.2))));
     window.live.submit(request(1, graph(&rusty(0.4))));
-    let is_coarse = |news: &News| {
+    let is_coarse = |event: &LiveEvent| {
         matches!(
-            news,
-            News::Shown {
+            event,
+            LiveEvent::Shown {
                 revision: 1,
                 is_coarse: true,
                 ..
@@ -167,7 +166,7 @@ fn a_newer_wish_ends_the_older_one() {
     };
     window.until(is_coarse);
     let told = window.answer(request(2, graph(&rusty(0.6))));
-    let is_done = |news: &News| matches!(news, News::Done { revision: 1 });
+    let is_done = |event: &LiveEvent| matches!(event, LiveEvent::Done { revision: 1 });
     assert!(!told.all.iter().any(is_done), "nobody waited for the rest of the first");
     assert_eq!(told.shown().last().map(|(revision, ..)| *revision), Some(2));
 }
@@ -180,8 +179,8 @@ fn the_exact_values_of_a_node_are_told_once() {
         ..request(revision, graph(&rusty(at)))
     };
     let values = |told: &crate::window::Told| {
-        let mut found = told.all.iter().filter_map(|news| match news {
-            News::Inspected { values, .. } => Some(values.clone()),
+        let mut found = told.all.iter().filter_map(|event| match event {
+            LiveEvent::Inspected { values, .. } => Some(values.clone()),
             _ => None,
         });
         (found.next(), found.count())
@@ -214,7 +213,7 @@ fn another_fit_is_told_with_a_model_of_its_lengths() {
 fn dropping_in_the_middle_of_work_joins() {
     let window = Window::new();
     window.live.submit(request(1, graph(&rusty(0.5))));
-    window.news();
+    window.events();
     drop(window);
 }
 
@@ -225,8 +224,8 @@ fn a_lost_device_is_told_and_ends_the_work() {
     window.answer(request(1, graph(&rusty(0.5))));
     gpu.device().destroy();
     window.live.submit(request(2, graph(&rusty(0.6))));
-    let told = window.until(|news| matches!(news, News::Lost(_)));
-    let Some(News::Lost(error)) = told.all.last() else {
+    let told = window.until(|event| matches!(event, LiveEvent::Lost(_)));
+    let Some(LiveEvent::Lost(error)) = told.all.last() else {
         panic!("something came after the end");
     };
     assert!(error.to_string().contains("the graphics device was lost"), "{error}");
@@ -246,8 +245,8 @@ fn results_that_do_not_fit_are_told_and_a_smaller_graph_goes_on() {
     let errors: Vec<String> = told
         .all
         .iter()
-        .filter_map(|news| match news {
-            News::Failed { error, .. } => Some(error.to_string()),
+        .filter_map(|event| match event {
+            LiveEvent::Failed { error, .. } => Some(error.to_string()),
             _ => None,
         })
         .collect();

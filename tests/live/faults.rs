@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-use sabi_engine::{Faults, Live, LiveRequest, ModelOptions, News, NodeFault, OpenGraph, Waiting};
+use sabi_engine::{Faults, Live, LiveEvent, LiveRequest, ModelOptions, NodeFault, OpenGraph, Waiting};
 use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_tests::{MeshFile, Quad, device};
 
@@ -98,7 +98,7 @@ fn a_group_file_that_is_missing_is_told_and_the_rest_goes_on() {
     assert!(fault.node == "i" && fault.sentence.starts_with(begins), "{fault:?}");
     assert_eq!(faults.waiting, [waiting("after", "i")]);
     assert_eq!(told.pictured(), ["clouds"]);
-    let is_model = |news: &&sabi_engine::News| matches!(news, sabi_engine::News::Model { .. });
+    let is_model = |event: &&sabi_engine::LiveEvent| matches!(event, sabi_engine::LiveEvent::Model { .. });
     assert_eq!(told.all.iter().filter(is_model).count(), 2);
 }
 
@@ -196,8 +196,8 @@ fn the_files_that_a_graph_hangs_on_are_told_when_they_change_whether_they_are_th
         let mut graph = graph(nodes);
         graph.path = folder.path().join("graph.sabi");
         let told = window.answer(request(revision, graph));
-        let named = told.all.iter().find_map(|news| match news {
-            sabi_engine::News::Files { files, .. } => Some(files.clone()),
+        let named = told.all.iter().find_map(|event| match event {
+            sabi_engine::LiveEvent::Files { files, .. } => Some(files.clone()),
             _ => None,
         });
         let names = |files: std::collections::BTreeSet<std::path::PathBuf>| {
@@ -243,16 +243,16 @@ fn a_mistake_of_the_program_ends_one_answer_and_not_the_evaluation() {
         let mut told = Vec::new();
         while !told
             .iter()
-            .any(|news| matches!(news, News::Done { revision: done } if *done == revision))
+            .any(|event| matches!(event, LiveEvent::Done { revision: done } if *done == revision))
         {
             woken.recv_timeout(Duration::from_secs(120)).expect("somebody works");
-            told.extend(live.news());
+            told.extend(live.take_events());
         }
         told
     };
-    let broke_off = |news: &News| matches!(news, News::Failed { error, .. } if error.to_string().contains("broke off, which is a mistake in Sabi"));
+    let broke_off = |event: &LiveEvent| matches!(event, LiveEvent::Failed { error, .. } if error.to_string().contains("broke off, which is a mistake in Sabi"));
     assert!(answer(1).iter().any(broke_off));
     let told = answer(2);
     assert!(!told.iter().any(broke_off));
-    assert!(told.iter().any(|news| matches!(news, News::Shown { .. })));
+    assert!(told.iter().any(|event| matches!(event, LiveEvent::Shown { .. })));
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{LiveRequest, ModelOptions, News};
+use sabi_engine::{LiveEvent, LiveRequest, ModelOptions};
 use sabi_tests::{NodeFolder, project};
 
 use crate::window::{FULL, Window, graph, request};
@@ -27,8 +27,8 @@ fn a_model_that_cannot_be_read_keeps_the_last_one() {
     let failed: Vec<String> = told
         .all
         .iter()
-        .filter_map(|news| match news {
-            News::ModelFailed {
+        .filter_map(|event| match event {
+            LiveEvent::ModelFailed {
                 model_revision: 2,
                 error,
             } => Some(error.to_string()),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{LiveRequest, ModelOptions, News, SetKey, TextureSet};
+use sabi_engine::{LiveEvent, LiveRequest, ModelOptions, SetKey, TextureSet};
 use sabi_tests::project;
 
 use crate::window::{FULL, Told, Window, document, graph, node, request};
@@ -104,8 +104,8 @@ fn of_several_texture_sets_the_wanted_one_is_shown_where_texture_space_is() {
     let names: Vec<String> = sets.iter().map(TextureSet::title).collect();
     assert_eq!(names, ["wood", "leather"]);
     let seen = |told: &Told| -> Option<(String, Vec<u8>)> {
-        let values = told.all.iter().find_map(|news| match news {
-            News::Inspected { values, .. } => Some(values.set.title()),
+        let values = told.all.iter().find_map(|event| match event {
+            LiveEvent::Inspected { values, .. } => Some(values.set.title()),
             _ => None,
         });
         let picture = told.thumbnails().first().map(|(_, picture)| picture.rgba.clone());

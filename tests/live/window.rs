@@ -7,8 +7,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use sabi_engine::{
-    Faults, Gpu, Kinds, Live, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelOptions, News, NodeRef, OpenGraph,
-    Pictures, Seen, Shown,
+    Faults, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelOptions, NodeRef,
+    OpenGraph, Pictures, Seen, Shown,
 };
 use sabi_graph::Document;
 use sabi_tests::{device, project};
@@ -33,7 +33,7 @@ pub(crate) struct Window {
 /// What a window was told until a wish was answered.
 #[derive(Default)]
 pub(crate) struct Told {
-    pub(crate) all: Vec<News>,
+    pub(crate) all: Vec<LiveEvent>,
 }
 
 /// A graph of these nodes, in a folder of no interest.
@@ -112,21 +112,21 @@ impl Window {
     }
 
     /// News, as soon as there are some. The evaluator does nothing until the next call.
-    pub(crate) fn news(&self) -> Vec<News> {
+    pub(crate) fn events(&self) -> Vec<LiveEvent> {
         if self.is_held.replace(false) {
             // One that has ended does not care.
             let _ = self.goes_on.send(());
         }
         self.woken.recv_timeout(PATIENCE).expect("somebody works");
         self.is_held.set(true);
-        self.live.news()
+        self.live.take_events()
     }
 
     /// All news up to one that is meant.
-    pub(crate) fn until(&self, is_meant: impl Fn(&News) -> bool) -> Told {
+    pub(crate) fn until(&self, is_meant: impl Fn(&LiveEvent) -> bool) -> Told {
         let mut told = Told::default();
         while !told.all.last().is_some_and(&is_meant) {
-            told.all.extend(self.news());
+            told.all.extend(self.events());
         }
         told
     }
@@ -135,15 +135,15 @@ impl Window {
     pub(crate) fn answer(&self, request: LiveRequest) -> Told {
         let asked = request.revision;
         self.live.submit(request);
-        self.until(|news| matches!(news, News::Done { revision } if *revision == asked))
+        self.until(|event| matches!(event, LiveEvent::Done { revision } if *revision == asked))
     }
 }
 
 impl Told {
     /// What viewports were shown, in order: wish, whether it was coarse, the model and the looks.
     pub(crate) fn shown(&self) -> Vec<(u64, bool, &Arc<LiveModel>, &Arc<Shown>)> {
-        let shown = self.all.iter().filter_map(|news| match news {
-            News::Shown {
+        let shown = self.all.iter().filter_map(|event| match event {
+            LiveEvent::Shown {
                 revision,
                 is_coarse,
                 model,
@@ -162,8 +162,8 @@ impl Told {
 
     /// Thumbnails by node.
     pub(crate) fn thumbnails(&self) -> Vec<(&str, &Pixels)> {
-        let thumbnails = self.all.iter().filter_map(|news| match news {
-            News::Thumbnail { node, picture, .. } => Some((node.node.as_str(), picture)),
+        let thumbnails = self.all.iter().filter_map(|event| match event {
+            LiveEvent::Thumbnail { node, picture, .. } => Some((node.node.as_str(), picture)),
             _ => None,
         });
         thumbnails.collect()
@@ -177,8 +177,8 @@ impl Told {
     /// What is wrong with the graph, as it was told last.
     pub(crate) fn faults(&self) -> Option<&Faults> {
         let mut faults = self.all.iter().rev();
-        faults.find_map(|news| match news {
-            News::Faults { faults, .. } => Some(faults),
+        faults.find_map(|event| match event {
+            LiveEvent::Faults { faults, .. } => Some(faults),
             _ => None,
         })
     }
@@ -186,8 +186,8 @@ impl Told {
     /// What it took; nothing where nothing was evaluated.
     pub(crate) fn times(&self) -> LiveTimes {
         let mut times = self.all.iter().rev();
-        let found = times.find_map(|news| match news {
-            News::Times { times, .. } => Some(times.clone()),
+        let found = times.find_map(|event| match event {
+            LiveEvent::Times { times, .. } => Some(times.clone()),
             _ => None,
         });
         found.unwrap_or_default()

@@ -10,7 +10,7 @@ use std::time::Duration;
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use sabi_engine::view::Pixels;
 use sabi_engine::{
-    EngineError, Faults, Gpu, Inspected, Live, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelOptions, News,
+    EngineError, Faults, Gpu, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelOptions,
     OpenGraph, Seen, SetKey, Shown,
 };
 use sabi_graph::{Document, NodeRef};
@@ -264,35 +264,35 @@ impl Stage {
         if let Some(loss) = self.gpu.loss() {
             self.lost = Some(loss.into());
         }
-        for news in self.live.news() {
+        for news in self.live.take_events() {
             match news {
-                News::Model {
+                LiveEvent::Model {
                     model, model_revision, ..
                 } if model_revision == self.model_revision => {
                     self.model_failure = None;
                     self.shown_model = Some(model);
                 }
-                News::ModelFailed { error, model_revision } if model_revision == self.model_revision => {
+                LiveEvent::ModelFailed { error, model_revision } if model_revision == self.model_revision => {
                     self.model_failure = Some(error.to_string());
                 }
-                News::Shown { seen, model, shown, .. } => {
+                LiveEvent::Shown { seen, model, shown, .. } => {
                     self.numbers += 1;
                     tracing::info!(?seen, texels = model.size, "a picture came");
                     self.failure = None;
                     let number = self.numbers;
                     self.pictures.insert(seen, Picture { model, shown, number });
                 }
-                News::Inspected { node, values, .. } => self.inspected = Some((node, values)),
-                News::Thumbnail { node, picture, .. } => self.take_thumbnail(context, node, picture),
-                News::Files { files, .. } => self.files = Arc::new(files),
-                News::Faults { faults, .. } => self.take_faults(faults),
-                News::Times { times, .. } => {
+                LiveEvent::Inspected { node, values, .. } => self.inspected = Some((node, values)),
+                LiveEvent::Thumbnail { node, picture, .. } => self.take_thumbnail(context, node, picture),
+                LiveEvent::Files { files, .. } => self.files = Arc::new(files),
+                LiveEvent::Faults { faults, .. } => self.take_faults(faults),
+                LiveEvent::Times { times, .. } => {
                     self.times.extend(times.nodes.iter().cloned());
                     self.last = times;
                 }
-                News::Failed { error, .. } => self.failure = Some(error.to_string()),
-                News::Lost(error) => self.lost = Some(error),
-                News::Done { .. } | News::Model { .. } | News::ModelFailed { .. } => {}
+                LiveEvent::Failed { error, .. } => self.failure = Some(error.to_string()),
+                LiveEvent::Lost(error) => self.lost = Some(error),
+                LiveEvent::Done { .. } | LiveEvent::Model { .. } | LiveEvent::ModelFailed { .. } => {}
             }
         }
     }

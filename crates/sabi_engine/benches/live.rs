@@ -13,8 +13,8 @@ use sabi_engine::view::{
     Background, Camera, Environment, MaterialLook, Mode, Renderer, Scene, Shot, Target, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, Gpu, Kinds, Live, LiveModel, LiveOptions, LiveRequest, ModelOptions, News, NodeRef, OpenGraph, Seen,
-    Shown, default_cache_dir, load_environment,
+    AdapterChoice, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, ModelOptions, NodeRef, OpenGraph,
+    Seen, Shown, default_cache_dir, load_environment,
 };
 
 const MOVES: usize = 15;
@@ -121,9 +121,9 @@ impl Window {
         self.live.submit(request);
         loop {
             self.woken.recv().unwrap();
-            for news in self.live.news() {
-                match news {
-                    News::Shown {
+            for event in self.live.take_events() {
+                match event {
+                    LiveEvent::Shown {
                         is_coarse,
                         model,
                         shown,
@@ -136,11 +136,11 @@ impl Window {
                         made.drawn[at] = ms(asked);
                         made.last = Some(pictured);
                     }
-                    News::Times { times, .. } => made.nodes = times.nodes,
-                    News::Failed { error, .. } | News::ModelFailed { error, .. } | News::Lost(error) => {
+                    LiveEvent::Times { times, .. } => made.nodes = times.nodes,
+                    LiveEvent::Failed { error, .. } | LiveEvent::ModelFailed { error, .. } | LiveEvent::Lost(error) => {
                         panic!("{error}")
                     }
-                    News::Done { .. } => return made,
+                    LiveEvent::Done { .. } => return made,
                     _ => {}
                 }
             }

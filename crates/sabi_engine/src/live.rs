@@ -3,12 +3,12 @@
 //! One thread owns all evaluation, so that no window ever waits. It keeps the model at two sizes, evaluates on the coarse one
 //! first, and keeps results by what they are: an edit evaluates the nodes that it changes and what hangs below them.
 
+mod event;
 mod faults;
 mod flat;
 mod inspect;
 mod mailbox;
 mod model;
-mod news;
 mod request;
 mod set_aside;
 mod show;
@@ -25,8 +25,8 @@ use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
 use crate::error::{EngineError, ErrorKind};
+pub use event::{Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault, Waiting, Warning};
 use mailbox::{Forgotten, Mailbox};
-pub use news::{Faults, Inspected, LiveModel, LiveTimes, News, NodeFault, Waiting, Warning};
 pub use request::{LiveOptions, LiveRequest, Seen};
 use worker::Worker;
 
@@ -46,7 +46,7 @@ impl Live {
             .spawn(move || worker.work());
         if let Err(error) = &started {
             let why = format!("the system gives no thread to evaluate the graph on ({error}); close other programs");
-            mailbox.tell(News::Lost(EngineError::new(ErrorKind::OutOfMemory, why)));
+            mailbox.tell(LiveEvent::Lost(EngineError::new(ErrorKind::OutOfMemory, why)));
             mailbox.close();
         }
         Live {
@@ -67,8 +67,8 @@ impl Live {
     }
 
     /// What came since the last call, oldest first.
-    pub fn news(&self) -> Vec<News> {
-        self.mailbox.take_news()
+    pub fn take_events(&self) -> Vec<LiveEvent> {
+        self.mailbox.take_events()
     }
 
     /// Whether more news are to be expected.

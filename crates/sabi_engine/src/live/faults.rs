@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use sabi_graph::{FlatGraph, NodeRef, Value};
 use sabi_plan::{FileContents, PlanError, Target};
 
+use super::event::{Faults, LiveEvent, NodeFault, Waiting, Warning};
 use super::model::Loaded;
-use super::news::{Faults, News, NodeFault, Waiting, Warning};
 use super::request::Seen;
 use super::set_aside::{Opened, open_groups};
 use super::worker::{Job, Worker};
@@ -99,7 +99,7 @@ impl Worker {
             return;
         }
         self.sent.files = Some(files.clone());
-        self.tell(News::Files {
+        self.tell(LiveEvent::Files {
             revision: job.request.revision,
             files,
         });
@@ -141,7 +141,7 @@ impl Worker {
             return;
         }
         self.sent.faults = Some(faults.clone());
-        self.tell(News::Faults {
+        self.tell(LiveEvent::Faults {
             revision: job.request.revision,
             faults,
         });

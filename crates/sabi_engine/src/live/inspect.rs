@@ -7,10 +7,10 @@ use sabi_gpu::Run;
 use sabi_graph::NodeRef;
 use sabi_plan::{Plan, PlannedResult, Target};
 
+use super::event::{Inspected, LiveEvent};
 use super::faults::Laid;
 use super::mailbox::Watch;
 use super::model::Loaded;
-use super::news::{Inspected, News};
 use super::show::evaluate;
 use super::sized_model::SizedModel;
 use super::trouble::Trouble;
@@ -28,7 +28,7 @@ impl Worker {
         self.take_graph_in_full(job, laid)?;
         match self.inspect_one(job, laid, node, target) {
             Err(Trouble::Failed(error)) => {
-                self.tell(News::Failed {
+                self.tell(LiveEvent::Failed {
                     revision: job.request.revision,
                     error,
                 });
@@ -79,7 +79,7 @@ impl Worker {
         let values = sized.inspected((&plan, &run), result, set);
         let values = values.map_err(|error| Trouble::of_results(gpu, size, error))?;
         sent.inspected = now;
-        self.tell(News::Inspected {
+        self.tell(LiveEvent::Inspected {
             revision: job.request.revision,
             node,
             values: Arc::new(values),

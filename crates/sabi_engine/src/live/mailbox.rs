@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use sabi_graph::NodeRef;
 
-use super::news::News;
+use super::event::LiveEvent;
 use super::request::{LiveRequest, Seen};
 use crate::phases::{Phase, Progress};
 
@@ -22,7 +22,7 @@ pub(super) struct Mailbox {
 #[derive(Default)]
 struct State {
     request: Option<Asked>,
-    news: Vec<News>,
+    events: Vec<LiveEvent>,
     forgotten: Forgotten,
     is_working: bool,
     is_closed: bool,
@@ -98,18 +98,18 @@ impl Mailbox {
         !state.is_closed && (state.is_working || state.request.is_some())
     }
 
-    pub(super) fn tell(&self, news: News) {
+    pub(super) fn tell(&self, event: LiveEvent) {
         let mut state = self.lock();
         // A window that does not listen for a while wants the newest pictures and none of those before.
-        state.news.retain(|older| !is_outdated(older, &news));
-        if matches!(news, News::Done { .. } | News::Lost(_)) {
+        state.events.retain(|older| !is_outdated(older, &event));
+        if matches!(event, LiveEvent::Done { .. } | LiveEvent::Lost(_)) {
             state.is_working = false;
         }
-        state.news.push(news);
+        state.events.push(event);
     }
 
-    pub(super) fn take_news(&self) -> Vec<News> {
-        std::mem::take(&mut self.lock().news)
+    pub(super) fn take_events(&self) -> Vec<LiveEvent> {
+        std::mem::take(&mut self.lock().events)
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -119,25 +119,25 @@ impl Mailbox {
 }
 
 /// Whether older news are of no use beside newer ones: pictures of the same thing, of an older wish.
-fn is_outdated(older: &News, newer: &News) -> bool {
+fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     match (older, newer) {
         (
-            News::Shown { revision, seen, .. },
-            News::Shown {
+            LiveEvent::Shown { revision, seen, .. },
+            LiveEvent::Shown {
                 revision: newer,
                 seen: same,
                 ..
             },
         ) => revision < newer && seen == same,
         (
-            News::Thumbnail { revision, node, .. },
-            News::Thumbnail {
+            LiveEvent::Thumbnail { revision, node, .. },
+            LiveEvent::Thumbnail {
                 revision: newer,
                 node: same,
                 ..
             },
         ) => revision < newer && node == same,
-        (News::Inspected { revision, .. }, News::Inspected { revision: newer, .. }) => revision < newer,
+        (LiveEvent::Inspected { revision, .. }, LiveEvent::Inspected { revision: newer, .. }) => revision < newer,
         _ => false,
     }
 }

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use super::event::LiveEvent;
 use super::faults::Laid;
 use super::mailbox::LoadWatch;
-use super::news::News;
 use super::sized_model::SizedModel;
 use super::trouble::Trouble;
 use super::worker::{Job, Worker};
@@ -143,8 +143,8 @@ impl Worker {
         if is_another.map_err(|error| Trouble::of(&self.gpu, error))?
             && let Some(sized) = self.loaded.as_mut().and_then(Loaded::first)
         {
-            let news = model_news(sized);
-            self.tell(news);
+            let event = model_event(sized);
+            self.tell(event);
         }
         Ok(())
     }
@@ -163,21 +163,21 @@ impl Worker {
         if coarse.is_some() {
             let is_another = sized.take(&job.request, &laid.graph);
             if is_another.map_err(|error| Trouble::of(&self.gpu, error))? {
-                let news = model_news(sized);
-                self.tell(news);
+                let event = model_event(sized);
+                self.tell(event);
             }
         }
         Ok(true)
     }
 
     fn tell_model(&self, sized: &SizedModel) {
-        self.tell(model_news(sized));
+        self.tell(model_event(sized));
     }
 
     fn model_failed(&self, job: &Job, error: EngineError) -> Result<(), Trouble> {
         match Trouble::of(&self.gpu, error) {
             Trouble::Failed(error) => {
-                self.tell(News::ModelFailed {
+                self.tell(LiveEvent::ModelFailed {
                     model_revision: job.request.model_revision,
                     error,
                 });
@@ -188,8 +188,8 @@ impl Worker {
     }
 }
 
-fn model_news(sized: &SizedModel) -> News {
-    News::Model {
+fn model_event(sized: &SizedModel) -> LiveEvent {
+    LiveEvent::Model {
         model_revision: sized.model.model_revision,
         size: sized.model.size,
         model: sized.model.clone(),

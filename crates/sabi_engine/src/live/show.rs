@@ -7,9 +7,9 @@ use std::time::Instant;
 use sabi_gpu::Run;
 use sabi_plan::{Plan, Target};
 
+use super::event::LiveEvent;
 use super::faults::{Broken, Laid};
 use super::mailbox::Watch;
-use super::news::News;
 use super::request::Seen;
 use super::sized_model::{SizedModel, Tally};
 use super::trouble::Trouble;
@@ -68,7 +68,7 @@ impl Worker {
                     if error.kind == ErrorKind::OutOfMemory {
                         self.forget_results();
                     }
-                    self.tell(News::Failed {
+                    self.tell(LiveEvent::Failed {
                         revision: job.request.revision,
                         error,
                     });
@@ -126,14 +126,14 @@ impl Worker {
             is_whole: is_whole(&plan),
         };
         sent.shown.insert(seen.clone(), now);
-        let news = News::Shown {
+        let event = LiveEvent::Shown {
             revision: job.request.revision,
             seen: seen.clone(),
             is_coarse,
             model: sized.model.clone(),
             shown: Arc::new(looks),
         };
-        self.tell(news);
+        self.tell(event);
         job.latency = Some(job.asked.elapsed());
         Ok(())
     }

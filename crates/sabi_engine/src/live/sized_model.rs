@@ -10,7 +10,7 @@ use sabi_graph::{FlatGraph, Overrides};
 use sabi_plan::{Mode, Plan, Step, Target};
 use sabi_view::ViewModel;
 
-use super::news::LiveModel;
+use super::event::LiveModel;
 use super::request::{LiveOptions, LiveRequest};
 use super::trouble::Trouble;
 use crate::AdapterChoice;

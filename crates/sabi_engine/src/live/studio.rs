@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sabi_gpu::Gpu;
 use sabi_view::{Background, Camera, Environment, MaterialLook, Pixels, Pose, Renderer, Shot, Viewpoint};
 
-use super::news::LiveModel;
+use super::event::LiveModel;
 use crate::error::EngineError;
 use crate::opening::environment::{built_in_environments, load_environment};
 

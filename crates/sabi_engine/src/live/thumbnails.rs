@@ -6,10 +6,10 @@ use sabi_graph::NodeRef;
 use sabi_plan::{Plan, Target};
 use sabi_view::Pixels;
 
+use super::event::LiveEvent;
 use super::faults::Laid;
 use super::mailbox::Watch;
 use super::model::Loaded;
-use super::news::News;
 use super::request::LiveRequest;
 use super::show::evaluate;
 use super::sized_model::SizedModel;
@@ -42,7 +42,7 @@ impl Worker {
             match self.picture(job, laid, &target) {
                 Ok(Some(picture)) => {
                     self.sent.thumbnails.insert(node.clone(), *key);
-                    self.tell(News::Thumbnail {
+                    self.tell(LiveEvent::Thumbnail {
                         revision: job.request.revision,
                         node,
                         picture,
@@ -51,7 +51,7 @@ impl Worker {
                 Ok(None) => {}
                 Err(Trouble::Failed(error)) => {
                     // The others would most likely fail as well.
-                    self.tell(News::Failed {
+                    self.tell(LiveEvent::Failed {
                         revision: job.request.revision,
                         error,
                     });

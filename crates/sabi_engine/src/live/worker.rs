@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
+use super::event::{Faults, LiveEvent, LiveTimes};
 use super::faults::Broken;
 use super::mailbox::Mailbox;
 use super::model::Loaded;
-use super::news::{Faults, LiveTimes, News};
 use super::request::{LiveOptions, LiveRequest, Seen};
 use super::sized_model::Tally;
 use super::studio::Studio;
@@ -104,7 +104,7 @@ impl Worker {
                 Ok(Ok(())) => {}
                 Ok(Err(loss)) => {
                     worker.0.mailbox.close();
-                    worker.0.tell(News::Lost(loss));
+                    worker.0.tell(LiveEvent::Lost(loss));
                     return;
                 }
                 Err(_) => worker.0.begin_anew(revision),
@@ -125,8 +125,8 @@ impl Worker {
         self.fail(revision, EngineError::new(ErrorKind::BadInput, why));
     }
 
-    pub(super) fn tell(&self, news: News) {
-        self.mailbox.tell(news);
+    pub(super) fn tell(&self, event: LiveEvent) {
+        self.mailbox.tell(event);
         (self.wake)();
     }
 
@@ -161,7 +161,7 @@ impl Worker {
             self.tell_times(&job);
         }
         match outcome {
-            Ok(()) => self.tell(News::Done { revision }),
+            Ok(()) => self.tell(LiveEvent::Done { revision }),
             Err(Trouble::Superseded) => {}
             Err(Trouble::Lost(loss)) => return Err(loss),
             Err(Trouble::Failed(error)) => self.fail(revision, error),
@@ -183,8 +183,8 @@ impl Worker {
 
     /// Ends a wish that could not be answered.
     fn fail(&self, revision: u64, error: EngineError) {
-        self.tell(News::Failed { revision, error });
-        self.tell(News::Done { revision });
+        self.tell(LiveEvent::Failed { revision, error });
+        self.tell(LiveEvent::Done { revision });
     }
 
     /// All that a wish asks for, what is missed most first.
@@ -234,7 +234,7 @@ impl Worker {
             budget_bytes,
             latency: job.latency,
         };
-        self.tell(News::Times {
+        self.tell(LiveEvent::Times {
             revision: job.request.revision,
             times,
         });
@@ -249,7 +249,7 @@ impl Drop for LastWords {
         if std::thread::panicking() {
             let why = "the evaluation of the graph broke off; this is a mistake in Sabi";
             self.0.mailbox.close();
-            self.0.tell(News::Lost(EngineError::new(ErrorKind::BadInput, why)));
+            self.0.tell(LiveEvent::Lost(EngineError::new(ErrorKind::BadInput, why)));
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::evaluating::sheet::SheetPlane;
 use crate::opening::prepare::Prepared;
 
 /// Something that a window is told. What is handed over never changes again.
-pub enum News {
+pub enum LiveEvent {
     /// The model was loaded, coarse or in full, or its lengths count differently.
     Model {
         /// Which one.
