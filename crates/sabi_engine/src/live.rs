@@ -7,8 +7,8 @@ mod event;
 mod faults;
 mod flat;
 mod inspect;
-mod mailbox;
 mod model;
+mod queue;
 mod request;
 mod set_aside;
 mod show;
@@ -26,60 +26,60 @@ use sabi_graph::NodeRef;
 
 use crate::error::{EngineError, ErrorKind};
 pub use event::{Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault, Waiting, Warning};
-use mailbox::{Forgotten, Mailbox};
+use queue::{Forgotten, WorkerQueue};
 pub use request::{LiveOptions, LiveRequest, Seen};
 use worker::Worker;
 
 /// Evaluates a graph while it is worked on. Dropping it stops the work at its next step and waits for that.
 pub struct Live {
-    mailbox: Arc<Mailbox>,
+    queue: Arc<WorkerQueue>,
     worker: Option<JoinHandle<()>>,
 }
 
 impl Live {
     /// Starts the thread that works. `wake` is called there whenever news have come.
     pub fn start(gpu: Arc<Gpu>, options: LiveOptions, wake: impl Fn() + Send + 'static) -> Live {
-        let mailbox = Arc::new(Mailbox::default());
-        let worker = Worker::new(gpu, options, mailbox.clone(), Box::new(wake));
+        let queue = Arc::new(WorkerQueue::default());
+        let worker = Worker::new(gpu, options, queue.clone(), Box::new(wake));
         let started = std::thread::Builder::new()
             .name("sabi live".to_owned())
             .spawn(move || worker.work());
         if let Err(error) = &started {
             let why = format!("the system gives no thread to evaluate the graph on ({error}); close other programs");
-            mailbox.tell(LiveEvent::Lost(EngineError::new(ErrorKind::OutOfMemory, why)));
-            mailbox.close();
+            queue.tell(LiveEvent::Lost(EngineError::new(ErrorKind::OutOfMemory, why)));
+            queue.close();
         }
         Live {
-            mailbox,
+            queue,
             worker: started.ok(),
         }
     }
 
     /// Wishes for something else than before. Work that is of no use any more ends at its next step.
     pub fn submit(&self, request: LiveRequest) {
-        self.mailbox.submit(request);
+        self.queue.submit(request);
     }
 
     /// Says that pictures were let go of: where they are wished for again, they are told again. What is told once is otherwise
     /// not told a second time as long as it looks the same.
     pub fn forget(&self, seen: Vec<Seen>, thumbnails: Vec<NodeRef>) {
-        self.mailbox.forget(Forgotten { seen, thumbnails });
+        self.queue.forget(Forgotten { seen, thumbnails });
     }
 
     /// What came since the last call, oldest first.
     pub fn take_events(&self) -> Vec<LiveEvent> {
-        self.mailbox.take_events()
+        self.queue.take_events()
     }
 
     /// Whether more news are to be expected.
     pub fn is_busy(&self) -> bool {
-        self.mailbox.is_busy()
+        self.queue.is_busy()
     }
 }
 
 impl Drop for Live {
     fn drop(&mut self) {
-        self.mailbox.close();
+        self.queue.close();
         if let Some(worker) = self.worker.take() {
             // A worker that panicked has said so in its last news.
             let _ = worker.join();

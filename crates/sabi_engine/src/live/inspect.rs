@@ -9,8 +9,8 @@ use sabi_plan::{Plan, PlannedResult, Target};
 
 use super::event::{Inspected, LiveEvent};
 use super::faults::Laid;
-use super::mailbox::Watch;
 use super::model::Loaded;
+use super::queue::Watch;
 use super::show::evaluate;
 use super::sized_model::SizedModel;
 use super::trouble::Trouble;
@@ -42,7 +42,7 @@ impl Worker {
         let Worker {
             loaded,
             broken,
-            mailbox,
+            queue,
             gpu,
             sent,
             ..
@@ -67,10 +67,7 @@ impl Worker {
         if sent.inspected == now {
             return Ok(());
         }
-        let watch = Watch {
-            mailbox,
-            gives_way: true,
-        };
+        let watch = Watch { queue, gives_way: true };
         let (plan, run) = evaluate(sized, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
         let Some(result) = plan.results.first() else {
             return Ok(());

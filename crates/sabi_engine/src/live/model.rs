@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::event::LiveEvent;
 use super::faults::Laid;
-use super::mailbox::LoadWatch;
+use super::queue::LoadWatch;
 use super::sized_model::SizedModel;
 use super::trouble::Trouble;
 use super::worker::{Job, Worker};
@@ -67,7 +67,7 @@ impl Worker {
             ..(*request.model).clone()
         };
         let watch = LoadWatch {
-            mailbox: &self.mailbox,
+            queue: &self.queue,
             model_revision: request.model_revision,
         };
         let opened = Prepared::open(&options, &watch).and_then(|prepared| {
@@ -111,7 +111,7 @@ impl Worker {
             ..(*loaded.options).clone()
         };
         let watch = LoadWatch {
-            mailbox: &self.mailbox,
+            queue: &self.queue,
             model_revision: loaded.revision,
         };
         let resized = coarse.model.prepared.resized(&options, &watch);

@@ -9,7 +9,7 @@ use sabi_plan::{Plan, Target};
 
 use super::event::LiveEvent;
 use super::faults::{Broken, Laid};
-use super::mailbox::Watch;
+use super::queue::Watch;
 use super::request::Seen;
 use super::sized_model::{SizedModel, Tally};
 use super::trouble::Trouble;
@@ -92,7 +92,7 @@ impl Worker {
             loaded,
             sent,
             broken,
-            mailbox,
+            queue,
             ..
         } = self;
         let Some(sized) = loaded.as_mut().and_then(|loaded| loaded.at(is_coarse)) else {
@@ -114,7 +114,7 @@ impl Worker {
         if before.is_some_and(is_known) || (is_coarse && job.is_full_first) || is_worse(&plan) {
             return Ok(());
         }
-        let watch = Watch { mailbox, gives_way };
+        let watch = Watch { queue, gives_way };
         let (plan, mut run) = evaluate(sized, laid, broken, (&wanted, plan), &watch, &mut job.tally)?;
         if is_worse(&plan) {
             return Ok(());

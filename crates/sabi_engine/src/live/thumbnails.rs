@@ -8,8 +8,8 @@ use sabi_view::Pixels;
 
 use super::event::LiveEvent;
 use super::faults::Laid;
-use super::mailbox::Watch;
 use super::model::Loaded;
+use super::queue::Watch;
 use super::request::LiveRequest;
 use super::show::evaluate;
 use super::sized_model::SizedModel;
@@ -68,7 +68,7 @@ impl Worker {
         let Worker {
             loaded,
             broken,
-            mailbox,
+            queue,
             studio,
             gpu,
             options,
@@ -77,10 +77,7 @@ impl Worker {
         let Some(sized) = loaded.as_mut().and_then(Loaded::first) else {
             return Ok(None);
         };
-        let watch = Watch {
-            mailbox,
-            gives_way: true,
-        };
+        let watch = Watch { queue, gives_way: true };
         let wanted = std::slice::from_ref(target);
         let plan = sized.plan(&laid.sound(wanted, broken));
         let (plan, mut run) = evaluate(sized, laid, broken, (wanted, plan), &watch, &mut job.tally)?;

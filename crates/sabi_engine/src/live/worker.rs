@@ -11,8 +11,8 @@ use sabi_graph::NodeRef;
 
 use super::event::{Faults, LiveEvent, LiveTimes};
 use super::faults::Broken;
-use super::mailbox::Mailbox;
 use super::model::Loaded;
+use super::queue::WorkerQueue;
 use super::request::{LiveOptions, LiveRequest, Seen};
 use super::sized_model::Tally;
 use super::studio::Studio;
@@ -26,7 +26,7 @@ pub(super) type Key = [u8; 32];
 pub(super) struct Worker {
     pub(super) gpu: Arc<Gpu>,
     pub(super) options: LiveOptions,
-    pub(super) mailbox: Arc<Mailbox>,
+    pub(super) queue: Arc<WorkerQueue>,
     wake: Box<dyn Fn() + Send>,
     /// The last good model.
     pub(super) loaded: Option<Loaded>,
@@ -77,13 +77,13 @@ impl Worker {
     pub(super) fn new(
         gpu: Arc<Gpu>,
         options: LiveOptions,
-        mailbox: Arc<Mailbox>,
+        queue: Arc<WorkerQueue>,
         wake: Box<dyn Fn() + Send>,
     ) -> Worker {
         Worker {
             gpu,
             options,
-            mailbox,
+            queue,
             wake,
             loaded: None,
             tried: None,
@@ -97,13 +97,13 @@ impl Worker {
     /// Answers wishes until nobody wishes any more, or the device is gone.
     pub(super) fn work(self) {
         let mut worker = LastWords(self);
-        while let Some((request, asked)) = worker.0.mailbox.next() {
+        while let Some((request, asked)) = worker.0.queue.next() {
             let revision = request.revision;
             // Whatever a mistake leaves half made is let go of.
             match catch_unwind(AssertUnwindSafe(|| worker.0.answer(request, asked))) {
                 Ok(Ok(())) => {}
                 Ok(Err(loss)) => {
-                    worker.0.mailbox.close();
+                    worker.0.queue.close();
                     worker.0.tell(LiveEvent::Lost(loss));
                     return;
                 }
@@ -126,13 +126,13 @@ impl Worker {
     }
 
     pub(super) fn tell(&self, event: LiveEvent) {
-        self.mailbox.tell(event);
+        self.queue.tell(event);
         (self.wake)();
     }
 
     /// Ends the job if a newer wish is there.
     pub(super) fn go_on(&self) -> Result<(), Trouble> {
-        if self.mailbox.is_superseded() {
+        if self.queue.is_superseded() {
             return Err(Trouble::Superseded);
         }
         Ok(())
@@ -172,7 +172,7 @@ impl Worker {
 
     /// Takes what the window has let go of for something that it was never told.
     fn forget_told(&mut self) {
-        let forgotten = self.mailbox.take_forgotten();
+        let forgotten = self.queue.take_forgotten();
         for seen in &forgotten.seen {
             self.sent.shown.remove(seen);
         }
@@ -248,7 +248,7 @@ impl Drop for LastWords {
     fn drop(&mut self) {
         if std::thread::panicking() {
             let why = "the evaluation of the graph broke off; this is a mistake in Sabi";
-            self.0.mailbox.close();
+            self.0.queue.close();
             self.0.tell(LiveEvent::Lost(EngineError::new(ErrorKind::BadInput, why)));
         }
     }

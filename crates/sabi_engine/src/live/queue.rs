@@ -14,7 +14,7 @@ pub(super) type Asked = (LiveRequest, Instant);
 
 /// The last wish on its way to the worker, and news on their way to the window.
 #[derive(Default)]
-pub(super) struct Mailbox {
+pub(super) struct WorkerQueue {
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -35,7 +35,7 @@ pub(super) struct Forgotten {
     pub(super) thumbnails: Vec<NodeRef>,
 }
 
-impl Mailbox {
+impl WorkerQueue {
     /// Puts a wish in the place of the last one.
     pub(super) fn submit(&self, request: LiveRequest) {
         self.lock().request = Some((request, Instant::now()));
@@ -144,7 +144,7 @@ fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
 
 /// Stops work that is of no use any more, between two of its steps.
 pub(super) struct Watch<'m> {
-    pub(super) mailbox: &'m Mailbox,
+    pub(super) queue: &'m WorkerQueue,
     /// Whether it is ended by a newer wish, or only when nobody wishes any more.
     pub(super) gives_way: bool,
 }
@@ -154,16 +154,16 @@ impl Progress for Watch<'_> {
 
     fn is_canceled(&self) -> bool {
         if self.gives_way {
-            self.mailbox.is_superseded()
+            self.queue.is_superseded()
         } else {
-            self.mailbox.is_closed()
+            self.queue.is_closed()
         }
     }
 }
 
 /// Stops loading a model that nobody wants any more.
 pub(super) struct LoadWatch<'m> {
-    pub(super) mailbox: &'m Mailbox,
+    pub(super) queue: &'m WorkerQueue,
     pub(super) model_revision: u64,
 }
 
@@ -171,6 +171,6 @@ impl Progress for LoadWatch<'_> {
     fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {
-        self.mailbox.is_other_wanted(self.model_revision)
+        self.queue.is_other_wanted(self.model_revision)
     }
 }
