@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-use sabi_engine::{Faults, Live, LiveEvent, LiveRequest, ModelOptions, NodeFault, OpenGraph, Waiting};
+use sabi_engine::{BlockedNode, Faults, Live, LiveEvent, LiveRequest, ModelOptions, NodeFault, OpenGraph};
 use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_tests::{MeshFile, Quad, device};
 
@@ -19,8 +19,8 @@ fn fault(node: &str, sentence: &str) -> NodeFault {
     }
 }
 
-fn waiting(node: &str, on: &str) -> Waiting {
-    Waiting {
+fn waiting(node: &str, on: &str) -> BlockedNode {
+    BlockedNode {
         node: node.to_owned(),
         on: on.to_owned(),
     }

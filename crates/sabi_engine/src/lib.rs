@@ -32,7 +32,7 @@ pub use evaluating::sheet::{PlaneHolds, SheetPlane};
 pub use evaluating::thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
 pub use evaluating::workpiece::{Workpiece, WorkpieceOptions};
 pub use live::{
-    Faults, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, NodeFault, Seen, Waiting,
+    BlockedNode, Faults, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, NodeFault, Seen,
     Warning,
 };
 pub use opening::cache_dir::default_cache_dir;

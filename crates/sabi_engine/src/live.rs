@@ -25,7 +25,7 @@ use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
 use crate::error::{EngineError, ErrorKind};
-pub use event::{Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault, Waiting, Warning};
+pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault, Warning};
 use queue::{Forgotten, WorkerQueue};
 pub use request::{LiveOptions, LiveRequest, Seen};
 use worker::Worker;

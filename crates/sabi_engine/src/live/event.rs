@@ -154,7 +154,7 @@ pub struct Faults {
     /// What is wrong at nodes.
     pub faults: Vec<NodeFault>,
     /// Nodes that are right and wait for one that is not.
-    pub waiting: Vec<Waiting>,
+    pub blocked: Vec<BlockedNode>,
     /// What is wrong and at no node.
     pub other: Vec<String>,
     /// What the artist should know.
@@ -181,11 +181,11 @@ pub struct NodeFault {
 
 /// A node that waits for another one.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Waiting {
+pub struct BlockedNode {
     /// The node that waits.
     pub node: String,
     /// The one at fault.
-    pub on: String,
+    pub blocked_by: String,
 }
 
 /// What answering a wish took.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use sabi_graph::{FlatGraph, NodeRef, Value};
 use sabi_plan::{FileContents, PlanError, Target};
 
-use super::event::{Faults, LiveEvent, NodeFault, Waiting, Warning};
+use super::event::{BlockedNode, Faults, LiveEvent, NodeFault, Warning};
 use super::model::Loaded;
 use super::request::Seen;
 use super::set_aside::{Opened, open_groups};
@@ -115,13 +115,13 @@ impl Worker {
         faults.faults.extend(broken);
         for id in self.broken.keys() {
             let waits = laid.behind(id).filter(|node| !is_named(&faults, node));
-            let waiting: Vec<Waiting> = waits
-                .map(|node| Waiting {
+            let blocked: Vec<BlockedNode> = waits
+                .map(|node| BlockedNode {
                     node: node.to_owned(),
-                    on: id.clone(),
+                    blocked_by: id.clone(),
                 })
                 .collect();
-            faults.waiting.extend(waiting);
+            faults.blocked.extend(blocked);
         }
         if let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) {
             for sentence in sized.warnings() {
@@ -200,7 +200,7 @@ impl Laid {
 }
 
 fn is_named(faults: &Faults, node: &str) -> bool {
-    faults.waiting.iter().any(|waiting| waiting.node == node) || faults.faults.iter().any(|fault| fault.node == node)
+    faults.blocked.iter().any(|blocked| blocked.node == node) || faults.faults.iter().any(|fault| fault.node == node)
 }
 
 /// What is wrong, with why instances were set aside in the place of what is said of their stand-ins.
@@ -240,12 +240,12 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
             waits_for.insert(index, on);
         }
     }
-    let waiting = waits_for.iter().filter(|(index, _)| !graph.nodes[**index].muted);
+    let blocked = waits_for.iter().filter(|(index, _)| !graph.nodes[**index].muted);
     Faults {
-        waiting: waiting
-            .map(|(index, on)| Waiting {
+        blocked: blocked
+            .map(|(index, on)| BlockedNode {
                 node: graph.nodes[*index].id.clone(),
-                on: (*on).to_owned(),
+                blocked_by: (*on).to_owned(),
             })
             .collect(),
         warnings: warnings
