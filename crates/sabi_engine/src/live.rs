@@ -6,11 +6,11 @@
 mod event;
 mod faults;
 mod flat;
+mod groups;
 mod inspect;
 mod model;
 mod queue;
 mod request;
-mod set_aside;
 mod show;
 mod sized_model;
 mod studio;

@@ -7,9 +7,9 @@ use sabi_graph::{FlatGraph, NodeRef, Value};
 use sabi_plan::{FileContents, PlanError, Target};
 
 use super::event::{BlockedNode, Faults, LiveEvent, NodeFault, Warning};
+use super::groups::{Ungrouped, open_groups};
 use super::model::Loaded;
 use super::request::Seen;
-use super::set_aside::{Opened, open_groups};
 use super::worker::{Job, Worker};
 use crate::evaluating::outputs::clashes;
 use crate::opening::modelless::{all_nodes, planner};
@@ -43,10 +43,10 @@ impl Worker {
         let named = seen.chain(&request.inspected).chain(&request.thumbnails);
         let named: Vec<NodeRef> = named.cloned().collect::<BTreeSet<_>>().into_iter().collect();
         let mut files = BTreeSet::new();
-        let Opened {
+        let Ungrouped {
             graph,
             found,
-            set_aside,
+            failed_groups,
         } = match open_groups(&request.graph, &named, &mut files) {
             Ok(opened) => opened,
             Err(error) => {
@@ -83,7 +83,7 @@ impl Worker {
             .graph
             .file_contents(&graph, &request.kinds, 0..graph.nodes.len());
         let laid = Laid {
-            faults: with_set_aside(faults_of(job, &graph, &contents, other), set_aside),
+            faults: with_failed_groups(faults_of(job, &graph, &contents, other), failed_groups),
             graph,
             found: targets,
             contents,
@@ -204,10 +204,10 @@ fn is_named(faults: &Faults, node: &str) -> bool {
 }
 
 /// What is wrong, with why instances were set aside in the place of what is said of their stand-ins.
-fn with_set_aside(mut faults: Faults, set_aside: BTreeMap<String, String>) -> Faults {
-    faults.faults.retain(|fault| !set_aside.contains_key(&fault.node));
-    let set_aside = set_aside.into_iter();
-    let told = set_aside.map(|(node, sentence)| NodeFault { node, sentence });
+fn with_failed_groups(mut faults: Faults, failed_groups: BTreeMap<String, String>) -> Faults {
+    faults.faults.retain(|fault| !failed_groups.contains_key(&fault.node));
+    let failed_groups = failed_groups.into_iter();
+    let told = failed_groups.map(|(node, sentence)| NodeFault { node, sentence });
     faults.faults.extend(told);
     faults
 }
