@@ -3,6 +3,7 @@
 //! One thread owns all evaluation, so that no window ever waits. It keeps the model at two sizes, evaluates on the coarse one
 //! first, and keeps results by what they are: an edit evaluates the nodes that it changes and what hangs below them.
 
+mod evaluation_error;
 mod event;
 mod faults;
 mod flat;
@@ -15,7 +16,6 @@ mod show;
 mod sized_model;
 mod studio;
 mod thumbnails;
-mod trouble;
 mod worker;
 
 use std::sync::Arc;

@@ -7,19 +7,19 @@ use sabi_gpu::Run;
 use sabi_graph::NodeRef;
 use sabi_plan::{Plan, PlannedResult, Target};
 
+use super::evaluation_error::EvaluationError;
 use super::event::{Inspected, LiveEvent};
 use super::faults::Laid;
 use super::model::Loaded;
 use super::queue::Watch;
 use super::show::evaluate;
 use super::sized_model::SizedModel;
-use super::trouble::Trouble;
 use super::worker::{Job, Worker};
 use crate::error::EngineError;
 
 impl Worker {
     /// Tells the values of the inspected node, if they have changed.
-    pub(super) fn inspect(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
+    pub(super) fn inspect(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
         let inspected = job.request.inspected.clone();
         let Some((node, target)) = inspected.and_then(|node| laid.found.get(&node).map(|target| (node, target))) else {
             return Ok(());
@@ -27,7 +27,7 @@ impl Worker {
         self.go_on()?;
         self.take_graph_in_full(job, laid)?;
         match self.inspect_one(job, laid, node, target) {
-            Err(Trouble::Failed(error)) => {
+            Err(EvaluationError::Failed(error)) => {
                 self.tell(LiveEvent::Failed {
                     revision: job.request.revision,
                     error,
@@ -38,7 +38,13 @@ impl Worker {
         }
     }
 
-    fn inspect_one(&mut self, job: &mut Job, laid: &Laid, node: NodeRef, target: &Target) -> Result<(), Trouble> {
+    fn inspect_one(
+        &mut self,
+        job: &mut Job,
+        laid: &Laid,
+        node: NodeRef,
+        target: &Target,
+    ) -> Result<(), EvaluationError> {
         let Worker {
             loaded,
             broken,
@@ -74,7 +80,7 @@ impl Worker {
         };
         let size = sized.model.size;
         let values = sized.inspected((&plan, &run), result, set);
-        let values = values.map_err(|error| Trouble::of_results(gpu, size, error))?;
+        let values = values.map_err(|error| EvaluationError::of_results(gpu, size, error))?;
         sent.inspected = now;
         self.tell(LiveEvent::Inspected {
             revision: job.request.revision,

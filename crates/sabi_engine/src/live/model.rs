@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use super::evaluation_error::EvaluationError;
 use super::event::LiveEvent;
 use super::faults::Laid;
 use super::queue::LoadWatch;
 use super::sized_model::SizedModel;
-use super::trouble::Trouble;
 use super::worker::{Job, Worker};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::prepare::{ModelOptions, Prepared};
@@ -50,7 +50,7 @@ impl Loaded {
 
 impl Worker {
     /// Loads the model if it is another one, coarse where that is enough for a first picture.
-    pub(super) fn load_first(&mut self, job: &Job) -> Result<(), Trouble> {
+    pub(super) fn load_first(&mut self, job: &Job) -> Result<(), EvaluationError> {
         let request = &job.request;
         if self.tried == Some(request.model_revision) {
             return Ok(());
@@ -99,7 +99,7 @@ impl Worker {
     }
 
     /// Loads the model at full size, if it is not there yet.
-    pub(super) fn load_full(&mut self, job: &Job) -> Result<(), Trouble> {
+    pub(super) fn load_full(&mut self, job: &Job) -> Result<(), EvaluationError> {
         let Some(loaded) = self.loaded.as_mut().filter(|loaded| !loaded.is_full_refused) else {
             return Ok(());
         };
@@ -135,12 +135,12 @@ impl Worker {
     }
 
     /// Puts the graph on the first size of the model.
-    pub(super) fn take_graph(&mut self, job: &Job, laid: &Laid) -> Result<(), Trouble> {
+    pub(super) fn take_graph(&mut self, job: &Job, laid: &Laid) -> Result<(), EvaluationError> {
         let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
             return Ok(());
         };
         let is_another = sized.take(&job.request, &laid.graph);
-        if is_another.map_err(|error| Trouble::of(&self.gpu, error))?
+        if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))?
             && let Some(sized) = self.loaded.as_mut().and_then(Loaded::first)
         {
             let event = model_event(sized);
@@ -150,7 +150,7 @@ impl Worker {
     }
 
     /// The same on the full size, which is loaded where it is not there yet. Says whether there is one.
-    pub(super) fn take_graph_in_full(&mut self, job: &Job, laid: &Laid) -> Result<bool, Trouble> {
+    pub(super) fn take_graph_in_full(&mut self, job: &Job, laid: &Laid) -> Result<bool, EvaluationError> {
         self.load_full(job)?;
         let Some(Loaded {
             coarse,
@@ -162,7 +162,7 @@ impl Worker {
         };
         if coarse.is_some() {
             let is_another = sized.take(&job.request, &laid.graph);
-            if is_another.map_err(|error| Trouble::of(&self.gpu, error))? {
+            if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))? {
                 let event = model_event(sized);
                 self.tell(event);
             }
@@ -174,16 +174,16 @@ impl Worker {
         self.tell(model_event(sized));
     }
 
-    fn model_failed(&self, job: &Job, error: EngineError) -> Result<(), Trouble> {
-        match Trouble::of(&self.gpu, error) {
-            Trouble::Failed(error) => {
+    fn model_failed(&self, job: &Job, error: EngineError) -> Result<(), EvaluationError> {
+        match EvaluationError::of(&self.gpu, error) {
+            EvaluationError::Failed(error) => {
                 self.tell(LiveEvent::ModelFailed {
                     model_revision: job.request.model_revision,
                     error,
                 });
                 Ok(())
             }
-            trouble => Err(trouble),
+            error => Err(error),
         }
     }
 }

@@ -7,12 +7,12 @@ use std::time::Instant;
 use sabi_gpu::Run;
 use sabi_plan::{Plan, Target};
 
+use super::evaluation_error::EvaluationError;
 use super::event::LiveEvent;
 use super::faults::{Broken, Laid};
 use super::queue::Watch;
 use super::request::Seen;
 use super::sized_model::{SizedModel, Tally};
-use super::trouble::Trouble;
 use super::worker::{Job, Key, SentShown, Worker};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::looks::Shows;
@@ -20,7 +20,7 @@ use crate::opening::modelless::targets;
 
 impl Worker {
     /// Shows everything coarse, or in full where there is nothing coarser or that would only flicker.
-    pub(super) fn show_first(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
+    pub(super) fn show_first(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
         let has_coarse = self.loaded.as_ref().is_some_and(|loaded| loaded.coarse.is_some());
         let is_quick = self.full_took.is_some_and(|took| took < self.options.coarse_after);
         job.is_full_first = !has_coarse || is_quick;
@@ -34,7 +34,7 @@ impl Worker {
     }
 
     /// Shows everything in full, unless that was done first.
-    pub(super) fn show_full(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
+    pub(super) fn show_full(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
         if job.is_full_first {
             return Ok(());
         }
@@ -42,7 +42,7 @@ impl Worker {
         self.show_in_full(job, laid)
     }
 
-    fn show_in_full(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
+    fn show_in_full(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
         if !self.take_graph_in_full(job, laid)? {
             return Ok(());
         }
@@ -56,7 +56,7 @@ impl Worker {
     }
 
     /// Shows everything at one size, as far as it has changed.
-    fn show(&mut self, job: &mut Job, laid: &Laid, is_coarse: bool) -> Result<(), Trouble> {
+    fn show(&mut self, job: &mut Job, laid: &Laid, is_coarse: bool) -> Result<(), EvaluationError> {
         // A first picture is finished once it was begun, so that a stream of wishes has something to show.
         let gives_way = !is_coarse && !job.is_full_first;
         for seen in job.request.seen.clone() {
@@ -64,7 +64,7 @@ impl Worker {
                 self.go_on()?;
             }
             match self.show_one(job, laid, &seen, is_coarse, gives_way) {
-                Err(Trouble::Failed(error)) => {
+                Err(EvaluationError::Failed(error)) => {
                     if error.kind == ErrorKind::OutOfMemory {
                         self.forget_results();
                     }
@@ -87,7 +87,7 @@ impl Worker {
         seen: &Seen,
         is_coarse: bool,
         gives_way: bool,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), EvaluationError> {
         let Worker {
             loaded,
             sent,
@@ -167,17 +167,17 @@ pub(super) fn evaluate(
     (wanted, mut plan): (&[Target], Plan),
     watch: &Watch<'_>,
     tally: &mut Tally,
-) -> Result<(Plan, Run), Trouble> {
+) -> Result<(Plan, Run), EvaluationError> {
     loop {
         match sized.run(&plan, watch, tally) {
             Ok(run) => return Ok((plan, run)),
-            Err(Trouble::Node { node, why }) => {
+            Err(EvaluationError::Node { node, why }) => {
                 if !laid.take_down(broken, &node, &why) {
-                    return Err(Trouble::Failed(EngineError::new(ErrorKind::BadInput, why)));
+                    return Err(EvaluationError::Failed(EngineError::new(ErrorKind::BadInput, why)));
                 }
                 plan = sized.plan(&laid.sound(wanted, broken));
             }
-            Err(trouble) => return Err(trouble),
+            Err(error) => return Err(error),
         }
     }
 }

@@ -10,9 +10,9 @@ use sabi_graph::{FlatGraph, Overrides};
 use sabi_plan::{Mode, Plan, Step, Target};
 use sabi_view::ViewModel;
 
+use super::evaluation_error::EvaluationError;
 use super::event::LiveModel;
 use super::request::{LiveOptions, LiveRequest};
-use super::trouble::Trouble;
 use crate::AdapterChoice;
 use crate::baking::sets::{TextureSet, shown_by, texture_sets};
 use crate::error::{EngineError, ErrorKind};
@@ -209,10 +209,15 @@ impl SizedModel {
     }
 
     /// Runs a plan.
-    pub(super) fn run(&mut self, plan: &Plan, progress: &dyn Progress, tally: &mut Tally) -> Result<Run, Trouble> {
+    pub(super) fn run(
+        &mut self,
+        plan: &Plan,
+        progress: &dyn Progress,
+        tally: &mut Tally,
+    ) -> Result<Run, EvaluationError> {
         let (gpu, size) = (self.workpiece.gpu.clone(), self.model.size);
         let made = self.workpiece.make_levels(plan);
-        made.map_err(|error| Trouble::of(&gpu, error))?;
+        made.map_err(|error| EvaluationError::of(&gpu, error))?;
         let known = self.workpiece.warnings.len();
         let cache = Some(&mut self.cache);
         let run = self.workpiece.run_on_levels(plan, self.submission, progress, cache);
@@ -220,7 +225,7 @@ impl SizedModel {
             self.noted.retain(|(_, other)| *other != sentence);
             self.noted.push((sources_of(plan).collect(), sentence));
         }
-        let run = run.map_err(|error| Trouble::of_run(&gpu, size, error))?;
+        let run = run.map_err(|error| EvaluationError::of_run(&gpu, size, error))?;
         tally.add(plan, &run.report);
         Ok(run)
     }
@@ -232,13 +237,13 @@ impl SizedModel {
         run: &mut Run,
         shows: &Shows,
         progress: &dyn Progress,
-    ) -> Result<Shown, Trouble> {
+    ) -> Result<Shown, EvaluationError> {
         let options = RunOptions {
             is_canceled: &|| progress.is_canceled(),
             ..RunOptions::new(self.submission, self.workpiece.budget_bytes)
         };
         let looks = shown(&self.workpiece, plan, run, shows, &options);
-        looks.map_err(|error| Trouble::of_results(&self.workpiece.gpu, self.model.size, error))
+        looks.map_err(|error| EvaluationError::of_results(&self.workpiece.gpu, self.model.size, error))
     }
 }
 

@@ -6,6 +6,7 @@ use sabi_graph::NodeRef;
 use sabi_plan::{Plan, Target};
 use sabi_view::Pixels;
 
+use super::evaluation_error::EvaluationError;
 use super::event::LiveEvent;
 use super::faults::Laid;
 use super::model::Loaded;
@@ -14,14 +15,13 @@ use super::request::LiveRequest;
 use super::show::evaluate;
 use super::sized_model::SizedModel;
 use super::studio::Studio;
-use super::trouble::Trouble;
 use super::worker::{Job, Key, Worker};
 use crate::error::EngineError;
 use crate::evaluating::looks::Shows;
 
 impl Worker {
     /// Takes pictures of the nodes that give something else than on their last one.
-    pub(super) fn show_thumbnails(&mut self, job: &mut Job, laid: &Laid) -> Result<(), Trouble> {
+    pub(super) fn show_thumbnails(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
         let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
             return Ok(());
         };
@@ -49,7 +49,7 @@ impl Worker {
                     });
                 }
                 Ok(None) => {}
-                Err(Trouble::Failed(error)) => {
+                Err(EvaluationError::Failed(error)) => {
                     // The others would most likely fail as well.
                     self.tell(LiveEvent::Failed {
                         revision: job.request.revision,
@@ -57,14 +57,14 @@ impl Worker {
                     });
                     return Ok(());
                 }
-                Err(trouble) => return Err(trouble),
+                Err(error) => return Err(error),
             }
         }
         Ok(())
     }
 
     /// A picture of one result; none where it turns out that it cannot be made.
-    fn picture(&mut self, job: &mut Job, laid: &Laid, target: &Target) -> Result<Option<Pixels>, Trouble> {
+    fn picture(&mut self, job: &mut Job, laid: &Laid, target: &Target) -> Result<Option<Pixels>, EvaluationError> {
         let Worker {
             loaded,
             broken,
@@ -85,23 +85,23 @@ impl Worker {
             return Ok(None);
         };
         let size = sized.model.size;
-        let trouble = |error: EngineError| Trouble::of_results(gpu, size, error);
+        let error = |error: EngineError| EvaluationError::of_results(gpu, size, error);
         let side = options.thumbnail_px;
         if job.request.is_flat {
             let picture = sized.flat_picture((&plan, &run), result, side, job.request.set);
-            return picture.map(Some).map_err(trouble);
+            return picture.map(Some).map_err(error);
         }
         let looks = sized.looks(&plan, &mut run, &Shows::One, &watch)?;
         let Some(look) = looks.looks.last() else {
             return Ok(None);
         };
         if studio.is_none() {
-            *studio = Some(Studio::new(gpu, options.cache_dir.as_deref()).map_err(trouble)?);
+            *studio = Some(Studio::new(gpu, options.cache_dir.as_deref()).map_err(error)?);
         }
         let picture = studio
             .as_mut()
             .map(|studio| studio.picture(gpu, side, &sized.model, look));
-        picture.transpose().map_err(trouble)
+        picture.transpose().map_err(error)
     }
 }
 

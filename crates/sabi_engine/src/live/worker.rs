@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
+use super::evaluation_error::EvaluationError;
 use super::event::{Faults, LiveEvent, LiveTimes};
 use super::faults::Broken;
 use super::model::Loaded;
@@ -16,7 +17,6 @@ use super::queue::WorkerQueue;
 use super::request::{LiveOptions, LiveRequest, Seen};
 use super::sized_model::Tally;
 use super::studio::Studio;
-use super::trouble::Trouble;
 use crate::error::{EngineError, ErrorKind};
 
 /// Names what a picture shows.
@@ -131,9 +131,9 @@ impl Worker {
     }
 
     /// Ends the job if a newer wish is there.
-    pub(super) fn go_on(&self) -> Result<(), Trouble> {
+    pub(super) fn go_on(&self) -> Result<(), EvaluationError> {
         if self.queue.is_superseded() {
-            return Err(Trouble::Superseded);
+            return Err(EvaluationError::Superseded);
         }
         Ok(())
     }
@@ -162,10 +162,10 @@ impl Worker {
         }
         match outcome {
             Ok(()) => self.tell(LiveEvent::Done { revision }),
-            Err(Trouble::Superseded) => {}
-            Err(Trouble::Lost(loss)) => return Err(loss),
-            Err(Trouble::Failed(error)) => self.fail(revision, error),
-            Err(Trouble::Node { why, .. }) => self.fail(revision, EngineError::new(ErrorKind::BadInput, why)),
+            Err(EvaluationError::Superseded) => {}
+            Err(EvaluationError::Lost(loss)) => return Err(loss),
+            Err(EvaluationError::Failed(error)) => self.fail(revision, error),
+            Err(EvaluationError::Node { why, .. }) => self.fail(revision, EngineError::new(ErrorKind::BadInput, why)),
         }
         Ok(())
     }
@@ -188,7 +188,7 @@ impl Worker {
     }
 
     /// All that a wish asks for, what is missed most first.
-    fn answer_in_order(&mut self, job: &mut Job) -> Result<(), Trouble> {
+    fn answer_in_order(&mut self, job: &mut Job) -> Result<(), EvaluationError> {
         let laid = self.lay_out(job);
         self.load_first(job)?;
         let Some(laid) = laid else {

@@ -5,7 +5,7 @@ use sabi_gpu::{Gpu, GpuError};
 use crate::error::{EngineError, ErrorKind};
 
 /// Why something was not evaluated.
-pub(super) enum Trouble {
+pub(super) enum EvaluationError {
     /// A newer wish is there, or nobody wishes any more.
     Superseded,
     /// The device is gone.
@@ -16,32 +16,32 @@ pub(super) enum Trouble {
     Failed(EngineError),
 }
 
-impl Trouble {
+impl EvaluationError {
     /// What an error means to whoever works on this device.
-    pub(super) fn of(gpu: &Gpu, error: impl Into<EngineError>) -> Trouble {
+    pub(super) fn of(gpu: &Gpu, error: impl Into<EngineError>) -> EvaluationError {
         if let Some(loss) = gpu.loss() {
-            return Trouble::Lost(loss.into());
+            return EvaluationError::Lost(loss.into());
         }
         let error = error.into();
         match error.kind {
-            ErrorKind::Interrupted => Trouble::Superseded,
-            _ => Trouble::Failed(error),
+            ErrorKind::Interrupted => EvaluationError::Superseded,
+            _ => EvaluationError::Failed(error),
         }
     }
 
     /// The same of what is made of results on a surface of so many texels for one unit of UV.
-    pub(super) fn of_results(gpu: &Gpu, size: u32, error: EngineError) -> Trouble {
+    pub(super) fn of_results(gpu: &Gpu, size: u32, error: EngineError) -> EvaluationError {
         if error.kind != ErrorKind::OutOfMemory {
-            return Trouble::of(gpu, error);
+            return EvaluationError::of(gpu, error);
         }
         let room = format!("what is shown of the graph does not fit into memory at a size of {size}");
-        Trouble::of(gpu, no_room(&room))
+        EvaluationError::of(gpu, no_room(&room))
     }
 
     /// The same of a run on a surface of so many texels for one unit of UV.
-    pub(super) fn of_run(gpu: &Gpu, size: u32, error: GpuError) -> Trouble {
+    pub(super) fn of_run(gpu: &Gpu, size: u32, error: GpuError) -> EvaluationError {
         let room = match error {
-            GpuError::Node { node, why } => return Trouble::Node { node, why },
+            GpuError::Node { node, why } => return EvaluationError::Node { node, why },
             GpuError::OverBudget { needed_mib, budget_mib } => format!(
                 "the graph's results need {needed_mib} MiB of textures at a size of {size}, more than the budget of \
                  {budget_mib} MiB"
@@ -49,9 +49,9 @@ impl Trouble {
             GpuError::OutOfMemory { what } => {
                 format!("the device is out of memory while making {what} at a size of {size}")
             }
-            other => return Trouble::of(gpu, other),
+            other => return EvaluationError::of(gpu, other),
         };
-        Trouble::of(gpu, no_room(&room))
+        EvaluationError::of(gpu, no_room(&room))
     }
 }
 
