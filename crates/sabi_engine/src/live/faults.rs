@@ -16,7 +16,7 @@ use crate::opening::modelless::{all_nodes, planner};
 use crate::opening::pictures;
 
 /// The graph of a wish, flat, and where in it the wanted results are.
-pub(super) struct Laid {
+pub(super) struct FlattenedRequest {
     pub(super) graph: FlatGraph,
     /// What the wish names, as far as it is there.
     pub(super) found: BTreeMap<NodeRef, Target>,
@@ -26,7 +26,7 @@ pub(super) struct Laid {
 }
 
 /// A node whose result could not be made, and what that hangs on: once it changes the node is tried again.
-pub(super) struct Broken {
+pub(super) struct FailedNode {
     why: String,
     params: BTreeMap<String, Value>,
     content: Option<[u8; 32]>,
@@ -34,7 +34,7 @@ pub(super) struct Broken {
 
 impl Worker {
     /// Flattens the graph of a wish and tells what is wrong with it; nothing where it cannot be flattened.
-    pub(super) fn lay_out(&mut self, job: &Job) -> Option<Laid> {
+    pub(super) fn flatten(&mut self, job: &Job) -> Option<FlattenedRequest> {
         let request = &job.request;
         let seen = request.seen.iter().filter_map(|seen| match seen {
             Seen::Node(node) => Some(node),
@@ -82,15 +82,16 @@ impl Worker {
         let contents = request
             .graph
             .file_contents(&graph, &request.kinds, 0..graph.nodes.len());
-        let laid = Laid {
+        let flattened = FlattenedRequest {
             faults: with_failed_groups(faults_of(job, &graph, &contents, other), failed_groups),
             graph,
             found: targets,
             contents,
         };
-        self.broken.retain(|id, broken| laid.is_still_broken(id, broken));
-        self.tell_faults(job, &laid);
-        Some(laid)
+        self.failed_nodes
+            .retain(|id, failed_nodes| flattened.still_fails(id, failed_nodes));
+        self.tell_faults(job, &flattened);
+        Some(flattened)
     }
 
     /// Tells which files the graph names, if they are others than before.
@@ -106,15 +107,15 @@ impl Worker {
     }
 
     /// Tells what is wrong, if that has changed.
-    pub(super) fn tell_faults(&mut self, job: &Job, laid: &Laid) {
-        let mut faults = laid.faults.clone();
-        let broken = self.broken.iter().map(|(node, broken)| NodeFault {
+    pub(super) fn tell_faults(&mut self, job: &Job, flattened: &FlattenedRequest) {
+        let mut faults = flattened.faults.clone();
+        let failed_nodes = self.failed_nodes.iter().map(|(node, failed_nodes)| NodeFault {
             node: node.clone(),
-            sentence: broken.why.clone(),
+            sentence: failed_nodes.why.clone(),
         });
-        faults.faults.extend(broken);
-        for id in self.broken.keys() {
-            let waits = laid.behind(id).filter(|node| !is_named(&faults, node));
+        faults.faults.extend(failed_nodes);
+        for id in self.failed_nodes.keys() {
+            let waits = flattened.behind(id).filter(|node| !is_named(&faults, node));
             let blocked: Vec<BlockedNode> = waits
                 .map(|node| BlockedNode {
                     node: node.to_owned(),
@@ -148,29 +149,34 @@ impl Worker {
     }
 }
 
-impl Laid {
+impl FlattenedRequest {
     /// Takes down that a node's result cannot be made. Says whether that was news of a node of this graph: anything else is a
     /// mistake, and trying again would not end.
-    pub(super) fn take_down(&self, broken: &mut BTreeMap<String, Broken>, node: &str, why: &str) -> bool {
+    pub(super) fn record_failure(
+        &self,
+        failed_nodes: &mut BTreeMap<String, FailedNode>,
+        node: &str,
+        why: &str,
+    ) -> bool {
         let Some(index) = self.graph.find(node) else {
             return false;
         };
-        let found = Broken {
+        let found = FailedNode {
             why: why.to_owned(),
             params: self.graph.nodes[index].params.clone(),
             content: self.content(index),
         };
-        broken.insert(node.to_owned(), found).is_none()
+        failed_nodes.insert(node.to_owned(), found).is_none()
     }
 
     fn content(&self, node: usize) -> Option<[u8; 32]> {
         self.contents.get(&node)?.as_ref().ok().copied()
     }
 
-    fn is_still_broken(&self, id: &str, broken: &Broken) -> bool {
+    fn still_fails(&self, id: &str, failed_nodes: &FailedNode) -> bool {
         self.graph.find(id).is_some_and(|index| {
             let node = &self.graph.nodes[index];
-            !node.muted && node.params == broken.params && self.content(index) == broken.content
+            !node.muted && node.params == failed_nodes.params && self.content(index) == failed_nodes.content
         })
     }
 
@@ -185,15 +191,15 @@ impl Laid {
     }
 
     /// Those of some targets that need no broken node.
-    pub(super) fn sound(&self, targets: &[Target], broken: &BTreeMap<String, Broken>) -> Vec<Target> {
-        if broken.is_empty() {
+    pub(super) fn sound(&self, targets: &[Target], failed_nodes: &BTreeMap<String, FailedNode>) -> Vec<Target> {
+        if failed_nodes.is_empty() {
             return targets.to_vec();
         }
-        let broken: Vec<usize> = broken.keys().filter_map(|id| self.graph.find(id)).collect();
+        let failed_nodes: Vec<usize> = failed_nodes.keys().filter_map(|id| self.graph.find(id)).collect();
         let is_sound = |target: &&Target| {
             // The model's own looks, which stand after all nodes of the graph, need none of them.
             let needed = self.graph.upstream(&[target.node]);
-            !broken.iter().any(|broken| needed.contains(broken))
+            !failed_nodes.iter().any(|failed_nodes| needed.contains(failed_nodes))
         };
         targets.iter().filter(is_sound).cloned().collect()
     }

@@ -9,7 +9,7 @@ use sabi_plan::{Plan, PlannedResult, Target};
 
 use super::evaluation_error::EvaluationError;
 use super::event::{Inspected, LiveEvent};
-use super::faults::Laid;
+use super::faults::FlattenedRequest;
 use super::model::Loaded;
 use super::queue::Watch;
 use super::show::evaluate;
@@ -19,14 +19,15 @@ use crate::error::EngineError;
 
 impl Worker {
     /// Tells the values of the inspected node, if they have changed.
-    pub(super) fn inspect(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
+    pub(super) fn inspect(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let inspected = job.request.inspected.clone();
-        let Some((node, target)) = inspected.and_then(|node| laid.found.get(&node).map(|target| (node, target))) else {
+        let Some((node, target)) = inspected.and_then(|node| flattened.found.get(&node).map(|target| (node, target)))
+        else {
             return Ok(());
         };
         self.go_on()?;
-        self.take_graph_in_full(job, laid)?;
-        match self.inspect_one(job, laid, node, target) {
+        self.take_graph_in_full(job, flattened)?;
+        match self.inspect_one(job, flattened, node, target) {
             Err(EvaluationError::Failed(error)) => {
                 self.tell(LiveEvent::Failed {
                     revision: job.request.revision,
@@ -41,13 +42,13 @@ impl Worker {
     fn inspect_one(
         &mut self,
         job: &mut Job,
-        laid: &Laid,
+        flattened: &FlattenedRequest,
         node: NodeRef,
         target: &Target,
     ) -> Result<(), EvaluationError> {
         let Worker {
             loaded,
-            broken,
+            failed_nodes,
             queue,
             gpu,
             sent,
@@ -57,7 +58,7 @@ impl Worker {
             return Ok(());
         };
         let wanted = std::slice::from_ref(target);
-        let plan = sized.plan(&laid.sound(wanted, broken));
+        let plan = sized.plan(&flattened.sound(wanted, failed_nodes));
         let Some(result) = plan.results.first() else {
             return Ok(());
         };
@@ -74,7 +75,7 @@ impl Worker {
             return Ok(());
         }
         let watch = Watch { queue, gives_way: true };
-        let (plan, run) = evaluate(sized, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
+        let (plan, run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.tally)?;
         let Some(result) = plan.results.first() else {
             return Ok(());
         };

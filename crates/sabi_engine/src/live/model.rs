@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::evaluation_error::EvaluationError;
 use super::event::LiveEvent;
-use super::faults::Laid;
+use super::faults::FlattenedRequest;
 use super::queue::LoadWatch;
 use super::sized_model::SizedModel;
 use super::worker::{Job, Worker};
@@ -135,11 +135,11 @@ impl Worker {
     }
 
     /// Puts the graph on the first size of the model.
-    pub(super) fn take_graph(&mut self, job: &Job, laid: &Laid) -> Result<(), EvaluationError> {
+    pub(super) fn take_graph(&mut self, job: &Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
             return Ok(());
         };
-        let is_another = sized.take(&job.request, &laid.graph);
+        let is_another = sized.take(&job.request, &flattened.graph);
         if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))?
             && let Some(sized) = self.loaded.as_mut().and_then(Loaded::first)
         {
@@ -150,7 +150,11 @@ impl Worker {
     }
 
     /// The same on the full size, which is loaded where it is not there yet. Says whether there is one.
-    pub(super) fn take_graph_in_full(&mut self, job: &Job, laid: &Laid) -> Result<bool, EvaluationError> {
+    pub(super) fn take_graph_in_full(
+        &mut self,
+        job: &Job,
+        flattened: &FlattenedRequest,
+    ) -> Result<bool, EvaluationError> {
         self.load_full(job)?;
         let Some(Loaded {
             coarse,
@@ -161,7 +165,7 @@ impl Worker {
             return Ok(false);
         };
         if coarse.is_some() {
-            let is_another = sized.take(&job.request, &laid.graph);
+            let is_another = sized.take(&job.request, &flattened.graph);
             if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))? {
                 let event = model_event(sized);
                 self.tell(event);

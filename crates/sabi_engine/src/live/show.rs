@@ -9,7 +9,7 @@ use sabi_plan::{Plan, Target};
 
 use super::evaluation_error::EvaluationError;
 use super::event::LiveEvent;
-use super::faults::{Broken, Laid};
+use super::faults::{FailedNode, FlattenedRequest};
 use super::queue::Watch;
 use super::request::Seen;
 use super::sized_model::{SizedModel, Tally};
@@ -20,35 +20,35 @@ use crate::opening::modelless::targets;
 
 impl Worker {
     /// Shows everything coarse, or in full where there is nothing coarser or that would only flicker.
-    pub(super) fn show_first(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
+    pub(super) fn show_first(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let has_coarse = self.loaded.as_ref().is_some_and(|loaded| loaded.coarse.is_some());
         let is_quick = self.full_took.is_some_and(|took| took < self.options.coarse_after);
         job.is_full_first = !has_coarse || is_quick;
         if has_coarse {
-            self.show(job, laid, true)?;
+            self.show(job, flattened, true)?;
         }
         if job.is_full_first {
-            self.show_in_full(job, laid)?;
+            self.show_in_full(job, flattened)?;
         }
         Ok(())
     }
 
     /// Shows everything in full, unless that was done first.
-    pub(super) fn show_full(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
+    pub(super) fn show_full(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         if job.is_full_first {
             return Ok(());
         }
         self.go_on()?;
-        self.show_in_full(job, laid)
+        self.show_in_full(job, flattened)
     }
 
-    fn show_in_full(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
-        if !self.take_graph_in_full(job, laid)? {
+    fn show_in_full(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
+        if !self.take_graph_in_full(job, flattened)? {
             return Ok(());
         }
         let started = Instant::now();
         let steps = job.tally.steps;
-        self.show(job, laid, false)?;
+        self.show(job, flattened, false)?;
         if job.tally.steps > steps {
             self.full_took = Some(started.elapsed());
         }
@@ -56,14 +56,14 @@ impl Worker {
     }
 
     /// Shows everything at one size, as far as it has changed.
-    fn show(&mut self, job: &mut Job, laid: &Laid, is_coarse: bool) -> Result<(), EvaluationError> {
+    fn show(&mut self, job: &mut Job, flattened: &FlattenedRequest, is_coarse: bool) -> Result<(), EvaluationError> {
         // A first picture is finished once it was begun, so that a stream of wishes has something to show.
         let gives_way = !is_coarse && !job.is_full_first;
         for seen in job.request.seen.clone() {
             if gives_way {
                 self.go_on()?;
             }
-            match self.show_one(job, laid, &seen, is_coarse, gives_way) {
+            match self.show_one(job, flattened, &seen, is_coarse, gives_way) {
                 Err(EvaluationError::Failed(error)) => {
                     if error.kind == ErrorKind::OutOfMemory {
                         self.forget_results();
@@ -83,7 +83,7 @@ impl Worker {
     fn show_one(
         &mut self,
         job: &mut Job,
-        laid: &Laid,
+        flattened: &FlattenedRequest,
         seen: &Seen,
         is_coarse: bool,
         gives_way: bool,
@@ -91,17 +91,17 @@ impl Worker {
         let Worker {
             loaded,
             sent,
-            broken,
+            failed_nodes,
             queue,
             ..
         } = self;
         let Some(sized) = loaded.as_mut().and_then(|loaded| loaded.at(is_coarse)) else {
             return Ok(());
         };
-        let Some((wanted, shows)) = wanted(sized, laid, seen) else {
+        let Some((wanted, shows)) = wanted(sized, flattened, seen) else {
             return Ok(());
         };
-        let plan = sized.plan(&laid.sound(&wanted, broken));
+        let plan = sized.plan(&flattened.sound(&wanted, failed_nodes));
         let key = shown_key(sized, &plan, &shows);
         let before = sent.shown.get(seen).copied();
         let is_known = |sent: SentShown| if is_coarse { sent.coarse } else { sent.full } == Some(key);
@@ -115,7 +115,7 @@ impl Worker {
             return Ok(());
         }
         let watch = Watch { queue, gives_way };
-        let (plan, mut run) = evaluate(sized, laid, broken, (&wanted, plan), &watch, &mut job.tally)?;
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&wanted, plan), &watch, &mut job.tally)?;
         if is_worse(&plan) {
             return Ok(());
         }
@@ -149,9 +149,9 @@ impl Worker {
 }
 
 /// The results that something seen is made of, and which material shows which; none where a node is not there.
-fn wanted(sized: &SizedModel, laid: &Laid, seen: &Seen) -> Option<(Vec<Target>, Shows)> {
+fn wanted(sized: &SizedModel, flattened: &FlattenedRequest, seen: &Seen) -> Option<(Vec<Target>, Shows)> {
     match seen {
-        Seen::Node(node) => Some((vec![laid.found.get(node)?.clone()], Shows::One)),
+        Seen::Node(node) => Some((vec![flattened.found.get(node)?.clone()], Shows::One)),
         Seen::Outputs => {
             let nodes: BTreeSet<usize> = sized.serving.values().copied().collect();
             Some((targets(nodes), Shows::Served(sized.serving.clone())))
@@ -162,8 +162,8 @@ fn wanted(sized: &SizedModel, laid: &Laid, seen: &Seen) -> Option<(Vec<Target>, 
 /// Runs a plan for what is wanted; where a node's result cannot be made, another one without what needs it.
 pub(super) fn evaluate(
     sized: &mut SizedModel,
-    laid: &Laid,
-    broken: &mut BTreeMap<String, Broken>,
+    flattened: &FlattenedRequest,
+    failed_nodes: &mut BTreeMap<String, FailedNode>,
     (wanted, mut plan): (&[Target], Plan),
     watch: &Watch<'_>,
     tally: &mut Tally,
@@ -172,10 +172,10 @@ pub(super) fn evaluate(
         match sized.run(&plan, watch, tally) {
             Ok(run) => return Ok((plan, run)),
             Err(EvaluationError::Node { node, why }) => {
-                if !laid.take_down(broken, &node, &why) {
+                if !flattened.record_failure(failed_nodes, &node, &why) {
                     return Err(EvaluationError::Failed(EngineError::new(ErrorKind::BadInput, why)));
                 }
-                plan = sized.plan(&laid.sound(wanted, broken));
+                plan = sized.plan(&flattened.sound(wanted, failed_nodes));
             }
             Err(error) => return Err(error),
         }

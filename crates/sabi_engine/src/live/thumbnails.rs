@@ -8,7 +8,7 @@ use sabi_view::Pixels;
 
 use super::evaluation_error::EvaluationError;
 use super::event::LiveEvent;
-use super::faults::Laid;
+use super::faults::FlattenedRequest;
 use super::model::Loaded;
 use super::queue::Watch;
 use super::request::LiveRequest;
@@ -21,17 +21,21 @@ use crate::evaluating::looks::Shows;
 
 impl Worker {
     /// Takes pictures of the nodes that give something else than on their last one.
-    pub(super) fn show_thumbnails(&mut self, job: &mut Job, laid: &Laid) -> Result<(), EvaluationError> {
+    pub(super) fn show_thumbnails(
+        &mut self,
+        job: &mut Job,
+        flattened: &FlattenedRequest,
+    ) -> Result<(), EvaluationError> {
         let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
             return Ok(());
         };
         let nodes = job.request.thumbnails.iter();
         let targets: Vec<(NodeRef, Target)> = nodes
-            .filter_map(|node| Some((node.clone(), laid.found.get(node)?.clone())))
+            .filter_map(|node| Some((node.clone(), flattened.found.get(node)?.clone())))
             .collect();
         let all: BTreeSet<Target> = targets.iter().map(|(_, target)| target.clone()).collect();
         let all: Vec<Target> = all.into_iter().collect();
-        let plan = sized.plan(&laid.sound(&all, &self.broken));
+        let plan = sized.plan(&flattened.sound(&all, &self.failed_nodes));
         let keys = keys(sized, &plan, &job.request);
         for (node, target) in targets {
             let Some(key) = keys.get(&target) else { continue };
@@ -39,7 +43,7 @@ impl Worker {
                 continue;
             }
             self.go_on()?;
-            match self.picture(job, laid, &target) {
+            match self.picture(job, flattened, &target) {
                 Ok(Some(picture)) => {
                     self.sent.thumbnails.insert(node.clone(), *key);
                     self.tell(LiveEvent::Thumbnail {
@@ -64,10 +68,15 @@ impl Worker {
     }
 
     /// A picture of one result; none where it turns out that it cannot be made.
-    fn picture(&mut self, job: &mut Job, laid: &Laid, target: &Target) -> Result<Option<Pixels>, EvaluationError> {
+    fn picture(
+        &mut self,
+        job: &mut Job,
+        flattened: &FlattenedRequest,
+        target: &Target,
+    ) -> Result<Option<Pixels>, EvaluationError> {
         let Worker {
             loaded,
-            broken,
+            failed_nodes,
             queue,
             studio,
             gpu,
@@ -79,8 +88,8 @@ impl Worker {
         };
         let watch = Watch { queue, gives_way: true };
         let wanted = std::slice::from_ref(target);
-        let plan = sized.plan(&laid.sound(wanted, broken));
-        let (plan, mut run) = evaluate(sized, laid, broken, (wanted, plan), &watch, &mut job.tally)?;
+        let plan = sized.plan(&flattened.sound(wanted, failed_nodes));
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.tally)?;
         let Some(result) = plan.results.first() else {
             return Ok(None);
         };

@@ -11,7 +11,7 @@ use sabi_graph::NodeRef;
 
 use super::evaluation_error::EvaluationError;
 use super::event::{Faults, LiveEvent, LiveTimes};
-use super::faults::Broken;
+use super::faults::FailedNode;
 use super::model::Loaded;
 use super::queue::WorkerQueue;
 use super::request::{LiveOptions, LiveRequest, Seen};
@@ -34,7 +34,7 @@ pub(super) struct Worker {
     pub(super) tried: Option<u64>,
     pub(super) sent: Sent,
     /// Nodes that are no kernels and whose results could not be made.
-    pub(super) broken: BTreeMap<String, Broken>,
+    pub(super) failed_nodes: BTreeMap<String, FailedNode>,
     pub(super) studio: Option<Studio>,
     /// How long the last full picture took.
     pub(super) full_took: Option<Duration>,
@@ -88,7 +88,7 @@ impl Worker {
             loaded: None,
             tried: None,
             sent: Sent::default(),
-            broken: BTreeMap::new(),
+            failed_nodes: BTreeMap::new(),
             studio: None,
             full_took: None,
         }
@@ -117,7 +117,7 @@ impl Worker {
         self.loaded = None;
         self.tried = None;
         self.sent = Sent::default();
-        self.broken.clear();
+        self.failed_nodes.clear();
         self.studio = None;
         self.full_took = None;
         let why = "the evaluation of the graph broke off, which is a mistake in Sabi; take back what was done last, or go on \
@@ -189,30 +189,30 @@ impl Worker {
 
     /// All that a wish asks for, what is missed most first.
     fn answer_in_order(&mut self, job: &mut Job) -> Result<(), EvaluationError> {
-        let laid = self.lay_out(job);
+        let flattened = self.flatten(job);
         self.load_first(job)?;
-        let Some(laid) = laid else {
+        let Some(flattened) = flattened else {
             self.go_on()?;
             return self.load_full(job);
         };
-        self.take_graph(job, &laid)?;
-        let broken = self.broken.len();
-        self.show_first(job, &laid)?;
-        if self.broken.len() != broken {
-            self.tell_faults(job, &laid);
+        self.take_graph(job, &flattened)?;
+        let failed_nodes = self.failed_nodes.len();
+        self.show_first(job, &flattened)?;
+        if self.failed_nodes.len() != failed_nodes {
+            self.tell_faults(job, &flattened);
         }
         if job.request.is_moving {
-            self.show_full(job, &laid)?;
-            self.show_thumbnails(job, &laid)?;
+            self.show_full(job, &flattened)?;
+            self.show_thumbnails(job, &flattened)?;
         } else {
-            self.show_thumbnails(job, &laid)?;
-            self.show_full(job, &laid)?;
+            self.show_thumbnails(job, &flattened)?;
+            self.show_full(job, &flattened)?;
         }
-        self.inspect(job, &laid)?;
+        self.inspect(job, &flattened)?;
         if let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) {
             sized.look_at_solidity();
         }
-        self.tell_faults(job, &laid);
+        self.tell_faults(job, &flattened);
         Ok(())
     }
 
