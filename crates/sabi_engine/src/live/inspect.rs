@@ -75,7 +75,7 @@ impl Worker {
             return Ok(());
         }
         let watch = Watch { queue, gives_way: true };
-        let (plan, run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.tally)?;
+        let (plan, run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.totals)?;
         let Some(result) = plan.results.first() else {
             return Ok(());
         };

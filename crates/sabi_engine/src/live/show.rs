@@ -12,7 +12,7 @@ use super::event::LiveEvent;
 use super::faults::{FailedNode, FlattenedRequest};
 use super::queue::Watch;
 use super::request::Seen;
-use super::sized_model::{SizedModel, Tally};
+use super::sized_model::{RunTotals, SizedModel};
 use super::worker::{Job, Key, SentShown, Worker};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::looks::Shows;
@@ -47,9 +47,9 @@ impl Worker {
             return Ok(());
         }
         let started = Instant::now();
-        let steps = job.tally.steps;
+        let steps = job.totals.steps;
         self.show(job, flattened, false)?;
-        if job.tally.steps > steps {
+        if job.totals.steps > steps {
             self.full_took = Some(started.elapsed());
         }
         Ok(())
@@ -115,7 +115,7 @@ impl Worker {
             return Ok(());
         }
         let watch = Watch { queue, gives_way };
-        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&wanted, plan), &watch, &mut job.tally)?;
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&wanted, plan), &watch, &mut job.totals)?;
         if is_worse(&plan) {
             return Ok(());
         }
@@ -166,10 +166,10 @@ pub(super) fn evaluate(
     failed_nodes: &mut BTreeMap<String, FailedNode>,
     (wanted, mut plan): (&[Target], Plan),
     watch: &Watch<'_>,
-    tally: &mut Tally,
+    totals: &mut RunTotals,
 ) -> Result<(Plan, Run), EvaluationError> {
     loop {
-        match sized.run(&plan, watch, tally) {
+        match sized.run(&plan, watch, totals) {
             Ok(run) => return Ok((plan, run)),
             Err(EvaluationError::Node { node, why }) => {
                 if !flattened.record_failure(failed_nodes, &node, &why) {

@@ -51,13 +51,13 @@ pub(super) struct SizedModel {
 
 /// What runs took, all together.
 #[derive(Default)]
-pub(super) struct Tally {
+pub(super) struct RunTotals {
     pub(super) nodes: BTreeMap<String, Duration>,
     pub(super) steps: usize,
     pub(super) cache_hits: usize,
 }
 
-impl Tally {
+impl RunTotals {
     fn add(&mut self, plan: &Plan, report: &RunReport) {
         self.steps += report.steps.len();
         self.cache_hits += plan.steps.len() - report.steps.len();
@@ -213,7 +213,7 @@ impl SizedModel {
         &mut self,
         plan: &Plan,
         progress: &dyn Progress,
-        tally: &mut Tally,
+        totals: &mut RunTotals,
     ) -> Result<Run, EvaluationError> {
         let (gpu, size) = (self.workpiece.gpu.clone(), self.model.size);
         let made = self.workpiece.make_levels(plan);
@@ -226,7 +226,7 @@ impl SizedModel {
             self.noted.push((sources_of(plan).collect(), sentence));
         }
         let run = run.map_err(|error| EvaluationError::of_run(&gpu, size, error))?;
-        tally.add(plan, &run.report);
+        totals.add(plan, &run.report);
         Ok(run)
     }
 

@@ -89,7 +89,7 @@ impl Worker {
         let watch = Watch { queue, gives_way: true };
         let wanted = std::slice::from_ref(target);
         let plan = sized.plan(&flattened.sound(wanted, failed_nodes));
-        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.tally)?;
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.totals)?;
         let Some(result) = plan.results.first() else {
             return Ok(None);
         };

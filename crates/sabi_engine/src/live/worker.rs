@@ -15,7 +15,7 @@ use super::faults::FailedNode;
 use super::model::Loaded;
 use super::queue::WorkerQueue;
 use super::request::{LiveOptions, LiveRequest, Seen};
-use super::sized_model::Tally;
+use super::sized_model::RunTotals;
 use super::studio::Studio;
 use crate::error::{EngineError, ErrorKind};
 
@@ -65,7 +65,7 @@ pub(super) struct SentShown {
 pub(super) struct Job {
     pub(super) request: LiveRequest,
     pub(super) asked: Instant,
-    pub(super) tally: Tally,
+    pub(super) totals: RunTotals,
     pub(super) latency: Option<Duration>,
     /// What coarse pictures of this wish are.
     pub(super) coarse_keys: BTreeMap<Seen, Key>,
@@ -145,7 +145,7 @@ impl Worker {
         let mut job = Job {
             request,
             asked,
-            tally: Tally::default(),
+            totals: RunTotals::default(),
             latency: None,
             coarse_keys: BTreeMap::new(),
             is_full_first: false,
@@ -157,7 +157,7 @@ impl Worker {
             // The window picks with it, and must not wait for it.
             sized.model.prepared.hierarchy();
         }
-        if job.tally.steps + job.tally.cache_hits > 0 {
+        if job.totals.steps + job.totals.cache_hits > 0 {
             self.tell_times(&job);
         }
         match outcome {
@@ -223,13 +223,13 @@ impl Worker {
             .fold((0, 0), |(held, allowed), (more, most)| (held + more, allowed + most));
         let times = LiveTimes {
             nodes: job
-                .tally
+                .totals
                 .nodes
                 .iter()
                 .map(|(node, time)| (node.clone(), *time))
                 .collect(),
-            steps: job.tally.steps,
-            cache_hits: job.tally.cache_hits,
+            steps: job.totals.steps,
+            cache_hits: job.totals.cache_hits,
             texture_bytes,
             budget_bytes,
             latency: job.latency,
