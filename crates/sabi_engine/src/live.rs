@@ -14,7 +14,7 @@ mod queue;
 mod request;
 mod show;
 mod sized_model;
-mod studio;
+mod thumbnail_renderer;
 mod thumbnails;
 mod worker;
 

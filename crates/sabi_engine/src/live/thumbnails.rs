@@ -14,7 +14,7 @@ use super::queue::Watch;
 use super::request::LiveRequest;
 use super::show::evaluate;
 use super::sized_model::SizedModel;
-use super::studio::Studio;
+use super::thumbnail_renderer::ThumbnailRenderer;
 use super::worker::{Job, Key, Worker};
 use crate::error::EngineError;
 use crate::evaluating::looks::Shows;
@@ -78,7 +78,7 @@ impl Worker {
             loaded,
             failed_nodes,
             queue,
-            studio,
+            thumbnail_renderer,
             gpu,
             options,
             ..
@@ -104,12 +104,12 @@ impl Worker {
         let Some(look) = looks.looks.last() else {
             return Ok(None);
         };
-        if studio.is_none() {
-            *studio = Some(Studio::new(gpu, options.cache_dir.as_deref()).map_err(error)?);
+        if thumbnail_renderer.is_none() {
+            *thumbnail_renderer = Some(ThumbnailRenderer::new(gpu, options.cache_dir.as_deref()).map_err(error)?);
         }
-        let picture = studio
+        let picture = thumbnail_renderer
             .as_mut()
-            .map(|studio| studio.picture(gpu, side, &sized.model, look));
+            .map(|thumbnail_renderer| thumbnail_renderer.picture(gpu, side, &sized.model, look));
         picture.transpose().map_err(error)
     }
 }

@@ -16,7 +16,7 @@ use super::model::Loaded;
 use super::queue::WorkerQueue;
 use super::request::{LiveOptions, LiveRequest, Seen};
 use super::sized_model::RunTotals;
-use super::studio::Studio;
+use super::thumbnail_renderer::ThumbnailRenderer;
 use crate::error::{EngineError, ErrorKind};
 
 /// Names what a picture shows.
@@ -35,7 +35,7 @@ pub(super) struct Worker {
     pub(super) sent: Sent,
     /// Nodes that are no kernels and whose results could not be made.
     pub(super) failed_nodes: BTreeMap<String, FailedNode>,
-    pub(super) studio: Option<Studio>,
+    pub(super) thumbnail_renderer: Option<ThumbnailRenderer>,
     /// How long the last full picture took.
     pub(super) full_took: Option<Duration>,
 }
@@ -89,7 +89,7 @@ impl Worker {
             tried: None,
             sent: Sent::default(),
             failed_nodes: BTreeMap::new(),
-            studio: None,
+            thumbnail_renderer: None,
             full_took: None,
         }
     }
@@ -118,7 +118,7 @@ impl Worker {
         self.tried = None;
         self.sent = Sent::default();
         self.failed_nodes.clear();
-        self.studio = None;
+        self.thumbnail_renderer = None;
         self.full_took = None;
         let why = "the evaluation of the graph broke off, which is a mistake in Sabi; take back what was done last, or go on \
                    with something else";

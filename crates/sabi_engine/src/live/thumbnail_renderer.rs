@@ -14,23 +14,23 @@ use crate::opening::environment::{built_in_environments, load_environment};
 const SAMPLES: u32 = 4;
 
 /// Takes pictures of models.
-pub(super) struct Studio {
+pub(super) struct ThumbnailRenderer {
     renderer: Renderer,
     environment: Environment,
     /// The last model, as it sits for its pictures.
-    sitting: Option<(Arc<LiveModel>, Pose)>,
+    last_pose: Option<(Arc<LiveModel>, Pose)>,
 }
 
-impl Studio {
+impl ThumbnailRenderer {
     /// Sets up the light.
-    pub(super) fn new(gpu: &Gpu, cache_dir: Option<&Path>) -> Result<Studio, EngineError> {
+    pub(super) fn new(gpu: &Gpu, cache_dir: Option<&Path>) -> Result<ThumbnailRenderer, EngineError> {
         let light = built_in_environments().next().unwrap_or_default();
         // What could not be kept on disk is made again the next time.
         let (environment, _) = load_environment(gpu, light, cache_dir)?;
-        Ok(Studio {
+        Ok(ThumbnailRenderer {
             renderer: Renderer::new(gpu)?,
             environment,
-            sitting: None,
+            last_pose: None,
         })
     }
 
@@ -42,17 +42,17 @@ impl Studio {
         model: &Arc<LiveModel>,
         look: &MaterialLook,
     ) -> Result<Pixels, EngineError> {
-        let is_same = |(sitting, _): &(Arc<LiveModel>, Pose)| Arc::ptr_eq(sitting, model);
-        let mut pose = match self.sitting.take().filter(is_same) {
+        let is_same = |(last_pose, _): &(Arc<LiveModel>, Pose)| Arc::ptr_eq(last_pose, model);
+        let mut pose = match self.last_pose.take().filter(is_same) {
             Some((_, pose)) => pose,
             None => self.pose(gpu, side, model)?,
         };
-        let Studio {
+        let ThumbnailRenderer {
             renderer, environment, ..
         } = self;
         let drawn = renderer.draw_look(gpu, &mut pose, &model.view, environment, look)?;
         let pixels = drawn.read(gpu)?;
-        self.sitting = Some((model.clone(), pose));
+        self.last_pose = Some((model.clone(), pose));
         Ok(pixels)
     }
 
@@ -63,7 +63,7 @@ impl Studio {
             samples: SAMPLES,
             ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, 1.0))
         };
-        let Studio {
+        let ThumbnailRenderer {
             renderer, environment, ..
         } = self;
         Ok(renderer.pose(gpu, [side; 2], &model.view, environment, &shot)?)
