@@ -28,7 +28,7 @@ use crate::opening::prepare::{ModelOptions, Prepared};
 use crate::opening::setting::read_typed;
 use crate::opening::solidity;
 use crate::phases::{Phase, Progress};
-use crate::source::{Files, Ground, Sources};
+use crate::source::{Files, SourceSurface, Sources};
 
 /// How a graph and a model are brought together.
 pub struct WorkpieceOptions {
@@ -296,7 +296,7 @@ impl Workpiece {
         progress: &dyn Progress,
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, GpuError> {
-        let ground = Ground {
+        let ground = SourceSurface {
             model: &self.prepared.model,
             atlas: &self.prepared.atlas,
             tables: &self.tables,

@@ -9,7 +9,7 @@ use sabi_surface::model::Wrap;
 
 use super::projection::Projection;
 use super::sampler::Sampler;
-use super::texels::Ground;
+use super::texels::SourceSurface;
 use crate::opening::pictures::OpenPicture;
 
 /// Id of the kind.
@@ -156,7 +156,7 @@ fn is_srgb(choice: usize, of: Use, picture: &Picture) -> bool {
 
 /// A plane of a result. What is probably not meant is added to `warnings`.
 pub(crate) fn plane(
-    ground: &Ground<'_>,
+    surface: &SourceSurface<'_>,
     open: &OpenPicture,
     step: &SourceStep,
     output: &str,
@@ -185,9 +185,9 @@ pub(crate) fn plane(
     let sampler = Sampler::new(levels, [wrap; 2]);
     let green = if step.values.index("normal_y") == 0 { 1.0 } else { -1.0 };
     let has_normals = picture.channels >= 3;
-    ground.texels(plane, |spot| {
+    surface.texels(plane, |point| {
         let mut sum = [0.0_f32; 4];
-        for view in projection.views(ground, spot).iter().flatten() {
+        for view in projection.views(surface, point).iter().flatten() {
             let [r, g, b, a] = sampler.sample(&view.footprint);
             let value = match of {
                 Use::Color => [r, g, b],
@@ -195,7 +195,7 @@ pub(crate) fn plane(
                 Use::Alpha => [view.cover * a, 0.0, 0.0],
                 Use::Slope if has_normals && view.cover > 0.0 => {
                     let [x, y, z] = [r, g, b].map(|code| 2.0 * code - 1.0);
-                    let slope = projection.slope(view, &ground.frame(spot), [x, green * y, z]);
+                    let slope = projection.slope(view, &surface.frame(point), [x, green * y, z]);
                     slope.map(|part| view.cover * part)
                 }
                 Use::Slope => [0.0; 3],

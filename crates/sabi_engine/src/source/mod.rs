@@ -30,7 +30,7 @@ pub(crate) use levels::Levels;
 pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
-pub(crate) use texels::Ground;
+pub(crate) use texels::SourceSurface;
 
 /// Kinds that give, by id. Those that show the model learn their content once it is loaded.
 pub(crate) fn kinds() -> BTreeMap<String, SourceKind> {
@@ -72,7 +72,7 @@ pub(crate) struct Files<'a> {
 
 /// Fills the results of all kinds that give.
 pub(crate) struct Sources<'a> {
-    ground: Ground<'a>,
+    surface: SourceSurface<'a>,
     files: Files<'a>,
     model: model::ModelSource<'a>,
     kept_rays: &'a KeptRays,
@@ -82,9 +82,9 @@ pub(crate) struct Sources<'a> {
 
 impl<'a> Sources<'a> {
     /// Sources that have not opened anything yet.
-    pub(crate) fn new(ground: Ground<'a>, files: Files<'a>, kept_rays: &'a KeptRays) -> Sources<'a> {
+    pub(crate) fn new(surface: SourceSurface<'a>, files: Files<'a>, kept_rays: &'a KeptRays) -> Sources<'a> {
         Sources {
-            ground,
+            surface,
             files,
             model: model::ModelSource::default(),
             kept_rays,
@@ -105,15 +105,15 @@ impl Files<'_> {
 
 impl SourceFill for Sources<'_> {
     fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String> {
-        let (ground, warnings) = (&self.ground, &mut self.warnings);
+        let (surface, warnings) = (&self.surface, &mut self.warnings);
         match step.kind.as_str() {
             image::NAME => {
                 let picture = self.files.picture(step)?;
-                Ok(image::plane(ground, &picture, step, output, plane, warnings))
+                Ok(image::plane(surface, &picture, step, output, plane, warnings))
             }
-            model::NAME => Ok(self.model.plane(ground, output, plane, warnings)),
-            surface_id::NAME => Ok(surface_id::plane(ground, step, output, plane, warnings)),
-            vertex_color::NAME => Ok(vertex_color::plane(ground, &step.id, plane, warnings)),
+            model::NAME => Ok(self.model.plane(surface, output, plane, warnings)),
+            surface_id::NAME => Ok(surface_id::plane(surface, step, output, plane, warnings)),
+            vertex_color::NAME => Ok(vertex_color::plane(surface, &step.id, plane, warnings)),
             other => Err(format!(
                 "node '{}' is of kind '{other}', which nobody fills; this is a mistake in Sabi",
                 step.id
@@ -135,9 +135,9 @@ impl SourceFill for Sources<'_> {
 
     fn scene(&mut self) -> Result<RayScene<'_>, String> {
         Ok(RayScene {
-            bvh: self.ground.bvh.get_or_init(|| Bvh::build(&self.ground.model.mesh)),
-            working_from_model: self.ground.working_from_model,
-            on_device: self.ground.bvh_on_device,
+            bvh: self.surface.bvh.get_or_init(|| Bvh::build(&self.surface.model.mesh)),
+            working_from_model: self.surface.working_from_model,
+            on_device: self.surface.bvh_on_device,
         })
     }
 }

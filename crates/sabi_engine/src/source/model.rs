@@ -13,7 +13,7 @@ use sabi_surface::model::{Model, ModelMaterial, TextureRef, TextureUvs};
 use super::hash_apart;
 use super::levels::Levels;
 use super::sampler::Sampler;
-use super::texels::{Ground, Spot};
+use super::texels::{SourceSurface, SurfacePoint};
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/model";
@@ -104,17 +104,17 @@ struct MaterialTextures<'a> {
 /// A point as textures are asked about it.
 #[derive(Clone, Copy)]
 struct At<'a> {
-    ground: &'a Ground<'a>,
-    spot: &'a Spot,
+    surface: &'a SourceSurface<'a>,
+    point: &'a SurfacePoint,
 }
 
 impl At<'_> {
     /// Linear RGBA of a picture; white where there is none.
     fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
-        let Some(texture) = texture.as_ref().filter(|texture| texture.covers(self.spot.triangle)) else {
+        let Some(texture) = texture.as_ref().filter(|texture| texture.covers(self.point.triangle)) else {
             return [1.0; 4];
         };
-        let footprint = self.ground.footprint(self.spot, texture.other);
+        let footprint = self.surface.footprint(self.point, texture.other);
         texture.sampler.sample(&footprint.through(&texture.transform))
     }
 }
@@ -149,19 +149,19 @@ impl MaterialTextures<'_> {
 
     /// The surface gradient of the normal map, in model space: it leans in the frame of its own set.
     fn slope(&self, at: At) -> [f32; 3] {
-        let Some(texture) = self.normal.as_ref().filter(|texture| texture.covers(at.spot.triangle)) else {
+        let Some(texture) = self.normal.as_ref().filter(|texture| texture.covers(at.point.triangle)) else {
             return [0.0; 3];
         };
         let [x, y, z, _] = at.sample(&self.normal).map(|code| 2.0 * code - 1.0);
         let scale = self.material.normal_scale;
-        at.ground
-            .frame_of(at.spot, texture.other)
+        at.surface
+            .frame_of(at.point, texture.other)
             .slope([x * scale, y * scale, z])
     }
 
     /// What a plane of a result holds at a point.
-    fn value(&self, ground: &Ground<'_>, output: &str, plane: Plane, spot: &Spot) -> [f32; 4] {
-        let at = At { ground, spot };
+    fn value(&self, surface: &SourceSurface<'_>, output: &str, plane: Plane, point: &SurfacePoint) -> [f32; 4] {
+        let at = At { surface, point };
         let triple = |[x, y, z]: [f32; 3]| [x, y, z, 1.0];
         match (plane, output) {
             (Plane::Material(Channel::Color), _) => self.base_color(at),
@@ -279,17 +279,17 @@ impl<'a> ModelSource<'a> {
     /// A plane of a result. What cannot be shown is added to `warnings`.
     pub(crate) fn plane(
         &mut self,
-        ground: &Ground<'a>,
+        surface: &SourceSurface<'a>,
         output: &str,
         plane: Plane,
         warnings: &mut Vec<String>,
     ) -> Vec<u8> {
-        let open = || open_materials(ground.model, ground.atlas.size, warnings);
+        let open = || open_materials(surface.model, surface.atlas.size, warnings);
         let materials = &*self.materials.get_or_insert_with(open);
-        let material_of = &ground.model.mesh.triangle_material;
-        ground.texels(plane, |spot| {
-            let look = materials.get(material_of[spot.triangle] as usize);
-            look.map_or([0.0; 4], |look| look.value(ground, output, plane, spot))
+        let material_of = &surface.model.mesh.triangle_material;
+        surface.texels(plane, |point| {
+            let look = materials.get(material_of[point.triangle] as usize);
+            look.map_or([0.0; 4], |look| look.value(surface, output, plane, point))
         })
     }
 }

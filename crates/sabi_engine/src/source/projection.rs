@@ -3,7 +3,7 @@
 use sabi_plan::SourceValues;
 
 use super::sampler::Footprint;
-use super::texels::{Frame, Ground, Spot};
+use super::texels::{Frame, SourceSurface, SurfacePoint};
 
 /// Radians over which a decal fades out where the surface turns away.
 const FACING_FADE: f64 = 10.0 * std::f64::consts::PI / 180.0;
@@ -113,11 +113,11 @@ impl Projection {
     }
 
     /// The picture at a point.
-    pub(crate) fn views(&self, ground: &Ground<'_>, spot: &Spot) -> [Option<View>; 3] {
+    pub(crate) fn views(&self, surface: &SourceSurface<'_>, point: &SurfacePoint) -> [Option<View>; 3] {
         match &self.way {
-            Way::Uv { tiles } => [Some(self.along_uv(*tiles, ground, spot)), None, None],
-            Way::Triplanar { size, sharpness } => self.triplanar(*size, *sharpness, ground, spot),
-            Way::Decal(decal) => [Some(self.pressed_on(decal, ground, spot)), None, None],
+            Way::Uv { tiles } => [Some(self.along_uv(*tiles, surface, point)), None, None],
+            Way::Triplanar { size, sharpness } => self.triplanar(*size, *sharpness, surface, point),
+            Way::Decal(decal) => [Some(self.pressed_on(decal, surface, point)), None, None],
         }
     }
 
@@ -141,15 +141,15 @@ impl Projection {
         }
     }
 
-    fn along_uv(&self, tiles: [f64; 2], ground: &Ground<'_>, spot: &Spot) -> View {
-        let texel = 1.0 / f64::from(ground.atlas.size);
+    fn along_uv(&self, tiles: [f64; 2], surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
+        let texel = 1.0 / f64::from(surface.atlas.size);
         // Texture coordinates grow downward, angles count upward.
         let turned = |u: f64, v: f64| {
             let [x, y] = [u * tiles[0], -v * tiles[1]];
             let [cos, sin] = self.turn;
             [cos * x + sin * y, sin * x - cos * y]
         };
-        let [u, v] = turned(spot.uv[0] - 0.5, spot.uv[1] - 0.5);
+        let [u, v] = turned(point.uv[0] - 0.5, point.uv[1] - 0.5);
         View {
             footprint: Footprint {
                 uv: [u + 0.5 * tiles[0] - self.offset[0], v + 0.5 * tiles[1] + self.offset[1]],
@@ -161,8 +161,14 @@ impl Projection {
         }
     }
 
-    fn triplanar(&self, size: f64, sharpness: f64, ground: &Ground<'_>, spot: &Spot) -> [Option<View>; 3] {
-        let normal = unit(ground.frame(spot).normal, [0.0, 1.0, 0.0]);
+    fn triplanar(
+        &self,
+        size: f64,
+        sharpness: f64,
+        surface: &SourceSurface<'_>,
+        point: &SurfacePoint,
+    ) -> [Option<View>; 3] {
+        let normal = unit(surface.frame(point).normal, [0.0, 1.0, 0.0]);
         let weights = normal.map(|x| x.abs().powf(sharpness));
         let sum: f64 = weights.iter().sum();
         std::array::from_fn(|axis| {
@@ -184,7 +190,7 @@ impl Projection {
                 },
             };
             (weight > 1e-6).then(|| View {
-                footprint: self.on_plane(plane, [0.0; 3], size, ground, spot),
+                footprint: self.on_plane(plane, [0.0; 3], size, surface, point),
                 weight: weight as f32,
                 cover: 1.0,
                 lies: Lies::On(plane),
@@ -192,8 +198,8 @@ impl Projection {
         })
     }
 
-    fn pressed_on(&self, decal: &Decal, ground: &Ground<'_>, spot: &Spot) -> View {
-        let footprint = self.on_plane(decal.plane, decal.middle, decal.size, ground, spot);
+    fn pressed_on(&self, decal: &Decal, surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
+        let footprint = self.on_plane(decal.plane, decal.middle, decal.size, surface, point);
         let share = |x: f64| x.clamp(0.0, 1.0);
         // The part of the texel that lies on the picture, as far as it can be told from the texel's extent.
         let inside = |axis: usize| {
@@ -201,14 +207,14 @@ impl Projection {
             let at = footprint.uv[axis];
             share(0.5 + at.min(1.0 - at) / extent.max(1e-9))
         };
-        let place = ground.position(spot);
+        let place = surface.position(point);
         let away = dot(
             std::array::from_fn(|axis| place[axis] - decal.middle[axis]),
             decal.toward,
         )
         .abs();
         let deep = share((decal.depth - away) / (DEPTH_FADE * decal.depth).max(1e-9));
-        let normal = unit(ground.frame(spot).normal, decal.toward);
+        let normal = unit(surface.frame(point).normal, decal.toward);
         let angle = dot(normal, decal.toward).clamp(-1.0, 1.0).acos();
         let faces = share((decal.facing - angle) / FACING_FADE);
         View {
@@ -228,14 +234,21 @@ impl Projection {
     }
 
     /// Where a texel lies on a picture whose middle is at `middle`.
-    fn on_plane(&self, plane: Plane, middle: [f64; 3], size: f64, ground: &Ground<'_>, spot: &Spot) -> Footprint {
+    fn on_plane(
+        &self,
+        plane: Plane,
+        middle: [f64; 3],
+        size: f64,
+        surface: &SourceSurface<'_>,
+        point: &SurfacePoint,
+    ) -> Footprint {
         let plane = self.turned(plane);
         let seen = |v: [f64; 3]| [dot(v, plane.right) / size, -dot(v, plane.up) / (size * self.aspect)];
-        let place = ground.position(spot);
+        let place = surface.position(point);
         let [u, v] = seen(std::array::from_fn(|axis| place[axis] - middle[axis]));
         Footprint {
             uv: [u + 0.5 - self.offset[0], v + 0.5 + self.offset[1]],
-            steps: ground.texel_sides(spot).map(seen),
+            steps: surface.texel_sides(point).map(seen),
         }
     }
 }

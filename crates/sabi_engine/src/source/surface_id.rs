@@ -10,7 +10,7 @@ use sabi_surface::model::Model;
 use sabi_surface::pieces::{PieceBox, boxes};
 
 use super::hash_apart;
-use super::texels::Ground;
+use super::texels::SourceSurface;
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "surface/id";
@@ -102,20 +102,20 @@ struct Groups {
 
 impl Groups {
     /// `by` is an index into [`WORDS`].
-    fn new(ground: &Ground<'_>, by: usize) -> Groups {
-        let mesh = &ground.model.mesh;
+    fn new(surface: &SourceSurface<'_>, by: usize) -> Groups {
+        let mesh = &surface.model.mesh;
         let (noun, of_triangle, names) = match by {
             1 => {
-                let files = sabi_export::set_names(ground.model);
-                let own = ground.model.materials.iter().map(|material| material.name.clone());
+                let files = sabi_export::set_names(surface.model);
+                let own = surface.model.materials.iter().map(|material| material.name.clone());
                 let names = own.zip(files).map(|(own, file)| vec![own, file]);
                 ("material", mesh.triangle_material.clone(), names.collect())
             }
-            2 => ("chart", ground.atlas.triangle_chart.clone(), Vec::new()),
-            3 => return Groups::by_name(ground),
-            4 => ("piece", ground.pieces.triangle_piece.clone(), Vec::new()),
+            2 => ("chart", surface.atlas.triangle_chart.clone(), Vec::new()),
+            3 => return Groups::by_name(surface),
+            4 => ("piece", surface.pieces.triangle_piece.clone(), Vec::new()),
             _ => {
-                let names = ground.model.parts.iter().map(|name| vec![name.clone()]);
+                let names = surface.model.parts.iter().map(|name| vec![name.clone()]);
                 ("part", mesh.triangle_part.clone(), names.collect())
             }
         };
@@ -130,21 +130,21 @@ impl Groups {
         }
     }
 
-    fn by_name(ground: &Ground<'_>) -> Groups {
+    fn by_name(surface: &SourceSurface<'_>) -> Groups {
         let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();
-        for name in &ground.model.parts {
+        for name in &surface.model.parts {
             let next = numbers.len() as u32;
             numbers.entry(name).or_insert(next);
         }
         let group_of = |part: &u32| {
-            let name = ground.model.parts.get(*part as usize);
+            let name = surface.model.parts.get(*part as usize);
             name.and_then(|name| numbers.get(name.as_str())).copied().unwrap_or(0)
         };
         let mut sorted: Vec<(&str, u32)> = numbers.iter().map(|(name, number)| (*name, *number)).collect();
         sorted.sort_by_key(|(_, number)| *number);
         Groups {
             noun: "name",
-            of_triangle: ground.model.mesh.triangle_part.iter().map(group_of).collect(),
+            of_triangle: surface.model.mesh.triangle_part.iter().map(group_of).collect(),
             names: sorted.iter().map(|(name, _)| vec![(*name).to_owned()]).collect(),
             random: sorted
                 .iter()
@@ -227,19 +227,19 @@ impl Groups {
 
 /// A plane of a result. What is picked and is not there is added to `warnings`.
 pub(crate) fn plane(
-    ground: &Ground<'_>,
+    surface: &SourceSurface<'_>,
     step: &SourceStep,
     output: &str,
     plane: Plane,
     warnings: &mut Vec<String>,
 ) -> Vec<u8> {
-    let groups = Groups::new(ground, step.values.index("by"));
+    let groups = Groups::new(surface, step.values.index("by"));
     let of_group: Vec<f32> = match output {
         "position" => {
-            let boxes = boxes(&ground.model.mesh, &groups.of_triangle, groups.count());
-            return ground.texels(plane, |spot| {
-                let own = &boxes[groups.of_triangle[spot.triangle] as usize];
-                let [x, y, z] = place_in(own, ground.working_from_model, ground.position(spot));
+            let boxes = boxes(&surface.model.mesh, &groups.of_triangle, groups.count());
+            return surface.texels(plane, |point| {
+                let own = &boxes[groups.of_triangle[point.triangle] as usize];
+                let [x, y, z] = place_in(own, surface.working_from_model, surface.position(point));
                 [x, y, z, 1.0]
             });
         }
@@ -253,8 +253,8 @@ pub(crate) fn plane(
             picked.iter().map(|is_picked| f32::from(u8::from(*is_picked))).collect()
         }
     };
-    ground.texels(plane, |spot| {
-        let group = groups.of_triangle[spot.triangle] as usize;
+    surface.texels(plane, |point| {
+        let group = groups.of_triangle[point.triangle] as usize;
         [of_group[group], 0.0, 0.0, 1.0]
     })
 }

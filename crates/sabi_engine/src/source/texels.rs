@@ -16,7 +16,7 @@ const CHUNK: usize = 4096;
 
 /// The surface that sources are brought onto.
 #[derive(Clone, Copy)]
-pub(crate) struct Ground<'a> {
+pub(crate) struct SourceSurface<'a> {
     pub(crate) model: &'a Model,
     pub(crate) atlas: &'a Atlas,
     pub(crate) tables: &'a SurfaceTables,
@@ -31,7 +31,7 @@ pub(crate) struct Ground<'a> {
 
 /// A point of the surface: its triangle, where it lies on its chart's page, and its texture coordinates.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Spot {
+pub(crate) struct SurfacePoint {
     pub(crate) triangle: usize,
     pub(crate) texel: [f64; 2],
     pub(crate) uv: [f64; 2],
@@ -44,9 +44,9 @@ pub(crate) struct Frame {
     pub(crate) normal: [f64; 3],
 }
 
-impl Ground<'_> {
+impl SourceSurface<'_> {
     /// The surface point under a texel of the atlas; over the seam for a ghost, none where nothing is.
-    fn spot(&self, index: usize) -> Option<Spot> {
+    fn point(&self, index: usize) -> Option<SurfacePoint> {
         let owner = self.atlas.owners[index];
         if owner == EMPTY {
             return None;
@@ -64,50 +64,50 @@ impl Ground<'_> {
         let chart = &self.atlas.charts[self.atlas.triangle_chart[triangle] as usize];
         let size = f64::from(self.atlas.size);
         let uv = std::array::from_fn(|axis| (texel[axis] - f64::from(chart.texel_from_uv[axis])) / size);
-        Some(Spot { triangle, texel, uv })
+        Some(SurfacePoint { triangle, texel, uv })
     }
 
     /// What is linear over a triangle, at a point of it: three rows of a table, the value at the reference texel and its
     /// change a texel along u and v.
-    fn affine(&self, spot: &Spot, rows: [&[f32; 4]; 3]) -> [f64; 3] {
-        let geometry = &self.tables.geometry[6 * spot.triangle..];
-        let step: [f64; 2] = std::array::from_fn(|axis| spot.texel[axis] - f64::from(geometry[axis][3]));
+    fn affine(&self, point: &SurfacePoint, rows: [&[f32; 4]; 3]) -> [f64; 3] {
+        let geometry = &self.tables.geometry[6 * point.triangle..];
+        let step: [f64; 2] = std::array::from_fn(|axis| point.texel[axis] - f64::from(geometry[axis][3]));
         std::array::from_fn(|axis| {
             f64::from(rows[0][axis]) + f64::from(rows[1][axis]) * step[0] + f64::from(rows[2][axis]) * step[1]
         })
     }
 
     /// The point itself, in working units.
-    pub(crate) fn position(&self, spot: &Spot) -> [f64; 3] {
-        let geometry = &self.tables.geometry[6 * spot.triangle..];
-        self.affine(spot, [&geometry[0], &geometry[1], &geometry[2]])
+    pub(crate) fn position(&self, point: &SurfacePoint) -> [f64; 3] {
+        let geometry = &self.tables.geometry[6 * point.triangle..];
+        self.affine(point, [&geometry[0], &geometry[1], &geometry[2]])
     }
 
     /// What a step of one texel along u and along v is in space, in working units.
-    pub(crate) fn texel_sides(&self, spot: &Spot) -> [[f64; 3]; 2] {
-        let geometry = &self.tables.geometry[6 * spot.triangle..];
+    pub(crate) fn texel_sides(&self, point: &SurfacePoint) -> [[f64; 3]; 2] {
+        let geometry = &self.tables.geometry[6 * point.triangle..];
         [1, 2].map(|row: usize| std::array::from_fn(|axis| f64::from(geometry[row][axis])))
     }
 
     /// The shading frame at a point.
-    pub(crate) fn frame(&self, spot: &Spot) -> Frame {
-        let geometry = &self.tables.geometry[6 * spot.triangle..];
-        let frames = &self.tables.frames[4 * spot.triangle..];
-        let normal = self.affine(spot, [&geometry[3], &geometry[4], &geometry[5]]);
-        let tangent = self.affine(spot, [&frames[0], &frames[1], &frames[2]]);
+    pub(crate) fn frame(&self, point: &SurfacePoint) -> Frame {
+        let geometry = &self.tables.geometry[6 * point.triangle..];
+        let frames = &self.tables.frames[4 * point.triangle..];
+        let normal = self.affine(point, [&geometry[3], &geometry[4], &geometry[5]]);
+        let tangent = self.affine(point, [&frames[0], &frames[1], &frames[2]]);
         let sign = f64::from(frames[0][3]);
         Frame::new(normal, tangent, sign)
     }
 
     /// All texels of a plane in its storage format, ghosts included; zeros where nothing is.
-    pub(crate) fn texels(&self, plane: Plane, value: impl Fn(&Spot) -> [f32; 4] + Sync) -> Vec<u8> {
+    pub(crate) fn texels(&self, plane: Plane, value: impl Fn(&SurfacePoint) -> [f32; 4] + Sync) -> Vec<u8> {
         let format = plane.format();
         let size = format.texel_bytes() as usize;
         let mut bytes = vec![0_u8; self.atlas.owners.len() * size];
         bytes.par_chunks_mut(CHUNK * size).enumerate().for_each(|(at, texels)| {
             for (offset, texel) in texels.chunks_exact_mut(size).enumerate() {
-                if let Some(spot) = self.spot(at * CHUNK + offset) {
-                    put(texel, format, value(&spot));
+                if let Some(point) = self.point(at * CHUNK + offset) {
+                    put(texel, format, value(&point));
                 }
             }
         });

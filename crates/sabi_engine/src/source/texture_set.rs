@@ -3,18 +3,18 @@
 use sabi_surface::model::TextureUvs;
 
 use super::sampler::Footprint;
-use super::texels::{Frame, Ground, Spot};
+use super::texels::{Frame, SourceSurface, SurfacePoint};
 
-impl Ground<'_> {
+impl SourceSurface<'_> {
     /// What a texel covers of a picture that is laid out like the atlas, or by another set.
-    pub(super) fn footprint(&self, spot: &Spot, other: Option<&TextureUvs>) -> Footprint {
+    pub(super) fn footprint(&self, point: &SurfacePoint, other: Option<&TextureUvs>) -> Footprint {
         let width = 1.0 / f64::from(self.atlas.size);
         let steps = [[width, 0.0], [0.0, width]];
         let Some(other) = other else {
-            return Footprint { uv: spot.uv, steps };
+            return Footprint { uv: point.uv, steps };
         };
-        let corners = self.corners(spot).map(|corner| other.uvs[corner].map(f64::from));
-        let at = |[u, v]: [f64; 2]| blend(self.weights(spot, [spot.uv[0] + u, spot.uv[1] + v]), corners);
+        let corners = self.corners(point).map(|corner| other.uvs[corner].map(f64::from));
+        let at = |[u, v]: [f64; 2]| blend(self.weights(point, [point.uv[0] + u, point.uv[1] + v]), corners);
         let uv = at([0.0; 2]);
         let steps = steps.map(|step| {
             let ahead = at(step);
@@ -24,25 +24,25 @@ impl Ground<'_> {
     }
 
     /// The frame in which a normal map of the atlas' layout is meant, or one of another set.
-    pub(super) fn frame_of(&self, spot: &Spot, other: Option<&TextureUvs>) -> Frame {
+    pub(super) fn frame_of(&self, point: &SurfacePoint, other: Option<&TextureUvs>) -> Frame {
         let Some(other) = other.filter(|other| !other.tangents.is_empty()) else {
-            return self.frame(spot);
+            return self.frame(point);
         };
-        let (corners, weights) = (self.corners(spot), self.weights(spot, spot.uv));
+        let (corners, weights) = (self.corners(point), self.weights(point, point.uv));
         let tangents = corners.map(|corner| other.tangents[corner].map(f64::from));
         let [x, y, z, _] = blend(weights, tangents);
         let normals = corners.map(|corner| self.model.mesh.normals[corner].map(f64::from));
         Frame::new(blend(weights, normals), [x, y, z], tangents[0][3])
     }
 
-    fn corners(&self, spot: &Spot) -> [usize; 3] {
-        self.model.mesh.triangles[spot.triangle].map(|corner| corner as usize)
+    fn corners(&self, point: &SurfacePoint) -> [usize; 3] {
+        self.model.mesh.triangles[point.triangle].map(|corner| corner as usize)
     }
 
     /// Weights of the second and third corner at a place of the atlas' layout; none for a triangle without area there.
-    pub(super) fn weights(&self, spot: &Spot, uv: [f64; 2]) -> [f64; 2] {
+    pub(super) fn weights(&self, point: &SurfacePoint, uv: [f64; 2]) -> [f64; 2] {
         let [a, b, c] = self
-            .corners(spot)
+            .corners(point)
             .map(|corner| self.model.mesh.uvs[corner].map(f64::from));
         let from_a = |to: [f64; 2]| [to[0] - a[0], to[1] - a[1]];
         let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];

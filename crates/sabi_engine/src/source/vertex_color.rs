@@ -5,7 +5,7 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort};
 use sabi_surface::model::Model;
 
-use super::texels::Ground;
+use super::texels::SourceSurface;
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/vertex_color";
@@ -48,8 +48,8 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
 }
 
 /// A plane of a result. A model without colors is told in `warnings`.
-pub(crate) fn plane(ground: &Ground<'_>, node: &str, plane: Plane, warnings: &mut Vec<String>) -> Vec<u8> {
-    let mesh = &ground.model.mesh;
+pub(crate) fn plane(surface: &SourceSurface<'_>, node: &str, plane: Plane, warnings: &mut Vec<String>) -> Vec<u8> {
+    let mesh = &surface.model.mesh;
     if mesh.colors.is_empty() {
         let why =
             format!("node '{node}' ({NAME}) gives white: the model has no vertex colors; paint some in its program");
@@ -57,12 +57,12 @@ pub(crate) fn plane(ground: &Ground<'_>, node: &str, plane: Plane, warnings: &mu
             warnings.push(why);
         }
     }
-    ground.texels(plane, |spot| {
+    surface.texels(plane, |point| {
         // A texel's middle may lie outside of its triangle, but no color lies outside of the corners'.
-        let [second, third] = ground.weights(spot, spot.uv).map(|weight| weight.max(0.0));
+        let [second, third] = surface.weights(point, point.uv).map(|weight| weight.max(0.0));
         let sum = (second + third).max(1.0);
         let weights = [1.0 - (second + third) / sum, second / sum, third / sum].map(|weight| weight as f32);
-        let corners = mesh.triangles[spot.triangle].iter().zip(weights);
+        let corners = mesh.triangles[point.triangle].iter().zip(weights);
         let mut sum = [0.0_f32; 4];
         for (vertex, weight) in corners {
             let color = mesh.colors.get(*vertex as usize).copied().unwrap_or([1.0; 4]);
