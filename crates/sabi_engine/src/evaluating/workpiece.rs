@@ -20,7 +20,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::kept_rays::KeptRays;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::opening::levels::Levels;
+use crate::opening::levels::AtlasLevels;
 use crate::opening::overlap::Sharing;
 use crate::opening::overridden::refuse_bad_values;
 use crate::opening::pictures::{Pictures, files};
@@ -77,7 +77,7 @@ pub struct Workpiece {
     pictures: Pictures,
     tables: SurfaceTables,
     bvh_on_device: OnceLock<DeviceHierarchy>,
-    levels: Levels,
+    levels: AtlasLevels,
     /// Texels that share a place on the maps; none where each has its own.
     pub(crate) shares: OnceLock<Option<Shares>>,
     kept_rays: KeptRays,
@@ -150,7 +150,7 @@ impl Workpiece {
         let fit = chosen.0.unwrap_or(open.document.fit);
         let seed = chosen.1.unwrap_or(open.document.seed);
         let tables = times.load.time(|| prepared.tables(&fit, seed));
-        let levels = times.atlas.time(|| Levels::new(&prepared, &fit));
+        let levels = times.atlas.time(|| AtlasLevels::new(&prepared, &fit));
         let surface = times
             .load
             .time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables, levels.of(0)))?;

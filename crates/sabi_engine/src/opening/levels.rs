@@ -10,7 +10,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::prepare::Prepared;
 
 /// The levels of one surface that were made so far.
-pub(crate) struct Levels {
+pub(crate) struct AtlasLevels {
     /// Width of the finest texels, working units.
     finest: f64,
     /// Largest coordinate of the model, working units.
@@ -18,10 +18,10 @@ pub(crate) struct Levels {
     pub(crate) coarser: BTreeMap<u32, CoarseSurface>,
 }
 
-impl Levels {
-    pub(crate) fn new(prepared: &Prepared, fit: &Fit) -> Levels {
+impl AtlasLevels {
+    pub(crate) fn new(prepared: &Prepared, fit: &Fit) -> AtlasLevels {
         let scale = prepared.working_from_model(fit);
-        Levels {
+        AtlasLevels {
             finest: prepared.finest_texel() * scale,
             farthest: prepared.farthest * scale,
             coarser: BTreeMap::new(),

@@ -13,7 +13,7 @@ use sabi_plan::{FileContents, FileFault};
 use sabi_surface::load::{Unread, read_plain};
 
 use crate::opening::kinds::Kinds;
-use crate::source::Levels;
+use crate::source::MipChain;
 
 /// Files of pictures larger than this are not read.
 const SIZE_LIMIT_BYTES: u64 = 1 << 30;
@@ -84,7 +84,7 @@ pub(crate) struct OpenPicture {
     pub(crate) picture: Arc<Picture>,
     /// Whether it holds infinite or undefined numbers.
     pub(crate) has_non_numbers: bool,
-    levels: [OnceLock<Arc<Levels>>; 2],
+    levels: [OnceLock<Arc<MipChain>>; 2],
 }
 
 impl OpenPicture {
@@ -109,8 +109,8 @@ impl OpenPicture {
     }
 
     /// The picture and its halves; with `is_srgb` the sRGB curve is undone on everything but alpha.
-    pub(crate) fn levels(&self, is_srgb: bool) -> Arc<Levels> {
-        let make = || Arc::new(Levels::new(self.picture.clone(), is_srgb, 1));
+    pub(crate) fn levels(&self, is_srgb: bool) -> Arc<MipChain> {
+        let make = || Arc::new(MipChain::new(self.picture.clone(), is_srgb, 1));
         self.levels[usize::from(is_srgb)].get_or_init(make).clone()
     }
 }

@@ -1,7 +1,7 @@
 //! Node kinds that are not WGSL: one file each.
 
 mod image;
-mod levels;
+mod mip_chain;
 mod model;
 mod output_mask;
 mod output_material;
@@ -26,7 +26,7 @@ use sabi_surface::model::Model;
 use crate::evaluating::kept_rays::KeptRays;
 use crate::opening::pictures::{OpenPicture, Pictures, path_of};
 
-pub(crate) use levels::Levels;
+pub(crate) use mip_chain::MipChain;
 pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};

@@ -11,7 +11,7 @@ use sabi_plan::{SourceKind, SourcePort};
 use sabi_surface::model::{Model, ModelMaterial, TextureRef, TextureUvs};
 
 use super::hash_apart;
-use super::levels::Levels;
+use super::mip_chain::MipChain;
 use super::sampler::Sampler;
 use super::texels::{SourceSurface, SurfacePoint};
 
@@ -74,7 +74,7 @@ impl<'a> Texture<'a> {
         let [u, v] = [0, 1].map(|axis: usize| transform[0][axis].hypot(transform[1][axis]));
         // Laid out like the atlas, it is read at no level whose pixels are larger than a texel.
         let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
-        let levels = Levels::new(Arc::new(picture), is_srgb, least as u32);
+        let levels = MipChain::new(Arc::new(picture), is_srgb, least as u32);
         Texture {
             sampler: Sampler::new(Arc::new(levels), texture.wrap),
             transform,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sabi_surface::model::Wrap;
 
-use super::levels::Levels;
+use super::mip_chain::MipChain;
 
 /// Taps along one side of a texel's footprint, at most.
 const TAPS_LIMIT: f64 = 16.0;
@@ -12,7 +12,7 @@ const TAPS_LIMIT: f64 = 16.0;
 /// A picture with its wrap.
 #[derive(Clone)]
 pub(crate) struct Sampler {
-    levels: Arc<Levels>,
+    levels: Arc<MipChain>,
     wrap: [Wrap; 2],
 }
 
@@ -44,7 +44,7 @@ impl Footprint {
 }
 
 impl Sampler {
-    pub(crate) fn new(levels: Arc<Levels>, wrap: [Wrap; 2]) -> Sampler {
+    pub(crate) fn new(levels: Arc<MipChain>, wrap: [Wrap; 2]) -> Sampler {
         Sampler { levels, wrap }
     }
 
@@ -155,7 +155,7 @@ mod tests {
             pixels: Pixels::U8(codes),
             color_space: Declared::Unknown,
         };
-        Sampler::new(Arc::new(Levels::new(Arc::new(picture), false, 1)), [Wrap::Repeat; 2])
+        Sampler::new(Arc::new(MipChain::new(Arc::new(picture), false, 1)), [Wrap::Repeat; 2])
     }
 
     /// Root of the mean square between what is read and the mean over each texel's own pixels.

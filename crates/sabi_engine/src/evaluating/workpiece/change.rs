@@ -9,7 +9,7 @@ use super::{Workpiece, surface_key};
 use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::opening::levels::Levels;
+use crate::opening::levels::AtlasLevels;
 
 impl Workpiece {
     /// Takes another graph, or the same one after an edit; `graph` is `open` without its groups. Nothing is loaded again: only
@@ -19,7 +19,7 @@ impl Workpiece {
         let seed = self.chosen.1.unwrap_or(open.document.seed);
         if (fit, seed) != (self.fit, self.seed) {
             let tables = self.prepared.tables(&fit, seed);
-            let levels = Levels::new(&self.prepared, &fit);
+            let levels = AtlasLevels::new(&self.prepared, &fit);
             self.surface = GpuSurface::upload(&self.gpu, &self.prepared.atlas, &tables, levels.of(0))?;
             self.surface_key = surface_key(&self.prepared, &tables);
             (self.tables, self.levels) = (tables, levels);

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sabi_image::{Picture, Pixels, linear_from_srgb};
 
 /// A picture in linear numbers, with copies of half, a quarter… its size whose pixels are exact averages over the area.
-pub(crate) struct Levels {
+pub(crate) struct MipChain {
     picture: Arc<Picture>,
     /// Linear values of 8-bit codes.
     code_table: Option<[f32; 256]>,
@@ -20,16 +20,16 @@ struct Level {
     pixels: Vec<[f32; 4]>,
 }
 
-impl Levels {
+impl MipChain {
     /// The levels of a picture; with `is_srgb` the sRGB curve is undone on everything but alpha. They are made down to the
     /// first one that has at most `least` pixels along both sides.
-    pub(crate) fn new(picture: Arc<Picture>, is_srgb: bool, least: u32) -> Levels {
+    pub(crate) fn new(picture: Arc<Picture>, is_srgb: bool, least: u32) -> MipChain {
         let linear = |code: usize| {
             let value = code as f32 / 255.0;
             if is_srgb { linear_from_srgb(value) } else { value }
         };
         let code_table = matches!(picture.pixels, Pixels::U8(_)).then(|| std::array::from_fn(linear));
-        let mut levels = Levels {
+        let mut levels = MipChain {
             picture,
             code_table,
             is_srgb,
@@ -185,7 +185,7 @@ mod tests {
     fn every_level_has_the_mean_of_the_picture_whatever_its_size() {
         for size in [[64, 64], [37, 5], [1, 9], [3, 3], [1, 1]] {
             let picture = gray(size, |x, y| ((x * 7 + y * 13) % 11) as f32);
-            let levels = Levels::new(picture, false, 1);
+            let levels = MipChain::new(picture, false, 1);
             let mean = |level: usize| {
                 let [across, down] = levels.size(level).map(|side| side as usize);
                 let all = (0..down).flat_map(|y| (0..across).map(move |x| (x, y)));
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn what_is_no_number_counts_as_nothing() {
-        let levels = Levels::new(gray([2, 1], |x, _| if x == 0 { f32::NAN } else { 4.0 }), false, 1);
+        let levels = MipChain::new(gray([2, 1], |x, _| if x == 0 { f32::NAN } else { 4.0 }), false, 1);
         assert_eq!(levels.pixel(1, 0, 0)[0], 2.0);
     }
 }
