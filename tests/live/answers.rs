@@ -142,7 +142,7 @@ fn every_wish_that_is_begun_shows_its_first_picture_however_many_follow() {
         window
             .live
             .submit(request(revision, graph(&rusty(0.2 + 0.05 * revision as f32))));
-        let is_first = |event: &LiveEvent| matches!(event, LiveEvent::Shown { revision: of, is_coarse: true, .. } if *of == revision);
+        let is_first = |event: &LiveEvent| matches!(event, LiveEvent::Looks { revision: of, is_coarse: true, .. } if *of == revision);
         let told = window.until(is_first);
         coarse += told.all.iter().filter(|event| is_first(event)).count();
     }
@@ -157,7 +157,7 @@ fn a_newer_wish_ends_the_older_one() {
     let is_coarse = |event: &LiveEvent| {
         matches!(
             event,
-            LiveEvent::Shown {
+            LiveEvent::Looks {
                 revision: 1,
                 is_coarse: true,
                 ..

@@ -254,5 +254,5 @@ fn a_mistake_of_the_program_ends_one_answer_and_not_the_evaluation() {
     assert!(answer(1).iter().any(broke_off));
     let told = answer(2);
     assert!(!told.iter().any(broke_off));
-    assert!(told.iter().any(|event| matches!(event, LiveEvent::Shown { .. })));
+    assert!(told.iter().any(|event| matches!(event, LiveEvent::Looks { .. })));
 }

@@ -6,7 +6,7 @@ mod edits;
 use std::sync::Arc;
 
 use edits::{FIRST, Step, Walk};
-use sabi_engine::{Faults, LiveRequest, Shown};
+use sabi_engine::{Faults, LiveRequest, ModelLooks};
 use sabi_graph::History;
 
 use crate::window::{Told, Window, bytes, document, request};
@@ -20,7 +20,7 @@ const LEAST_COMPARED: usize = 8;
 /// What a window shows by now.
 #[derive(Default)]
 struct Screen {
-    shown: Option<Arc<Shown>>,
+    shown: Option<Arc<ModelLooks>>,
     faults: Faults,
 }
 

@@ -7,8 +7,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use sabi_engine::{
-    Faults, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelOptions, NodeRef,
-    OpenGraph, Pictures, Seen, Shown,
+    Faults, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelLooks, ModelOptions,
+    NodeRef, OpenGraph, Pictures, Seen,
 };
 use sabi_graph::Document;
 use sabi_tests::{device, project};
@@ -141,9 +141,9 @@ impl Window {
 
 impl Told {
     /// What viewports were shown, in order: wish, whether it was coarse, the model and the looks.
-    pub(crate) fn shown(&self) -> Vec<(u64, bool, &Arc<LiveModel>, &Arc<Shown>)> {
+    pub(crate) fn shown(&self) -> Vec<(u64, bool, &Arc<LiveModel>, &Arc<ModelLooks>)> {
         let shown = self.all.iter().filter_map(|event| match event {
-            LiveEvent::Shown {
+            LiveEvent::Looks {
                 revision,
                 is_coarse,
                 model,
@@ -200,7 +200,7 @@ impl Told {
 }
 
 /// The bytes of all textures of what is shown.
-pub(crate) fn bytes(shown: &Shown) -> Vec<u8> {
+pub(crate) fn bytes(shown: &ModelLooks) -> Vec<u8> {
     let gpu = device();
     let mut bytes = Vec::new();
     for look in &shown.looks {

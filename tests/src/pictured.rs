@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_engine::{NoProgress, Shown, show};
+use sabi_engine::{ModelLooks, NoProgress, evaluate_looks};
 use sabi_view::{
     Camera, Environment, Light, MaterialLook, Panorama, Pixels, Placement, Renderer, Scene, Shot, Target, ViewModel,
     Viewpoint,
@@ -15,7 +15,7 @@ pub struct Pictured {
     /// The graph on the model.
     pub on_mesh: OnMesh,
     /// What the outputs look like.
-    pub shown: Shown,
+    pub shown: ModelLooks,
     /// The model.
     pub model: ViewModel,
     /// Light from all around.
@@ -40,7 +40,7 @@ impl Pictured {
 
     /// A graph that is on a model already, in the light of a panorama.
     pub fn of(mut on_mesh: OnMesh, light: &Panorama) -> Pictured {
-        let shown = show(&mut on_mesh.workpiece, None, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
+        let shown = evaluate_looks(&mut on_mesh.workpiece, None, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
         let workpiece = &on_mesh.workpiece;
         let prepared = &workpiece.prepared;
         let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
@@ -72,7 +72,7 @@ impl Pictured {
     /// Shows a node's own result, or a node's material, on all of the model.
     pub fn show_node(&mut self, node: &str) {
         let target = self.on_mesh.target(node);
-        let shown = show(&mut self.on_mesh.workpiece, Some(&target), &NoProgress);
+        let shown = evaluate_looks(&mut self.on_mesh.workpiece, Some(&target), &NoProgress);
         self.shown = shown.unwrap_or_else(|error| panic!("{node}: {error}"));
     }
 

@@ -10,8 +10,8 @@ use std::time::Duration;
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use sabi_engine::view::Pixels;
 use sabi_engine::{
-    EngineError, Faults, Gpu, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelOptions,
-    OpenGraph, Seen, SetKey, Shown,
+    EngineError, Faults, Gpu, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelLooks,
+    ModelOptions, OpenGraph, Seen, SetKey,
 };
 use sabi_graph::{Document, NodeRef};
 
@@ -27,7 +27,7 @@ const FULL: [u32; 2] = [512, 1024];
 #[derive(Clone)]
 pub(crate) struct Picture {
     pub(crate) model: Arc<LiveModel>,
-    pub(crate) shown: Arc<Shown>,
+    pub(crate) shown: Arc<ModelLooks>,
     /// Another number for every picture.
     pub(crate) number: u64,
 }
@@ -275,7 +275,7 @@ impl Stage {
                 LiveEvent::ModelFailed { error, model_revision } if model_revision == self.model_revision => {
                     self.model_failure = Some(error.to_string());
                 }
-                LiveEvent::Shown { seen, model, shown, .. } => {
+                LiveEvent::Looks { seen, model, shown, .. } => {
                     self.numbers += 1;
                     tracing::info!(?seen, texels = model.size, "a picture came");
                     self.failure = None;

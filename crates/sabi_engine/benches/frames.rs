@@ -12,8 +12,8 @@ use sabi_engine::view::{
     Target, ViewModel, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, NoProgress, OpenGraph, Overrides, Shown,
-    Workpiece, WorkpieceOptions, show,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelLooks, ModelOptions, NoProgress, OpenGraph,
+    Overrides, Workpiece, WorkpieceOptions, evaluate_looks,
 };
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -59,7 +59,7 @@ fn sky() -> Panorama {
 /// What is drawn, with what it takes to draw it.
 struct Stage {
     workpiece: Workpiece,
-    shown: Shown,
+    shown: ModelLooks,
     model: ViewModel,
     environment: Environment,
     renderer: Renderer,
@@ -77,7 +77,7 @@ impl Stage {
     fn new() -> Stage {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let mut workpiece = workpiece(&root);
-        let shown = show(&mut workpiece, None, &NoProgress).unwrap();
+        let shown = evaluate_looks(&mut workpiece, None, &NoProgress).unwrap();
         let gpu = &workpiece.gpu;
         let name = &gpu.summary().name;
         println!("{name}\n\n| what | measured | aim on a software driver |\n|---|---|---|");

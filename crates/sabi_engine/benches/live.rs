@@ -13,8 +13,8 @@ use sabi_engine::view::{
     Background, Camera, Environment, MaterialLook, Mode, Renderer, Scene, Shot, Target, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, ModelOptions, NodeRef, OpenGraph,
-    Seen, Shown, default_cache_dir, load_environment,
+    AdapterChoice, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, ModelLooks, ModelOptions, NodeRef,
+    OpenGraph, Seen, default_cache_dir, load_environment,
 };
 
 const MOVES: usize = 15;
@@ -62,7 +62,7 @@ fn row(what: &str, ms: f64, aim: &str) {
 }
 
 /// What was shown, with its model and when.
-type Pictured = (Arc<LiveModel>, Arc<Shown>);
+type Pictured = (Arc<LiveModel>, Arc<ModelLooks>);
 
 /// A window that draws what it is shown.
 struct Window {
@@ -123,7 +123,7 @@ impl Window {
             self.woken.recv().unwrap();
             for event in self.live.take_events() {
                 match event {
-                    LiveEvent::Shown {
+                    LiveEvent::Looks {
                         is_coarse,
                         model,
                         shown,

@@ -26,7 +26,7 @@ pub use catalog::node_file::{
     NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id,
 };
 pub use error::{EngineError, ErrorKind};
-pub use evaluating::looks::{Shown, show};
+pub use evaluating::looks::{ModelLooks, evaluate_looks};
 pub use evaluating::preview::{PreviewRequest, preview};
 pub use evaluating::sheet::{PlaneHolds, SheetPlane};
 pub use evaluating::thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};

@@ -19,7 +19,7 @@ use crate::baking::seams::ModelSeams;
 use crate::baking::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::catalog::describe::describe_unwrapping;
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::looks::models_own;
+use crate::evaluating::looks::model_source_node;
 use crate::evaluating::outputs::{clashes, nothing_comes_out, outputs};
 use crate::evaluating::workpiece::{Workpiece, stop_if_canceled};
 use crate::opening::document::OpenGraph;
@@ -77,7 +77,7 @@ fn bake_open(
     let mut serving = serve(open, &workpiece.graph, &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &workpiece.prepared, &sets, &mut serving, &mut writer)?;
     workpiece.warn(std::mem::take(&mut serving.warnings));
-    let own_looks = serving.model.map(|_| models_own(workpiece.fit));
+    let own_looks = serving.model.map(|_| model_source_node(workpiece.fit));
     workpiece.graph.nodes.extend(own_looks);
     let wanted = wanted(&workpiece.graph, &outputs, &serving);
     let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, workpiece.gpu.limits())?;

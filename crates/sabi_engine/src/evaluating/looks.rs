@@ -19,7 +19,7 @@ use crate::phases::Progress;
 use crate::source::SOURCE_MODEL;
 
 /// A node that shows the model's own looks. No node of a file can have its id.
-pub(crate) fn models_own(fit: Fit) -> FlatNode {
+pub(crate) fn model_source_node(fit: Fit) -> FlatNode {
     FlatNode {
         id: "(model)".to_owned(),
         kind: SOURCE_MODEL.to_owned(),
@@ -35,7 +35,7 @@ pub(crate) fn models_own(fit: Fit) -> FlatNode {
 }
 
 /// What is shown of a model.
-pub struct Shown {
+pub struct ModelLooks {
     /// What its materials look like.
     pub looks: Vec<MaterialLook>,
     /// For each material of the model which of the looks it has.
@@ -48,7 +48,7 @@ pub struct Shown {
 
 /// Which result each material shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Shows {
+pub(crate) enum LookAssignment {
     /// All of them the only one.
     One,
     /// Each that of the node that serves it.
@@ -59,17 +59,21 @@ pub(crate) enum Shows {
 const SUBMISSION: Duration = Duration::from_millis(200);
 
 /// Evaluates what is shown: one node, or else the outputs, and the model's own looks where no output serves a material.
-pub fn show(workpiece: &mut Workpiece, seen: Option<&Target>, progress: &dyn Progress) -> Result<Shown, EngineError> {
+pub fn evaluate_looks(
+    workpiece: &mut Workpiece,
+    seen: Option<&Target>,
+    progress: &dyn Progress,
+) -> Result<ModelLooks, EngineError> {
     let (wanted, shows) = match seen {
-        Some(target) => (vec![target.clone()], Shows::One),
+        Some(target) => (vec![target.clone()], LookAssignment::One),
         None => {
             let (serving, idle) = shown_by(&workpiece.graph, &workpiece.prepared.model, &workpiece.prepared.atlas);
             workpiece.warn(idle);
             if serving.values().any(|&node| node == workpiece.graph.nodes.len()) {
-                workpiece.graph.nodes.push(models_own(workpiece.fit));
+                workpiece.graph.nodes.push(model_source_node(workpiece.fit));
             }
             let nodes: BTreeSet<usize> = serving.values().copied().collect();
-            (targets(nodes), Shows::Served(serving))
+            (targets(nodes), LookAssignment::Served(serving))
         }
     };
     let limits = workpiece.gpu.limits();
@@ -79,17 +83,17 @@ pub fn show(workpiece: &mut Workpiece, seen: Option<&Target>, progress: &dyn Pro
         is_canceled: &|| progress.is_canceled(),
         ..RunOptions::new(SUBMISSION, workpiece.budget_bytes)
     };
-    shown(workpiece, &plan, &mut run, &shows, &options)
+    looks_of_run(workpiece, &plan, &mut run, &shows, &options)
 }
 
 /// What each material looks like by the results of a run.
-pub(crate) fn shown(
+pub(crate) fn looks_of_run(
     workpiece: &Workpiece,
     plan: &Plan,
     run: &mut Run,
-    shows: &Shows,
+    shows: &LookAssignment,
     options: &RunOptions<'_>,
-) -> Result<Shown, EngineError> {
+) -> Result<ModelLooks, EngineError> {
     let (are_opaque, height_range) = value_extents(workpiece, plan, run, options)?;
     // Materials that cover no triangle look plain.
     let mut looks = vec![plain()];
@@ -100,14 +104,14 @@ pub(crate) fn shown(
         });
     }
     let of_material = |material: u32| match shows {
-        Shows::One => Some(looks.len() - 1),
-        Shows::Served(serving) => {
+        LookAssignment::One => Some(looks.len() - 1),
+        LookAssignment::Served(serving) => {
             let node = serving.get(&material)?;
             Some(1 + plan.results.iter().position(|result| result.target.node == *node)?)
         }
     };
     let materials = 0..workpiece.prepared.model.materials.len() as u32;
-    Ok(Shown {
+    Ok(ModelLooks {
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
         is_lit: looks.iter().all(|look| look.node.is_none()),
         height_range,

@@ -12,7 +12,7 @@ use sabi_view::{Pixels, Placement, ViewModel};
 use super::request::Seen;
 use crate::baking::sets::TextureSet;
 use crate::error::EngineError;
-use crate::evaluating::looks::Shown;
+use crate::evaluating::looks::ModelLooks;
 use crate::evaluating::sheet::SheetPlane;
 use crate::opening::prepare::Prepared;
 
@@ -35,7 +35,7 @@ pub enum LiveEvent {
         error: EngineError,
     },
     /// What a viewport shows has changed. Where something that it needs is at fault, what was shown before stays.
-    Shown {
+    Looks {
         /// Of which wish.
         revision: u64,
         /// What is shown.
@@ -45,7 +45,7 @@ pub enum LiveEvent {
         /// The model that the textures belong to.
         model: Arc<LiveModel>,
         /// The textures, on the device.
-        shown: Arc<Shown>,
+        looks: Arc<ModelLooks>,
     },
     /// The exact values of the inspected node.
     Inspected {

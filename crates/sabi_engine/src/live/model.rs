@@ -91,7 +91,7 @@ impl Worker {
             full,
             is_full_refused: false,
         });
-        self.sent.shown.clear();
+        self.sent.looks.clear();
         self.sent.thumbnails.clear();
         self.sent.inspected = None;
         self.full_took = None;

@@ -122,8 +122,8 @@ impl WorkerQueue {
 fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     match (older, newer) {
         (
-            LiveEvent::Shown { revision, seen, .. },
-            LiveEvent::Shown {
+            LiveEvent::Looks { revision, seen, .. },
+            LiveEvent::Looks {
                 revision: newer,
                 seen: same,
                 ..

@@ -13,9 +13,9 @@ use super::faults::{FailedNode, FlattenedRequest};
 use super::queue::Watch;
 use super::request::Seen;
 use super::sized_model::{RunTotals, SizedModel};
-use super::worker::{Job, Key, SentShown, Worker};
+use super::worker::{Job, Key, SentLooks, Worker};
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::looks::Shows;
+use crate::evaluating::looks::LookAssignment;
 use crate::opening::modelless::targets;
 
 impl Worker {
@@ -74,7 +74,7 @@ impl Worker {
                     });
                     return Ok(());
                 }
-                shown => shown?,
+                looks => looks?,
             }
         }
         Ok(())
@@ -102,9 +102,9 @@ impl Worker {
             return Ok(());
         };
         let plan = sized.plan(&flattened.sound(&wanted, failed_nodes));
-        let key = shown_key(sized, &plan, &shows);
-        let before = sent.shown.get(seen).copied();
-        let is_known = |sent: SentShown| if is_coarse { sent.coarse } else { sent.full } == Some(key);
+        let key = looks_key(sized, &plan, &shows);
+        let before = sent.looks.get(seen).copied();
+        let is_known = |sent: SentLooks| if is_coarse { sent.coarse } else { sent.full } == Some(key);
         if is_coarse {
             job.coarse_keys.insert(seen.clone(), key);
         }
@@ -120,18 +120,18 @@ impl Worker {
             return Ok(());
         }
         let looks = sized.looks(&plan, &mut run, &shows, &watch)?;
-        let now = SentShown {
+        let now = SentLooks {
             coarse: job.coarse_keys.get(seen).copied(),
             full: (!is_coarse).then_some(key),
             is_whole: is_whole(&plan),
         };
-        sent.shown.insert(seen.clone(), now);
-        let event = LiveEvent::Shown {
+        sent.looks.insert(seen.clone(), now);
+        let event = LiveEvent::Looks {
             revision: job.request.revision,
             seen: seen.clone(),
             is_coarse,
             model: sized.model.clone(),
-            shown: Arc::new(looks),
+            looks: Arc::new(looks),
         };
         self.tell(event);
         job.latency = Some(job.asked.elapsed());
@@ -149,12 +149,12 @@ impl Worker {
 }
 
 /// The results that something seen is made of, and which material shows which; none where a node is not there.
-fn wanted(sized: &SizedModel, flattened: &FlattenedRequest, seen: &Seen) -> Option<(Vec<Target>, Shows)> {
+fn wanted(sized: &SizedModel, flattened: &FlattenedRequest, seen: &Seen) -> Option<(Vec<Target>, LookAssignment)> {
     match seen {
-        Seen::Node(node) => Some((vec![flattened.found.get(node)?.clone()], Shows::One)),
+        Seen::Node(node) => Some((vec![flattened.found.get(node)?.clone()], LookAssignment::One)),
         Seen::Outputs => {
             let nodes: BTreeSet<usize> = sized.serving.values().copied().collect();
-            Some((targets(nodes), Shows::Served(sized.serving.clone())))
+            Some((targets(nodes), LookAssignment::Served(sized.serving.clone())))
         }
     }
 }
@@ -183,14 +183,14 @@ pub(super) fn evaluate(
 }
 
 /// Names what is shown: what each material wears, and whether that may differ once nothing moves.
-fn shown_key(sized: &SizedModel, plan: &Plan, shows: &Shows) -> Key {
+fn looks_key(sized: &SizedModel, plan: &Plan, shows: &LookAssignment) -> Key {
     let mut hash = blake3::Hasher::new();
     hash.update(&[u8::from(sized.is_approximate(plan))]);
     match shows {
-        Shows::One => plan.results.iter().for_each(|result| {
+        LookAssignment::One => plan.results.iter().for_each(|result| {
             hash.update(&result.key);
         }),
-        Shows::Served(serving) => {
+        LookAssignment::Served(serving) => {
             for (material, node) in serving {
                 let result = plan.results.iter().find(|result| result.target.node == *node);
                 hash.update(&material.to_le_bytes());

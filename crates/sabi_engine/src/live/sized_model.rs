@@ -16,7 +16,7 @@ use super::request::{LiveOptions, LiveRequest};
 use crate::AdapterChoice;
 use crate::baking::sets::{TextureSet, shown_by, texture_sets};
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::looks::{Shown, Shows, models_own, shown};
+use crate::evaluating::looks::{LookAssignment, ModelLooks, looks_of_run, model_source_node};
 use crate::evaluating::sheet::Sheet;
 use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions};
 use crate::opening::prepare::{ModelOptions, Prepared};
@@ -127,7 +127,7 @@ impl SizedModel {
         self.serving = serving;
         // Materials that no output serves are shown by a node of the model's own looks at the end of the graph.
         let mut graph = graph.clone();
-        graph.nodes.push(models_own(request.graph.document.fit));
+        graph.nodes.push(model_source_node(request.graph.document.fit));
         self.workpiece.set_graph(&request.graph, graph)?;
         self.idle = idle;
         self.sources.clear();
@@ -235,14 +235,14 @@ impl SizedModel {
         &self,
         plan: &Plan,
         run: &mut Run,
-        shows: &Shows,
+        shows: &LookAssignment,
         progress: &dyn Progress,
-    ) -> Result<Shown, EvaluationError> {
+    ) -> Result<ModelLooks, EvaluationError> {
         let options = RunOptions {
             is_canceled: &|| progress.is_canceled(),
             ..RunOptions::new(self.submission, self.workpiece.budget_bytes)
         };
-        let looks = shown(&self.workpiece, plan, run, shows, &options);
+        let looks = looks_of_run(&self.workpiece, plan, run, shows, &options);
         looks.map_err(|error| EvaluationError::of_results(&self.workpiece.gpu, self.model.size, error))
     }
 }

@@ -17,7 +17,7 @@ use super::sized_model::SizedModel;
 use super::thumbnail_renderer::ThumbnailRenderer;
 use super::worker::{Job, Key, Worker};
 use crate::error::EngineError;
-use crate::evaluating::looks::Shows;
+use crate::evaluating::looks::LookAssignment;
 
 impl Worker {
     /// Takes pictures of the nodes that give something else than on their last one.
@@ -100,7 +100,7 @@ impl Worker {
             let picture = sized.flat_picture((&plan, &run), result, side, job.request.set);
             return picture.map(Some).map_err(error);
         }
-        let looks = sized.looks(&plan, &mut run, &Shows::One, &watch)?;
+        let looks = sized.looks(&plan, &mut run, &LookAssignment::One, &watch)?;
         let Some(look) = looks.looks.last() else {
             return Ok(None);
         };

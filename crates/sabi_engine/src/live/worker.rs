@@ -43,7 +43,7 @@ pub(super) struct Worker {
 /// What the window has been told, so that nothing is told twice.
 #[derive(Default)]
 pub(super) struct Sent {
-    pub(super) shown: BTreeMap<Seen, SentShown>,
+    pub(super) looks: BTreeMap<Seen, SentLooks>,
     pub(super) thumbnails: BTreeMap<NodeRef, Key>,
     pub(super) inspected: Option<(NodeRef, Key)>,
     pub(super) faults: Option<Faults>,
@@ -52,7 +52,7 @@ pub(super) struct Sent {
 
 /// What a viewport shows.
 #[derive(Clone, Copy, Default)]
-pub(super) struct SentShown {
+pub(super) struct SentLooks {
     /// As a coarse picture has it, though the window may have the full one by now.
     pub(super) coarse: Option<Key>,
     /// As a full picture has it, once it was told.
@@ -174,7 +174,7 @@ impl Worker {
     fn forget_told(&mut self) {
         let forgotten = self.queue.take_forgotten();
         for seen in &forgotten.seen {
-            self.sent.shown.remove(seen);
+            self.sent.looks.remove(seen);
         }
         for node in &forgotten.thumbnails {
             self.sent.thumbnails.remove(node);

@@ -6,7 +6,7 @@ use sabi_surface::displace::{DisplaceOptions, HeightPlane, displaced, texel_leng
 use sabi_view::{MaterialLook, ViewModel};
 
 use crate::error::EngineError;
-use crate::evaluating::looks::Shown;
+use crate::evaluating::looks::ModelLooks;
 use crate::evaluating::workpiece::Workpiece;
 
 /// Most triangles of a displaced copy.
@@ -31,7 +31,7 @@ impl Triangles {
 /// A finer copy of the model with what is shown of it, displaced by the heights of the look that each material has.
 pub(crate) fn displaced_model(
     workpiece: &mut Workpiece,
-    shown: &Shown,
+    shown: &ModelLooks,
     triangles: Triangles,
 ) -> Result<ViewModel, EngineError> {
     let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
@@ -71,7 +71,7 @@ pub(crate) fn displaced_model(
 fn plane_of<'h>(
     chart: u32,
     atlas: &'h Atlas,
-    shown: &Shown,
+    shown: &ModelLooks,
     heights: &'h [Option<Vec<f32>>],
 ) -> Option<HeightPlane<'h>> {
     let material = atlas.charts.get(chart as usize)?.material;

@@ -11,7 +11,7 @@ use sabi_view::{
 
 use crate::baking::picture_file::PictureFiles;
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::looks::{Shown, show};
+use crate::evaluating::looks::{ModelLooks, evaluate_looks};
 use crate::evaluating::outputs::outputs;
 use crate::evaluating::seen_node::graph_and_target;
 use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
@@ -115,7 +115,7 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     let cache_dir = request.workpiece.model.cache_dir.as_deref();
     let (environment, remark) = environment_of(&workpiece.gpu, &panorama, cache_dir)?;
     workpiece.warn(remark);
-    let shown = show(&mut workpiece, seen.as_ref(), progress)?;
+    let shown = evaluate_looks(&mut workpiece, seen.as_ref(), progress)?;
     let model = view_model(request, &mut workpiece, &shown)?;
     let scene = Scene {
         model: &model,
@@ -175,7 +175,11 @@ fn view_of(view: &str) -> Result<(Mode, Option<&str>), EngineError> {
 }
 
 /// The model as it is drawn: as it is, or a displaced copy.
-fn view_model(request: &RenderRequest, workpiece: &mut Workpiece, shown: &Shown) -> Result<ViewModel, EngineError> {
+fn view_model(
+    request: &RenderRequest,
+    workpiece: &mut Workpiece,
+    shown: &ModelLooks,
+) -> Result<ViewModel, EngineError> {
     if let Some(triangles) = request.displace {
         return displaced_model(workpiece, shown, triangles);
     }
