@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{AdapterChoice, Gpu, LiveEvent, LiveOptions, Seen};
+use sabi_engine::{AdapterChoice, Gpu, LiveEvent, LiveOptions, ViewSubject};
 use sabi_tests::device;
 
 use crate::window::{COARSE, FULL, Window, bytes, graph, node, options, request};
@@ -92,7 +92,11 @@ fn what_changes_nothing_that_is_seen_is_not_shown_again() {
 fn a_node_is_shown_in_place_of_the_outputs_and_both_at_once() {
     let window = Window::new();
     let both = sabi_engine::LiveRequest {
-        seen: vec![Seen::Outputs, Seen::Node(node("cut")), Seen::Node(node("gone"))],
+        subjects: vec![
+            ViewSubject::Outputs,
+            ViewSubject::Node(node("cut")),
+            ViewSubject::Node(node("gone")),
+        ],
         ..request(1, graph(&rusty(0.5)))
     };
     let told = window.answer(both);
@@ -259,7 +263,7 @@ fn results_that_do_not_fit_are_told_and_a_smaller_graph_goes_on() {
     }
     let mask = r#""clouds": { "kind": "noise/simplex" }"#;
     let small = sabi_engine::LiveRequest {
-        seen: vec![Seen::Node(node("clouds"))],
+        subjects: vec![ViewSubject::Node(node("clouds"))],
         ..request(2, graph(mask))
     };
     assert_eq!(window.answer(small).coarse_and_full(), [true, false]);

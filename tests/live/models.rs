@@ -76,7 +76,7 @@ fn node_kinds_that_were_read_again_are_used() {
     let wished = |revision: u64, kinds_revision: u64| LiveRequest {
         kinds: Arc::new(folder.kinds()),
         kinds_revision,
-        seen: vec![sabi_engine::Seen::Node(crate::window::node("level"))],
+        subjects: vec![sabi_engine::ViewSubject::Node(crate::window::node("level"))],
         ..request(revision, graph(r#""level": { "kind": "own/level" }"#))
     };
     let window = Window::new();

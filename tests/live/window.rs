@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use sabi_engine::{
     Faults, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelLooks, ModelOptions,
-    NodeRef, OpenGraph, Pictures, Seen,
+    NodeRef, OpenGraph, Pictures, ViewSubject,
 };
 use sabi_graph::Document;
 use sabi_tests::{device, project};
@@ -71,7 +71,7 @@ pub(crate) fn request(revision: u64, graph: OpenGraph) -> LiveRequest {
         model: Arc::new(ModelOptions::new(&project("assets/meshes/cube.glb"), FULL)),
         model_revision: 0,
         coarse_size: COARSE,
-        seen: vec![Seen::Outputs],
+        subjects: vec![ViewSubject::Outputs],
         inspected: None,
         set: None,
         thumbnails: Vec::new(),

@@ -19,7 +19,7 @@ use egui::{
 };
 use glam::Vec2;
 use sabi_engine::view::{Camera, Lens, Lines, Picked, Shot, Viewpoint, Viewport, aspect_of, pick};
-use sabi_engine::{LiveModel, Seen};
+use sabi_engine::{LiveModel, ViewSubject};
 
 use crate::action::Action;
 use crate::app::Taken;
@@ -77,9 +77,9 @@ pub(crate) struct ModelView {
 
 /// What is shown.
 pub(crate) struct Subject<'a> {
-    pub(crate) seen: &'a Seen,
+    pub(crate) seen: &'a ViewSubject,
     /// What it is compared with.
-    pub(crate) locked: Option<&'a Seen>,
+    pub(crate) locked: Option<&'a ViewSubject>,
     /// Both in words.
     pub(crate) showing: &'a Showing,
     /// Whether a click takes the color that is seen.
@@ -310,7 +310,7 @@ impl ModelView {
         &mut self,
         command: ViewportCommand,
         stage: &Stage,
-        seen: &Seen,
+        seen: &ViewSubject,
         rect: Rect,
         pointer: Option<egui::Pos2>,
     ) {

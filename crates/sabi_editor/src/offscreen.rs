@@ -207,7 +207,7 @@ impl Offscreen {
 
     /// How many pictures of the model were drawn, and at how many texels the last one that came is.
     pub fn drawn(&self) -> (u64, u32) {
-        let picture = self.editor.stage.picture(&sabi_engine::Seen::Outputs);
+        let picture = self.editor.stage.picture(&sabi_engine::ViewSubject::Outputs);
         (
             self.editor.model_view.drawn,
             picture.map_or(0, |picture| picture.model.size),

@@ -11,7 +11,7 @@ use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use sabi_engine::view::Pixels;
 use sabi_engine::{
     EngineError, Faults, Gpu, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelLooks,
-    ModelOptions, OpenGraph, Seen, SetKey,
+    ModelOptions, OpenGraph, SetKey, ViewSubject,
 };
 use sabi_graph::{Document, NodeRef};
 
@@ -35,7 +35,7 @@ pub(crate) struct Picture {
 /// What the window wishes to see besides the graph itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Wanted {
-    pub(crate) seen: Vec<Seen>,
+    pub(crate) seen: Vec<ViewSubject>,
     pub(crate) inspected: Option<NodeRef>,
     pub(crate) set: Option<SetKey>,
     pub(crate) thumbnails: Vec<NodeRef>,
@@ -60,7 +60,7 @@ pub(crate) struct Stage {
     /// Revisions of the graph and of its files that were looked at last.
     taken: Option<(u64, u64)>,
     wishes: u64,
-    pictures: BTreeMap<Seen, Picture>,
+    pictures: BTreeMap<ViewSubject, Picture>,
     thumbnails: BTreeMap<NodeRef, (TextureHandle, Pixels)>,
     pub(crate) inspected: Option<(NodeRef, Arc<Inspected>)>,
     /// The finest model that came.
@@ -222,7 +222,7 @@ impl Stage {
             model: self.model.clone(),
             model_revision: self.model_revision,
             coarse_size: COARSE,
-            seen: wanted.seen.clone(),
+            subjects: wanted.seen.clone(),
             inspected: wanted.inspected.clone(),
             set: wanted.set,
             thumbnails: wanted.thumbnails.clone(),
@@ -275,7 +275,12 @@ impl Stage {
                 LiveEvent::ModelFailed { error, model_revision } if model_revision == self.model_revision => {
                     self.model_failure = Some(error.to_string());
                 }
-                LiveEvent::Looks { seen, model, shown, .. } => {
+                LiveEvent::Looks {
+                    subject: seen,
+                    model,
+                    looks: shown,
+                    ..
+                } => {
                     self.numbers += 1;
                     tracing::info!(?seen, texels = model.size, "a picture came");
                     self.failure = None;
@@ -321,7 +326,7 @@ impl Stage {
     }
 
     /// What a viewport shows; while nothing came of it yet, nothing.
-    pub(crate) fn picture(&self, seen: &Seen) -> Option<&Picture> {
+    pub(crate) fn picture(&self, seen: &ViewSubject) -> Option<&Picture> {
         self.pictures.get(seen)
     }
 

@@ -14,7 +14,7 @@ use sabi_engine::view::{
 };
 use sabi_engine::{
     AdapterChoice, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, ModelLooks, ModelOptions, NodeRef,
-    OpenGraph, Seen, default_cache_dir, load_environment,
+    OpenGraph, ViewSubject, default_cache_dir, load_environment,
 };
 
 const MOVES: usize = 15;
@@ -203,7 +203,7 @@ impl Slider {
             model: self.model.clone(),
             model_revision: 0,
             coarse_size: 256,
-            seen: vec![Seen::Outputs],
+            subjects: vec![ViewSubject::Outputs],
             inspected: None,
             set: None,
             thumbnails: Vec::new(),

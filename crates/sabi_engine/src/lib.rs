@@ -32,8 +32,8 @@ pub use evaluating::sheet::{PlaneHolds, SheetPlane};
 pub use evaluating::thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
 pub use evaluating::workpiece::{Workpiece, WorkpieceOptions};
 pub use live::{
-    BlockedNode, Faults, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, NodeFault, Seen,
-    Warning,
+    BlockedNode, Faults, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, NodeFault,
+    ViewSubject, Warning,
 };
 pub use opening::cache_dir::default_cache_dir;
 pub use opening::document::OpenGraph;

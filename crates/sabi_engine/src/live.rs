@@ -27,7 +27,7 @@ use sabi_graph::NodeRef;
 use crate::error::{EngineError, ErrorKind};
 pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault, Warning};
 use queue::{Forgotten, WorkerQueue};
-pub use request::{LiveOptions, LiveRequest, Seen};
+pub use request::{LiveOptions, LiveRequest, ViewSubject};
 use worker::Worker;
 
 /// Evaluates a graph while it is worked on. Dropping it stops the work at its next step and waits for that.
@@ -62,8 +62,8 @@ impl Live {
 
     /// Says that pictures were let go of: where they are wished for again, they are told again. What is told once is otherwise
     /// not told a second time as long as it looks the same.
-    pub fn forget(&self, seen: Vec<Seen>, thumbnails: Vec<NodeRef>) {
-        self.queue.forget(Forgotten { seen, thumbnails });
+    pub fn forget(&self, subjects: Vec<ViewSubject>, thumbnails: Vec<NodeRef>) {
+        self.queue.forget(Forgotten { subjects, thumbnails });
     }
 
     /// What came since the last call, oldest first.

@@ -1,6 +1,6 @@
 //! Which results are looked at: in the 2D view, on the model, and beside it for comparison.
 
-use sabi_engine::Seen;
+use sabi_engine::ViewSubject;
 use sabi_graph::{NodeId, NodeRef};
 
 use super::Editor;
@@ -9,7 +9,7 @@ use crate::model_view::Showing;
 
 impl Editor {
     /// What the model shows: the locked node, or else the one that it follows, or else the outputs.
-    pub(super) fn seen(&self) -> Seen {
+    pub(super) fn seen(&self) -> ViewSubject {
         // While two are compared, the locked one has its own side.
         let locked = self.locked.as_ref().filter(|_| self.model_view.wipe.is_none());
         // A node has no color but its own to give to its own knob.
@@ -20,13 +20,13 @@ impl Editor {
             .filter(|node| self.settings.follows && !is_asking(node));
         locked
             .or(followed)
-            .map_or(Seen::Outputs, |node| Seen::Node(node.clone()))
+            .map_or(ViewSubject::Outputs, |node| ViewSubject::Node(node.clone()))
     }
 
     /// What the model is compared with.
-    pub(super) fn locked_seen(&self) -> Option<Seen> {
+    pub(super) fn locked_seen(&self) -> Option<ViewSubject> {
         let is_compared = self.model_view.wipe.is_some();
-        self.locked.clone().filter(|_| is_compared).map(Seen::Node)
+        self.locked.clone().filter(|_| is_compared).map(ViewSubject::Node)
     }
 
     /// What the 2D view shows.
@@ -38,14 +38,14 @@ impl Editor {
     pub(super) fn showing(&self) -> Showing {
         let name = |node: &Option<NodeRef>| node.as_ref().map(|node| self.title_of(node));
         let seen = self.seen();
-        let words = |seen: &Seen| match seen {
-            Seen::Outputs => "Outputs".to_owned(),
-            Seen::Node(node) if self.locked.as_ref() == Some(node) => format!("Locked: {}", self.title_of(node)),
-            Seen::Node(node) => format!("Follows: {}", self.title_of(node)),
+        let words = |seen: &ViewSubject| match seen {
+            ViewSubject::Outputs => "Outputs".to_owned(),
+            ViewSubject::Node(node) if self.locked.as_ref() == Some(node) => format!("Locked: {}", self.title_of(node)),
+            ViewSubject::Node(node) => format!("Follows: {}", self.title_of(node)),
         };
         let fault = match &seen {
-            Seen::Node(node) => self.stage.fault(&node.node).or(self.stage.waits(&node.node)).cloned(),
-            Seen::Outputs => self.fault_of_outputs().cloned(),
+            ViewSubject::Node(node) => self.stage.fault(&node.node).or(self.stage.waits(&node.node)).cloned(),
+            ViewSubject::Outputs => self.fault_of_outputs().cloned(),
         };
         Showing {
             words: words(&seen),

@@ -1,6 +1,6 @@
 //! Pictures that are let go of.
 
-use sabi_engine::Seen;
+use sabi_engine::ViewSubject;
 use sabi_graph::NodeRef;
 
 use super::{Picture, Stage, Wanted};
@@ -17,16 +17,16 @@ impl Stage {
         let oldest = numbers.len().saturating_sub(KEPT_PICTURES + wanted.seen.len());
         let oldest = numbers.get(oldest).copied().unwrap_or_default();
         let revision = self.model_revision;
-        let is_kept = |seen: &Seen, picture: &Picture| {
+        let is_kept = |seen: &ViewSubject, picture: &Picture| {
             let is_there = match seen {
-                Seen::Outputs => true,
-                Seen::Node(node) => desk.has(&node.node),
+                ViewSubject::Outputs => true,
+                ViewSubject::Node(node) => desk.has(&node.node),
             };
             is_there && picture.number >= oldest && picture.model.model_revision == revision
         };
         let gone = self.pictures.iter();
         let gone = gone.filter(|(seen, picture)| !wanted.seen.contains(seen) && !is_kept(seen, picture));
-        let gone: Vec<Seen> = gone.map(|(seen, _)| seen.clone()).collect();
+        let gone: Vec<ViewSubject> = gone.map(|(seen, _)| seen.clone()).collect();
         let nodes = self.thumbnails.keys();
         let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !desk.has(&node.node));
         let nodes: Vec<NodeRef> = nodes.cloned().collect();
@@ -36,14 +36,14 @@ impl Stage {
 
     /// Lets go of all pictures of nodes, since another graph is opened.
     pub(crate) fn forget_nodes(&mut self) {
-        let seen = self.pictures.keys().filter(|seen| **seen != Seen::Outputs);
+        let seen = self.pictures.keys().filter(|seen| **seen != ViewSubject::Outputs);
         let (seen, nodes) = (seen.cloned().collect(), self.thumbnails.keys().cloned().collect());
         self.times.clear();
         self.forget(seen, nodes);
     }
 
     /// Lets go of pictures, which come again once they are wanted again.
-    fn forget(&mut self, seen: Vec<Seen>, nodes: Vec<NodeRef>) {
+    fn forget(&mut self, seen: Vec<ViewSubject>, nodes: Vec<NodeRef>) {
         for seen in &seen {
             self.pictures.remove(seen);
         }

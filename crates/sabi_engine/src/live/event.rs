@@ -9,7 +9,7 @@ use sabi_export::SetKey;
 use sabi_graph::{Fit, NodeRef, PortType};
 use sabi_view::{Pixels, Placement, ViewModel};
 
-use super::request::Seen;
+use super::request::ViewSubject;
 use crate::baking::sets::TextureSet;
 use crate::error::EngineError;
 use crate::evaluating::looks::ModelLooks;
@@ -39,7 +39,7 @@ pub enum LiveEvent {
         /// Of which wish.
         revision: u64,
         /// What is shown.
-        seen: Seen,
+        subject: ViewSubject,
         /// Whether the same follows at full size.
         is_coarse: bool,
         /// The model that the textures belong to.

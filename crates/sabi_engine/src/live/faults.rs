@@ -9,7 +9,7 @@ use sabi_plan::{FileContents, PlanError, Target};
 use super::event::{BlockedNode, Faults, LiveEvent, NodeFault, Warning};
 use super::groups::{Ungrouped, open_groups};
 use super::model::Loaded;
-use super::request::Seen;
+use super::request::ViewSubject;
 use super::worker::{Job, Worker};
 use crate::evaluating::outputs::clashes;
 use crate::opening::modelless::{all_nodes, planner};
@@ -36,11 +36,11 @@ impl Worker {
     /// Flattens the graph of a wish and tells what is wrong with it; nothing where it cannot be flattened.
     pub(super) fn flatten(&mut self, job: &Job) -> Option<FlattenedRequest> {
         let request = &job.request;
-        let seen = request.seen.iter().filter_map(|seen| match seen {
-            Seen::Node(node) => Some(node),
-            Seen::Outputs => None,
+        let subject = request.subjects.iter().filter_map(|subject| match subject {
+            ViewSubject::Node(node) => Some(node),
+            ViewSubject::Outputs => None,
         });
-        let named = seen.chain(&request.inspected).chain(&request.thumbnails);
+        let named = subject.chain(&request.inspected).chain(&request.thumbnails);
         let named: Vec<NodeRef> = named.cloned().collect::<BTreeSet<_>>().into_iter().collect();
         let mut files = BTreeSet::new();
         let Ungrouped {

@@ -6,7 +6,7 @@ use std::time::Instant;
 use sabi_graph::NodeRef;
 
 use super::event::LiveEvent;
-use super::request::{LiveRequest, Seen};
+use super::request::{LiveRequest, ViewSubject};
 use crate::phases::{Phase, Progress};
 
 /// A wish, and when it was made.
@@ -31,7 +31,7 @@ struct State {
 /// Pictures that the window had and has let go of.
 #[derive(Default)]
 pub(super) struct Forgotten {
-    pub(super) seen: Vec<Seen>,
+    pub(super) subjects: Vec<ViewSubject>,
     pub(super) thumbnails: Vec<NodeRef>,
 }
 
@@ -45,7 +45,7 @@ impl WorkerQueue {
     /// Remembers that the window has let go of pictures, until the worker asks.
     pub(super) fn forget(&self, forgotten: Forgotten) {
         let known = &mut self.lock().forgotten;
-        known.seen.extend(forgotten.seen);
+        known.subjects.extend(forgotten.subjects);
         known.thumbnails.extend(forgotten.thumbnails);
     }
 
@@ -122,13 +122,13 @@ impl WorkerQueue {
 fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     match (older, newer) {
         (
-            LiveEvent::Looks { revision, seen, .. },
+            LiveEvent::Looks { revision, subject, .. },
             LiveEvent::Looks {
                 revision: newer,
-                seen: same,
+                subject: same,
                 ..
             },
-        ) => revision < newer && seen == same,
+        ) => revision < newer && subject == same,
         (
             LiveEvent::Thumbnail { revision, node, .. },
             LiveEvent::Thumbnail {

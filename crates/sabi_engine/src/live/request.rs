@@ -64,7 +64,7 @@ pub struct LiveRequest {
     /// Texels for one unit of UV of pictures that come at once; not used where the full size is not larger.
     pub coarse_size: u32,
     /// What viewports show, most important first.
-    pub seen: Vec<Seen>,
+    pub subjects: Vec<ViewSubject>,
     /// The node whose exact values are wanted at full size.
     pub inspected: Option<NodeRef>,
     /// Which texture set is shown where texture space is; the model's first where it does not have this one.
@@ -80,7 +80,7 @@ pub struct LiveRequest {
 
 /// What a viewport shows.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Seen {
+pub enum ViewSubject {
     /// What the outputs make of the model.
     Outputs,
     /// One node's result on all of the model.

@@ -11,7 +11,7 @@ use super::evaluation_error::EvaluationError;
 use super::event::LiveEvent;
 use super::faults::{FailedNode, FlattenedRequest};
 use super::queue::Watch;
-use super::request::Seen;
+use super::request::ViewSubject;
 use super::sized_model::{RunTotals, SizedModel};
 use super::worker::{Job, Key, SentLooks, Worker};
 use crate::error::{EngineError, ErrorKind};
@@ -59,11 +59,11 @@ impl Worker {
     fn show(&mut self, job: &mut Job, flattened: &FlattenedRequest, is_coarse: bool) -> Result<(), EvaluationError> {
         // A first picture is finished once it was begun, so that a stream of wishes has something to show.
         let gives_way = !is_coarse && !job.is_full_first;
-        for seen in job.request.seen.clone() {
+        for subject in job.request.subjects.clone() {
             if gives_way {
                 self.go_on()?;
             }
-            match self.show_one(job, flattened, &seen, is_coarse, gives_way) {
+            match self.show_one(job, flattened, &subject, is_coarse, gives_way) {
                 Err(EvaluationError::Failed(error)) => {
                     if error.kind == ErrorKind::OutOfMemory {
                         self.forget_results();
@@ -84,7 +84,7 @@ impl Worker {
         &mut self,
         job: &mut Job,
         flattened: &FlattenedRequest,
-        seen: &Seen,
+        subject: &ViewSubject,
         is_coarse: bool,
         gives_way: bool,
     ) -> Result<(), EvaluationError> {
@@ -98,15 +98,15 @@ impl Worker {
         let Some(sized) = loaded.as_mut().and_then(|loaded| loaded.at(is_coarse)) else {
             return Ok(());
         };
-        let Some((wanted, shows)) = wanted(sized, flattened, seen) else {
+        let Some((wanted, shows)) = wanted(sized, flattened, subject) else {
             return Ok(());
         };
         let plan = sized.plan(&flattened.sound(&wanted, failed_nodes));
         let key = looks_key(sized, &plan, &shows);
-        let before = sent.looks.get(seen).copied();
+        let before = sent.looks.get(subject).copied();
         let is_known = |sent: SentLooks| if is_coarse { sent.coarse } else { sent.full } == Some(key);
         if is_coarse {
-            job.coarse_keys.insert(seen.clone(), key);
+            job.coarse_keys.insert(subject.clone(), key);
         }
         // What was shown before is more to look at than the same with holes in it.
         let is_whole = |plan: &Plan| plan.results.len() == wanted.len();
@@ -121,14 +121,14 @@ impl Worker {
         }
         let looks = sized.looks(&plan, &mut run, &shows, &watch)?;
         let now = SentLooks {
-            coarse: job.coarse_keys.get(seen).copied(),
+            coarse: job.coarse_keys.get(subject).copied(),
             full: (!is_coarse).then_some(key),
             is_whole: is_whole(&plan),
         };
-        sent.looks.insert(seen.clone(), now);
+        sent.looks.insert(subject.clone(), now);
         let event = LiveEvent::Looks {
             revision: job.request.revision,
-            seen: seen.clone(),
+            subject: subject.clone(),
             is_coarse,
             model: sized.model.clone(),
             looks: Arc::new(looks),
@@ -149,10 +149,14 @@ impl Worker {
 }
 
 /// The results that something seen is made of, and which material shows which; none where a node is not there.
-fn wanted(sized: &SizedModel, flattened: &FlattenedRequest, seen: &Seen) -> Option<(Vec<Target>, LookAssignment)> {
-    match seen {
-        Seen::Node(node) => Some((vec![flattened.found.get(node)?.clone()], LookAssignment::One)),
-        Seen::Outputs => {
+fn wanted(
+    sized: &SizedModel,
+    flattened: &FlattenedRequest,
+    subject: &ViewSubject,
+) -> Option<(Vec<Target>, LookAssignment)> {
+    match subject {
+        ViewSubject::Node(node) => Some((vec![flattened.found.get(node)?.clone()], LookAssignment::One)),
+        ViewSubject::Outputs => {
             let nodes: BTreeSet<usize> = sized.serving.values().copied().collect();
             Some((targets(nodes), LookAssignment::Served(sized.serving.clone())))
         }

@@ -14,7 +14,7 @@ use super::event::{Faults, LiveEvent, LiveTimes};
 use super::faults::FailedNode;
 use super::model::Loaded;
 use super::queue::WorkerQueue;
-use super::request::{LiveOptions, LiveRequest, Seen};
+use super::request::{LiveOptions, LiveRequest, ViewSubject};
 use super::sized_model::RunTotals;
 use super::thumbnail_renderer::ThumbnailRenderer;
 use crate::error::{EngineError, ErrorKind};
@@ -43,7 +43,7 @@ pub(super) struct Worker {
 /// What the window has been told, so that nothing is told twice.
 #[derive(Default)]
 pub(super) struct Sent {
-    pub(super) looks: BTreeMap<Seen, SentLooks>,
+    pub(super) looks: BTreeMap<ViewSubject, SentLooks>,
     pub(super) thumbnails: BTreeMap<NodeRef, Key>,
     pub(super) inspected: Option<(NodeRef, Key)>,
     pub(super) faults: Option<Faults>,
@@ -68,7 +68,7 @@ pub(super) struct Job {
     pub(super) totals: RunTotals,
     pub(super) latency: Option<Duration>,
     /// What coarse pictures of this wish are.
-    pub(super) coarse_keys: BTreeMap<Seen, Key>,
+    pub(super) coarse_keys: BTreeMap<ViewSubject, Key>,
     /// Whether somebody waits for the full picture alone, so that it is finished once it was begun.
     pub(super) is_full_first: bool,
 }
@@ -173,8 +173,8 @@ impl Worker {
     /// Takes what the window has let go of for something that it was never told.
     fn forget_told(&mut self) {
         let forgotten = self.queue.take_forgotten();
-        for seen in &forgotten.seen {
-            self.sent.looks.remove(seen);
+        for subject in &forgotten.subjects {
+            self.sent.looks.remove(subject);
         }
         for node in &forgotten.thumbnails {
             self.sent.thumbnails.remove(node);

@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use sabi_engine::Seen;
+use sabi_engine::ViewSubject;
 use sabi_graph::NodeId;
 
 use super::super::bars::{ARRANGE, EDIT};
@@ -241,7 +241,7 @@ fn of_look(command: LookCommand) -> Option<Proof> {
         LookCommand::Preview => (&["mix"], |window, _| {
             let editor = window.harness.state_mut();
             let is_shown = editor.shown.as_ref().is_some_and(|node| node.node == "mix");
-            is_shown && editor.settings.follows && editor.seen() == Seen::Node(editor.chosen(&id("mix")))
+            is_shown && editor.settings.follows && editor.seen() == ViewSubject::Node(editor.chosen(&id("mix")))
         }),
         LookCommand::Follow => (&["mix"], |window, _| {
             let follows = window.editor().settings.follows;

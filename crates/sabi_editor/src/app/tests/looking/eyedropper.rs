@@ -1,7 +1,7 @@
 //! Taking a color where it is seen.
 
 use egui::{CursorIcon, Key};
-use sabi_engine::{Seen, Session};
+use sabi_engine::{Session, ViewSubject};
 use sabi_graph::NodeId;
 
 use super::super::Window;
@@ -43,7 +43,7 @@ fn a_click_on_the_model_takes_the_color_that_is_seen_there_and_not_the_nodes_own
     window.take_dropper(&id("tint"));
     assert_eq!(
         window.editor().seen(),
-        Seen::Outputs,
+        ViewSubject::Outputs,
         "its own color is of no use to it"
     );
     assert!(window.says("Click the color to take."));

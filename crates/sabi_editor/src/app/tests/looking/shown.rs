@@ -3,7 +3,7 @@
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_phosphor::regular as icon;
-use sabi_engine::Seen;
+use sabi_engine::ViewSubject;
 use sabi_graph::NodeRef;
 
 use super::super::Window;
@@ -16,10 +16,10 @@ pub(super) const NODES: &str = r#"
 "#;
 
 /// A result, as a graph file names it; empty for the outputs.
-fn name(seen: &Seen) -> String {
+fn name(seen: &ViewSubject) -> String {
     match seen {
-        Seen::Outputs => String::new(),
-        Seen::Node(node) => named(node),
+        ViewSubject::Outputs => String::new(),
+        ViewSubject::Node(node) => named(node),
     }
 }
 
