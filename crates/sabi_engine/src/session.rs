@@ -17,7 +17,7 @@ use sabi_graph::{Document, Edit, EditError, History};
 
 use moving::Moving;
 pub use moving::{moved_to, with_whole_paths};
-use recovery::Kept;
+use recovery::UnsavedWork;
 pub use recovery::{Recovery, recoveries};
 
 use crate::catalog::node_file::NodeDraft;
@@ -96,7 +96,7 @@ impl Session {
             let why = "another window goes on with this graph already; close it there first";
             return Err(EngineError::new(ErrorKind::Usage, why));
         }
-        let (Kept { graph, .. }, file) = recovery.read()?;
+        let (UnsavedWork { graph, .. }, file) = recovery.read()?;
         let Some(text) = graph else {
             // Nothing of the graph was unsaved: it is what its file holds by now.
             let session = match &file {

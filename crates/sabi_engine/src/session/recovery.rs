@@ -26,7 +26,7 @@ pub struct Recovery {
     /// The graph's own file.
     file: Option<PathBuf>,
     /// What was kept last.
-    kept: Option<Kept>,
+    kept: Option<UnsavedWork>,
     /// Why what was kept cannot be read.
     fault: Option<EngineError>,
     lock: Option<File>,
@@ -34,7 +34,7 @@ pub struct Recovery {
 
 /// What is not saved.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Kept {
+pub(super) struct UnsavedWork {
     /// The graph's text; none where its file holds it.
     pub(super) graph: Option<String>,
     /// Node files that are being written.
@@ -131,7 +131,7 @@ impl Recovery {
     }
 
     /// What was kept, and the graph's file.
-    pub(super) fn read(&self) -> Result<(Kept, Option<PathBuf>), EngineError> {
+    pub(super) fn read(&self) -> Result<(UnsavedWork, Option<PathBuf>), EngineError> {
         let damaged = |why: String| {
             let shown = self.path.display();
             EngineError::new(
@@ -148,7 +148,7 @@ impl Recovery {
         };
         let drafts = kept["drafts"].as_array().map_or(&[][..], Vec::as_slice);
         let drafts: Option<Vec<NodeDraft>> = drafts.iter().map(NodeDraft::from_json).collect();
-        let kept_here = Kept {
+        let kept_here = UnsavedWork {
             graph,
             drafts: drafts.ok_or_else(|| damaged("a node in it has no text".to_owned()))?,
         };
@@ -158,7 +158,7 @@ impl Recovery {
     /// Keeps a graph's text and node files that are being written, unless they are those that were kept last; no
     /// graph where its file holds it.
     pub(super) fn keep(&mut self, graph: Option<&str>, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
-        let is_known = |kept: &Kept| kept.graph.as_deref() == graph && kept.drafts == drafts;
+        let is_known = |kept: &UnsavedWork| kept.graph.as_deref() == graph && kept.drafts == drafts;
         if self.kept.as_ref().is_some_and(is_known) {
             return Ok(false);
         }
@@ -174,7 +174,7 @@ impl Recovery {
         // at work meanwhile.
         write_whole(&self.path, bytes.as_bytes()).map_err(refused)?;
         self.take();
-        self.kept = Some(Kept {
+        self.kept = Some(UnsavedWork {
             graph: graph.map(str::to_owned),
             drafts: drafts.to_vec(),
         });
