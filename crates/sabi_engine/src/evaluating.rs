@@ -6,6 +6,6 @@ pub(crate) mod outputs;
 pub(crate) mod preview;
 pub(crate) mod seen_node;
 pub(crate) mod sharing;
-pub(crate) mod sheet;
+pub(crate) mod texture_space;
 pub(crate) mod thumbnail;
 pub(crate) mod workpiece;

@@ -28,7 +28,7 @@ pub use catalog::node_file::{
 pub use error::{EngineError, ErrorKind};
 pub use evaluating::looks::{ModelLooks, evaluate_looks};
 pub use evaluating::preview::{PreviewRequest, preview};
-pub use evaluating::sheet::{PlaneHolds, SheetPlane};
+pub use evaluating::texture_space::{PlaneKind, ResultPlane};
 pub use evaluating::thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
 pub use evaluating::workpiece::{Workpiece, WorkpieceOptions};
 pub use live::{

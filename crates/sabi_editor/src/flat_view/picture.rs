@@ -1,7 +1,7 @@
 //! Values as a picture, and how they are spread.
 
 use egui::{Color32, ColorImage, Painter, Rect, Stroke, ecolor::gamma_u8_from_linear_f32, pos2, vec2};
-use sabi_engine::{Inspected, PlaneHolds, SheetPlane};
+use sabi_engine::{Inspected, PlaneKind, ResultPlane};
 
 use crate::theme::{Theme, space};
 
@@ -10,12 +10,12 @@ const BESIDE: f32 = 0.45;
 
 /// A plane of values, or one number of it, as it is looked at: masks and single numbers gray as they are, colors encoded,
 /// vectors from −1..1.
-pub(super) fn picture_of(values: &Inspected, plane: &SheetPlane, component: Option<usize>) -> ColorImage {
+pub(super) fn picture_of(values: &Inspected, plane: &ResultPlane, component: Option<usize>) -> ColorImage {
     let side = values.size as usize;
     let code = |number: f32| match plane.holds {
-        PlaneHolds::Color if component != Some(3) => gamma_u8_from_linear_f32(number.clamp(0.0, 1.0)),
-        PlaneHolds::Signed => quantized(number * 0.5 + 0.5),
-        PlaneHolds::Color | PlaneHolds::Numbers => quantized(number),
+        PlaneKind::Color if component != Some(3) => gamma_u8_from_linear_f32(number.clamp(0.0, 1.0)),
+        PlaneKind::Signed => quantized(number * 0.5 + 0.5),
+        PlaneKind::Color | PlaneKind::Numbers => quantized(number),
     };
     let texels = plane.values.chunks_exact(plane.components.max(1));
     let pixels = texels.zip(&values.is_on_surface).map(|(texel, is_on_surface)| {
@@ -47,7 +47,7 @@ pub(super) struct Histogram {
 
 impl Histogram {
     /// Counts the texels of the surface; values beside 0 and 1 widen the range.
-    pub(super) fn of(values: &Inspected, plane: &SheetPlane, component: Option<usize>, bins: usize) -> Histogram {
+    pub(super) fn of(values: &Inspected, plane: &ResultPlane, component: Option<usize>, bins: usize) -> Histogram {
         let components: Vec<usize> = match component {
             Some(at) => vec![at],
             None => (0..plane.components.min(3)).collect(),
@@ -129,10 +129,10 @@ mod tests {
     use super::*;
 
     fn mask(numbers: &[f32]) -> Inspected {
-        plane(PlaneHolds::Numbers, numbers)
+        plane(PlaneKind::Numbers, numbers)
     }
 
-    fn plane(holds: PlaneHolds, numbers: &[f32]) -> Inspected {
+    fn plane(holds: PlaneKind, numbers: &[f32]) -> Inspected {
         Inspected {
             ty: PortType::Mask,
             size: 2,
@@ -144,7 +144,7 @@ mod tests {
                 },
                 name: "set".to_owned(),
             },
-            planes: vec![SheetPlane {
+            planes: vec![ResultPlane {
                 name: "",
                 holds,
                 components: 1,
@@ -170,8 +170,8 @@ mod tests {
             let picture = picture_of(&values, &values.planes[0], None);
             [0, 1, 2].map(|at: usize| picture.pixels[at].r())
         };
-        assert_eq!(grays(PlaneHolds::Signed), [0, 128, 191]);
-        assert_eq!(grays(PlaneHolds::Color), [0, 0, 188]);
+        assert_eq!(grays(PlaneKind::Signed), [0, 128, 191]);
+        assert_eq!(grays(PlaneKind::Color), [0, 0, 188]);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::baking::picture_file::PictureFiles;
 use crate::baking::sets::{texture_sets, which_is_shown};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::seen_node::graph_and_target;
-use crate::evaluating::sheet::{Sheet, SheetPlane, rgb_codes};
+use crate::evaluating::texture_space::{ResultPlane, TextureSpace, rgb_codes};
 use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
@@ -65,9 +65,9 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, workpiece.gpu.limits())?;
     let run = workpiece.run(&plan, Duration::from_millis(200), progress, None)?;
     let result = plan.results.first().ok_or_else(nothing)?;
-    let sheet = Sheet::new(&workpiece.prepared, key);
-    let planes = sheet.planes(&workpiece, &plan, &run, result)?;
-    let size = sheet.layout.size;
+    let texture_space = TextureSpace::new(&workpiece.prepared, key);
+    let planes = texture_space.planes(&workpiece, &plan, &run, result)?;
+    let size = texture_space.layout.size;
     let bytes = if is_exact {
         exact(size, &planes)
     } else {
@@ -81,9 +81,9 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     Ok(workpiece.warnings)
 }
 
-fn exact(size: u32, planes: &[SheetPlane]) -> Result<Vec<u8>, EngineError> {
+fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {
     let mut channels: Vec<(String, Vec<f32>)> = Vec::new();
-    for SheetPlane {
+    for ResultPlane {
         name,
         components,
         values,
@@ -113,7 +113,7 @@ fn exact(size: u32, planes: &[SheetPlane]) -> Result<Vec<u8>, EngineError> {
 }
 
 /// Masks as gray, colors in sRGB, vectors with −1..1 brought to 0..1.
-fn picture(size: u32, ty: PortType, plane: &SheetPlane) -> Result<Vec<u8>, EngineError> {
+fn picture(size: u32, ty: PortType, plane: &ResultPlane) -> Result<Vec<u8>, EngineError> {
     let rgb = plane
         .values
         .chunks_exact(plane.components)

@@ -13,7 +13,7 @@ use super::request::ViewSubject;
 use crate::baking::sets::TextureSet;
 use crate::error::EngineError;
 use crate::evaluating::looks::ModelLooks;
-use crate::evaluating::sheet::SheetPlane;
+use crate::evaluating::texture_space::ResultPlane;
 use crate::opening::prepare::Prepared;
 
 /// Something that a window is told. What is handed over never changes again.
@@ -143,7 +143,7 @@ pub struct Inspected {
     /// The texture set that is laid out.
     pub set: TextureSet,
     /// Its planes; that of a mask, color or vector, or all that a material sets.
-    pub planes: Vec<SheetPlane>,
+    pub planes: Vec<ResultPlane>,
     /// For each pixel whether the surface lies there: other pixels hold padding.
     pub is_on_surface: Vec<bool>,
 }

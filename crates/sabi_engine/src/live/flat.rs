@@ -5,9 +5,9 @@ use sabi_gpu::Run;
 use sabi_plan::{Plan, PlannedResult};
 use sabi_view::Pixels;
 
-use super::sized_model::{SizedModel, no_sheet};
+use super::sized_model::{SizedModel, no_texture_space};
 use crate::error::EngineError;
-use crate::evaluating::sheet::rgb_codes;
+use crate::evaluating::texture_space::rgb_codes;
 
 impl SizedModel {
     /// A result in texture space as a square picture, clear where no chart lies.
@@ -18,16 +18,21 @@ impl SizedModel {
         side: u32,
         set: Option<SetKey>,
     ) -> Result<Pixels, EngineError> {
-        let (workpiece, _, sheet) = self.sheet(set)?;
-        let planes = sheet.planes(workpiece, plan, run, result)?;
-        let plane = planes.first().ok_or_else(no_sheet)?;
+        let (workpiece, _, texture_space) = self.texture_space(set)?;
+        let planes = texture_space.planes(workpiece, plan, run, result)?;
+        let plane = planes.first().ok_or_else(no_texture_space)?;
         let code = |pixel: usize| {
             let values = &plane.values[pixel * plane.components..][..plane.components];
             rgb_codes(result.stored.ty, values)
         };
         Ok(Pixels {
             size: [side; 2],
-            rgba: reduced(sheet.layout.size as usize, side as usize, &sheet.is_owned(), code),
+            rgba: reduced(
+                texture_space.layout.size as usize,
+                side as usize,
+                &texture_space.is_owned(),
+                code,
+            ),
         })
     }
 }

@@ -99,13 +99,13 @@ impl SizedModel {
         result: &PlannedResult,
         set: Option<SetKey>,
     ) -> Result<Inspected, EngineError> {
-        let (workpiece, set, sheet) = self.sheet(set)?;
+        let (workpiece, set, texture_space) = self.texture_space(set)?;
         Ok(Inspected {
             ty: result.stored.ty,
-            size: sheet.layout.size,
+            size: texture_space.layout.size,
             set: set.clone(),
-            planes: sheet.planes(workpiece, plan, run, result)?,
-            is_on_surface: sheet.is_owned(),
+            planes: texture_space.planes(workpiece, plan, run, result)?,
+            is_on_surface: texture_space.is_owned(),
         })
     }
 }

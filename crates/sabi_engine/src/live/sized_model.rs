@@ -17,7 +17,7 @@ use crate::AdapterChoice;
 use crate::baking::sets::{TextureSet, shown_by, texture_sets};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::looks::{LookAssignment, ModelLooks, looks_of_run, model_source_node};
-use crate::evaluating::sheet::Sheet;
+use crate::evaluating::texture_space::TextureSpace;
 use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions};
 use crate::opening::prepare::{ModelOptions, Prepared};
 use crate::opening::solidity;
@@ -32,7 +32,7 @@ pub(super) struct SizedModel {
     pub(super) cache: ResultCache,
     pub(super) model: Arc<LiveModel>,
     /// The texture set that was last wanted, as results are laid out in it; made when one is.
-    sheet: Option<(TextureSet, Sheet)>,
+    texture_space: Option<(TextureSet, TextureSpace)>,
     /// Which node each material is shown by.
     pub(super) serving: BTreeMap<u32, usize>,
     /// Outputs that serve nothing, as sentences.
@@ -104,7 +104,7 @@ impl SizedModel {
             model: live_model(&workpiece, model_revision)?,
             workpiece,
             cache: ResultCache::new(cache_bytes),
-            sheet: None,
+            texture_space: None,
             serving: BTreeMap::new(),
             idle: Vec::new(),
             noted: Vec::new(),
@@ -145,18 +145,21 @@ impl SizedModel {
     }
 
     /// The wanted texture set, or the first where the model does not have it, laid out; with what results are read from.
-    pub(super) fn sheet(&mut self, wanted: Option<SetKey>) -> Result<(&Workpiece, &TextureSet, &Sheet), EngineError> {
+    pub(super) fn texture_space(
+        &mut self,
+        wanted: Option<SetKey>,
+    ) -> Result<(&Workpiece, &TextureSet, &TextureSpace), EngineError> {
         let SizedModel {
             model,
-            sheet,
+            texture_space,
             workpiece,
             ..
         } = self;
-        let set = model.set(wanted).ok_or_else(no_sheet)?;
-        let laid = sheet.take().filter(|(laid, _)| laid == set);
-        let (set, sheet) =
-            sheet.insert(laid.unwrap_or_else(|| (set.clone(), Sheet::new(&workpiece.prepared, set.key))));
-        Ok((workpiece, set, sheet))
+        let set = model.set(wanted).ok_or_else(no_texture_space)?;
+        let laid = texture_space.take().filter(|(laid, _)| laid == set);
+        let (set, texture_space) = texture_space
+            .insert(laid.unwrap_or_else(|| (set.clone(), TextureSpace::new(&workpiece.prepared, set.key))));
+        Ok((workpiece, set, texture_space))
     }
 
     /// Plans what of the targets can be planned. While a knob is moved, rays of a first picture that are not known are few.
@@ -248,7 +251,7 @@ impl SizedModel {
 }
 
 /// There is no texture space to show anything in.
-pub(super) fn no_sheet() -> EngineError {
+pub(super) fn no_texture_space() -> EngineError {
     EngineError::new(ErrorKind::BadInput, "the model has no texture space to be shown")
 }
 

@@ -17,14 +17,14 @@ use crate::opening::prepare::Prepared;
 const PADDING: Padding = Padding::Texels(4);
 
 /// How a texture set is laid out.
-pub(crate) struct Sheet {
+pub(crate) struct TextureSpace {
     pub(crate) layout: SetLayout,
     padding: PaddingMap,
 }
 
 /// What the numbers of a plane are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlaneHolds {
+pub enum PlaneKind {
     /// Numbers each of its own, 0..1 shown as black to white.
     Numbers,
     /// A linear color, shown in sRGB; a fourth number is its opacity.
@@ -35,21 +35,21 @@ pub enum PlaneHolds {
 
 /// One plane of a result in texture space.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SheetPlane {
+pub struct ResultPlane {
     /// What it is of a material: empty for its base color, and for results that have one plane.
     pub name: &'static str,
     /// How a display shows its numbers.
-    pub holds: PlaneHolds,
+    pub holds: PlaneKind,
     /// Numbers for each pixel.
     pub components: usize,
     /// The exact values, row by row from the top.
     pub values: Vec<f32>,
 }
 
-impl Sheet {
-    pub(crate) fn new(prepared: &Prepared, key: SetKey) -> Sheet {
+impl TextureSpace {
+    pub(crate) fn new(prepared: &Prepared, key: SetKey) -> TextureSpace {
         let layout = set_layout(prepared, key);
-        Sheet {
+        TextureSpace {
             padding: PaddingMap::new(&layout, PADDING),
             layout,
         }
@@ -67,7 +67,7 @@ impl Sheet {
         plan: &Plan,
         run: &Run,
         result: &PlannedResult,
-    ) -> Result<Vec<SheetPlane>, EngineError> {
+    ) -> Result<Vec<ResultPlane>, EngineError> {
         let planes = result.stored.planes().into_iter().zip(&result.slots);
         let laid_out = planes.map(|(plane, &slot)| {
             let data = workpiece.gpu.read(&workpiece.surface, plan, run, slot)?;
@@ -81,7 +81,7 @@ impl Sheet {
             };
             let parts: Vec<Vec<f32>> = (0..components).map(one).collect();
             let pixels = 0..self.padding.source.len();
-            Ok(SheetPlane {
+            Ok(ResultPlane {
                 name,
                 holds,
                 components,
@@ -95,8 +95,8 @@ impl Sheet {
 }
 
 /// A plane's name, what its numbers are, and how many a texel of it has.
-fn shape_of(plane: Plane) -> (&'static str, PlaneHolds, usize) {
-    use PlaneHolds::{Color, Numbers, Signed};
+fn shape_of(plane: Plane) -> (&'static str, PlaneKind, usize) {
+    use PlaneKind::{Color, Numbers, Signed};
     match plane {
         Plane::Mask => ("", Numbers, 1),
         Plane::Color => ("", Color, 3),
