@@ -1,9 +1,9 @@
 //! A graph evaluated on a model: plans, runs and what is made of their results.
 
-pub(crate) mod kept_rays;
 pub(crate) mod looks;
 pub(crate) mod outputs;
 pub(crate) mod preview;
+pub(crate) mod ray_cache;
 pub(crate) mod seen_node;
 pub(crate) mod sharing;
 pub(crate) mod texture_space;

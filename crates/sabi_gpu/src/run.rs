@@ -65,17 +65,17 @@ pub trait SourceFill {
     fn scene(&mut self) -> Result<RayScene<'_>, String>;
 
     /// Whether results of rays are kept from run to run.
-    fn keeps_rays(&self) -> bool {
+    fn caches_rays(&self) -> bool {
         false
     }
 
     /// Results that were kept under a key.
-    fn kept_rays(&mut self, _key: &[u8; 32]) -> Option<Vec<u8>> {
+    fn cached_rays(&mut self, _key: &[u8; 32]) -> Option<Vec<u8>> {
         None
     }
 
     /// Keeps results under a key.
-    fn keep_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
+    fn cache_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
 }
 
 /// How long a step took.

@@ -17,7 +17,7 @@ use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
 use crate::baking::report::PhaseTimes;
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::kept_rays::KeptRays;
+use crate::evaluating::ray_cache::RayCache;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::levels::AtlasLevels;
@@ -80,7 +80,7 @@ pub struct Workpiece {
     levels: AtlasLevels,
     /// Texels that share a place on the maps; none where each has its own.
     pub(crate) shares: OnceLock<Option<Shares>>,
-    kept_rays: KeptRays,
+    ray_cache: RayCache,
     /// What is to be known of the model itself.
     of_model: Vec<String>,
     /// What takes the place of the document's own.
@@ -182,7 +182,7 @@ impl Workpiece {
             hits: Hits::Shot,
             most_rays: None,
             times_ghosts: false,
-            kept_rays: KeptRays::new(options.model.cache_dir.as_deref()),
+            ray_cache: RayCache::new(options.model.cache_dir.as_deref()),
             budget_bytes,
         })
     }
@@ -310,7 +310,7 @@ impl Workpiece {
             folder: self.folder(),
             graph: &self.graph,
         };
-        let mut sources = Sources::new(ground, files, &self.kept_rays);
+        let mut sources = Sources::new(ground, files, &self.ray_cache);
         let options = RunOptions {
             submission,
             is_canceled: &|| progress.is_canceled(),

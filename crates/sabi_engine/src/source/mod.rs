@@ -23,7 +23,7 @@ use sabi_plan::{SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
-use crate::evaluating::kept_rays::KeptRays;
+use crate::evaluating::ray_cache::RayCache;
 use crate::opening::pictures::{OpenPicture, Pictures, path_of};
 
 pub(crate) use mip_chain::MipChain;
@@ -75,19 +75,19 @@ pub(crate) struct Sources<'a> {
     surface: SourceSurface<'a>,
     files: Files<'a>,
     model: model::ModelSource<'a>,
-    kept_rays: &'a KeptRays,
+    ray_cache: &'a RayCache,
     /// What cannot be shown, as sentences.
     pub(crate) warnings: Vec<String>,
 }
 
 impl<'a> Sources<'a> {
     /// Sources that have not opened anything yet.
-    pub(crate) fn new(surface: SourceSurface<'a>, files: Files<'a>, kept_rays: &'a KeptRays) -> Sources<'a> {
+    pub(crate) fn new(surface: SourceSurface<'a>, files: Files<'a>, ray_cache: &'a RayCache) -> Sources<'a> {
         Sources {
             surface,
             files,
             model: model::ModelSource::default(),
-            kept_rays,
+            ray_cache,
             warnings: Vec::new(),
         }
     }
@@ -121,16 +121,16 @@ impl SourceFill for Sources<'_> {
         }
     }
 
-    fn keeps_rays(&self) -> bool {
-        self.kept_rays.is_open()
+    fn caches_rays(&self) -> bool {
+        self.ray_cache.is_open()
     }
 
-    fn kept_rays(&mut self, key: &[u8; 32]) -> Option<Vec<u8>> {
-        self.kept_rays.find(key)
+    fn cached_rays(&mut self, key: &[u8; 32]) -> Option<Vec<u8>> {
+        self.ray_cache.find(key)
     }
 
-    fn keep_rays(&mut self, key: &[u8; 32], results: &[u8]) {
-        self.warnings.extend(self.kept_rays.keep(key, results));
+    fn cache_rays(&mut self, key: &[u8; 32], results: &[u8]) {
+        self.warnings.extend(self.ray_cache.keep(key, results));
     }
 
     fn scene(&mut self) -> Result<RayScene<'_>, String> {

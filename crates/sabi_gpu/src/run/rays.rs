@@ -22,9 +22,9 @@ impl Runner<'_> {
         slices: &Slices<'_>,
         sources: &mut dyn SourceFill,
     ) -> Result<(), GpuError> {
-        let is_kept = self.options.hits == Hits::Shot && sources.keeps_rays();
+        let is_kept = self.options.hits == Hits::Shot && sources.caches_rays();
         let key = is_kept.then(|| self.disk_key(step, compiled, bound));
-        if let Some(found) = key.and_then(|key| sources.kept_rays(&key))
+        if let Some(found) = key.and_then(|key| sources.cached_rays(&key))
             && self.put_back(bound, &found)
         {
             self.found_on_disk.extend(step.nodes.iter().cloned());
@@ -60,7 +60,7 @@ impl Runner<'_> {
             _ => buffers.run(&pass, &mut caster(gpu, choice, sources)?)?,
         }
         if let Some(key) = key {
-            sources.keep_rays(&key, &self.taken_down(bound)?);
+            sources.cache_rays(&key, &self.taken_down(bound)?);
         }
         Ok(())
     }

@@ -13,14 +13,14 @@ const KIND: Kind = Kind {
 };
 
 /// The folder of kept results.
-pub(crate) struct KeptRays {
+pub(crate) struct RayCache {
     folder: Option<PathBuf>,
 }
 
-impl KeptRays {
+impl RayCache {
     /// In a cache folder; nothing is kept without one.
-    pub(crate) fn new(cache_dir: Option<&Path>) -> KeptRays {
-        KeptRays {
+    pub(crate) fn new(cache_dir: Option<&Path>) -> RayCache {
+        RayCache {
             folder: cache_dir.map(|folder| folder.join("rays")),
         }
     }
