@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, NoProgress, Overlap, Overrides,
-    Prepared, Seams, WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, LinkedModel, ModelOptions, NoProgress, Overlap,
+    Overrides, Seams, WorkpieceOptions, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
 use sabi_image::{Pixels, decode};
@@ -83,7 +83,7 @@ pub(crate) fn codes(path: &Path) -> Vec<f64> {
 }
 
 /// By material, where charts have their own texels: rings and padding may show what a picture is over its edge.
-fn owned(model: &Prepared) -> Vec<Vec<bool>> {
+fn owned(model: &LinkedModel) -> Vec<Vec<bool>> {
     let of_layout = layouts(&model.atlas).into_iter();
     of_layout
         .map(|layout| layout.cover.iter().map(|cover| *cover == Cover::Owned).collect())
@@ -146,7 +146,7 @@ fn a_copied_model_shows_the_maps_that_were_baked() {
         }])
     );
     let model = ModelOptions::new(&project("assets/meshes/bench.glb"), SIZE);
-    let owned = owned(&Prepared::open(&model, &NoProgress).unwrap()).remove(0);
+    let owned = owned(&LinkedModel::open(&model, &NoProgress).unwrap()).remove(0);
     let both = |file: &str| [&first, &second].map(|folder| folder.join(file));
     for (channel, steps) in STEPS {
         let furthest = furthest(&owned, both(&format!("bench_{channel}.png")));
@@ -227,7 +227,7 @@ fn triangles(model: &Model) -> Vec<(String, Vec<u32>)> {
 }
 
 /// Holds the maps of each material of a copy against those of the sheet.
-fn assert_shows(folder: &Path, stem: &str, copy: &Prepared) {
+fn assert_shows(folder: &Path, stem: &str, copy: &LinkedModel) {
     let names = set_names(&copy.model);
     assert_eq!(owned(copy).len(), names.len());
     for (owned, of_set) in owned(copy).iter().zip(&names) {
@@ -278,12 +278,12 @@ fn a_copy_of_an_unwrapped_model_shows_the_maps_that_were_baked_and_keeps_its_tri
             ..ModelOptions::new(&copy, SIZE)
         };
         bake_to(&folder.path().join("second"), MODEL, of_copy(uv), false);
-        let prepared = Prepared::open(&of_copy(uv), &NoProgress).unwrap();
-        assert_eq!(prepared.unwrapped, None, "{name}");
-        assert_shows(folder.path(), name.split('.').next().unwrap(), &prepared);
+        let linked = LinkedModel::open(&of_copy(uv), &NoProgress).unwrap();
+        assert_eq!(linked.unwrapped, None, "{name}");
+        assert_shows(folder.path(), name.split('.').next().unwrap(), &linked);
         // The sets that the model had are still there, before the new one.
         let [mut was, mut is] =
-            [&path, &copy].map(|path| Prepared::load_model(&ModelOptions::new(path, SIZE)).unwrap());
+            [&path, &copy].map(|path| LinkedModel::load_model(&ModelOptions::new(path, SIZE)).unwrap());
         if uv == 0 {
             for model in [&mut was, &mut is] {
                 model.mesh.uvs.clear();

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use sabi_engine::{ModelOptions, NoProgress, Prepared};
+use sabi_engine::{LinkedModel, ModelOptions, NoProgress};
 use sabi_export::{Cover, NONE, Padding, PaddingMap, SetLayout, layouts};
 use sabi_surface::atlas::GHOST_BIT;
 use serde_json::Value as Json;
@@ -39,9 +39,9 @@ fn baked(folder: &Path, graph: &str) -> (Json, SetLayout, Vec<Option<u32>>) {
     fs::write(folder.join("cube.obj"), CUBE).expect("a model");
     fs::write(folder.join("cube.mtl"), LIBRARY).expect("a library");
     let options = ModelOptions::new(&folder.join("cube.obj"), SIZE);
-    let prepared = Prepared::open(&options, &NoProgress).expect("a model");
+    let linked = LinkedModel::open(&options, &NoProgress).expect("a model");
     let report = bake_to(folder, graph, options, true);
-    let atlas = &prepared.atlas;
+    let atlas = &linked.atlas;
     let layout = layouts(atlas).remove(0);
     let material_of = |pixel: u32| {
         let texel = *layout.source.get(pixel as usize)?;
@@ -106,7 +106,7 @@ fn each_texel_is_read_from_the_output_of_its_material() {
     );
     // Both materials of the copy wear the same maps.
     let copy = ModelOptions::new(&folder.path().join("out/cube.glb"), SIZE);
-    let copy = Prepared::load_model(&copy).unwrap();
+    let copy = LinkedModel::load_model(&copy).unwrap();
     let names: Vec<&str> = copy.materials.iter().map(|material| &material.name[..]).collect();
     assert_eq!(names, ["wood", "steel"]);
     assert!(copy.materials[0].base_color.is_some());

@@ -30,7 +30,7 @@ fn a_wish_is_answered_coarse_first_and_then_at_full_size() {
     assert_eq!(models.count(), 2, "each size of the model is told once");
     assert!(told.times().latency.is_some());
     assert!(!window.live.is_busy());
-    let can_pick = |model: &sabi_engine::LiveModel| model.prepared.bvh.get().is_some();
+    let can_pick = |model: &sabi_engine::LiveModel| model.linked.bvh.get().is_some();
     assert!(told.shown().iter().all(|(_, _, model, _)| can_pick(model)));
 }
 

@@ -41,8 +41,8 @@ fn evaluated(kinds: Kinds) -> (OnMesh, Vec<f32>) {
 /// Whether exactly the top of the cube is `inside`, and the rest is not.
 fn selects_the_top(on_mesh: &OnMesh, values: &[f32], inside: f32) -> bool {
     on_mesh.owned().all(|(index, triangle)| {
-        let corner = on_mesh.workpiece.prepared.model.mesh.triangles[triangle as usize][0];
-        let is_top = on_mesh.workpiece.prepared.model.mesh.normals[corner as usize][1] > 0.5;
+        let corner = on_mesh.workpiece.linked.model.mesh.triangles[triangle as usize][0];
+        let is_top = on_mesh.workpiece.linked.model.mesh.normals[corner as usize][1] > 0.5;
         values[index] == if is_top { inside } else { 1.0 - inside }
     })
 }
@@ -174,8 +174,8 @@ fn mask(at: Surface) -> f32 {
 fn a_model_may_have_more_parts_and_materials_than_sixteen_bits_count() {
     let graph = r#"{ "format": "sabi", "version": 1, "nodes": { "one": { "kind": "own/numbered" } } }"#;
     let kinds = NodeFolder::new(&[("own/numbered", NUMBERED)]).kinds();
-    let mut on_mesh = OnMesh::on(graph, kinds, &project("assets/meshes/cube.glb"), 64, |prepared| {
-        let mesh = &mut Arc::make_mut(&mut prepared.model).mesh;
+    let mut on_mesh = OnMesh::on(graph, kinds, &project("assets/meshes/cube.glb"), 64, |linked| {
+        let mesh = &mut Arc::make_mut(&mut linked.model).mesh;
         mesh.triangle_part.fill(70_000);
         mesh.triangle_material.fill(66_001);
     });

@@ -96,8 +96,8 @@ fn no_node_shows_the_seams_of_a_ball() {
 
 /// The cube with links that lead to the wrong places: each ghost has that of another one.
 fn torn(graph: &str) -> OnMesh {
-    OnMesh::on(graph, Kinds::builtin(), &own_mesh("cube"), 64, |prepared| {
-        let ghosts = &mut prepared.atlas.ghosts;
+    OnMesh::on(graph, Kinds::builtin(), &own_mesh("cube"), 64, |linked| {
+        let ghosts = &mut linked.atlas.ghosts;
         let links: Vec<Ghost> = ghosts.clone();
         for (ghost, link) in ghosts.iter_mut().zip(links.iter().cycle().skip(101)) {
             ghost.target_triangle = link.target_triangle;

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, NoProgress, OpenGraph, Overrides, Pictures,
-    Prepared, Workpiece, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, LinkedModel, ModelOptions, NoProgress, OpenGraph,
+    Overrides, Pictures, Workpiece, WorkpieceOptions,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -85,12 +85,12 @@ impl OnMesh {
     }
 
     /// A graph of these kinds on a model whose atlas was tampered with.
-    pub fn on(graph: &str, kinds: Kinds, mesh: &Path, size: u32, tamper: impl FnOnce(&mut Prepared)) -> OnMesh {
+    pub fn on(graph: &str, kinds: Kinds, mesh: &Path, size: u32, tamper: impl FnOnce(&mut LinkedModel)) -> OnMesh {
         OnMesh::on_model(graph, kinds, ModelOptions::new(mesh, size), tamper)
     }
 
     /// A graph of these kinds on a model that is taken in a certain way and tampered with.
-    pub fn on_model(graph: &str, kinds: Kinds, model: ModelOptions, tamper: impl FnOnce(&mut Prepared)) -> OnMesh {
+    pub fn on_model(graph: &str, kinds: Kinds, model: ModelOptions, tamper: impl FnOnce(&mut LinkedModel)) -> OnMesh {
         let open = opened(graph);
         let options = WorkpieceOptions {
             model,
@@ -100,10 +100,10 @@ impl OnMesh {
             caster: CasterChoice::Auto,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         };
-        let mut prepared = Prepared::open(&options.model, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
-        tamper(&mut prepared);
-        let tables = prepared.tables(&open.document.fit, open.document.seed);
-        let workpiece = Workpiece::assemble(&open, flat_graph(graph), kinds, prepared, device(), &options)
+        let mut linked = LinkedModel::open(&options.model, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
+        tamper(&mut linked);
+        let tables = linked.tables(&open.document.fit, open.document.seed);
+        let workpiece = Workpiece::assemble(&open, flat_graph(graph), kinds, linked, device(), &options)
             .unwrap_or_else(|error| panic!("{error}"));
         OnMesh { workpiece, tables }
     }

@@ -42,13 +42,13 @@ impl Pictured {
     pub fn of(mut on_mesh: OnMesh, light: &Panorama) -> Pictured {
         let shown = evaluate_looks(&mut on_mesh.workpiece, None, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
         let workpiece = &on_mesh.workpiece;
-        let prepared = &workpiece.prepared;
-        let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
+        let linked = &workpiece.linked;
+        let model_from_working = 1.0 / linked.working_from_model(&workpiece.fit);
         let gpu = &workpiece.gpu;
         let model = ViewModel::new(
             gpu,
-            &prepared.model,
-            &prepared.atlas,
+            &linked.model,
+            &linked.atlas,
             &workpiece.surface,
             model_from_working,
         );
@@ -84,7 +84,7 @@ impl Pictured {
 
     /// A camera at a viewpoint that sees all of the model.
     pub fn camera(&self, viewpoint: Viewpoint, [width, height]: [u32; 2]) -> Camera {
-        let mesh = &self.on_mesh.workpiece.prepared.model.mesh;
+        let mesh = &self.on_mesh.workpiece.linked.model.mesh;
         let bounds = Placement::of(mesh).box_in_view(mesh);
         Camera::seen_from(viewpoint, bounds, width as f32 / height as f32)
     }

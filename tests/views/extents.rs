@@ -30,7 +30,7 @@ fn extents(nodes: &str, node: &str, plane: usize, component: u32, mesh: &Path) -
         .extents(surface, &[(&texture, component)], &options)
         .expect("extents");
     let data = gpu.read(surface, &plan, &run, slot).expect("a result");
-    let owners = workpiece.prepared.atlas.owners.iter().enumerate();
+    let owners = workpiece.linked.atlas.owners.iter().enumerate();
     let owned = owners.filter(|(_, owner)| **owner & GHOST_BIT == 0);
     let values: Vec<f32> = owned.map(|(index, _)| data.texel(index)[component as usize]).collect();
     let numbers = values.iter().copied().filter(|value| !value.is_nan());

@@ -21,13 +21,13 @@ fn seen<'p>(
     [width, height]: [u32; 2],
 ) -> impl Iterator<Item = (usize, Picked)> + 'p {
     let size = UVec2::new(width, height).as_vec2();
-    let prepared = &pictured.on_mesh.workpiece.prepared;
-    let mesh = &prepared.model.mesh;
-    let bvh = prepared.bvh.get_or_init(|| sabi_surface::bvh::Bvh::build(mesh));
+    let linked = &pictured.on_mesh.workpiece.linked;
+    let mesh = &linked.model.mesh;
+    let bvh = linked.bvh.get_or_init(|| sabi_surface::bvh::Bvh::build(mesh));
     (0..(width * height) as usize).filter_map(move |pixel| {
         let at = Vec2::new((pixel as u32 % width) as f32 + 0.5, (pixel as u32 / width) as f32 + 0.5);
         let ray = camera.ray(at / size, aspect_of(size));
-        let picked = pick(bvh, mesh, &prepared.atlas, ray, &pictured.model.placement)?;
+        let picked = pick(bvh, mesh, &linked.atlas, ray, &pictured.model.placement)?;
         Some((pixel, picked))
     })
 }

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use glam::Vec2;
-use sabi_engine::{Kinds, ModelOptions, NoProgress, Overlap, Prepared, Seams};
+use sabi_engine::{Kinds, LinkedModel, ModelOptions, NoProgress, Overlap, Seams};
 use sabi_gpu::Shares;
 use sabi_image::{LinearPicture, decode};
 use sabi_plan::Mode as Plans;
@@ -157,7 +157,7 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     let plan = plan.expect("a plan");
     let mut run = workpiece.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
     let (gpu, surface) = (&workpiece.gpu, &workpiece.surface);
-    let shares = Shares::upload(gpu, workpiece.prepared.shared_texels().groups()).expect("shares");
+    let shares = Shares::upload(gpu, workpiece.linked.shared_texels().groups()).expect("shares");
     // One of each format that a plane has.
     for slot in plan.results[0].slots.clone() {
         let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
@@ -187,8 +187,8 @@ fn models_whose_charts_have_places_of_their_own_share_nothing() {
                 overlap,
                 ..ModelOptions::new(&mesh, 64)
             };
-            let prepared = Prepared::open(&model, &NoProgress).expect("a model");
-            assert!(prepared.shared_texels().is_empty(), "{}", mesh.display());
+            let linked = LinkedModel::open(&model, &NoProgress).expect("a model");
+            assert!(linked.shared_texels().is_empty(), "{}", mesh.display());
         }
     }
 }

@@ -238,11 +238,11 @@ impl ModelView {
 
     /// Looks at a model that is new from the usual side.
     fn frame_new(&mut self, model: &LiveModel, rect: Rect) {
-        let file = model.prepared.model.files.first().cloned().unwrap_or_default();
+        let file = model.linked.model.files.first().cloned().unwrap_or_default();
         let now = (model.model_revision, file);
         let is_same = self.framed.as_ref().is_some_and(|(_, known)| *known == now.1);
         if !is_same {
-            let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+            let bounds = model.placement.box_in_view(&model.linked.model.mesh);
             self.camera = Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, aspect(rect));
         }
         self.framed = Some(now);
@@ -299,10 +299,10 @@ impl ModelView {
 
     /// What is under a place of the screen.
     fn picked(&self, model: &LiveModel, rect: Rect, at: egui::Pos2) -> Option<Picked> {
-        let prepared = &model.prepared;
-        let bvh = prepared.bvh.get()?;
+        let linked = &model.linked;
+        let bvh = linked.bvh.get()?;
         let ray = self.camera.ray(share(rect, at), aspect(rect));
-        pick(bvh, &prepared.model.mesh, &prepared.atlas, ray, &model.placement)
+        pick(bvh, &linked.model.mesh, &linked.atlas, ray, &model.placement)
     }
 
     /// Performs a command about the camera and overlays.
@@ -318,7 +318,7 @@ impl ModelView {
         let Some(model) = picture.map(|picture| picture.model.clone()) else {
             return;
         };
-        let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+        let bounds = model.placement.box_in_view(&model.linked.model.mesh);
         let from = |viewpoint| Camera::seen_from(viewpoint, bounds, aspect(rect));
         match command {
             ViewportCommand::ShowAll => self.camera.frame_box(bounds[0], bounds[1], aspect(rect)),
@@ -356,7 +356,7 @@ impl ModelView {
         let (Some(length), Some(model)) = (self.length, &stage.shown_model) else {
             return;
         };
-        let view_from_working = model.placement.scale / model.prepared.working_from_model(&model.fit);
+        let view_from_working = model.placement.scale / model.linked.working_from_model(&model.fit);
         let points = (length * view_from_working) as f32 / self.camera.height_at_target() * rect.height();
         let width = points.min(rect.width() - 40.0).max(1.0);
         let start = pos2(rect.left() + 20.0, rect.bottom() - 24.0);

@@ -144,7 +144,7 @@ impl Editor {
         let mut files = vec![file.to_owned()];
         match &self.stage.shown_model {
             Some(model) if self.stage.loaded_model().1 => {
-                let model = &model.prepared.model;
+                let model = &model.linked.model;
                 files.extend(model.files.iter().chain(&model.absent).cloned());
             }
             _ => files.extend(file.parent().map(Path::to_owned)),

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, NoProgress, Overrides, Prepared,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, LinkedModel, ModelOptions, NoProgress, Overrides,
     Seams, WorkpieceOptions, bake,
 };
 use serde_json::{Value as Json, json};
@@ -179,13 +179,13 @@ fn bench_noises(folder: &Path, model: &Path) {
 fn bench_atlas(folder: &Path, model: &Path) {
     let options = ModelOptions::new(model, 2048);
     let atlas = |cache: Option<PathBuf>| {
-        let loaded = Prepared::load_model(&options).unwrap();
+        let loaded = LinkedModel::load_model(&options).unwrap();
         let options = ModelOptions {
             cache_dir: cache,
             ..options.clone()
         };
         let started = Instant::now();
-        Prepared::link(loaded, &options, &NoProgress).unwrap();
+        LinkedModel::link(loaded, &options, &NoProgress).unwrap();
         started.elapsed()
     };
     row("linked atlas at 2048², cold", seconds(|| atlas(None)), "s", "≤ 0.6 s");

@@ -16,7 +16,7 @@ use bvh2::Bvh2;
 use glam::Vec3;
 use kernel::{Kernel, Machine};
 use rayon::prelude::*;
-use sabi_engine::{ModelOptions, NoProgress, Prepared};
+use sabi_engine::{LinkedModel, ModelOptions, NoProgress};
 use sabi_surface::bvh::Bvh;
 
 const SIZE: u32 = 1024;
@@ -30,10 +30,10 @@ const RUNS: u32 = 3;
 type Ray = [[f32; 4]; 2];
 
 /// Rays out of every owned texel, more of them straight up.
-fn rays(prepared: &Prepared, reach: f32) -> Vec<Ray> {
-    let tables = prepared.tables(&sabi_graph::Fit::Metres, 0);
-    let width = prepared.atlas.page_size[0];
-    let owners = prepared.atlas.owners.iter().enumerate();
+fn rays(linked: &LinkedModel, reach: f32) -> Vec<Ray> {
+    let tables = linked.tables(&sabi_graph::Fit::Metres, 0);
+    let width = linked.atlas.page_size[0];
+    let owners = linked.atlas.owners.iter().enumerate();
     let owned = owners.filter(|(_, owner)| **owner >> 31 == 0);
     let of_texel = |(index, &triangle): (usize, &u32)| {
         let rows = &tables.geometry[6 * triangle as usize..][..6];
@@ -44,7 +44,7 @@ fn rays(prepared: &Prepared, reach: f32) -> Vec<Ray> {
             row(first) + row(first + 1) * step[0] + row(first + 2) * step[1]
         };
         let up = along(3).normalize_or(Vec3::Y);
-        let origin = along(0) + up * (1e-5 * prepared.largest_side as f32);
+        let origin = along(0) + up * (1e-5 * linked.largest_side as f32);
         let ray = move |ray: u32| {
             // A sphere on the tip of the normal gives cosine-weighted directions.
             let turn = (index as u32 * 64 + ray).wrapping_mul(2_654_435_769) as f32 / 4_294_967_296.0;
@@ -71,9 +71,9 @@ fn row(what: &str, value: f64, unit: &str, aim: &str) {
     println!("| {what} | {value:.3} {unit} | {aim} |");
 }
 
-fn bench(machine: &Machine, prepared: &Prepared, reach: f32) {
-    let shot = rays(prepared, reach * prepared.largest_side as f32);
-    let bvh = Bvh::build(&prepared.model.mesh);
+fn bench(machine: &Machine, linked: &LinkedModel, reach: f32) {
+    let shot = rays(linked, reach * linked.largest_side as f32);
+    let bvh = Bvh::build(&linked.model.mesh);
     let count = shot.len() as f64;
     let (bare, hits) = best(|| {
         let started = Instant::now();
@@ -91,7 +91,7 @@ fn bench(machine: &Machine, prepared: &Prepared, reach: f32) {
         "",
     );
     let wide = Kernel::wide(machine, &bvh, &shot);
-    let mesh = &prepared.model.mesh;
+    let mesh = &linked.model.mesh;
     let corners = |triangle: &[u32; 3]| triangle.map(|vertex| Vec3::from(mesh.positions[vertex as usize]));
     let two = Bvh2::build(&mesh.triangles.iter().map(corners).collect::<Vec<_>>());
     let two = Kernel::two(machine, &two, &shot);
@@ -116,10 +116,10 @@ fn main() {
     let shared = root.join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
     let own = root.join("assets/meshes/figure.glb");
     let model = if shared.is_file() { shared } else { own };
-    let prepared = Prepared::open(&ModelOptions::new(&model, SIZE), &NoProgress).unwrap();
+    let linked = LinkedModel::open(&ModelOptions::new(&model, SIZE), &NoProgress).unwrap();
     let machine = Machine::open();
     println!("{}\n\n| what | measured | aim |\n|---|---|---|", machine.name);
     for reach in REACHES {
-        bench(&machine, &prepared, reach);
+        bench(&machine, &linked, reach);
     }
 }

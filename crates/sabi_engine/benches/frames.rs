@@ -81,13 +81,13 @@ impl Stage {
         let gpu = &workpiece.gpu;
         let name = &gpu.summary().name;
         println!("{name}\n\n| what | measured | aim on a software driver |\n|---|---|---|");
-        let prepared = &workpiece.prepared;
-        let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
+        let linked = &workpiece.linked;
+        let model_from_working = 1.0 / linked.working_from_model(&workpiece.fit);
         let new_model = || {
             ViewModel::new(
                 gpu,
-                &prepared.model,
-                &prepared.atlas,
+                &linked.model,
+                &linked.atlas,
                 &workpiece.surface,
                 model_from_working,
             )
@@ -114,7 +114,7 @@ impl Stage {
             environment: &self.environment,
             lights,
         };
-        let mesh = &self.workpiece.prepared.model.mesh;
+        let mesh = &self.workpiece.linked.model.mesh;
         let bounds = Placement::of(mesh).box_in_view(mesh);
         let aspect = size[0] as f32 / size[1] as f32;
         let mut shot = Shot::new(Camera::seen_from(Viewpoint::FRONT, bounds, aspect));

@@ -100,7 +100,7 @@ impl Window {
     }
 
     fn draw(&mut self, (model, shown): &Pictured) {
-        let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+        let bounds = model.placement.box_in_view(&model.linked.model.mesh);
         let aspect = VIEWPORT[0] as f32 / VIEWPORT[1] as f32;
         let scene = Scene {
             model: &model.view,
@@ -152,7 +152,7 @@ impl Window {
 fn pictures(window: &Window, (model, shown): &Pictured) -> [f64; 2] {
     let (gpu, renderer, environment) = (&window.gpu, &window.renderer, &window.environment);
     let look: &MaterialLook = shown.looks.last().unwrap();
-    let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+    let bounds = model.placement.box_in_view(&model.linked.model.mesh);
     let shot = Shot {
         background: Background::Clear,
         mode: Mode::Material,

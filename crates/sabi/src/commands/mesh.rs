@@ -1,6 +1,6 @@
 //! `sabi mesh`: a model and its atlas.
 
-use sabi_engine::{Prepared, describe_mesh};
+use sabi_engine::{LinkedModel, describe_mesh};
 use serde_json::Value as Json;
 
 use crate::arguments::MeshArguments;
@@ -11,9 +11,9 @@ use crate::terminal::{Terminal, plain};
 pub(crate) fn run(arguments: MeshArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let options = arguments.model.options(arguments.mesh, arguments.maps.size);
     let bars = Bars::new(terminal);
-    let prepared = Prepared::open(&options, &bars)?;
+    let linked = LinkedModel::open(&options, &bars)?;
     drop(bars);
-    let description = describe_mesh(&prepared);
+    let description = describe_mesh(&linked);
     for warning in description["warnings"].as_array().into_iter().flatten() {
         terminal.warning(warning.as_str().unwrap_or_default());
     }

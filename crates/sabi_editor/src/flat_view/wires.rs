@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::{Color32, ColorImage, Context, Painter, Pos2, Rect, Stroke, TextureHandle, TextureOptions, pos2, vec2};
-use sabi_engine::{LiveModel, Prepared, SetKey};
+use sabi_engine::{LinkedModel, LiveModel, SetKey};
 
 use crate::errand::Errand;
 use crate::theme::Theme;
@@ -64,8 +64,8 @@ impl Wires {
         let wanted = (model.model_revision, set);
         if self.of != Some(wanted) && self.coming.is_none() {
             self.of = Some(wanted);
-            let prepared = model.prepared.clone();
-            self.coming = Some(Errand::start(context, move || Drawing::of(edges_of(&prepared, set))));
+            let linked = model.linked.clone();
+            self.coming = Some(Errand::start(context, move || Drawing::of(edges_of(&linked, set))));
         }
         let Some(come) = self.coming.as_ref().and_then(Errand::poll) else {
             return;
@@ -89,7 +89,7 @@ impl Drawing {
 }
 
 /// Edges of a texture set's triangles, each once, where its texture reaches from 0 to 1.
-fn edges_of(Prepared { model, atlas, .. }: &Prepared, set: SetKey) -> Vec<[Pos2; 2]> {
+fn edges_of(LinkedModel { model, atlas, .. }: &LinkedModel, set: SetKey) -> Vec<[Pos2; 2]> {
     let mesh = &model.mesh;
     let charts = mesh.triangles.iter().zip(&atlas.triangle_chart);
     let charts = charts.filter_map(|(triangle, chart)| Some((triangle, atlas.charts.get(*chart as usize)?)));

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelOptions, NoProgress, OpenGraph, Overrides, Pictures,
-    Prepared, Workpiece, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, LinkedModel, ModelOptions, NoProgress, OpenGraph,
+    Overrides, Pictures, Workpiece, WorkpieceOptions,
 };
 use sabi_gpu::StepTime;
 use sabi_graph::{Document, Fit};
@@ -33,13 +33,13 @@ fn node_seconds(folder: &Path, model: &Path, name: &str, nodes: &str) -> f64 {
 }
 
 /// Seconds that the hierarchy alone takes for as many rays of the same kind, on all cores.
-fn bare_seconds(prepared: &Prepared, rays: u32) -> (f64, f64) {
-    let bvh = Bvh::build(&prepared.model.mesh);
+fn bare_seconds(linked: &LinkedModel, rays: u32) -> (f64, f64) {
+    let bvh = Bvh::build(&linked.model.mesh);
     let fit = Fit::Unit;
-    let tables = prepared.tables(&fit, 0);
-    let scale = prepared.working_from_model(&fit) as f32;
-    let [width, _] = prepared.atlas.page_size;
-    let owned = prepared
+    let tables = linked.tables(&fit, 0);
+    let scale = linked.working_from_model(&fit) as f32;
+    let [width, _] = linked.atlas.page_size;
+    let owned = linked
         .atlas
         .owners
         .iter()
@@ -82,13 +82,13 @@ fn bare_seconds(prepared: &Prepared, rays: u32) -> (f64, f64) {
 }
 
 pub(crate) fn bench_rays(folder: &Path, model: &Path) {
-    let prepared = Prepared::open(&ModelOptions::new(model, SIZE), &NoProgress).unwrap();
+    let linked = LinkedModel::open(&ModelOptions::new(model, SIZE), &NoProgress).unwrap();
     for (rays, aim) in [(16, "≤ 1.6 s"), (3, "≤ 0.4 s")] {
         let nodes = format!(
             r#""rays": {{ "kind": "surface/occlusion", "params": {{ "distance": {DISTANCE}, "rays": {rays} }} }}"#
         );
         let taken = node_seconds(folder, model, "rays", &nodes);
-        let (bare, count) = bare_seconds(&prepared, rays);
+        let (bare, count) = bare_seconds(&linked, rays);
         row(&format!("occlusion, {rays} rays, at {SIZE}²"), taken, "s", aim);
         row("the same, rays a second", count / taken / 1e6, "M", "");
         row(
@@ -136,7 +136,7 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
         report.ghosts.as_secs_f64() / all.as_secs_f64()
     };
     let share = (0..3).map(|_| once()).fold(f64::INFINITY, f64::min);
-    let atlas = &workpiece.prepared.atlas;
+    let atlas = &workpiece.linked.atlas;
     let texels: u64 = atlas.charts.iter().map(|chart| u64::from(chart.texels)).sum();
     let what = format!("{what}, {} beside {texels} texels", atlas.ghosts.len());
     row(&what, 100.0 * share, "%", "≤ 8 %");

@@ -71,11 +71,11 @@ fn bake_open(
     let read = workpiece.read_files(open);
     refuse_read_report(request, &read)?;
     writer.protect(read);
-    workpiece.warn(bare_materials(&workpiece.prepared.model, &workpiece.prepared.atlas));
-    let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
+    workpiece.warn(bare_materials(&workpiece.linked.model, &workpiece.linked.atlas));
+    let (model, atlas) = (&workpiece.linked.model, &workpiece.linked.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
     let mut serving = serve(open, &workpiece.graph, &outputs, model, atlas, &sets)?;
-    let copy = open_copy(request, &workpiece.prepared, &sets, &mut serving, &mut writer)?;
+    let copy = open_copy(request, &workpiece.linked, &sets, &mut serving, &mut writer)?;
     workpiece.warn(std::mem::take(&mut serving.warnings));
     let own_looks = serving.model.map(|_| model_source_node(workpiece.fit));
     workpiece.graph.nodes.extend(own_looks);
@@ -88,7 +88,7 @@ fn bake_open(
         plan: &plan,
         options,
         padding: request.padding.map_or(Padding::Infinite, Padding::Texels),
-        seams: ModelSeams::new(request.seams, &workpiece.prepared),
+        seams: ModelSeams::new(request.seams, &workpiece.linked),
         run_options: RunOptions {
             is_canceled: &|| progress.is_canceled(),
             ..RunOptions::new(SUBMISSION, request.workpiece.budget_bytes)
@@ -229,7 +229,7 @@ fn report(
     warnings: &[String],
 ) -> Json {
     let adapter = workpiece.gpu.summary();
-    let atlas = &workpiece.prepared.atlas;
+    let atlas = &workpiece.linked.atlas;
     let mut nodes_ms = Map::new();
     for step in &run.report.steps {
         for (node, share) in &step.nodes {
@@ -244,11 +244,11 @@ fn report(
         "graph": request.graph.display().to_string(),
         "mesh": {
             "file": request.workpiece.model.path.display().to_string(),
-            "triangles": workpiece.prepared.model.mesh.triangles.len(),
+            "triangles": workpiece.linked.model.mesh.triangles.len(),
             "charts": atlas.charts.len(),
             "coverage": rounded(atlas.report.coverage),
-            "overlap": Sharing::of(&workpiece.prepared).json(&workpiece.prepared),
-            "unwrapped": describe_unwrapping(&workpiece.prepared),
+            "overlap": Sharing::of(&workpiece.linked).json(&workpiece.linked),
+            "unwrapped": describe_unwrapping(&workpiece.linked),
         },
         "adapter": { "name": adapter.name, "kind": adapter.kind.to_string() },
         "size": atlas.size,
@@ -257,9 +257,9 @@ fn report(
         "finish_passes": written.finish_passes,
         "fused": plan.fused(),
         "peak_texture_bytes": run.report.pool.peak_bytes,
-        "atlas_cached": workpiece.prepared.atlas_was_cached,
+        "atlas_cached": workpiece.linked.atlas_was_cached,
         "rays_cached": run.report.found_on_disk,
-        "unwrapping_cached": workpiece.prepared.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
+        "unwrapping_cached": workpiece.linked.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
         "stages_ms": times.json(),
         "nodes_ms": nodes_ms,
         "outputs": written.outputs.iter().map(sabi_export::OutputRecord::to_json).collect::<Vec<_>>(),

@@ -18,7 +18,7 @@ use crate::baking::seams::ModelSeams;
 use crate::error::EngineError;
 use crate::evaluating::looks::slot_of;
 use crate::evaluating::workpiece::{Workpiece, stop_if_canceled};
-use crate::opening::prepare::{Overlap, Prepared};
+use crate::opening::linked_model::{LinkedModel, Overlap};
 use crate::phases::{Phase, Progress};
 
 /// One texture set: which results go into it.
@@ -80,7 +80,7 @@ impl MapWriter<'_> {
         writer: &mut BakeWriter,
         progress: &dyn Progress,
     ) -> Result<WrittenMaps, EngineError> {
-        let atlas = &self.workpiece.prepared.atlas;
+        let atlas = &self.workpiece.linked.atlas;
         let set_bytes = (atlas.size as usize).pow(2) * LAYOUT_PIXEL_BYTES;
         let mut maps = Maps {
             from: self,
@@ -98,7 +98,7 @@ impl MapWriter<'_> {
             let open: Vec<OpenSet<'_>> = together
                 .iter()
                 .map(|work| {
-                    let layout = set_layout(&self.workpiece.prepared, work.key);
+                    let layout = set_layout(&self.workpiece.linked, work.key);
                     OpenSet {
                         work,
                         mixing: Mixing::new(atlas, &work.materials),
@@ -168,7 +168,7 @@ impl Maps<'_> {
             return Ok(());
         }
         let workpiece = self.from.workpiece;
-        let file_from_working = workpiece.prepared.file_from_working(&workpiece.fit) as f32;
+        let file_from_working = workpiece.linked.file_from_working(&workpiece.fit) as f32;
         for (stored, channels) in MAPS {
             let scale = if stored == Stored::Height {
                 file_from_working
@@ -298,10 +298,10 @@ impl Maps<'_> {
 }
 
 /// The layout of a set, with what charts that share a place get.
-pub(crate) fn set_layout(prepared: &Prepared, key: SetKey) -> SetLayout {
-    match prepared.overlap {
-        Overlap::Merge => SetLayout::merged(&prepared.atlas, key),
-        Overlap::First | Overlap::Unwrap => SetLayout::new(&prepared.atlas, key),
+pub(crate) fn set_layout(linked: &LinkedModel, key: SetKey) -> SetLayout {
+    match linked.overlap {
+        Overlap::Merge => SetLayout::merged(&linked.atlas, key),
+        Overlap::First | Overlap::Unwrap => SetLayout::new(&linked.atlas, key),
     }
 }
 

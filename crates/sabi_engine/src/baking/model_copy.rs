@@ -10,12 +10,12 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::maps::WrittenMaps;
 use crate::baking::sets::{Serving, TextureSet};
 use crate::error::{EngineError, ErrorKind};
-use crate::opening::prepare::Prepared;
+use crate::opening::linked_model::LinkedModel;
 
 /// Begins the copy where one is asked for; what an artist should know of it is added to the warnings of `serving`.
 pub(crate) fn open_copy(
     request: &BakeRequest,
-    prepared: &Prepared,
+    linked: &LinkedModel,
     sets: &[TextureSet],
     serving: &mut Serving,
     writer: &mut BakeWriter,
@@ -23,7 +23,7 @@ pub(crate) fn open_copy(
     if !request.model {
         return Ok(None);
     }
-    let model = &prepared.model;
+    let model = &linked.model;
     let served = sets.iter().zip(&serving.nodes).filter(|(_, nodes)| !nodes.is_empty());
     let served: Vec<&TextureSet> = served.map(|(set, _)| set).collect();
     refuse_tiles(&served)?;
@@ -33,7 +33,7 @@ pub(crate) fn open_copy(
         served.iter().map(|set| set.key.material).collect()
     };
     let options = &request.workpiece.model;
-    let uv_set = prepared
+    let uv_set = linked
         .unwrapped
         .as_ref()
         .map_or(options.uv, |unwrapped| unwrapped.uv_set);

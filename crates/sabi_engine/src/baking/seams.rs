@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use sabi_export::{Channel, ChannelPixels, SeamSamples, SetLayout};
 use sabi_surface::seams::{Seam, seams};
 
-use crate::opening::prepare::Prepared;
+use crate::opening::linked_model::LinkedModel;
 
 /// What becomes of the little that heights and normals differ by on both sides of a seam, where two grids of texels meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,15 +20,15 @@ pub enum Seams {
 /// The seams of a model, found when the first set asks.
 pub(crate) struct ModelSeams<'a> {
     wanted: Seams,
-    prepared: &'a Prepared,
+    linked: &'a LinkedModel,
     found: OnceLock<Vec<Seam>>,
 }
 
 impl<'a> ModelSeams<'a> {
-    pub(crate) fn new(wanted: Seams, prepared: &'a Prepared) -> ModelSeams<'a> {
+    pub(crate) fn new(wanted: Seams, linked: &'a LinkedModel) -> ModelSeams<'a> {
         ModelSeams {
             wanted,
-            prepared,
+            linked,
             found: OnceLock::new(),
         }
     }
@@ -47,7 +47,7 @@ impl<'a> ModelSeams<'a> {
         if self.wanted == Seams::Keep || !matches!(channel, Channel::Height | Channel::Normal) {
             return false;
         }
-        let Prepared { model, atlas, .. } = self.prepared;
+        let LinkedModel { model, atlas, .. } = self.linked;
         let found = self.found.get_or_init(|| seams(&model.mesh, atlas));
         let samples = samples.get_or_init(|| SeamSamples::new(&model.mesh, found, atlas, layout));
         if *channel == Channel::Height {

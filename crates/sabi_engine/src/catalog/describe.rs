@@ -5,31 +5,31 @@ use sabi_plan::SourceKind;
 use serde_json::{Value as Json, json};
 
 use crate::opening::kinds::Kinds;
+use crate::opening::linked_model::LinkedModel;
 use crate::opening::overlap::Sharing;
-use crate::opening::prepare::Prepared;
 
 /// A model and its atlas.
-pub fn describe_mesh(prepared: &Prepared) -> Json {
-    let (mesh, report) = (&prepared.model.mesh, &prepared.atlas.report);
-    let [width, height] = prepared.atlas.page_size;
-    let sharing = Sharing::of(prepared);
-    let told = prepared.model.warnings.iter().chain(&report.warnings).cloned();
-    let warnings: Vec<String> = told.chain(sharing.warning(prepared)).collect();
+pub fn describe_mesh(linked: &LinkedModel) -> Json {
+    let (mesh, report) = (&linked.model.mesh, &linked.atlas.report);
+    let [width, height] = linked.atlas.page_size;
+    let sharing = Sharing::of(linked);
+    let told = linked.model.warnings.iter().chain(&report.warnings).cloned();
+    let warnings: Vec<String> = told.chain(sharing.warning(linked)).collect();
     json!({
         "triangles": mesh.triangles.len(),
         "vertices": mesh.positions.len(),
-        "parts": prepared.model.parts,
-        "pieces": prepared.pieces.boxes.len(),
-        "materials": sabi_export::set_names(&prepared.model),
-        "unwrapped": describe_unwrapping(prepared),
+        "parts": linked.model.parts,
+        "pieces": linked.pieces.boxes.len(),
+        "materials": sabi_export::set_names(&linked.model),
+        "unwrapped": describe_unwrapping(linked),
         "vertex_colors": !mesh.colors.is_empty(),
-        "largest_side": short(prepared.largest_side as f32),
-        "size": prepared.atlas.size,
-        "pages": prepared.atlas.pages,
+        "largest_side": short(linked.largest_side as f32),
+        "size": linked.atlas.size,
+        "pages": linked.atlas.pages,
         "page_size": [width, height],
-        "charts": prepared.atlas.charts.len(),
+        "charts": linked.atlas.charts.len(),
         "coverage": short(report.coverage),
-        "overlap": sharing.json(prepared),
+        "overlap": sharing.json(linked),
         "overlapping_charts": report.overlapping_charts.len(),
         "stacked_charts": report.stacked_charts,
         "mirrored_charts": report.mirrored_charts,
@@ -39,15 +39,15 @@ pub fn describe_mesh(prepared: &Prepared) -> Json {
         "degenerate_uv_triangles": report.degenerate_uv_triangles,
         "nonmanifold_edges": report.nonmanifold_edges,
         "border_edges": report.border_edges,
-        "ghost_texels": prepared.atlas.ghosts.len(),
+        "ghost_texels": linked.atlas.ghosts.len(),
         "unlinked_ghosts": report.unlinked_ghosts,
         "warnings": warnings,
     })
 }
 
 /// How a model was unwrapped; null if it was not.
-pub(crate) fn describe_unwrapping(prepared: &Prepared) -> Json {
-    let Some(unwrapping) = &prepared.unwrapped else {
+pub(crate) fn describe_unwrapping(linked: &LinkedModel) -> Json {
+    let Some(unwrapping) = &linked.unwrapped else {
         return Json::Null;
     };
     let report = &unwrapping.report;
@@ -60,7 +60,7 @@ pub(crate) fn describe_unwrapping(prepared: &Prepared) -> Json {
         "coverage": short(report.coverage),
         "stretch": short(report.stretch),
         "worst_stretch": short(report.worst_stretch),
-        "gap_texels": short(report.gap_at(prepared.atlas.size)),
+        "gap_texels": short(report.gap_at(linked.atlas.size)),
     })
 }
 

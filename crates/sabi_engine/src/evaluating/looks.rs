@@ -67,7 +67,7 @@ pub fn evaluate_looks(
     let (wanted, shows) = match seen {
         Some(target) => (vec![target.clone()], LookAssignment::One),
         None => {
-            let (serving, idle) = shown_by(&workpiece.graph, &workpiece.prepared.model, &workpiece.prepared.atlas);
+            let (serving, idle) = shown_by(&workpiece.graph, &workpiece.linked.model, &workpiece.linked.atlas);
             workpiece.warn(idle);
             if serving.values().any(|&node| node == workpiece.graph.nodes.len()) {
                 workpiece.graph.nodes.push(model_source_node(workpiece.fit));
@@ -110,7 +110,7 @@ pub(crate) fn looks_of_run(
             Some(1 + plan.results.iter().position(|result| result.target.node == *node)?)
         }
     };
-    let materials = 0..workpiece.prepared.model.materials.len() as u32;
+    let materials = 0..workpiece.linked.model.materials.len() as u32;
     Ok(ModelLooks {
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
         is_lit: looks.iter().all(|look| look.node.is_none()),

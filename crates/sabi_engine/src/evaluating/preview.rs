@@ -58,14 +58,14 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let rehearsed = refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
     rehearsed.results.first().ok_or_else(nothing)?;
     let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
-    let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
+    let (model, atlas) = (&workpiece.linked.model, &workpiece.linked.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
     workpiece.warn(which_is_shown(&sets));
     let key = sets[0].key;
     let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, workpiece.gpu.limits())?;
     let run = workpiece.run(&plan, Duration::from_millis(200), progress, None)?;
     let result = plan.results.first().ok_or_else(nothing)?;
-    let texture_space = TextureSpace::new(&workpiece.prepared, key);
+    let texture_space = TextureSpace::new(&workpiece.linked, key);
     let planes = texture_space.planes(&workpiece, &plan, &run, result)?;
     let size = texture_space.layout.size;
     let bytes = if is_exact {

@@ -9,7 +9,7 @@ use sabi_surface::atlas::{Atlas, Chart};
 use crate::baking::maps::set_layout;
 use crate::error::EngineError;
 use crate::evaluating::workpiece::Workpiece;
-use crate::opening::prepare::Prepared;
+use crate::opening::linked_model::LinkedModel;
 
 impl Workpiece {
     /// Which texels show what other texels hold, since an engine would find that on the maps: found when first asked for. None
@@ -20,7 +20,7 @@ impl Workpiece {
     /// another material's chart shows its own material there, and not that one.
     pub(crate) fn shares(&self) -> Result<Option<&Shares>, EngineError> {
         if self.shares.get().is_none() {
-            let shared = self.prepared.shared_texels();
+            let shared = self.linked.shared_texels();
             let shares = match shared.is_empty() {
                 true => None,
                 false => Some(Shares::upload(&self.gpu, shared.groups())?),
@@ -32,7 +32,7 @@ impl Workpiece {
     }
 }
 
-impl Prepared {
+impl LinkedModel {
     /// Texels of all texture sets that show what other texels hold, as the maps do. For a model without overlap nothing is
     /// laid out.
     pub fn shared_texels(&self) -> SharedTexels {

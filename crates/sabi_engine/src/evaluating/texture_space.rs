@@ -11,7 +11,7 @@ use sabi_plan::{Plan, PlannedResult};
 use crate::baking::maps::set_layout;
 use crate::error::EngineError;
 use crate::evaluating::workpiece::Workpiece;
-use crate::opening::prepare::Prepared;
+use crate::opening::linked_model::LinkedModel;
 
 /// Texels by which results are continued outside of charts, to be looked at.
 const PADDING: Padding = Padding::Texels(4);
@@ -47,8 +47,8 @@ pub struct ResultPlane {
 }
 
 impl TextureSpace {
-    pub(crate) fn new(prepared: &Prepared, key: SetKey) -> TextureSpace {
-        let layout = set_layout(prepared, key);
+    pub(crate) fn new(linked: &LinkedModel, key: SetKey) -> TextureSpace {
+        let layout = set_layout(linked, key);
         TextureSpace {
             padding: PaddingMap::new(&layout, PADDING),
             layout,

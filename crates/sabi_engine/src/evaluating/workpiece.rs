@@ -21,10 +21,10 @@ use crate::evaluating::ray_cache::RayCache;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::levels::AtlasLevels;
+use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::overlap::Sharing;
 use crate::opening::overridden::refuse_bad_values;
 use crate::opening::pictures::{Pictures, files};
-use crate::opening::prepare::{ModelOptions, Prepared};
 use crate::opening::setting::read_typed;
 use crate::opening::solidity;
 use crate::phases::{Phase, Progress};
@@ -55,7 +55,7 @@ pub struct Workpiece {
     /// All node kinds, with `source/model` as this model has it.
     pub kinds: Kinds,
     /// The model with its atlas.
-    pub prepared: Arc<Prepared>,
+    pub linked: Arc<LinkedModel>,
     /// The device.
     pub gpu: Arc<Gpu>,
     /// The atlas on the device.
@@ -122,13 +122,15 @@ impl Workpiece {
         progress: &dyn Progress,
     ) -> Result<Workpiece, EngineError> {
         let mut times = PhaseTimes::default();
-        let model = times.load.time(|| Prepared::load_model(&options.model))?;
+        let model = times.load.time(|| LinkedModel::load_model(&options.model))?;
         progress.advance(Phase::Load, 1, 1);
         stop_if_canceled(progress)?;
-        let prepared = times.atlas.time(|| Prepared::link(model, &options.model, progress))?;
+        let linked = times
+            .atlas
+            .time(|| LinkedModel::link(model, &options.model, progress))?;
         stop_if_canceled(progress)?;
         let gpu = times.compile.time(|| Gpu::open(&options.adapter))?;
-        let mut workpiece = Workpiece::assemble(open, graph, kinds, prepared, Arc::new(gpu), options)?;
+        let mut workpiece = Workpiece::assemble(open, graph, kinds, linked, Arc::new(gpu), options)?;
         workpiece.times.load.add(times.load.total());
         workpiece.times.atlas = times.atlas;
         workpiece.times.compile = times.compile;
@@ -140,30 +142,30 @@ impl Workpiece {
         open: &OpenGraph,
         graph: FlatGraph,
         mut kinds: Kinds,
-        prepared: impl Into<Arc<Prepared>>,
+        linked: impl Into<Arc<LinkedModel>>,
         gpu: Arc<Gpu>,
         options: &WorkpieceOptions,
     ) -> Result<Workpiece, EngineError> {
-        let prepared: Arc<Prepared> = prepared.into();
+        let linked: Arc<LinkedModel> = linked.into();
         let mut times = PhaseTimes::default();
         let chosen = (options.fit.or(options.overrides.fit), options.overrides.seed);
         let fit = chosen.0.unwrap_or(open.document.fit);
         let seed = chosen.1.unwrap_or(open.document.seed);
-        let tables = times.load.time(|| prepared.tables(&fit, seed));
-        let levels = times.atlas.time(|| AtlasLevels::new(&prepared, &fit));
+        let tables = times.load.time(|| linked.tables(&fit, seed));
+        let levels = times.atlas.time(|| AtlasLevels::new(&linked, &fit));
         let surface = times
             .load
-            .time(|| GpuSurface::upload(&gpu, &prepared.atlas, &tables, levels.of(0)))?;
-        kinds.adapt_to(&prepared.model);
-        let of_model = warnings_of(&prepared);
+            .time(|| GpuSurface::upload(&gpu, &linked.atlas, &tables, levels.of(0)))?;
+        kinds.adapt_to(&linked.model);
+        let of_model = warnings_of(&linked);
         let warnings = of_model.iter().cloned().chain(kinds.left_out()).collect();
-        let surface_key = surface_key(&prepared, &tables);
+        let surface_key = surface_key(&linked, &tables);
         let budget_bytes = options.budget_bytes;
         Ok(Workpiece {
             path: open.path.clone(),
             graph,
             kinds,
-            prepared,
+            linked,
             gpu,
             surface,
             fit,
@@ -194,7 +196,7 @@ impl Workpiece {
         let path = self.path.display().to_string();
         let said = |error: &PlanError| format!("{path}: {error}");
         self.warn(warnings.iter().map(said));
-        self.warn(solidity::warnings(&plan, &self.prepared));
+        self.warn(solidity::warnings(&plan, &self.linked));
         if errors.is_empty() {
             return Ok(plan);
         }
@@ -217,7 +219,7 @@ impl Workpiece {
     pub(crate) fn read_files(&self, open: &OpenGraph) -> Vec<PathBuf> {
         let groups = self.graph.nodes.iter().filter_map(|node| node.file.as_ref());
         let groups = groups.map(|file| open.folder().join(file));
-        let model = self.prepared.model.files.iter().cloned();
+        let model = self.linked.model.files.iter().cloned();
         let named = files(open.folder(), &self.graph, &self.kinds);
         let own = std::iter::once(open.path.clone()).chain(groups);
         own.chain(model).chain(named).collect()
@@ -230,7 +232,7 @@ impl Workpiece {
 
     /// Plans what of the targets can be planned, and says what is at fault.
     pub fn try_plan(&self, targets: &[Target], mode: Mode, limits: Limits) -> (Plan, Vec<PlanError>) {
-        let scale = self.prepared.working_from_model(&self.fit);
+        let scale = self.linked.working_from_model(&self.fit);
         let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
         let wanted = self.graph.upstream(&wanted);
         let contents = self.pictures.contents(self.folder(), &self.graph, &self.kinds, wanted);
@@ -239,7 +241,7 @@ impl Workpiece {
             kind.is_some_and(|kind| kind.shape == Shape::Field)
         };
         let has_filters = self.graph.nodes.iter().any(is_filter);
-        let levels = self.levels.widths(&self.prepared, has_filters);
+        let levels = self.levels.widths(&self.linked, has_filters);
         let planner = Planner {
             graph: &self.graph,
             library: &self.kinds.library,
@@ -247,8 +249,8 @@ impl Workpiece {
             sinks: &self.kinds.sinks,
             files: &contents,
             lengths: Lengths {
-                working_from: &|fit| scale / self.prepared.working_from_model(fit),
-                extent: &|direction| self.prepared.extent(&self.fit, direction),
+                working_from: &|fit| scale / self.linked.working_from_model(fit),
+                extent: &|direction| self.linked.extent(&self.fit, direction),
             },
             levels: &levels,
             surface_key: self.surface_key,
@@ -285,7 +287,7 @@ impl Workpiece {
 
     /// Makes the coarser levels that a plan runs on and that are not there yet.
     pub(crate) fn make_levels(&mut self, plan: &Plan) -> Result<(), EngineError> {
-        self.levels.make(plan, &self.gpu, &self.prepared, &self.fit, self.seed)
+        self.levels.make(plan, &self.gpu, &self.linked, &self.fit, self.seed)
     }
 
     /// Runs a plan whose levels are there.
@@ -297,13 +299,13 @@ impl Workpiece {
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, GpuError> {
         let ground = SourceSurface {
-            model: &self.prepared.model,
-            atlas: &self.prepared.atlas,
+            model: &self.linked.model,
+            atlas: &self.linked.atlas,
             tables: &self.tables,
-            pieces: &self.prepared.pieces,
-            bvh: &self.prepared.bvh,
+            pieces: &self.linked.pieces,
+            bvh: &self.linked.bvh,
             bvh_on_device: &self.bvh_on_device,
-            working_from_model: self.prepared.working_from_model(&self.fit),
+            working_from_model: self.linked.working_from_model(&self.fit),
         };
         let files = Files {
             pictures: &self.pictures,
@@ -345,21 +347,18 @@ pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineErro
 }
 
 /// What is to be known of a model before anything is evaluated on it.
-fn warnings_of(prepared: &Prepared) -> Vec<String> {
-    let mut warnings = prepared.model.warnings.clone();
-    warnings.extend(prepared.atlas.report.warnings.iter().cloned());
-    warnings.extend(Sharing::of(prepared).warning(prepared));
+fn warnings_of(linked: &LinkedModel) -> Vec<String> {
+    let mut warnings = linked.model.warnings.clone();
+    warnings.extend(linked.atlas.report.warnings.iter().cloned());
+    warnings.extend(Sharing::of(linked).warning(linked));
     warnings
 }
 
 /// Names the surface: the atlas by what it is made of, and where every triangle lies in space. The program itself need not be
 /// part of it: results are kept in memory, and those of rays on disk have a version of their own.
-fn surface_key(prepared: &Prepared, tables: &SurfaceTables) -> [u8; 32] {
+fn surface_key(linked: &LinkedModel, tables: &SurfaceTables) -> [u8; 32] {
     let mut hash = blake3::Hasher::new();
-    hash.update(&atlas_key(
-        &prepared.model.mesh,
-        &AtlasOptions::new(prepared.atlas.size),
-    ));
+    hash.update(&atlas_key(&linked.model.mesh, &AtlasOptions::new(linked.atlas.size)));
     for row in tables.geometry.iter().chain(&tables.frames).chain(&tables.pieces) {
         hash.update(row.map(f32::to_le_bytes).as_flattened());
     }

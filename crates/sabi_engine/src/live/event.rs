@@ -14,7 +14,7 @@ use crate::baking::sets::TextureSet;
 use crate::error::EngineError;
 use crate::evaluating::looks::ModelLooks;
 use crate::evaluating::texture_space::ResultPlane;
-use crate::opening::prepare::Prepared;
+use crate::opening::linked_model::LinkedModel;
 
 /// Something that a window is told. What is handed over never changes again.
 pub enum LiveEvent {
@@ -109,7 +109,7 @@ pub struct LiveModel {
     /// Texels for one unit of UV.
     pub size: u32,
     /// The model with its atlas and what picking follows rays through.
-    pub prepared: Arc<Prepared>,
+    pub linked: Arc<LinkedModel>,
     /// The model on the device.
     pub view: ViewModel,
     /// Where it stands in view space.

@@ -9,7 +9,7 @@ use super::queue::LoadWatch;
 use super::sized_model::SizedModel;
 use super::worker::{Job, Worker};
 use crate::error::{EngineError, ErrorKind};
-use crate::opening::prepare::{ModelOptions, Prepared};
+use crate::opening::linked_model::{LinkedModel, ModelOptions};
 
 /// A model, at one size or two.
 pub(super) struct Loaded {
@@ -70,8 +70,8 @@ impl Worker {
             queue: &self.queue,
             model_revision: request.model_revision,
         };
-        let opened = Prepared::open(&options, &watch).and_then(|prepared| {
-            let model = (Arc::new(prepared), request.model_revision);
+        let opened = LinkedModel::open(&options, &watch).and_then(|linked| {
+            let model = (Arc::new(linked), request.model_revision);
             SizedModel::new(&self.gpu, &self.options, request, model, is_coarse)
         });
         let sized = match opened {
@@ -114,9 +114,9 @@ impl Worker {
             queue: &self.queue,
             model_revision: loaded.revision,
         };
-        let resized = coarse.model.prepared.resized(&options, &watch);
-        let sized = resized.and_then(|prepared| {
-            let model = (Arc::new(prepared), loaded.revision);
+        let resized = coarse.model.linked.resized(&options, &watch);
+        let sized = resized.and_then(|linked| {
+            let model = (Arc::new(linked), loaded.revision);
             SizedModel::new(&self.gpu, &self.options, &job.request, model, false)
         });
         match sized {

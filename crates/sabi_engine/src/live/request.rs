@@ -10,7 +10,7 @@ use sabi_graph::NodeRef;
 
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::opening::prepare::ModelOptions;
+use crate::opening::linked_model::ModelOptions;
 
 /// How a graph is evaluated while it is worked on.
 #[derive(Clone, Debug)]

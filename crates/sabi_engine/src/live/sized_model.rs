@@ -19,7 +19,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::looks::{LookAssignment, ModelLooks, looks_of_run, model_source_node};
 use crate::evaluating::texture_space::TextureSpace;
 use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions};
-use crate::opening::prepare::{ModelOptions, Prepared};
+use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
 use crate::phases::Progress;
 
@@ -75,13 +75,13 @@ impl SizedModel {
         gpu: &Arc<Gpu>,
         options: &LiveOptions,
         request: &LiveRequest,
-        (prepared, model_revision): (Arc<Prepared>, u64),
+        (linked, model_revision): (Arc<LinkedModel>, u64),
         is_coarse: bool,
     ) -> Result<SizedModel, EngineError> {
         let workpiece_options = WorkpieceOptions {
             model: ModelOptions {
                 cache_dir: options.cache_dir.clone(),
-                size: prepared.atlas.size,
+                size: linked.atlas.size,
                 ..(*request.model).clone()
             },
             overrides: Overrides::default(),
@@ -92,7 +92,7 @@ impl SizedModel {
         };
         let graph = FlatGraph::default();
         let kinds = (*request.kinds).clone();
-        let workpiece = Workpiece::assemble(&request.graph, graph, kinds, prepared, gpu.clone(), &workpiece_options)?;
+        let workpiece = Workpiece::assemble(&request.graph, graph, kinds, linked, gpu.clone(), &workpiece_options)?;
         // Coarse results have a quarter of a full one's texels, or fewer.
         let of_coarse = options.cache_bytes / 4;
         let cache_bytes = if is_coarse {
@@ -122,8 +122,8 @@ impl SizedModel {
             self.workpiece.set_kinds((*request.kinds).clone());
             self.kinds_revision = request.kinds_revision;
         }
-        let prepared = &self.workpiece.prepared;
-        let (serving, idle) = shown_by(graph, &prepared.model, &prepared.atlas);
+        let linked = &self.workpiece.linked;
+        let (serving, idle) = shown_by(graph, &linked.model, &linked.atlas);
         self.serving = serving;
         // Materials that no output serves are shown by a node of the model's own looks at the end of the graph.
         let mut graph = graph.clone();
@@ -157,8 +157,8 @@ impl SizedModel {
         } = self;
         let set = model.set(wanted).ok_or_else(no_texture_space)?;
         let laid = texture_space.take().filter(|(laid, _)| laid == set);
-        let (set, texture_space) = texture_space
-            .insert(laid.unwrap_or_else(|| (set.clone(), TextureSpace::new(&workpiece.prepared, set.key))));
+        let (set, texture_space) =
+            texture_space.insert(laid.unwrap_or_else(|| (set.clone(), TextureSpace::new(&workpiece.linked, set.key))));
         Ok((workpiece, set, texture_space))
     }
 
@@ -188,7 +188,7 @@ impl SizedModel {
     pub(super) fn warnings(&self) -> impl Iterator<Item = &String> {
         let is_of_now = |of: &BTreeSet<[u8; 32]>| of.is_empty() || !of.is_disjoint(&self.sources);
         let noted = self.noted.iter().filter(move |(of, _)| is_of_now(of));
-        let of_model = self.shoots.then(|| self.model.prepared.solidity.get()).flatten();
+        let of_model = self.shoots.then(|| self.model.linked.solidity.get()).flatten();
         let workpiece = self.workpiece.warnings.iter().chain(&self.idle);
         workpiece
             .chain(noted.map(|(_, sentence)| sentence))
@@ -198,7 +198,7 @@ impl SizedModel {
     /// Finds out what rays cannot rely on, if there are any.
     pub(super) fn look_at_solidity(&self) {
         if self.shoots {
-            solidity::of_model(&self.model.prepared);
+            solidity::of_model(&self.model.linked);
         }
     }
 
@@ -269,23 +269,23 @@ fn sources_of(plan: &Plan) -> impl Iterator<Item = [u8; 32]> {
 }
 
 fn live_model(workpiece: &Workpiece, model_revision: u64) -> Result<Arc<LiveModel>, EngineError> {
-    let prepared = &workpiece.prepared;
-    let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
+    let linked = &workpiece.linked;
+    let model_from_working = 1.0 / linked.working_from_model(&workpiece.fit);
     let view = ViewModel::new(
         &workpiece.gpu,
-        &prepared.model,
-        &prepared.atlas,
+        &linked.model,
+        &linked.atlas,
         &workpiece.surface,
         model_from_working,
     )?;
     Ok(Arc::new(LiveModel {
         model_revision,
-        size: prepared.atlas.size,
-        prepared: prepared.clone(),
+        size: linked.atlas.size,
+        linked: linked.clone(),
         placement: view.placement,
         view,
         fit: workpiece.fit,
         // A model without any is told of where a set is wanted.
-        sets: texture_sets(&prepared.model, &prepared.atlas, None).unwrap_or_default(),
+        sets: texture_sets(&linked.model, &linked.atlas, None).unwrap_or_default(),
     }))
 }

@@ -57,7 +57,7 @@ impl ThumbnailRenderer {
     }
 
     fn pose(&self, gpu: &Gpu, side: u32, model: &LiveModel) -> Result<Pose, EngineError> {
-        let bounds = model.placement.box_in_view(&model.prepared.model.mesh);
+        let bounds = model.placement.box_in_view(&model.linked.model.mesh);
         let shot = Shot {
             background: Background::Clear,
             samples: SAMPLES,

@@ -155,7 +155,7 @@ impl Worker {
             && let Some(sized) = self.loaded.as_mut().and_then(Loaded::best)
         {
             // The window picks with it, and must not wait for it.
-            sized.model.prepared.hierarchy();
+            sized.model.linked.hierarchy();
         }
         if job.totals.steps + job.totals.cache_hits > 0 {
             self.tell_times(&job);

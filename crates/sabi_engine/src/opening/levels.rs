@@ -7,7 +7,7 @@ use sabi_graph::Fit;
 use sabi_plan::{Plan, Step};
 
 use crate::error::{EngineError, ErrorKind};
-use crate::opening::prepare::Prepared;
+use crate::opening::linked_model::LinkedModel;
 
 /// The levels of one surface that were made so far.
 pub(crate) struct AtlasLevels {
@@ -19,19 +19,19 @@ pub(crate) struct AtlasLevels {
 }
 
 impl AtlasLevels {
-    pub(crate) fn new(prepared: &Prepared, fit: &Fit) -> AtlasLevels {
-        let scale = prepared.working_from_model(fit);
+    pub(crate) fn new(linked: &LinkedModel, fit: &Fit) -> AtlasLevels {
+        let scale = linked.working_from_model(fit);
         AtlasLevels {
-            finest: prepared.finest_texel() * scale,
-            farthest: prepared.farthest * scale,
+            finest: linked.finest_texel() * scale,
+            farthest: linked.farthest * scale,
             coarser: BTreeMap::new(),
         }
     }
 
     /// Texel width of each level that may be used, working units, finest first. The whole atlas is looked at for that, so
     /// it is asked for graphs only that have filters.
-    pub(crate) fn widths(&self, prepared: &Prepared, has_filters: bool) -> Vec<f64> {
-        let coarser = if has_filters { prepared.usable_levels() } else { 0 };
+    pub(crate) fn widths(&self, linked: &LinkedModel, has_filters: bool) -> Vec<f64> {
+        let coarser = if has_filters { linked.usable_levels() } else { 0 };
         (0..=coarser).map(|level| self.of(level).texel).collect()
     }
 
@@ -49,7 +49,7 @@ impl AtlasLevels {
         &mut self,
         plan: &Plan,
         gpu: &Gpu,
-        prepared: &Prepared,
+        linked: &LinkedModel,
         fit: &Fit,
         seed: u32,
     ) -> Result<(), EngineError> {
@@ -62,9 +62,9 @@ impl AtlasLevels {
             if level == 0 || self.coarser.contains_key(&level) {
                 continue;
             }
-            let made = prepared.atlas.level(&prepared.model.mesh, level);
+            let made = linked.atlas.level(&linked.model.mesh, level);
             let made = made.map_err(|error| EngineError::new(ErrorKind::BadInput, error.to_string()))?;
-            let tables = prepared.tables_of(&made.atlas, fit, seed);
+            let tables = linked.tables_of(&made.atlas, fit, seed);
             let surface = CoarseSurface::upload(gpu, &made, &tables, self.of(level))?;
             self.coarser.insert(level, surface);
         }

@@ -6,7 +6,7 @@ use sabi_export::{set_keys, set_names};
 use sabi_surface::atlas::{Chart, PAIRS_LIMIT};
 use serde_json::{Value as Json, json};
 
-use crate::opening::prepare::{Overlap, Prepared};
+use crate::opening::linked_model::{LinkedModel, Overlap};
 
 /// Materials that are named in a report; more would tell nobody more.
 const MATERIALS: usize = 10;
@@ -37,8 +37,8 @@ pub(crate) struct Sharing {
 
 impl Sharing {
     /// Looks at all pairs that the atlas lists. In UDIM layouts charts of different tiles share nothing.
-    pub(crate) fn of(prepared: &Prepared) -> Sharing {
-        let atlas = &prepared.atlas;
+    pub(crate) fn of(linked: &LinkedModel) -> Sharing {
+        let atlas = &linked.atlas;
         let udims: Vec<u32> = set_keys(atlas)
             .iter()
             .filter(|key| key.udim.is_some())
@@ -106,8 +106,8 @@ impl Sharing {
     }
 
     /// For reports: the share of the surface, pairs by kind, and the worst materials by name.
-    pub(crate) fn json(&self, prepared: &Prepared) -> Json {
-        let names = set_names(&prepared.model);
+    pub(crate) fn json(&self, linked: &LinkedModel) -> Json {
+        let names = set_names(&linked.model);
         let kinds = |shared: Shared| {
             json!({
                 "stacked": shared.stacked, "mirrored": shared.mirrored, "tiling": shared.tiling, "partial": shared.partial,
@@ -123,7 +123,7 @@ impl Sharing {
         report["texels"] = json!(if self.by_material.is_empty() {
             0
         } else {
-            prepared.atlas.report.overlap_texels
+            linked.atlas.report.overlap_texels
         });
         report["more_than_counted"] = json!(self.is_cut);
         report["share"] = json!((self.share * 10_000.0).round() / 10_000.0);
@@ -132,7 +132,7 @@ impl Sharing {
     }
 
     /// What maps hold where charts share a place, and which way of taking them would suit this model better.
-    pub(crate) fn warning(&self, prepared: &Prepared) -> Option<String> {
+    pub(crate) fn warning(&self, linked: &LinkedModel) -> Option<String> {
         let (material, _) = *self.worst().first()?;
         let total = self.total();
         let kinds = [
@@ -147,7 +147,7 @@ impl Sharing {
             .map(|(count, word)| format!("{count} {word}"))
             .collect();
         let least = if self.is_cut { "at least " } else { "" };
-        let names = set_names(&prepared.model);
+        let names = set_names(&linked.model);
         let name = names.get(material as usize).map_or("", String::as_str);
         let share = match self.share {
             share if share <= 0.0 => "UV charts repeat the unit square".to_owned(),
@@ -155,7 +155,7 @@ impl Sharing {
             share => format!("UV charts overlap on {:.1} % of the surface", 100.0 * share),
         };
         let copies = total.tiling == 0 && total.partial == 0;
-        let (hold, advice) = advice(prepared.overlap, prepared.unwrapped.is_some(), copies);
+        let (hold, advice) = advice(linked.overlap, linked.unwrapped.is_some(), copies);
         Some(format!(
             "{share} ({least}{}), most of all in '{name}': maps hold {hold} there; {advice}",
             kinds.join(", ")

@@ -5,24 +5,24 @@ use rayon::prelude::*;
 use sabi_plan::{Plan, Step};
 use sabi_surface::model::Mesh;
 
-use crate::opening::prepare::Prepared;
+use crate::opening::linked_model::LinkedModel;
 
 /// Sentences about the model for a plan that shoots rays; none for others.
-pub(crate) fn warnings(plan: &Plan, prepared: &Prepared) -> Vec<String> {
+pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<String> {
     let shoots = |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some());
     if !plan.steps.iter().any(shoots) {
         return Vec::new();
     }
-    of_model(prepared).to_vec()
+    of_model(linked).to_vec()
 }
 
 /// The same whatever is planned; found once for a model.
-pub(crate) fn of_model(prepared: &Prepared) -> &[String] {
-    prepared.solidity.get_or_init(|| about(prepared))
+pub(crate) fn of_model(linked: &LinkedModel) -> &[String] {
+    linked.solidity.get_or_init(|| about(linked))
 }
 
-fn about(prepared: &Prepared) -> Vec<String> {
-    let report = &prepared.atlas.report;
+fn about(linked: &LinkedModel) -> Vec<String> {
+    let report = &linked.atlas.report;
     let mut told = Vec::new();
     if report.border_edges > 0 {
         told.push(format!(
@@ -31,7 +31,7 @@ fn about(prepared: &Prepared) -> Vec<String> {
             edges(report.border_edges)
         ));
     } else {
-        told.extend(about_inside(&prepared.model.mesh).map(str::to_owned));
+        told.extend(about_inside(&linked.model.mesh).map(str::to_owned));
     }
     if report.nonmanifold_edges > 0 {
         told.push(format!(
@@ -39,7 +39,7 @@ fn about(prepared: &Prepared) -> Vec<String> {
             edges(report.nonmanifold_edges)
         ));
     }
-    let crossings = crossings(prepared);
+    let crossings = crossings(linked);
     if crossings > 0 {
         told.push(format!(
             "The model passes through itself at {}: what lies inside it counts as close by, so creases and occlusion are \
@@ -52,10 +52,10 @@ fn about(prepared: &Prepared) -> Vec<String> {
 
 /// Edges that pass through a face of the same piece, each counted for each of its triangles. Parts that are put together
 /// from several pieces are meant to reach into each other.
-fn crossings(prepared: &Prepared) -> u32 {
-    let mesh = &prepared.model.mesh;
-    let bvh = prepared.hierarchy();
-    let pieces = &prepared.pieces.triangle_piece;
+fn crossings(linked: &LinkedModel) -> u32 {
+    let mesh = &linked.model.mesh;
+    let bvh = linked.hierarchy();
+    let pieces = &linked.pieces.triangle_piece;
     let place = |vertex: u32| Vec3::from(mesh.positions[vertex as usize]);
     let crosses = |triangle: u32, [from, to]: [u32; 2]| {
         let (start, way) = (place(from), place(to) - place(from));

@@ -34,8 +34,8 @@ pub(crate) fn displaced_model(
     shown: &ModelLooks,
     triangles: Triangles,
 ) -> Result<ViewModel, EngineError> {
-    let (model, atlas) = (&workpiece.prepared.model, &workpiece.prepared.atlas);
-    let model_from_working = 1.0 / workpiece.prepared.working_from_model(&workpiece.fit);
+    let (model, atlas) = (&workpiece.linked.model, &workpiece.linked.atlas);
+    let model_from_working = 1.0 / workpiece.linked.working_from_model(&workpiece.fit);
     let of_looks = shown.looks.iter();
     let heights: Vec<Option<Vec<f32>>> = of_looks
         .map(|look| heights_of(workpiece, look, model_from_working))

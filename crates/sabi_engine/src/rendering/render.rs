@@ -183,9 +183,9 @@ fn view_model(
     if let Some(triangles) = request.displace {
         return displaced_model(workpiece, shown, triangles);
     }
-    let (gpu, prepared) = (&workpiece.gpu, &workpiece.prepared);
-    let model_from_working = 1.0 / prepared.working_from_model(&workpiece.fit);
-    let (model, atlas) = (&prepared.model, &prepared.atlas);
+    let (gpu, linked) = (&workpiece.gpu, &workpiece.linked);
+    let model_from_working = 1.0 / linked.working_from_model(&workpiece.fit);
+    let (model, atlas) = (&linked.model, &linked.atlas);
     Ok(ViewModel::new(
         gpu,
         model,
@@ -246,7 +246,7 @@ fn draw(
 }
 
 fn camera_of(request: &RenderRequest, workpiece: &Workpiece) -> Camera {
-    let mesh = &workpiece.prepared.model.mesh;
+    let mesh = &workpiece.linked.model.mesh;
     let bounds = Placement::of(mesh).box_in_view(mesh);
     let aspect = aspect_of(UVec2::from(request.size).as_vec2());
     let mut camera = Camera::seen_from(request.camera, bounds, aspect);

@@ -118,7 +118,7 @@ fn a_model_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     let triangles = |editor: &Editor| {
         let model = editor.stage.shown_model.as_ref().expect("a model");
-        model.prepared.model.mesh.triangles.len()
+        model.linked.model.mesh.triangles.len()
     };
     let of_cube = triangles(watched.window.editor());
     let sphere = include_bytes!("../../../../../assets/meshes/sphere.glb");

@@ -18,10 +18,10 @@ impl Workpiece {
         let fit = self.chosen.0.unwrap_or(open.document.fit);
         let seed = self.chosen.1.unwrap_or(open.document.seed);
         if (fit, seed) != (self.fit, self.seed) {
-            let tables = self.prepared.tables(&fit, seed);
-            let levels = AtlasLevels::new(&self.prepared, &fit);
-            self.surface = GpuSurface::upload(&self.gpu, &self.prepared.atlas, &tables, levels.of(0))?;
-            self.surface_key = surface_key(&self.prepared, &tables);
+            let tables = self.linked.tables(&fit, seed);
+            let levels = AtlasLevels::new(&self.linked, &fit);
+            self.surface = GpuSurface::upload(&self.gpu, &self.linked.atlas, &tables, levels.of(0))?;
+            self.surface_key = surface_key(&self.linked, &tables);
             (self.tables, self.levels) = (tables, levels);
             (self.fit, self.seed) = (fit, seed);
             self.bvh_on_device = OnceLock::new();
@@ -35,7 +35,7 @@ impl Workpiece {
 
     /// Takes other node kinds, such as those of node files that were read again.
     pub fn set_kinds(&mut self, mut kinds: Kinds) {
-        kinds.adapt_to(&self.prepared.model);
+        kinds.adapt_to(&self.linked.model);
         self.kinds = kinds;
         self.begin_warnings();
     }

@@ -67,7 +67,7 @@ impl ModelOptions {
 }
 
 /// A model with its atlas.
-pub struct Prepared {
+pub struct LinkedModel {
     /// The model; where it was unwrapped, with its new mesh.
     pub model: Arc<Model>,
     /// How it was unwrapped; none where its own UVs are used.
@@ -96,7 +96,7 @@ pub struct Prepared {
 
 /// What is known about an unwrapped model.
 ///
-/// To write it out with UVs that its maps fit: [`Prepared::model`] has the mesh that was unwrapped, in world space around
+/// To write it out with UVs that its maps fit: [`LinkedModel::model`] has the mesh that was unwrapped, in world space around
 /// [`Model::middle`]. Its positions, normals, tangents and colors go into the file as they are, every set of `texture_uvs` as the `TEXCOORD` of its
 /// number, and `uvs`, which the maps are laid out by, as [`Unwrapping::uv_set`].
 #[derive(Clone, Debug, PartialEq)]
@@ -111,13 +111,13 @@ pub struct Unwrapping {
     pub was_cached: bool,
 }
 
-impl Prepared {
+impl LinkedModel {
     /// Loads a model and builds its atlas.
-    pub fn open(options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
-        let model = Prepared::load_model(options)?;
+    pub fn open(options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
+        let model = LinkedModel::load_model(options)?;
         progress.advance(Phase::Load, 1, 1);
         stop_if_canceled(progress)?;
-        Prepared::link(model, options, progress)
+        LinkedModel::link(model, options, progress)
     }
 
     /// Only loads the model.
@@ -135,7 +135,7 @@ impl Prepared {
     }
 
     /// Builds or finds the atlas of a loaded model, which is unwrapped first where it has to be.
-    pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
+    pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         progress.advance(Phase::Atlas, 0, 1);
         let refused = |error: String| refused(options, &error);
         let mut unwrapped = None;
@@ -157,7 +157,7 @@ impl Prepared {
         let (largest_side, farthest) = extents(&model);
         // After the atlas, which has refused meshes that are not whole.
         let pieces = Arc::new(Pieces::of(&model.mesh));
-        Ok(Prepared {
+        Ok(LinkedModel {
             model: Arc::new(model),
             unwrapped,
             overlap: options.overlap,
@@ -175,13 +175,13 @@ impl Prepared {
     }
 
     /// The same model with an atlas of another size. The model itself, and what rays are followed through, are shared.
-    pub fn resized(&self, options: &ModelOptions, progress: &dyn Progress) -> Result<Prepared, EngineError> {
+    pub fn resized(&self, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         progress.advance(Phase::Atlas, 0, 1);
         let cache_dir = options.cache_folder();
         let built = cached(cache_dir.as_deref(), &self.model.mesh, &AtlasOptions::new(options.size));
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, &with_advice(&error)))?;
         progress.advance(Phase::Atlas, 1, 1);
-        Ok(Prepared {
+        Ok(LinkedModel {
             model: self.model.clone(),
             unwrapped: self.unwrapped.clone(),
             overlap: self.overlap,
