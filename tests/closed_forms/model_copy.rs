@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, LinkedModel, ModelOptions, NoProgress, Overlap,
-    Overrides, Seams, WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, LinkedModel, ModelOptions,
+    NoProgress, Overlap, Overrides, Seams, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
 use sabi_image::{Pixels, decode};
@@ -44,7 +44,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
     fs::write(&path, graph).expect("a graph");
     let request = BakeRequest {
         graph: path,
-        workpiece: WorkpieceOptions {
+        evaluator: EvaluatorOptions {
             model,
             overrides: Overrides::default(),
             fit: None,

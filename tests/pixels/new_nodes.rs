@@ -41,8 +41,8 @@ fn evaluated(kinds: Kinds) -> (OnMesh, Vec<f32>) {
 /// Whether exactly the top of the cube is `inside`, and the rest is not.
 fn selects_the_top(on_mesh: &OnMesh, values: &[f32], inside: f32) -> bool {
     on_mesh.owned().all(|(index, triangle)| {
-        let corner = on_mesh.workpiece.linked.model.mesh.triangles[triangle as usize][0];
-        let is_top = on_mesh.workpiece.linked.model.mesh.normals[corner as usize][1] > 0.5;
+        let corner = on_mesh.evaluator.linked.model.mesh.triangles[triangle as usize][0];
+        let is_top = on_mesh.evaluator.linked.model.mesh.normals[corner as usize][1] > 0.5;
         values[index] == if is_top { inside } else { 1.0 - inside }
     })
 }
@@ -63,11 +63,11 @@ fn a_broken_edit_keeps_the_last_good_version() {
     let (on_mesh, values) = evaluated(kinds);
     assert!(selects_the_top(&on_mesh, &values, 0.0));
     let told = on_mesh
-        .workpiece
+        .evaluator
         .warnings
         .iter()
         .any(|warning| warning.contains("facing.wgsl"));
-    assert!(told, "{:?}", on_mesh.workpiece.warnings);
+    assert!(told, "{:?}", on_mesh.evaluator.warnings);
 }
 
 /// A folder of nodes that is watched.

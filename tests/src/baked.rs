@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, ModelOptions, NoProgress, Overrides, Seams,
-    WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, ModelOptions, NoProgress,
+    Overrides, Seams, bake,
 };
 use serde_json::Value as Json;
 use tempfile::TempDir;
@@ -46,7 +46,7 @@ impl Baked {
         fs::write(&path, graph).expect("the graph's file");
         let request = BakeRequest {
             graph: path,
-            workpiece: WorkpieceOptions {
+            evaluator: EvaluatorOptions {
                 model,
                 overrides: Overrides::default(),
                 fit: None,

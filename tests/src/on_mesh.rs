@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, LinkedModel, ModelOptions, NoProgress, OpenGraph,
-    Overrides, Pictures, Workpiece, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions,
+    NoProgress, OpenGraph, Overrides, Pictures,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -20,7 +20,7 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 /// A graph on a model.
 pub struct OnMesh {
     /// The two, on the device that all tests share.
-    pub workpiece: Workpiece,
+    pub evaluator: Evaluator,
     /// What kernels know of the surface, to compute places without them.
     pub tables: SurfaceTables,
 }
@@ -92,7 +92,7 @@ impl OnMesh {
     /// A graph of these kinds on a model that is taken in a certain way and tampered with.
     pub fn on_model(graph: &str, kinds: Kinds, model: ModelOptions, tamper: impl FnOnce(&mut LinkedModel)) -> OnMesh {
         let open = opened(graph);
-        let options = WorkpieceOptions {
+        let options = EvaluatorOptions {
             model,
             overrides: Overrides::default(),
             fit: None,
@@ -103,14 +103,14 @@ impl OnMesh {
         let mut linked = LinkedModel::open(&options.model, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
         tamper(&mut linked);
         let tables = linked.tables(&open.document.fit, open.document.seed);
-        let workpiece = Workpiece::assemble(&open, flat_graph(graph), kinds, linked, device(), &options)
+        let evaluator = Evaluator::assemble(&open, flat_graph(graph), kinds, linked, device(), &options)
             .unwrap_or_else(|error| panic!("{error}"));
-        OnMesh { workpiece, tables }
+        OnMesh { evaluator, tables }
     }
 
     /// Puts another graph on the same model; its seed and fit must be those of the first.
     pub fn set_graph(&mut self, graph: &str) {
-        self.workpiece.graph = flat_graph(graph);
+        self.evaluator.graph = flat_graph(graph);
     }
 
     /// Evaluates `id` or `id.port` as a bake does.
@@ -121,16 +121,16 @@ impl OnMesh {
     /// Evaluates `id` or `id.port`.
     pub fn evaluate_as(&mut self, node: &str, asked: Asked<'_>) -> Evaluated {
         let target = self.target(node);
-        let limits = self.workpiece.gpu.limits();
-        let plan = self.workpiece.plan(&[target], asked.mode, limits);
+        let limits = self.evaluator.gpu.limits();
+        let plan = self.evaluator.plan(&[target], asked.mode, limits);
         let plan = plan.unwrap_or_else(|error| panic!("{node}: {error}"));
         let mut run = self
-            .workpiece
+            .evaluator
             .run(&plan, SUBMISSION, &NoProgress, asked.cache)
             .unwrap_or_else(|error| panic!("{node}: {error}"));
         let result = &plan.results[0];
-        let gpu = &self.workpiece.gpu;
-        let surface = &self.workpiece.surface;
+        let gpu = &self.evaluator.gpu;
+        let surface = &self.evaluator.surface;
         let planes: Vec<(Plane, PlaneData)> = result
             .stored
             .planes()
@@ -166,7 +166,7 @@ impl OnMesh {
             Some((id, port)) => (id, Some(port.to_owned())),
             None => (text, None),
         };
-        let node = self.workpiece.graph.find(id);
+        let node = self.evaluator.graph.find(id);
         Target {
             node: node.unwrap_or_else(|| panic!("the graph has no node '{id}'")),
             port,

@@ -40,16 +40,16 @@ impl Pictured {
 
     /// A graph that is on a model already, in the light of a panorama.
     pub fn of(mut on_mesh: OnMesh, light: &Panorama) -> Pictured {
-        let shown = evaluate_looks(&mut on_mesh.workpiece, None, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
-        let workpiece = &on_mesh.workpiece;
-        let linked = &workpiece.linked;
-        let model_from_working = 1.0 / linked.working_from_model(&workpiece.fit);
-        let gpu = &workpiece.gpu;
+        let shown = evaluate_looks(&mut on_mesh.evaluator, None, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
+        let evaluator = &on_mesh.evaluator;
+        let linked = &evaluator.linked;
+        let model_from_working = 1.0 / linked.working_from_model(&evaluator.fit);
+        let gpu = &evaluator.gpu;
         let model = ViewModel::new(
             gpu,
             &linked.model,
             &linked.atlas,
-            &workpiece.surface,
+            &evaluator.surface,
             model_from_working,
         );
         Pictured {
@@ -72,7 +72,7 @@ impl Pictured {
     /// Shows a node's own result, or a node's material, on all of the model.
     pub fn show_node(&mut self, node: &str) {
         let target = self.on_mesh.target(node);
-        let shown = evaluate_looks(&mut self.on_mesh.workpiece, Some(&target), &NoProgress);
+        let shown = evaluate_looks(&mut self.on_mesh.evaluator, Some(&target), &NoProgress);
         self.shown = shown.unwrap_or_else(|error| panic!("{node}: {error}"));
     }
 
@@ -84,7 +84,7 @@ impl Pictured {
 
     /// A camera at a viewpoint that sees all of the model.
     pub fn camera(&self, viewpoint: Viewpoint, [width, height]: [u32; 2]) -> Camera {
-        let mesh = &self.on_mesh.workpiece.linked.model.mesh;
+        let mesh = &self.on_mesh.evaluator.linked.model.mesh;
         let bounds = Placement::of(mesh).box_in_view(mesh);
         Camera::seen_from(viewpoint, bounds, width as f32 / height as f32)
     }
@@ -102,7 +102,7 @@ impl Pictured {
 
     /// Draws, and hands over what it was drawn into.
     pub fn draw(&self, shot: &Shot, size: [u32; 2]) -> Target {
-        let gpu = &self.on_mesh.workpiece.gpu;
+        let gpu = &self.on_mesh.evaluator.gpu;
         let scene = self.scene();
         let mut target = Target::new(gpu, size).unwrap_or_else(|error| panic!("{error}"));
         let drawn = self.renderer.draw(gpu, &mut target, &scene, shot);
@@ -113,13 +113,13 @@ impl Pictured {
     /// The light of a picture: linear RGB and cover.
     pub fn light(&self, shot: &Shot, size: [u32; 2]) -> Vec<[f32; 4]> {
         self.draw(shot, size)
-            .read_light(&self.on_mesh.workpiece.gpu)
+            .read_light(&self.on_mesh.evaluator.gpu)
             .expect("light")
     }
 
     /// The picture.
     pub fn pixels(&self, shot: &Shot, size: [u32; 2]) -> Pixels {
-        self.draw(shot, size).read(&self.on_mesh.workpiece.gpu).expect("pixels")
+        self.draw(shot, size).read(&self.on_mesh.evaluator.gpu).expect("pixels")
     }
 }
 

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, LinkedModel, ModelOptions, NoProgress, Overrides,
-    Seams, WorkpieceOptions, bake,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, LinkedModel, ModelOptions,
+    NoProgress, Overrides, Seams, bake,
 };
 use serde_json::{Value as Json, json};
 
@@ -58,7 +58,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
     model.cache_dir = cache;
     let request = BakeRequest {
         graph: graph.to_owned(),
-        workpiece: WorkpieceOptions {
+        evaluator: EvaluatorOptions {
             model,
             overrides: Overrides::default(),
             fit: None,

@@ -12,8 +12,8 @@ use sabi_engine::view::{
     Target, ViewModel, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, ModelLooks, ModelOptions, NoProgress, OpenGraph,
-    Overrides, Workpiece, WorkpieceOptions, evaluate_looks,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, ModelLooks, ModelOptions,
+    NoProgress, OpenGraph, Overrides, evaluate_looks,
 };
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -24,11 +24,11 @@ fn median(mut numbers: Vec<f64>) -> f64 {
     numbers[numbers.len() / 2]
 }
 
-fn workpiece(root: &Path) -> Workpiece {
+fn evaluator(root: &Path) -> Evaluator {
     let shared = root.join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
     let own = root.join("assets/meshes/figure.glb");
     let model = if shared.is_file() { shared } else { own };
-    let options = WorkpieceOptions {
+    let options = EvaluatorOptions {
         model: ModelOptions::new(&model, 1024),
         overrides: Overrides::default(),
         fit: None,
@@ -42,8 +42,8 @@ fn workpiece(root: &Path) -> Workpiece {
     let path = root.join("graphs/weathered-paint.sabi");
     let open = OpenGraph::open(&path).unwrap();
     let kinds = Kinds::beside(Some(&path));
-    let graph = Workpiece::flat_graph(&open, &kinds, &options).unwrap();
-    Workpiece::open(&open, graph, kinds, &options, &NoProgress).unwrap()
+    let graph = Evaluator::flat_graph(&open, &kinds, &options).unwrap();
+    Evaluator::open(&open, graph, kinds, &options, &NoProgress).unwrap()
 }
 
 /// Light from above and less from below, which is all that a time depends on.
@@ -58,7 +58,7 @@ fn sky() -> Panorama {
 
 /// What is drawn, with what it takes to draw it.
 struct Stage {
-    workpiece: Workpiece,
+    evaluator: Evaluator,
     shown: ModelLooks,
     model: ViewModel,
     environment: Environment,
@@ -76,19 +76,19 @@ fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
 impl Stage {
     fn new() -> Stage {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let mut workpiece = workpiece(&root);
-        let shown = evaluate_looks(&mut workpiece, None, &NoProgress).unwrap();
-        let gpu = &workpiece.gpu;
+        let mut evaluator = evaluator(&root);
+        let shown = evaluate_looks(&mut evaluator, None, &NoProgress).unwrap();
+        let gpu = &evaluator.gpu;
         let name = &gpu.summary().name;
         println!("{name}\n\n| what | measured | aim on a software driver |\n|---|---|---|");
-        let linked = &workpiece.linked;
-        let model_from_working = 1.0 / linked.working_from_model(&workpiece.fit);
+        let linked = &evaluator.linked;
+        let model_from_working = 1.0 / linked.working_from_model(&evaluator.fit);
         let new_model = || {
             ViewModel::new(
                 gpu,
                 &linked.model,
                 &linked.atlas,
-                &workpiece.surface,
+                &evaluator.surface,
                 model_from_working,
             )
         };
@@ -100,13 +100,13 @@ impl Stage {
             model,
             environment,
             renderer,
-            workpiece,
+            evaluator,
         }
     }
 
     /// Milliseconds of a frame as `change` wants it.
     fn frame(&self, size: [u32; 2], lights: &[Light], change: impl FnOnce(&mut Shot)) -> f64 {
-        let gpu = &self.workpiece.gpu;
+        let gpu = &self.evaluator.gpu;
         let scene = Scene {
             model: &self.model,
             looks: &self.shown.looks,
@@ -114,7 +114,7 @@ impl Stage {
             environment: &self.environment,
             lights,
         };
-        let mesh = &self.workpiece.linked.model.mesh;
+        let mesh = &self.evaluator.linked.model.mesh;
         let bounds = Placement::of(mesh).box_in_view(mesh);
         let aspect = size[0] as f32 / size[1] as f32;
         let mut shot = Shot::new(Camera::seen_from(Viewpoint::FRONT, bounds, aspect));

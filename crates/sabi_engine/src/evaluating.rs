@@ -1,5 +1,6 @@
 //! A graph evaluated on a model: plans, runs and what is made of their results.
 
+pub(crate) mod evaluator;
 pub(crate) mod looks;
 pub(crate) mod outputs;
 pub(crate) mod preview;
@@ -8,4 +9,3 @@ pub(crate) mod seen_node;
 pub(crate) mod sharing;
 pub(crate) mod texture_space;
 pub(crate) mod thumbnail;
-pub(crate) mod workpiece;

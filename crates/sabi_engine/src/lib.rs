@@ -1,6 +1,6 @@
 //! A session: open, evaluate, preview, bake, watch; what the command line and the editor call.
 //!
-//! [`Workpiece::open`] brings a graph and a model together; [`bake`] and [`preview`] are what is done with them.
+//! [`Evaluator::open`] brings a graph and a model together; [`bake`] and [`preview`] are what is done with them.
 
 mod baking;
 pub mod catalog;
@@ -26,11 +26,11 @@ pub use catalog::node_file::{
     NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id,
 };
 pub use error::{EngineError, ErrorKind};
+pub use evaluating::evaluator::{Evaluator, EvaluatorOptions};
 pub use evaluating::looks::{ModelLooks, evaluate_looks};
 pub use evaluating::preview::{PreviewRequest, preview};
 pub use evaluating::texture_space::{PlaneKind, ResultPlane};
 pub use evaluating::thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
-pub use evaluating::workpiece::{Workpiece, WorkpieceOptions};
 pub use live::{
     BlockedNode, Faults, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, NodeFault,
     ViewSubject, Warning,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Fit, ModelOptions, Overlap, Overrides, Up, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides, Up,
     default_cache_dir, read_setting,
 };
 
@@ -102,9 +102,9 @@ pub(crate) struct WorkpieceArguments {
 
 impl WorkpieceArguments {
     /// The same for the engine, with maps of so many texels along a side.
-    pub(crate) fn options(&self, size: u32) -> Result<WorkpieceOptions, Failure> {
+    pub(crate) fn options(&self, size: u32) -> Result<EvaluatorOptions, Failure> {
         let set: Result<_, String> = self.set.iter().map(|text| read_setting(text)).collect();
-        Ok(WorkpieceOptions {
+        Ok(EvaluatorOptions {
             model: self.model.options(self.mesh.clone(), size),
             overrides: Overrides {
                 variant: self.variant.clone(),

@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
 fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
     Ok(BakeRequest {
         graph: arguments.workpiece.graph.clone(),
-        workpiece: arguments.workpiece.options(arguments.maps.size)?,
+        evaluator: arguments.workpiece.options(arguments.maps.size)?,
         output: arguments.output.clone(),
         presets: arguments.preset.clone(),
         names: arguments.names.clone(),

@@ -10,7 +10,7 @@ use crate::terminal::Terminal;
 pub(crate) fn run(arguments: &PreviewArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let request = PreviewRequest {
         graph: arguments.workpiece.graph.clone(),
-        workpiece: arguments.workpiece.options(arguments.maps.size)?,
+        evaluator: arguments.workpiece.options(arguments.maps.size)?,
         node: arguments.node.clone(),
         output: arguments.output.clone(),
         material: arguments.workpiece.material.clone(),

@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
     }
     let request = RenderRequest {
         graph: arguments.workpiece.graph.clone(),
-        workpiece: arguments.workpiece.options(arguments.texels)?,
+        evaluator: arguments.workpiece.options(arguments.texels)?,
         output: arguments.output.clone(),
         size: arguments.size,
         environment: arguments.environment.clone(),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, Overrides, Seams, WorkpieceOptions, bake_graph,
+    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Overrides, Seams, bake_graph,
     default_padding, needs_force,
 };
 
@@ -129,7 +129,7 @@ impl Editor {
         let export = &self.settings.export;
         BakeRequest {
             graph: self.desk.session.graph().path.clone(),
-            workpiece: WorkpieceOptions {
+            evaluator: EvaluatorOptions {
                 model: self.stage.model_of_size(export.size),
                 overrides: Overrides::default(),
                 fit: None,

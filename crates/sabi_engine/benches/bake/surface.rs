@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Kinds, LinkedModel, ModelOptions, NoProgress, OpenGraph,
-    Overrides, Pictures, Workpiece, WorkpieceOptions,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions,
+    NoProgress, OpenGraph, Overrides, Pictures,
 };
 use sabi_gpu::StepTime;
 use sabi_graph::{Document, Fit};
@@ -110,7 +110,7 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
         text: text.into(),
         pictures: Pictures::default(),
     };
-    let options = WorkpieceOptions {
+    let options = EvaluatorOptions {
         model: ModelOptions::new(model, SIZE),
         overrides: Overrides::default(),
         fit: None,
@@ -119,15 +119,15 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
         budget_bytes: DEFAULT_BUDGET_BYTES,
     };
     let kinds = Kinds::builtin();
-    let graph = Workpiece::flat_graph(&open, &kinds, &options).unwrap();
+    let graph = Evaluator::flat_graph(&open, &kinds, &options).unwrap();
     let node = graph.nodes.iter().position(|node| node.id == "filter").unwrap();
-    let mut workpiece = Workpiece::open(&open, graph, kinds, &options, &NoProgress).unwrap();
-    workpiece.times_ghosts = true;
-    let limits = workpiece.gpu.limits();
+    let mut evaluator = Evaluator::open(&open, graph, kinds, &options, &NoProgress).unwrap();
+    evaluator.times_ghosts = true;
+    let limits = evaluator.gpu.limits();
     let target = Target { node, port: None };
-    let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, limits).unwrap();
+    let plan = evaluator.plan(&[target], Mode::Bake { fuse: true }, limits).unwrap();
     let mut once = || {
-        let report = workpiece
+        let report = evaluator
             .run(&plan, Duration::from_millis(200), &NoProgress, None)
             .unwrap()
             .report;
@@ -136,7 +136,7 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
         report.ghosts.as_secs_f64() / all.as_secs_f64()
     };
     let share = (0..3).map(|_| once()).fold(f64::INFINITY, f64::min);
-    let atlas = &workpiece.linked.atlas;
+    let atlas = &evaluator.linked.atlas;
     let texels: u64 = atlas.charts.iter().map(|chart| u64::from(chart.texels)).sum();
     let what = format!("{what}, {} beside {texels} texels", atlas.ghosts.len());
     row(&what, 100.0 * share, "%", "≤ 8 %");

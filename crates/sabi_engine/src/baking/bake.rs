@@ -19,9 +19,9 @@ use crate::baking::seams::ModelSeams;
 use crate::baking::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::catalog::describe::describe_unwrapping;
 use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::evaluator::{Evaluator, stop_if_canceled};
 use crate::evaluating::looks::model_source_node;
 use crate::evaluating::outputs::{clashes, nothing_comes_out, outputs};
-use crate::evaluating::workpiece::{Workpiece, stop_if_canceled};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{refuse_faults, targets};
@@ -61,51 +61,51 @@ fn bake_open(
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
     let options = set_options(request)?;
-    let graph = reading.time(|| Workpiece::flat_graph(open, &kinds, &request.workpiece))?;
+    let graph = reading.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = reading.time(|| sound_outputs(open, &graph, &kinds))?;
     // A folder that cannot be written to is found before the work, not after it.
     refuse_foreign_folder(request, &graph)?;
     let mut writer = BakeWriter::create(&request.output)?;
-    let mut workpiece = Workpiece::open(open, graph, kinds, &request.workpiece, progress)?;
-    workpiece.times.load.add(reading.total());
-    let read = workpiece.read_files(open);
+    let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
+    evaluator.times.load.add(reading.total());
+    let read = evaluator.read_files(open);
     refuse_read_report(request, &read)?;
     writer.protect(read);
-    workpiece.warn(bare_materials(&workpiece.linked.model, &workpiece.linked.atlas));
-    let (model, atlas) = (&workpiece.linked.model, &workpiece.linked.atlas);
+    evaluator.warn(bare_materials(&evaluator.linked.model, &evaluator.linked.atlas));
+    let (model, atlas) = (&evaluator.linked.model, &evaluator.linked.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    let mut serving = serve(open, &workpiece.graph, &outputs, model, atlas, &sets)?;
-    let copy = open_copy(request, &workpiece.linked, &sets, &mut serving, &mut writer)?;
-    workpiece.warn(std::mem::take(&mut serving.warnings));
-    let own_looks = serving.model.map(|_| model_source_node(workpiece.fit));
-    workpiece.graph.nodes.extend(own_looks);
-    let wanted = wanted(&workpiece.graph, &outputs, &serving);
-    let plan = workpiece.plan(&wanted, Mode::Bake { fuse: request.fuse }, workpiece.gpu.limits())?;
-    let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
-    let sets = set_works(&workpiece.graph, &plan, sets, &serving.nodes);
+    let mut serving = serve(open, &evaluator.graph, &outputs, model, atlas, &sets)?;
+    let copy = open_copy(request, &evaluator.linked, &sets, &mut serving, &mut writer)?;
+    evaluator.warn(std::mem::take(&mut serving.warnings));
+    let own_looks = serving.model.map(|_| model_source_node(evaluator.fit));
+    evaluator.graph.nodes.extend(own_looks);
+    let wanted = wanted(&evaluator.graph, &outputs, &serving);
+    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse }, evaluator.gpu.limits())?;
+    let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
+    let sets = set_works(&evaluator.graph, &plan, sets, &serving.nodes);
     let map_writer = MapWriter {
-        workpiece: &workpiece,
+        evaluator: &evaluator,
         plan: &plan,
         options,
         padding: request.padding.map_or(Padding::Infinite, Padding::Texels),
-        seams: ModelSeams::new(request.seams, &workpiece.linked),
+        seams: ModelSeams::new(request.seams, &evaluator.linked),
         run_options: RunOptions {
             is_canceled: &|| progress.is_canceled(),
-            ..RunOptions::new(SUBMISSION, request.workpiece.budget_bytes)
+            ..RunOptions::new(SUBMISSION, request.evaluator.budget_bytes)
         },
     };
-    let mut encode = workpiece.times.encode;
+    let mut encode = evaluator.times.encode;
     let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
     encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let committed = encode.time(|| writer.commit())?;
-    let told = workpiece.warnings.iter().chain(&written.warnings);
+    let told = evaluator.warnings.iter().chain(&written.warnings);
     let warnings: Vec<String> = told.cloned().chain(left_over(&committed)).collect();
     let times = PhaseTimes {
         encode,
-        ..workpiece.times
+        ..evaluator.times
     };
-    let json = report(request, &workpiece, &plan, &run, &written, &times, &warnings);
+    let json = report(request, &evaluator, &plan, &run, &written, &times, &warnings);
     Ok(BakeReport {
         times,
         files: file_names(&committed),
@@ -149,7 +149,7 @@ fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<V
 
 /// Whether a bake would be refused because its folder has files but no earlier maps, and `force` would let it be made.
 pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
-    let graph = open.flatten(&request.workpiece.overrides);
+    let graph = open.flatten(&request.evaluator.overrides);
     // What is wrong with either, the bake says.
     graph.is_ok_and(|graph| {
         refuse_foreign_folder(request, &graph).is_err_and(|error| error.kind == ErrorKind::CannotWrite)
@@ -221,15 +221,15 @@ fn set_works<'p>(
 
 fn report(
     request: &BakeRequest,
-    workpiece: &Workpiece,
+    evaluator: &Evaluator,
     plan: &Plan,
     run: &Run,
     written: &WrittenMaps,
     times: &PhaseTimes,
     warnings: &[String],
 ) -> Json {
-    let adapter = workpiece.gpu.summary();
-    let atlas = &workpiece.linked.atlas;
+    let adapter = evaluator.gpu.summary();
+    let atlas = &evaluator.linked.atlas;
     let mut nodes_ms = Map::new();
     for step in &run.report.steps {
         for (node, share) in &step.nodes {
@@ -243,12 +243,12 @@ fn report(
         "sabi": env!("CARGO_PKG_VERSION"),
         "graph": request.graph.display().to_string(),
         "mesh": {
-            "file": request.workpiece.model.path.display().to_string(),
-            "triangles": workpiece.linked.model.mesh.triangles.len(),
+            "file": request.evaluator.model.path.display().to_string(),
+            "triangles": evaluator.linked.model.mesh.triangles.len(),
             "charts": atlas.charts.len(),
             "coverage": rounded(atlas.report.coverage),
-            "overlap": Sharing::of(&workpiece.linked).json(&workpiece.linked),
-            "unwrapped": describe_unwrapping(&workpiece.linked),
+            "overlap": Sharing::of(&evaluator.linked).json(&evaluator.linked),
+            "unwrapped": describe_unwrapping(&evaluator.linked),
         },
         "adapter": { "name": adapter.name, "kind": adapter.kind.to_string() },
         "size": atlas.size,
@@ -257,9 +257,9 @@ fn report(
         "finish_passes": written.finish_passes,
         "fused": plan.fused(),
         "peak_texture_bytes": run.report.pool.peak_bytes,
-        "atlas_cached": workpiece.linked.atlas_was_cached,
+        "atlas_cached": evaluator.linked.atlas_was_cached,
         "rays_cached": run.report.found_on_disk,
-        "unwrapping_cached": workpiece.linked.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
+        "unwrapping_cached": evaluator.linked.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
         "stages_ms": times.json(),
         "nodes_ms": nodes_ms,
         "outputs": written.outputs.iter().map(sabi_export::OutputRecord::to_json).collect::<Vec<_>>(),

@@ -7,7 +7,7 @@ use sabi_export::{Channel, NamePattern, SetOptions};
 
 use crate::baking::seams::Seams;
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::workpiece::WorkpieceOptions;
+use crate::evaluating::evaluator::EvaluatorOptions;
 
 /// What maps are usually called.
 pub const DEFAULT_NAMES: &str = NamePattern::DEFAULT;
@@ -17,7 +17,7 @@ pub struct BakeRequest {
     /// The graph file.
     pub graph: PathBuf,
     /// Model, overrides, fit, adapter.
-    pub workpiece: WorkpieceOptions,
+    pub evaluator: EvaluatorOptions,
     /// Folder for the maps.
     pub output: PathBuf,
     /// Presets by name.
@@ -71,7 +71,7 @@ pub(crate) fn names(request: &BakeRequest) -> Result<NamePattern, EngineError> {
         return Ok(NamePattern::default());
     };
     let graph = request.graph.file_stem().unwrap_or_default().to_string_lossy();
-    let size = request.workpiece.model.size.to_string();
+    let size = request.evaluator.model.size.to_string();
     let parsed = NamePattern::parse(pattern, &[("graph", &graph), ("size", &size)]);
     parsed.map_err(|error| EngineError::new(ErrorKind::Usage, error.to_string()))
 }

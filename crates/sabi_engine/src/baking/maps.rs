@@ -16,8 +16,8 @@ use sabi_plan::{Plan, PlannedResult, SlotRef};
 use crate::baking::mixing::Mixing;
 use crate::baking::seams::ModelSeams;
 use crate::error::EngineError;
+use crate::evaluating::evaluator::{Evaluator, stop_if_canceled};
 use crate::evaluating::looks::slot_of;
-use crate::evaluating::workpiece::{Workpiece, stop_if_canceled};
 use crate::opening::linked_model::{LinkedModel, Overlap};
 use crate::phases::{Phase, Progress};
 
@@ -47,7 +47,7 @@ pub(crate) struct WrittenMaps {
 
 /// Writes the maps of texture sets, one plane at a time.
 pub(crate) struct MapWriter<'a> {
-    pub(crate) workpiece: &'a Workpiece,
+    pub(crate) evaluator: &'a Evaluator,
     pub(crate) plan: &'a Plan,
     pub(crate) options: SetOptions,
     pub(crate) padding: Padding,
@@ -80,7 +80,7 @@ impl MapWriter<'_> {
         writer: &mut BakeWriter,
         progress: &dyn Progress,
     ) -> Result<WrittenMaps, EngineError> {
-        let atlas = &self.workpiece.linked.atlas;
+        let atlas = &self.evaluator.linked.atlas;
         let set_bytes = (atlas.size as usize).pow(2) * LAYOUT_PIXEL_BYTES;
         let mut maps = Maps {
             from: self,
@@ -98,7 +98,7 @@ impl MapWriter<'_> {
             let open: Vec<OpenSet<'_>> = together
                 .iter()
                 .map(|work| {
-                    let layout = set_layout(&self.workpiece.linked, work.key);
+                    let layout = set_layout(&self.evaluator.linked, work.key);
                     OpenSet {
                         work,
                         mixing: Mixing::new(atlas, &work.materials),
@@ -133,7 +133,7 @@ impl MapWriter<'_> {
     }
 
     fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
-        Ok(self.workpiece.gpu.read(&self.workpiece.surface, self.plan, run, slot)?)
+        Ok(self.evaluator.gpu.read(&self.evaluator.surface, self.plan, run, slot)?)
     }
 }
 
@@ -167,8 +167,8 @@ impl Maps<'_> {
         if sets.is_empty() {
             return Ok(());
         }
-        let workpiece = self.from.workpiece;
-        let file_from_working = workpiece.linked.file_from_working(&workpiece.fit) as f32;
+        let evaluator = self.from.evaluator;
+        let file_from_working = evaluator.linked.file_from_working(&evaluator.fit) as f32;
         for (stored, channels) in MAPS {
             let scale = if stored == Stored::Height {
                 file_from_working
@@ -208,7 +208,7 @@ impl Maps<'_> {
             return Ok(None);
         }
         self.written.finish_passes += 1;
-        let Workpiece { gpu, surface, .. } = self.from.workpiece;
+        let Evaluator { gpu, surface, .. } = self.from.evaluator;
         Ok(Some(gpu.normals(
             surface,
             run,

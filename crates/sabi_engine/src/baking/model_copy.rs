@@ -32,7 +32,7 @@ pub(crate) fn open_copy(
     } else {
         served.iter().map(|set| set.key.material).collect()
     };
-    let options = &request.workpiece.model;
+    let options = &request.evaluator.model;
     let uv_set = linked
         .unwrapped
         .as_ref()

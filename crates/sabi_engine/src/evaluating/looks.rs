@@ -13,7 +13,7 @@ use sabi_view::{MaterialLook, NodeLook, NodeType};
 
 use crate::baking::sets::shown_by;
 use crate::error::EngineError;
-use crate::evaluating::workpiece::Workpiece;
+use crate::evaluating::evaluator::Evaluator;
 use crate::opening::modelless::targets;
 use crate::phases::Progress;
 use crate::source::SOURCE_MODEL;
@@ -60,47 +60,47 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 
 /// Evaluates what is shown: one node, or else the outputs, and the model's own looks where no output serves a material.
 pub fn evaluate_looks(
-    workpiece: &mut Workpiece,
+    evaluator: &mut Evaluator,
     seen: Option<&Target>,
     progress: &dyn Progress,
 ) -> Result<ModelLooks, EngineError> {
     let (wanted, shows) = match seen {
         Some(target) => (vec![target.clone()], LookAssignment::One),
         None => {
-            let (serving, idle) = shown_by(&workpiece.graph, &workpiece.linked.model, &workpiece.linked.atlas);
-            workpiece.warn(idle);
-            if serving.values().any(|&node| node == workpiece.graph.nodes.len()) {
-                workpiece.graph.nodes.push(model_source_node(workpiece.fit));
+            let (serving, idle) = shown_by(&evaluator.graph, &evaluator.linked.model, &evaluator.linked.atlas);
+            evaluator.warn(idle);
+            if serving.values().any(|&node| node == evaluator.graph.nodes.len()) {
+                evaluator.graph.nodes.push(model_source_node(evaluator.fit));
             }
             let nodes: BTreeSet<usize> = serving.values().copied().collect();
             (targets(nodes), LookAssignment::Served(serving))
         }
     };
-    let limits = workpiece.gpu.limits();
-    let plan = workpiece.plan(&wanted, Mode::Bake { fuse: true }, limits)?;
-    let mut run = workpiece.run_once(&plan, SUBMISSION, progress)?;
+    let limits = evaluator.gpu.limits();
+    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: true }, limits)?;
+    let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let options = RunOptions {
         is_canceled: &|| progress.is_canceled(),
-        ..RunOptions::new(SUBMISSION, workpiece.budget_bytes)
+        ..RunOptions::new(SUBMISSION, evaluator.budget_bytes)
     };
-    looks_of_run(workpiece, &plan, &mut run, &shows, &options)
+    looks_of_run(evaluator, &plan, &mut run, &shows, &options)
 }
 
 /// What each material looks like by the results of a run.
 pub(crate) fn looks_of_run(
-    workpiece: &Workpiece,
+    evaluator: &Evaluator,
     plan: &Plan,
     run: &mut Run,
     shows: &LookAssignment,
     options: &RunOptions<'_>,
 ) -> Result<ModelLooks, EngineError> {
-    let (are_opaque, height_range) = value_extents(workpiece, plan, run, options)?;
+    let (are_opaque, height_range) = value_extents(evaluator, plan, run, options)?;
     // Materials that cover no triangle look plain.
     let mut looks = vec![plain()];
     for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
         looks.push(MaterialLook {
             is_opaque,
-            ..look(workpiece, run, result, options)?
+            ..look(evaluator, run, result, options)?
         });
     }
     let of_material = |material: u32| match shows {
@@ -110,7 +110,7 @@ pub(crate) fn looks_of_run(
             Some(1 + plan.results.iter().position(|result| result.target.node == *node)?)
         }
     };
-    let materials = 0..workpiece.linked.model.materials.len() as u32;
+    let materials = 0..evaluator.linked.model.materials.len() as u32;
     Ok(ModelLooks {
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
         is_lit: looks.iter().all(|look| look.node.is_none()),
@@ -122,7 +122,7 @@ pub(crate) fn looks_of_run(
 /// Which results are opaque everywhere; and the lowest and the highest height of all of them, working units, 0 where nothing
 /// sets it.
 fn value_extents(
-    workpiece: &Workpiece,
+    evaluator: &Evaluator,
     plan: &Plan,
     run: &Run,
     options: &RunOptions<'_>,
@@ -140,7 +140,7 @@ fn value_extents(
         .iter()
         .map(|(_, texture, component)| (texture, *component))
         .collect();
-    let extents = workpiece.gpu.extents(&workpiece.surface, &components, options)?;
+    let extents = evaluator.gpu.extents(&evaluator.surface, &components, options)?;
     let mut are_opaque = vec![true; plan.results.len()];
     let mut heights = [f32::INFINITY, f32::NEG_INFINITY];
     for ((at, _, component), extent) in asked.iter().zip(extents) {
@@ -154,15 +154,15 @@ fn value_extents(
 }
 
 /// What one result looks like, taken for opaque: a material with its maps, anything else as the number or color it is. Where
-/// charts share a place it is what a bake or a preview writes there; see [`Workpiece::shares`].
+/// charts share a place it is what a bake or a preview writes there; see [`Evaluator::shares`].
 fn look(
-    workpiece: &Workpiece,
+    evaluator: &Evaluator,
     run: &mut Run,
     result: &PlannedResult,
     options: &RunOptions<'_>,
 ) -> Result<MaterialLook, EngineError> {
-    let Workpiece { gpu, surface, .. } = workpiece;
-    let shares = workpiece.shares()?;
+    let Evaluator { gpu, surface, .. } = evaluator;
+    let shares = evaluator.shares()?;
     let holds = match result.stored.ty {
         PortType::Mask => NodeType::Mask,
         PortType::Color => NodeType::Color,

@@ -10,9 +10,9 @@ use sabi_plan::Mode;
 use crate::baking::picture_file::PictureFiles;
 use crate::baking::sets::{texture_sets, which_is_shown};
 use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions, stop_if_canceled};
 use crate::evaluating::seen_node::graph_and_target;
 use crate::evaluating::texture_space::{ResultPlane, TextureSpace, rgb_codes};
-use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::refuse_faults;
@@ -23,7 +23,7 @@ pub struct PreviewRequest {
     /// The graph file.
     pub graph: PathBuf,
     /// Model, overrides, fit, adapter.
-    pub workpiece: WorkpieceOptions,
+    pub evaluator: EvaluatorOptions,
     /// Node id, or `id.port`.
     pub node: String,
     /// `.png` for a picture, `.exr` for the exact values.
@@ -47,7 +47,7 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     };
     let open = OpenGraph::open(&request.graph)?;
     let kinds = Kinds::beside(Some(&request.graph));
-    let (graph, target) = graph_and_target(&open, &kinds, &request.workpiece, &request.node)?;
+    let (graph, target) = graph_and_target(&open, &kinds, &request.evaluator, &request.node)?;
     let nothing = || {
         let why = format!(
             "node '{}' is muted and passes nothing on, so there is nothing to see; unmute it",
@@ -57,16 +57,16 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     };
     let rehearsed = refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
     rehearsed.results.first().ok_or_else(nothing)?;
-    let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
-    let (model, atlas) = (&workpiece.linked.model, &workpiece.linked.atlas);
+    let mut evaluator = Evaluator::open(&open, graph, kinds, &request.evaluator, progress)?;
+    let (model, atlas) = (&evaluator.linked.model, &evaluator.linked.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    workpiece.warn(which_is_shown(&sets));
+    evaluator.warn(which_is_shown(&sets));
     let key = sets[0].key;
-    let plan = workpiece.plan(&[target], Mode::Bake { fuse: true }, workpiece.gpu.limits())?;
-    let run = workpiece.run(&plan, Duration::from_millis(200), progress, None)?;
+    let plan = evaluator.plan(&[target], Mode::Bake { fuse: true }, evaluator.gpu.limits())?;
+    let run = evaluator.run(&plan, Duration::from_millis(200), progress, None)?;
     let result = plan.results.first().ok_or_else(nothing)?;
-    let texture_space = TextureSpace::new(&workpiece.linked, key);
-    let planes = texture_space.planes(&workpiece, &plan, &run, result)?;
+    let texture_space = TextureSpace::new(&evaluator.linked, key);
+    let planes = texture_space.planes(&evaluator, &plan, &run, result)?;
     let size = texture_space.layout.size;
     let bytes = if is_exact {
         exact(size, &planes)
@@ -75,10 +75,10 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     }?;
     stop_if_canceled(progress)?;
     let output = std::slice::from_ref(&request.output);
-    let mut file = PictureFiles::begin(output, workpiece.read_files(&open))?;
+    let mut file = PictureFiles::begin(output, evaluator.read_files(&open))?;
     file.add(bytes)?;
     file.commit()?;
-    Ok(workpiece.warnings)
+    Ok(evaluator.warnings)
 }
 
 fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {

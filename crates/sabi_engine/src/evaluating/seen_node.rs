@@ -4,7 +4,7 @@ use sabi_graph::{FlatGraph, NodeRef, nearest};
 use sabi_plan::Target;
 
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions};
+use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 
@@ -12,7 +12,7 @@ use crate::opening::kinds::Kinds;
 pub(crate) fn graph_and_target(
     open: &OpenGraph,
     kinds: &Kinds,
-    options: &WorkpieceOptions,
+    options: &EvaluatorOptions,
     node: &str,
 ) -> Result<(FlatGraph, Target), EngineError> {
     let (id, port) = match node.split_once('.') {
@@ -23,7 +23,7 @@ pub(crate) fn graph_and_target(
         node: id.to_owned(),
         port,
     };
-    let (graph, found) = Workpiece::flat_graph_and_find(open, kinds, options, &[wanted])?;
+    let (graph, found) = Evaluator::flat_graph_and_find(open, kinds, options, &[wanted])?;
     let refused = |why: String| EngineError::new(ErrorKind::Usage, open.said(why));
     let found = found
         .into_iter()

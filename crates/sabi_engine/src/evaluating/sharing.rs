@@ -8,10 +8,10 @@ use sabi_surface::atlas::{Atlas, Chart};
 
 use crate::baking::maps::set_layout;
 use crate::error::EngineError;
-use crate::evaluating::workpiece::Workpiece;
+use crate::evaluating::evaluator::Evaluator;
 use crate::opening::linked_model::LinkedModel;
 
-impl Workpiece {
+impl Evaluator {
     /// Which texels show what other texels hold, since an engine would find that on the maps: found when first asked for. None
     /// for a model whose charts all have places of their own.
     ///

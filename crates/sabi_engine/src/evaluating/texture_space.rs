@@ -10,7 +10,7 @@ use sabi_plan::{Plan, PlannedResult};
 
 use crate::baking::maps::set_layout;
 use crate::error::EngineError;
-use crate::evaluating::workpiece::Workpiece;
+use crate::evaluating::evaluator::Evaluator;
 use crate::opening::linked_model::LinkedModel;
 
 /// Texels by which results are continued outside of charts, to be looked at.
@@ -63,14 +63,14 @@ impl TextureSpace {
     /// The planes of a result, read back. A material shows its base color first.
     pub(crate) fn planes(
         &self,
-        workpiece: &Workpiece,
+        evaluator: &Evaluator,
         plan: &Plan,
         run: &Run,
         result: &PlannedResult,
     ) -> Result<Vec<ResultPlane>, EngineError> {
         let planes = result.stored.planes().into_iter().zip(&result.slots);
         let laid_out = planes.map(|(plane, &slot)| {
-            let data = workpiece.gpu.read(&workpiece.surface, plan, run, slot)?;
+            let data = evaluator.gpu.read(&evaluator.surface, plan, run, slot)?;
             let (name, holds, components) = shape_of(plane);
             let one = |first| {
                 let channel = Channel::Mask(String::new());

@@ -18,8 +18,8 @@ impl SizedModel {
         side: u32,
         set: Option<SetKey>,
     ) -> Result<Pixels, EngineError> {
-        let (workpiece, _, texture_space) = self.texture_space(set)?;
-        let planes = texture_space.planes(workpiece, plan, run, result)?;
+        let (evaluator, _, texture_space) = self.texture_space(set)?;
+        let planes = texture_space.planes(evaluator, plan, run, result)?;
         let plane = planes.first().ok_or_else(no_texture_space)?;
         let code = |pixel: usize| {
             let values = &plane.values[pixel * plane.components..][..plane.components];

@@ -99,12 +99,12 @@ impl SizedModel {
         result: &PlannedResult,
         set: Option<SetKey>,
     ) -> Result<Inspected, EngineError> {
-        let (workpiece, set, texture_space) = self.texture_space(set)?;
+        let (evaluator, set, texture_space) = self.texture_space(set)?;
         Ok(Inspected {
             ty: result.stored.ty,
             size: texture_space.layout.size,
             set: set.clone(),
-            planes: texture_space.planes(workpiece, plan, run, result)?,
+            planes: texture_space.planes(evaluator, plan, run, result)?,
             is_on_surface: texture_space.is_owned(),
         })
     }

@@ -16,9 +16,9 @@ use super::request::{LiveOptions, LiveRequest};
 use crate::AdapterChoice;
 use crate::baking::sets::{TextureSet, shown_by, texture_sets};
 use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
 use crate::evaluating::looks::{LookAssignment, ModelLooks, looks_of_run, model_source_node};
 use crate::evaluating::texture_space::TextureSpace;
-use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions};
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
 use crate::phases::Progress;
@@ -28,7 +28,7 @@ const FEW_RAYS: u32 = 8;
 
 /// The model at one size.
 pub(super) struct SizedModel {
-    pub(super) workpiece: Workpiece,
+    pub(super) evaluator: Evaluator,
     pub(super) cache: ResultCache,
     pub(super) model: Arc<LiveModel>,
     /// The texture set that was last wanted, as results are laid out in it; made when one is.
@@ -78,7 +78,7 @@ impl SizedModel {
         (linked, model_revision): (Arc<LinkedModel>, u64),
         is_coarse: bool,
     ) -> Result<SizedModel, EngineError> {
-        let workpiece_options = WorkpieceOptions {
+        let workpiece_options = EvaluatorOptions {
             model: ModelOptions {
                 cache_dir: options.cache_dir.clone(),
                 size: linked.atlas.size,
@@ -92,7 +92,7 @@ impl SizedModel {
         };
         let graph = FlatGraph::default();
         let kinds = (*request.kinds).clone();
-        let workpiece = Workpiece::assemble(&request.graph, graph, kinds, linked, gpu.clone(), &workpiece_options)?;
+        let evaluator = Evaluator::assemble(&request.graph, graph, kinds, linked, gpu.clone(), &workpiece_options)?;
         // Coarse results have a quarter of a full one's texels, or fewer.
         let of_coarse = options.cache_bytes / 4;
         let cache_bytes = if is_coarse {
@@ -101,8 +101,8 @@ impl SizedModel {
             options.cache_bytes - of_coarse
         };
         Ok(SizedModel {
-            model: live_model(&workpiece, model_revision)?,
-            workpiece,
+            model: live_model(&evaluator, model_revision)?,
+            evaluator,
             cache: ResultCache::new(cache_bytes),
             texture_space: None,
             serving: BTreeMap::new(),
@@ -119,27 +119,27 @@ impl SizedModel {
     /// Takes the graph of a wish. Says whether the model is another one to those who draw it.
     pub(super) fn take(&mut self, request: &LiveRequest, graph: &FlatGraph) -> Result<bool, EngineError> {
         if self.kinds_revision != request.kinds_revision {
-            self.workpiece.set_kinds((*request.kinds).clone());
+            self.evaluator.set_kinds((*request.kinds).clone());
             self.kinds_revision = request.kinds_revision;
         }
-        let linked = &self.workpiece.linked;
+        let linked = &self.evaluator.linked;
         let (serving, idle) = shown_by(graph, &linked.model, &linked.atlas);
         self.serving = serving;
         // Materials that no output serves are shown by a node of the model's own looks at the end of the graph.
         let mut graph = graph.clone();
         graph.nodes.push(model_source_node(request.graph.document.fit));
-        self.workpiece.set_graph(&request.graph, graph)?;
+        self.evaluator.set_graph(&request.graph, graph)?;
         self.idle = idle;
         self.sources.clear();
         self.shoots = false;
-        self.workpiece.hits = if request.is_moving {
+        self.evaluator.hits = if request.is_moving {
             Hits::Remembered
         } else {
             Hits::Shot
         };
-        let is_another = self.workpiece.fit != self.model.fit;
+        let is_another = self.evaluator.fit != self.model.fit;
         if is_another {
-            self.model = live_model(&self.workpiece, self.model.model_revision)?;
+            self.model = live_model(&self.evaluator, self.model.model_revision)?;
         }
         Ok(is_another)
     }
@@ -148,29 +148,29 @@ impl SizedModel {
     pub(super) fn texture_space(
         &mut self,
         wanted: Option<SetKey>,
-    ) -> Result<(&Workpiece, &TextureSet, &TextureSpace), EngineError> {
+    ) -> Result<(&Evaluator, &TextureSet, &TextureSpace), EngineError> {
         let SizedModel {
             model,
             texture_space,
-            workpiece,
+            evaluator,
             ..
         } = self;
         let set = model.set(wanted).ok_or_else(no_texture_space)?;
         let laid = texture_space.take().filter(|(laid, _)| laid == set);
         let (set, texture_space) =
-            texture_space.insert(laid.unwrap_or_else(|| (set.clone(), TextureSpace::new(&workpiece.linked, set.key))));
-        Ok((workpiece, set, texture_space))
+            texture_space.insert(laid.unwrap_or_else(|| (set.clone(), TextureSpace::new(&evaluator.linked, set.key))));
+        Ok((evaluator, set, texture_space))
     }
 
     /// Plans what of the targets can be planned. While a knob is moved, rays of a first picture that are not known are few.
     pub(super) fn plan(&mut self, targets: &[Target]) -> Plan {
-        self.workpiece.most_rays = None;
+        self.evaluator.most_rays = None;
         let mut plan = self.try_plan(targets);
         let is_new = |keys: &[[u8; 32]]| keys.iter().any(|key| !self.cache.knows(key));
         let shoots =
             |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some() && is_new(&kernel.keys));
         if self.is_coarse && self.is_moving() && plan.steps.iter().any(shoots) {
-            self.workpiece.most_rays = Some(FEW_RAYS);
+            self.evaluator.most_rays = Some(FEW_RAYS);
             plan = self.try_plan(targets);
         }
         self.shoots |= plan.steps.iter().any(has_rays);
@@ -179,9 +179,9 @@ impl SizedModel {
     }
 
     fn try_plan(&self, targets: &[Target]) -> Plan {
-        let limits = self.workpiece.gpu.limits();
+        let limits = self.evaluator.gpu.limits();
         // Faults of all nodes are told already.
-        self.workpiece.try_plan(targets, Mode::Interactive, limits).0
+        self.evaluator.try_plan(targets, Mode::Interactive, limits).0
     }
 
     /// What the artist should know of what the wish at hand needs.
@@ -189,8 +189,8 @@ impl SizedModel {
         let is_of_now = |of: &BTreeSet<[u8; 32]>| of.is_empty() || !of.is_disjoint(&self.sources);
         let noted = self.noted.iter().filter(move |(of, _)| is_of_now(of));
         let of_model = self.shoots.then(|| self.model.linked.solidity.get()).flatten();
-        let workpiece = self.workpiece.warnings.iter().chain(&self.idle);
-        workpiece
+        let evaluator = self.evaluator.warnings.iter().chain(&self.idle);
+        evaluator
             .chain(noted.map(|(_, sentence)| sentence))
             .chain(of_model.into_iter().flatten())
     }
@@ -203,7 +203,7 @@ impl SizedModel {
     }
 
     fn is_moving(&self) -> bool {
-        self.workpiece.hits == Hits::Remembered
+        self.evaluator.hits == Hits::Remembered
     }
 
     /// Whether results of a plan may differ, by rounding or grain, from those that come once no knob is moved any more.
@@ -218,13 +218,13 @@ impl SizedModel {
         progress: &dyn Progress,
         totals: &mut RunTotals,
     ) -> Result<Run, EvaluationError> {
-        let (gpu, size) = (self.workpiece.gpu.clone(), self.model.size);
-        let made = self.workpiece.make_levels(plan);
+        let (gpu, size) = (self.evaluator.gpu.clone(), self.model.size);
+        let made = self.evaluator.make_levels(plan);
         made.map_err(|error| EvaluationError::of(&gpu, error))?;
-        let known = self.workpiece.warnings.len();
+        let known = self.evaluator.warnings.len();
         let cache = Some(&mut self.cache);
-        let run = self.workpiece.run_on_levels(plan, self.submission, progress, cache);
-        for sentence in self.workpiece.warnings.drain(known..) {
+        let run = self.evaluator.run_on_levels(plan, self.submission, progress, cache);
+        for sentence in self.evaluator.warnings.drain(known..) {
             self.noted.retain(|(_, other)| *other != sentence);
             self.noted.push((sources_of(plan).collect(), sentence));
         }
@@ -243,10 +243,10 @@ impl SizedModel {
     ) -> Result<ModelLooks, EvaluationError> {
         let options = RunOptions {
             is_canceled: &|| progress.is_canceled(),
-            ..RunOptions::new(self.submission, self.workpiece.budget_bytes)
+            ..RunOptions::new(self.submission, self.evaluator.budget_bytes)
         };
-        let looks = looks_of_run(&self.workpiece, plan, run, shows, &options);
-        looks.map_err(|error| EvaluationError::of_results(&self.workpiece.gpu, self.model.size, error))
+        let looks = looks_of_run(&self.evaluator, plan, run, shows, &options);
+        looks.map_err(|error| EvaluationError::of_results(&self.evaluator.gpu, self.model.size, error))
     }
 }
 
@@ -268,14 +268,14 @@ fn sources_of(plan: &Plan) -> impl Iterator<Item = [u8; 32]> {
     plan.steps.iter().flat_map(keys)
 }
 
-fn live_model(workpiece: &Workpiece, model_revision: u64) -> Result<Arc<LiveModel>, EngineError> {
-    let linked = &workpiece.linked;
-    let model_from_working = 1.0 / linked.working_from_model(&workpiece.fit);
+fn live_model(evaluator: &Evaluator, model_revision: u64) -> Result<Arc<LiveModel>, EngineError> {
+    let linked = &evaluator.linked;
+    let model_from_working = 1.0 / linked.working_from_model(&evaluator.fit);
     let view = ViewModel::new(
-        &workpiece.gpu,
+        &evaluator.gpu,
         &linked.model,
         &linked.atlas,
-        &workpiece.surface,
+        &evaluator.surface,
         model_from_working,
     )?;
     Ok(Arc::new(LiveModel {
@@ -284,7 +284,7 @@ fn live_model(workpiece: &Workpiece, model_revision: u64) -> Result<Arc<LiveMode
         linked: linked.clone(),
         placement: view.placement,
         view,
-        fit: workpiece.fit,
+        fit: evaluator.fit,
         // A model without any is told of where a set is wanted.
         sets: texture_sets(&linked.model, &linked.atlas, None).unwrap_or_default(),
     }))

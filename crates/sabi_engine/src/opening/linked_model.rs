@@ -13,7 +13,7 @@ use sabi_surface::pieces::Pieces;
 use sabi_surface::unwrap::{UnwrapReport, unwrap_cached};
 
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::workpiece::stop_if_canceled;
+use crate::evaluating::evaluator::stop_if_canceled;
 use crate::phases::{Phase, Progress};
 
 /// How a model is taken.

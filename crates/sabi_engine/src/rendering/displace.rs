@@ -6,8 +6,8 @@ use sabi_surface::displace::{DisplaceOptions, HeightPlane, displaced, texel_leng
 use sabi_view::{MaterialLook, ViewModel};
 
 use crate::error::EngineError;
+use crate::evaluating::evaluator::Evaluator;
 use crate::evaluating::looks::ModelLooks;
-use crate::evaluating::workpiece::Workpiece;
 
 /// Most triangles of a displaced copy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,20 +30,20 @@ impl Triangles {
 
 /// A finer copy of the model with what is shown of it, displaced by the heights of the look that each material has.
 pub(crate) fn displaced_model(
-    workpiece: &mut Workpiece,
+    evaluator: &mut Evaluator,
     shown: &ModelLooks,
     triangles: Triangles,
 ) -> Result<ViewModel, EngineError> {
-    let (model, atlas) = (&workpiece.linked.model, &workpiece.linked.atlas);
-    let model_from_working = 1.0 / workpiece.linked.working_from_model(&workpiece.fit);
+    let (model, atlas) = (&evaluator.linked.model, &evaluator.linked.atlas);
+    let model_from_working = 1.0 / evaluator.linked.working_from_model(&evaluator.fit);
     let of_looks = shown.looks.iter();
     let heights: Vec<Option<Vec<f32>>> = of_looks
-        .map(|look| heights_of(workpiece, look, model_from_working))
+        .map(|look| heights_of(evaluator, look, model_from_working))
         .collect::<Result<_, _>>()?;
     let options = DisplaceOptions {
         // A map holds no hill that is narrower than two texels.
         edge_length: 2.0 * texel_length(&model.mesh, atlas),
-        triangle_budget: triangles.budget(workpiece.gpu.summary().kind),
+        triangle_budget: triangles.budget(evaluator.gpu.summary().kind),
     };
     let height = |chart: u32, texel: [f32; 2]| match plane_of(chart, atlas, shown, &heights) {
         Some(plane) => plane.at(chart, texel),
@@ -52,18 +52,18 @@ pub(crate) fn displaced_model(
     };
     let copy = displaced(&model.mesh, atlas, &options, height);
     let made = ViewModel::displaced(
-        &workpiece.gpu,
+        &evaluator.gpu,
         &copy,
         model,
         atlas,
-        &workpiece.surface,
+        &evaluator.surface,
         model_from_working,
     )?;
     let flat = heights.iter().all(Option::is_none).then(|| {
         "--displace changes nothing: what is shown has no height; the material view of a graph whose layers have one does"
             .to_owned()
     });
-    workpiece.warn(flat.or(copy.note));
+    evaluator.warn(flat.or(copy.note));
     Ok(made)
 }
 
@@ -82,14 +82,14 @@ fn plane_of<'h>(
 
 /// Heights of a look, model units, page by page and row by row; none where it has none.
 fn heights_of(
-    workpiece: &Workpiece,
+    evaluator: &Evaluator,
     look: &MaterialLook,
     model_from_working: f64,
 ) -> Result<Option<Vec<f32>>, EngineError> {
     let Some(map) = &look.maps.height else {
         return Ok(None);
     };
-    let mut heights = workpiece.gpu.read_numbers(map)?;
+    let mut heights = evaluator.gpu.read_numbers(map)?;
     for height in &mut heights {
         *height = (f64::from(*height) * model_from_working) as f32;
     }

@@ -11,10 +11,10 @@ use sabi_view::{
 
 use crate::baking::picture_file::PictureFiles;
 use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions, stop_if_canceled};
 use crate::evaluating::looks::{ModelLooks, evaluate_looks};
 use crate::evaluating::outputs::outputs;
 use crate::evaluating::seen_node::graph_and_target;
-use crate::evaluating::workpiece::{Workpiece, WorkpieceOptions, stop_if_canceled};
 use crate::opening::document::OpenGraph;
 use crate::opening::environment::{environment_of, read_panorama};
 use crate::opening::kinds::Kinds;
@@ -32,7 +32,7 @@ pub struct RenderRequest {
     /// The graph file.
     pub graph: PathBuf,
     /// Model, overrides, fit, adapter.
-    pub workpiece: WorkpieceOptions,
+    pub evaluator: EvaluatorOptions,
     /// `.png` for what a display shows, `.exr` for the light itself; of a turntable, what its frames are named after.
     pub output: PathBuf,
     /// Width and height, pixels.
@@ -96,10 +96,10 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     let kinds = Kinds::beside(Some(&request.graph));
     let (graph, seen) = match node {
         Some(node) => {
-            let (graph, target) = graph_and_target(&open, &kinds, &request.workpiece, node)?;
+            let (graph, target) = graph_and_target(&open, &kinds, &request.evaluator, node)?;
             (graph, Some(target))
         }
-        None => (Workpiece::flat_graph(&open, &kinds, &request.workpiece)?, None),
+        None => (Evaluator::flat_graph(&open, &kinds, &request.evaluator)?, None),
     };
     let faulty = match &seen {
         Some(target) => vec![target.clone()],
@@ -107,16 +107,16 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     };
     refuse_faults(&open, &graph, &kinds, &faulty)?;
     let (panorama, remarks) = read_panorama(&request.environment)?;
-    let mut workpiece = Workpiece::open(&open, graph, kinds, &request.workpiece, progress)?;
-    workpiece.warn(remarks);
-    let mut inputs = workpiece.read_files(&open);
+    let mut evaluator = Evaluator::open(&open, graph, kinds, &request.evaluator, progress)?;
+    evaluator.warn(remarks);
+    let mut inputs = evaluator.read_files(&open);
     inputs.push(PathBuf::from(&request.environment));
     let mut files = PictureFiles::begin(&paths, inputs)?;
-    let cache_dir = request.workpiece.model.cache_dir.as_deref();
-    let (environment, remark) = environment_of(&workpiece.gpu, &panorama, cache_dir)?;
-    workpiece.warn(remark);
-    let shown = evaluate_looks(&mut workpiece, seen.as_ref(), progress)?;
-    let model = view_model(request, &mut workpiece, &shown)?;
+    let cache_dir = request.evaluator.model.cache_dir.as_deref();
+    let (environment, remark) = environment_of(&evaluator.gpu, &panorama, cache_dir)?;
+    evaluator.warn(remark);
+    let shown = evaluate_looks(&mut evaluator, seen.as_ref(), progress)?;
+    let model = view_model(request, &mut evaluator, &shown)?;
     let scene = Scene {
         model: &model,
         looks: &shown.looks,
@@ -126,12 +126,12 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     };
     let mode = if shown.is_lit { mode } else { Mode::Node };
     let range = shown.height_range;
-    draw(request, &workpiece, &scene, (mode, range), &mut files, progress)?;
+    draw(request, &evaluator, &scene, (mode, range), &mut files, progress)?;
     stop_if_canceled(progress)?;
     files.commit()?;
     Ok(Rendered {
         files: paths,
-        warnings: workpiece.warnings,
+        warnings: evaluator.warnings,
     })
 }
 
@@ -177,33 +177,33 @@ fn view_of(view: &str) -> Result<(Mode, Option<&str>), EngineError> {
 /// The model as it is drawn: as it is, or a displaced copy.
 fn view_model(
     request: &RenderRequest,
-    workpiece: &mut Workpiece,
+    evaluator: &mut Evaluator,
     shown: &ModelLooks,
 ) -> Result<ViewModel, EngineError> {
     if let Some(triangles) = request.displace {
-        return displaced_model(workpiece, shown, triangles);
+        return displaced_model(evaluator, shown, triangles);
     }
-    let (gpu, linked) = (&workpiece.gpu, &workpiece.linked);
-    let model_from_working = 1.0 / linked.working_from_model(&workpiece.fit);
+    let (gpu, linked) = (&evaluator.gpu, &evaluator.linked);
+    let model_from_working = 1.0 / linked.working_from_model(&evaluator.fit);
     let (model, atlas) = (&linked.model, &linked.atlas);
     Ok(ViewModel::new(
         gpu,
         model,
         atlas,
-        &workpiece.surface,
+        &evaluator.surface,
         model_from_working,
     )?)
 }
 
 fn draw(
     request: &RenderRequest,
-    workpiece: &Workpiece,
+    evaluator: &Evaluator,
     scene: &Scene<'_>,
     (mode, height_range): (Mode, [f32; 2]),
     files: &mut PictureFiles,
     progress: &dyn Progress,
 ) -> Result<(), EngineError> {
-    let gpu = &workpiece.gpu;
+    let gpu = &evaluator.gpu;
     let renderer = Renderer::new(gpu)?;
     let mut canvas = Canvas::new(gpu, request.size)?;
     let frames = request.turntable.unwrap_or(1);
@@ -215,7 +215,7 @@ fn draw(
             Turns::Camera => [around, 0.0],
             Turns::Light => [0.0, around],
         };
-        let mut camera = camera_of(request, workpiece);
+        let mut camera = camera_of(request, evaluator);
         camera.turn(of_camera);
         let lights: Vec<Light> = scene.lights.iter().map(|light| light.turned(of_light)).collect();
         let scene = &Scene {
@@ -245,8 +245,8 @@ fn draw(
     Ok(())
 }
 
-fn camera_of(request: &RenderRequest, workpiece: &Workpiece) -> Camera {
-    let mesh = &workpiece.linked.model.mesh;
+fn camera_of(request: &RenderRequest, evaluator: &Evaluator) -> Camera {
+    let mesh = &evaluator.linked.model.mesh;
     let bounds = Placement::of(mesh).box_in_view(mesh);
     let aspect = aspect_of(UVec2::from(request.size).as_vec2());
     let mut camera = Camera::seen_from(request.camera, bounds, aspect);

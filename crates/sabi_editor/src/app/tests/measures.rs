@@ -40,8 +40,8 @@ fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     let reading = window.editor().stage.reading();
     assert_eq!((reading.up, reading.overlap), (Up::Z, Overlap::Merge));
     let request = window.editor().bake_request("maps".into(), false);
-    assert_eq!(request.workpiece.model.up, Up::Z);
-    assert_eq!(request.workpiece.model.overlap, Overlap::Merge);
+    assert_eq!(request.evaluator.model.up, Up::Z);
+    assert_eq!(request.evaluator.model.overlap, Overlap::Merge);
     window.fill("UV set", "3");
     window.until("why not", |editor| editor.stage.model_failure.is_some());
     let why = window.editor().stage.model_failure.clone().unwrap_or_default();

@@ -31,7 +31,7 @@ use crate::phases::{Phase, Progress};
 use crate::source::{Files, SourceSurface, Sources};
 
 /// How a graph and a model are brought together.
-pub struct WorkpieceOptions {
+pub struct EvaluatorOptions {
     /// The model.
     pub model: ModelOptions,
     /// Variant, values and seed on top of the file. A text is taken as typed: what it is read as depends on the parameter.
@@ -47,7 +47,7 @@ pub struct WorkpieceOptions {
 }
 
 /// A graph on a model, ready to be evaluated.
-pub struct Workpiece {
+pub struct Evaluator {
     /// The graph file, as it was named.
     pub path: PathBuf,
     /// The flat graph.
@@ -90,17 +90,17 @@ pub struct Workpiece {
     pub(crate) budget_bytes: u64,
 }
 
-impl Workpiece {
+impl Evaluator {
     /// The graph as these options want it, without groups; values that no node takes are refused.
-    pub fn flat_graph(open: &OpenGraph, kinds: &Kinds, options: &WorkpieceOptions) -> Result<FlatGraph, EngineError> {
-        Workpiece::flat_graph_and_find(open, kinds, options, &[]).map(|(graph, _)| graph)
+    pub fn flat_graph(open: &OpenGraph, kinds: &Kinds, options: &EvaluatorOptions) -> Result<FlatGraph, EngineError> {
+        Evaluator::flat_graph_and_find(open, kinds, options, &[]).map(|(graph, _)| graph)
     }
 
     /// The same, and where in it the results of some nodes of the document come from.
     pub(crate) fn flat_graph_and_find(
         open: &OpenGraph,
         kinds: &Kinds,
-        options: &WorkpieceOptions,
+        options: &EvaluatorOptions,
         wanted: &[NodeRef],
     ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
         let overrides = Overrides {
@@ -113,14 +113,14 @@ impl Workpiece {
         Ok((graph, found))
     }
 
-    /// Opens everything on the adapter of choice; `graph` is from [`Workpiece::flat_graph`].
+    /// Opens everything on the adapter of choice; `graph` is from [`Evaluator::flat_graph`].
     pub fn open(
         open: &OpenGraph,
         graph: FlatGraph,
         kinds: Kinds,
-        options: &WorkpieceOptions,
+        options: &EvaluatorOptions,
         progress: &dyn Progress,
-    ) -> Result<Workpiece, EngineError> {
+    ) -> Result<Evaluator, EngineError> {
         let mut times = PhaseTimes::default();
         let model = times.load.time(|| LinkedModel::load_model(&options.model))?;
         progress.advance(Phase::Load, 1, 1);
@@ -130,11 +130,11 @@ impl Workpiece {
             .time(|| LinkedModel::link(model, &options.model, progress))?;
         stop_if_canceled(progress)?;
         let gpu = times.compile.time(|| Gpu::open(&options.adapter))?;
-        let mut workpiece = Workpiece::assemble(open, graph, kinds, linked, Arc::new(gpu), options)?;
-        workpiece.times.load.add(times.load.total());
-        workpiece.times.atlas = times.atlas;
-        workpiece.times.compile = times.compile;
-        Ok(workpiece)
+        let mut evaluator = Evaluator::assemble(open, graph, kinds, linked, Arc::new(gpu), options)?;
+        evaluator.times.load.add(times.load.total());
+        evaluator.times.atlas = times.atlas;
+        evaluator.times.compile = times.compile;
+        Ok(evaluator)
     }
 
     /// Brings together what is loaded already, on a device that others use too.
@@ -144,8 +144,8 @@ impl Workpiece {
         mut kinds: Kinds,
         linked: impl Into<Arc<LinkedModel>>,
         gpu: Arc<Gpu>,
-        options: &WorkpieceOptions,
-    ) -> Result<Workpiece, EngineError> {
+        options: &EvaluatorOptions,
+    ) -> Result<Evaluator, EngineError> {
         let linked: Arc<LinkedModel> = linked.into();
         let mut times = PhaseTimes::default();
         let chosen = (options.fit.or(options.overrides.fit), options.overrides.seed);
@@ -161,7 +161,7 @@ impl Workpiece {
         let warnings = of_model.iter().cloned().chain(kinds.left_out()).collect();
         let surface_key = surface_key(&linked, &tables);
         let budget_bytes = options.budget_bytes;
-        Ok(Workpiece {
+        Ok(Evaluator {
             path: open.path.clone(),
             graph,
             kinds,

@@ -5,13 +5,13 @@ use std::sync::OnceLock;
 use sabi_gpu::GpuSurface;
 use sabi_graph::FlatGraph;
 
-use super::{Workpiece, surface_key};
+use super::{Evaluator, surface_key};
 use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::levels::AtlasLevels;
 
-impl Workpiece {
+impl Evaluator {
     /// Takes another graph, or the same one after an edit; `graph` is `open` without its groups. Nothing is loaded again: only
     /// the tables of the surface are made anew where the document has another fit or seed.
     pub fn set_graph(&mut self, open: &OpenGraph, graph: FlatGraph) -> Result<(), EngineError> {
