@@ -19,10 +19,10 @@ fn fault(node: &str, sentence: &str) -> NodeFault {
     }
 }
 
-fn waiting(node: &str, on: &str) -> BlockedNode {
+fn blocked(node: &str, by: &str) -> BlockedNode {
     BlockedNode {
         node: node.to_owned(),
-        on: on.to_owned(),
+        blocked_by: by.to_owned(),
     }
 }
 
@@ -44,7 +44,7 @@ fn a_faulty_node_leaves_the_others() {
     let faults = told.faults().expect("faults");
     let sentence = "input 'source' of node 'blurred' (filter/blur) must be connected to a mask";
     assert_eq!(faults.faults, [fault("blurred", sentence)]);
-    assert_eq!(faults.waiting, [waiting("sharp", "blurred")]);
+    assert_eq!(faults.blocked, [blocked("sharp", "blurred")]);
     assert_eq!(told.coarse_and_full(), [true, false]);
     assert_eq!(told.pictured(), ["clouds", "plain"]);
 }
@@ -96,7 +96,7 @@ fn a_group_file_that_is_missing_is_told_and_the_rest_goes_on() {
     };
     let begins = "node \"i\" needs the group file \"gone.sabi\", which cannot be read: ";
     assert!(fault.node == "i" && fault.sentence.starts_with(begins), "{fault:?}");
-    assert_eq!(faults.waiting, [waiting("after", "i")]);
+    assert_eq!(faults.blocked, [blocked("after", "i")]);
     assert_eq!(told.pictured(), ["clouds"]);
     let is_model = |event: &&sabi_engine::LiveEvent| matches!(event, sabi_engine::LiveEvent::Model { .. });
     assert_eq!(told.all.iter().filter(is_model).count(), 2);
@@ -142,7 +142,7 @@ fn a_picture_that_cannot_be_decoded_is_the_fault_of_its_node() {
         faults.faults[0].sentence.starts_with("node 'torn' (source/image): "),
         "{faults:?}"
     );
-    assert_eq!(faults.waiting, [waiting("after", "torn")]);
+    assert_eq!(faults.blocked, [blocked("after", "torn")]);
     let again = window.answer(beside(2));
     assert_eq!(again.faults(), None, "it stays at fault");
     fs::remove_file(folder.path().join("torn.png")).expect("no picture");

@@ -41,7 +41,7 @@ impl Screen {
     fn is_at_fault(&self, node: &str) -> bool {
         let faults = &self.faults;
         faults.faults.iter().any(|fault| fault.node == node)
-            || faults.waiting.iter().any(|waiting| waiting.node == node)
+            || faults.blocked.iter().any(|blocked| blocked.node == node)
     }
 
     fn bytes(&self) -> Option<Vec<u8>> {

@@ -147,9 +147,9 @@ impl Told {
                 revision,
                 is_coarse,
                 model,
-                shown,
+                looks,
                 ..
-            } => Some((*revision, *is_coarse, model, shown)),
+            } => Some((*revision, *is_coarse, model, looks)),
             _ => None,
         });
         shown.collect()

@@ -320,8 +320,8 @@ impl Stage {
     fn take_faults(&mut self, faults: Faults) {
         let at_fault = faults.faults.iter();
         self.by_node = told_at_groups_too(at_fault.map(|fault| (&*fault.node, fault.sentence.clone())));
-        let waiting = faults.waiting.iter();
-        self.waiting = told_at_groups_too(waiting.map(|it| (&*it.node, format!("waiting for {}", it.on))));
+        let waiting = faults.blocked.iter();
+        self.waiting = told_at_groups_too(waiting.map(|it| (&*it.node, format!("waiting for {}", it.blocked_by))));
         self.faults = faults;
     }
 

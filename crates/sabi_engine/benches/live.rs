@@ -126,12 +126,12 @@ impl Window {
                     LiveEvent::Looks {
                         is_coarse,
                         model,
-                        shown,
+                        looks,
                         ..
                     } => {
                         let at = usize::from(!is_coarse);
                         made.told[at] = ms(asked);
-                        let pictured = (model, shown);
+                        let pictured = (model, looks);
                         self.draw(&pictured);
                         made.drawn[at] = ms(asked);
                         made.last = Some(pictured);
@@ -220,7 +220,7 @@ impl Slider {
             port: None,
         };
         LiveRequest {
-            seen: Vec::new(),
+            subjects: Vec::new(),
             thumbnails: all.map(node).to_vec(),
             is_moving: false,
             ..self.request(revision)

@@ -17,7 +17,7 @@ pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
     BakeRequest, DEFAULT_NAMES, default_padding, export_channels, export_presets, why_no_names,
 };
-pub use baking::report::{BakeReport, PhaseTime, PhaseTimes};
+pub use baking::report::BakeReport;
 pub use baking::seams::Seams;
 pub use baking::sets::TextureSet;
 pub use catalog::check::{CheckReport, check};
@@ -42,7 +42,7 @@ pub use opening::kinds::Kinds;
 pub use opening::linked_model::{LinkedModel, ModelOptions, Overlap, Unwrapping};
 pub use opening::pictures::Pictures;
 pub use opening::setting::read_setting;
-pub use phases::{NoProgress, Phase, Progress};
+pub use phases::{NoProgress, Phase, PhaseTime, PhaseTimes, Progress};
 pub use rendering::displace::Triangles;
 pub use rendering::render::{RenderRequest, Turns, render};
 pub use session::watch::{Changes, Watched, Watcher};

@@ -1,7 +1,7 @@
-//! A graph that is evaluated while it is worked on: a window wishes, and is told of results as they come.
+//! Evaluation of a graph while it is edited: a window submits requests and takes events with results as they arrive.
 //!
-//! One thread owns all evaluation, so that no window ever waits. It keeps the model at two sizes, evaluates on the coarse one
-//! first, and keeps results by what they are: an edit evaluates the nodes that it changes and what hangs below them.
+//! One worker thread owns all evaluation, so that the window never blocks. It keeps the model at two sizes, evaluates on the
+//! coarse one first, and caches results by their keys: an edit evaluates only the changed nodes and those downstream.
 
 mod evaluation_error;
 mod event;
@@ -26,18 +26,18 @@ use sabi_graph::NodeRef;
 
 use crate::error::{EngineError, ErrorKind};
 pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault, Warning};
-use queue::{Forgotten, WorkerQueue};
+use queue::{Dropped, WorkerQueue};
 pub use request::{LiveOptions, LiveRequest, ViewSubject};
 use worker::Worker;
 
-/// Evaluates a graph while it is worked on. Dropping it stops the work at its next step and waits for that.
+/// Evaluator of a graph that is being edited. Dropping it cancels the work at its next step and joins the thread.
 pub struct Live {
     queue: Arc<WorkerQueue>,
     worker: Option<JoinHandle<()>>,
 }
 
 impl Live {
-    /// Starts the thread that works. `wake` is called there whenever news have come.
+    /// Starts the worker thread. `wake` is called on it after each event.
     pub fn start(gpu: Arc<Gpu>, options: LiveOptions, wake: impl Fn() + Send + 'static) -> Live {
         let queue = Arc::new(WorkerQueue::default());
         let worker = Worker::new(gpu, options, queue.clone(), Box::new(wake));
@@ -46,7 +46,7 @@ impl Live {
             .spawn(move || worker.work());
         if let Err(error) = &started {
             let why = format!("the system gives no thread to evaluate the graph on ({error}); close other programs");
-            queue.tell(LiveEvent::Lost(EngineError::new(ErrorKind::OutOfMemory, why)));
+            queue.send(LiveEvent::Lost(EngineError::new(ErrorKind::OutOfMemory, why)));
             queue.close();
         }
         Live {
@@ -55,23 +55,23 @@ impl Live {
         }
     }
 
-    /// Wishes for something else than before. Work that is of no use any more ends at its next step.
+    /// Replaces the previous request. Work that it makes obsolete ends at its next step.
     pub fn submit(&self, request: LiveRequest) {
         self.queue.submit(request);
     }
 
-    /// Says that pictures were let go of: where they are wished for again, they are told again. What is told once is otherwise
-    /// not told a second time as long as it looks the same.
-    pub fn forget(&self, subjects: Vec<ViewSubject>, thumbnails: Vec<NodeRef>) {
-        self.queue.forget(Forgotten { subjects, thumbnails });
+    /// Marks pictures as dropped by the window, so that they are sent again when they are requested again. Pictures are
+    /// otherwise sent only when they change.
+    pub fn mark_dropped(&self, subjects: Vec<ViewSubject>, thumbnails: Vec<NodeRef>) {
+        self.queue.mark_dropped(Dropped { subjects, thumbnails });
     }
 
-    /// What came since the last call, oldest first.
+    /// Takes the events since the last call, oldest first.
     pub fn take_events(&self) -> Vec<LiveEvent> {
         self.queue.take_events()
     }
 
-    /// Whether more news are to be expected.
+    /// Whether more events will follow.
     pub fn is_busy(&self) -> bool {
         self.queue.is_busy()
     }
@@ -81,7 +81,7 @@ impl Drop for Live {
     fn drop(&mut self) {
         self.queue.close();
         if let Some(worker) = self.worker.take() {
-            // A worker that panicked has said so in its last news.
+            // A worker that panicked has reported it in its last event.
             let _ = worker.join();
         }
     }

@@ -1,6 +1,10 @@
-//! How a long piece of work tells where it is, and how it is stopped.
+//! Phases of a long piece of work: progress, cancelation and times.
 
-/// A part of a bake.
+use std::time::{Duration, Instant};
+
+use serde_json::{Value as Json, json};
+
+/// Phase of a bake or a rendering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     /// Reading the graph and the model.
@@ -16,7 +20,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// A word for progress bars.
+    /// Label for progress bars.
     pub fn label(self) -> &'static str {
         match self {
             Phase::Load => "Reading",
@@ -28,22 +32,81 @@ impl Phase {
     }
 }
 
-/// Listens to a piece of work, and may stop it.
+/// Receiver of progress, which can cancel the work.
 pub trait Progress: Sync {
-    /// So many of so many steps of a stage are done.
-    fn advance(&self, stage: Phase, done: usize, of: usize);
-    /// Asked between steps; `true` ends the work with an error of kind `Interrupted`.
+    /// Reports that `done` of `of` steps of a phase are done.
+    fn advance(&self, phase: Phase, done: usize, of: usize);
+    /// Whether to stop. Asked between steps; `true` ends the work with an error of kind `Interrupted`.
     fn is_canceled(&self) -> bool;
 }
 
-/// Listens to nothing.
+/// Progress that is ignored, of work that is never canceled.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoProgress;
 
 impl Progress for NoProgress {
-    fn advance(&self, _stage: Phase, _done: usize, _of: usize) {}
+    fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {
         false
+    }
+}
+
+/// Time spent in one phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PhaseTime {
+    total: Duration,
+}
+
+impl PhaseTime {
+    /// Runs `work` and adds the time it took.
+    pub fn time<T>(&mut self, work: impl FnOnce() -> T) -> T {
+        let started = Instant::now();
+        let result = work();
+        self.total += started.elapsed();
+        result
+    }
+
+    /// Adds time measured elsewhere.
+    pub fn add(&mut self, time: Duration) {
+        self.total += time;
+    }
+
+    /// Sum of all added times.
+    pub fn total(&self) -> Duration {
+        self.total
+    }
+
+    /// Milliseconds, rounded to a tenth.
+    pub fn ms(&self) -> f64 {
+        (self.total.as_secs_f64() * 10_000.0).round() / 10.0
+    }
+}
+
+/// Time spent in each phase of a bake.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PhaseTimes {
+    /// Reading the graph, the model and its images, and uploading the surface.
+    pub load: PhaseTime,
+    /// Building the atlas, or reading it from the cache.
+    pub atlas: PhaseTime,
+    /// Opening the device and compiling kernels.
+    pub compile: PhaseTime,
+    /// Running the plan.
+    pub run: PhaseTime,
+    /// Normals, readback, padding, encoding and writing.
+    pub encode: PhaseTime,
+}
+
+impl PhaseTimes {
+    /// Value of `stages_ms` in the report.
+    pub fn json(&self) -> Json {
+        json!({
+            "load": self.load.ms(),
+            "atlas": self.atlas.ms(),
+            "compile": self.compile.ms(),
+            "run": self.run.ms(),
+            "encode": self.encode.ms(),
+        })
     }
 }

@@ -43,7 +43,7 @@ impl Stage {
     }
 
     /// Lets go of pictures, which come again once they are wanted again.
-    fn forget(&mut self, seen: Vec<ViewSubject>, nodes: Vec<NodeRef>) {
+    fn mark_dropped(&mut self, seen: Vec<ViewSubject>, nodes: Vec<NodeRef>) {
         for seen in &seen {
             self.pictures.remove(seen);
         }
@@ -51,7 +51,7 @@ impl Stage {
             self.thumbnails.remove(node);
         }
         if !seen.is_empty() || !nodes.is_empty() {
-            self.live.forget(seen, nodes);
+            self.live.mark_dropped(seen, nodes);
         }
     }
 }

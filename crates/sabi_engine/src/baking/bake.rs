@@ -14,7 +14,7 @@ use crate::baking::bake_request::{BakeRequest, names, set_options};
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::maps::{MapWriter, SetWork, WrittenMaps};
 use crate::baking::model_copy::{open_copy, write_copy};
-use crate::baking::report::{BakeReport, PhaseTime, PhaseTimes};
+use crate::baking::report::BakeReport;
 use crate::baking::seams::ModelSeams;
 use crate::baking::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::catalog::describe::describe_unwrapping;
@@ -26,7 +26,7 @@ use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{refuse_faults, targets};
 use crate::opening::overlap::Sharing;
-use crate::phases::Progress;
+use crate::phases::{PhaseTime, PhaseTimes, Progress};
 use crate::source::{OUTPUT_MASK, mask_name};
 
 /// How long one submission of a bake may take: long enough to cost nothing, short enough to be stopped.

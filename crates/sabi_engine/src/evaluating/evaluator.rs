@@ -15,7 +15,6 @@ use sabi_nodes::kind::Shape;
 use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Target};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
-use crate::baking::report::PhaseTimes;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::ray_cache::RayCache;
 use crate::opening::document::OpenGraph;
@@ -27,7 +26,7 @@ use crate::opening::overridden::refuse_bad_values;
 use crate::opening::pictures::{Pictures, files};
 use crate::opening::setting::read_typed;
 use crate::opening::solidity;
-use crate::phases::{Phase, Progress};
+use crate::phases::{Phase, PhaseTimes, Progress};
 use crate::source::{Files, SourceSurface, Sources};
 
 /// How a graph and a model are brought together.

@@ -57,5 +57,5 @@ fn sharing_sheets(atlas: &Atlas) -> BTreeSet<u32> {
         (x1 - x0).max(y1 - y0) > atlas.size
     };
     let charts = atlas.charts.iter().filter(|chart| overlaps || repeats(chart));
-    charts.map(|chart| chart.texture_space).collect()
+    charts.map(|chart| chart.sheet).collect()
 }

@@ -1,23 +1,23 @@
-//! What keeps an evaluation from its end.
+//! Errors that end an evaluation.
 
 use sabi_gpu::{Gpu, GpuError};
 
 use crate::error::{EngineError, ErrorKind};
 
-/// Why something was not evaluated.
+/// Error that ends an evaluation.
 pub(super) enum EvaluationError {
-    /// A newer wish is there, or nobody wishes any more.
+    /// A newer request is pending, or the evaluator ends.
     Superseded,
-    /// The device is gone.
+    /// The device is lost.
     Lost(EngineError),
-    /// The result of a node that is no kernel cannot be made; what does not need it can.
+    /// The result of a source node cannot be made; nodes that do not need it can be evaluated.
     Node { node: String, why: String },
     /// Anything else.
     Failed(EngineError),
 }
 
 impl EvaluationError {
-    /// What an error means to whoever works on this device.
+    /// Classifies an error of work on this device.
     pub(super) fn of(gpu: &Gpu, error: impl Into<EngineError>) -> EvaluationError {
         if let Some(loss) = gpu.loss() {
             return EvaluationError::Lost(loss.into());
@@ -29,16 +29,16 @@ impl EvaluationError {
         }
     }
 
-    /// The same of what is made of results on a surface of so many texels for one unit of UV.
+    /// Classifies an error of displaying results at a size in texels per UV unit.
     pub(super) fn of_results(gpu: &Gpu, size: u32, error: EngineError) -> EvaluationError {
         if error.kind != ErrorKind::OutOfMemory {
             return EvaluationError::of(gpu, error);
         }
         let room = format!("what is shown of the graph does not fit into memory at a size of {size}");
-        EvaluationError::of(gpu, no_room(&room))
+        EvaluationError::of(gpu, out_of_memory(&room))
     }
 
-    /// The same of a run on a surface of so many texels for one unit of UV.
+    /// Classifies an error of a run at a size in texels per UV unit.
     pub(super) fn of_run(gpu: &Gpu, size: u32, error: GpuError) -> EvaluationError {
         let room = match error {
             GpuError::Node { node, why } => return EvaluationError::Node { node, why },
@@ -51,12 +51,12 @@ impl EvaluationError {
             }
             other => return EvaluationError::of(gpu, other),
         };
-        EvaluationError::of(gpu, no_room(&room))
+        EvaluationError::of(gpu, out_of_memory(&room))
     }
 }
 
-/// Memory is short: what is too large, and what helps in a window.
-fn no_room(what: &str) -> EngineError {
+/// Error for results that do not fit into memory, with advice.
+fn out_of_memory(what: &str) -> EngineError {
     let advice = "work at a smaller size, or close other programs that use the graphics card";
     EngineError::new(ErrorKind::OutOfMemory, format!("{what}; {advice}"))
 }

@@ -1,4 +1,4 @@
-//! What a window is told.
+//! Events from the live evaluator to a window.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -16,191 +16,191 @@ use crate::evaluating::looks::ModelLooks;
 use crate::evaluating::texture_space::ResultPlane;
 use crate::opening::linked_model::LinkedModel;
 
-/// Something that a window is told. What is handed over never changes again.
+/// Event for a window. What it holds never changes afterwards.
 pub enum LiveEvent {
-    /// The model was loaded, coarse or in full, or its lengths count differently.
+    /// The model was loaded, at the coarse or the full size, or its fit has changed.
     Model {
-        /// Which one.
+        /// Revision of the model.
         model_revision: u64,
-        /// Texels for one unit of UV.
+        /// Texels per UV unit.
         size: u32,
         /// The model.
         model: Arc<LiveModel>,
     },
-    /// The model cannot be had; the last good one stays in use.
+    /// The model cannot be loaded; the last good one stays in use.
     ModelFailed {
-        /// Which one.
+        /// Revision of the model.
         model_revision: u64,
-        /// Why.
+        /// Cause.
         error: EngineError,
     },
-    /// What a viewport shows has changed. Where something that it needs is at fault, what was shown before stays.
+    /// The picture of a viewport has changed. While a node that it needs is faulty, no event is sent.
     Looks {
-        /// Of which wish.
+        /// Revision of the request.
         revision: u64,
-        /// What is shown.
+        /// Subject of the viewport.
         subject: ViewSubject,
-        /// Whether the same follows at full size.
+        /// Whether the full size follows.
         is_coarse: bool,
-        /// The model that the textures belong to.
+        /// Model that the looks belong to.
         model: Arc<LiveModel>,
-        /// The textures, on the device.
+        /// Looks of its materials, as textures on the device.
         looks: Arc<ModelLooks>,
     },
-    /// The exact values of the inspected node.
+    /// Exact values of the inspected node.
     Inspected {
-        /// Of which wish.
+        /// Revision of the request.
         revision: u64,
-        /// The node.
+        /// Node.
         node: NodeRef,
-        /// Its values.
+        /// Its values in texture space.
         values: Arc<Inspected>,
     },
-    /// What a node gives looks different now.
+    /// The thumbnail of a node has changed.
     Thumbnail {
-        /// Of which wish.
+        /// Revision of the request.
         revision: u64,
-        /// The node.
+        /// Node.
         node: NodeRef,
-        /// Its picture, clear where the model is not.
+        /// Picture, transparent around the model.
         picture: Pixels,
     },
-    /// What is wrong with the graph, whenever that changes.
+    /// The faults of the graph have changed.
     Faults {
-        /// Of which wish.
+        /// Revision of the request.
         revision: u64,
-        /// What it is.
+        /// All faults.
         faults: Faults,
     },
-    /// Which files besides its own the graph hangs on, whenever that changes: pictures and group files, there or not.
+    /// The list of image and group files that the graph names has changed; they need not exist.
     Files {
-        /// Of which wish.
+        /// Revision of the request.
         revision: u64,
-        /// Where they are.
+        /// Paths of the files.
         files: BTreeSet<PathBuf>,
     },
-    /// What a wish took, once it is answered or a newer one took its place.
+    /// Times of a request, once it is answered or superseded.
     Times {
-        /// Of which wish.
+        /// Revision of the request.
         revision: u64,
-        /// What it took.
+        /// Times and counts.
         times: LiveTimes,
     },
-    /// All that a wish asks for was told.
+    /// All results of a request were sent.
     Done {
-        /// Of which wish.
+        /// Revision of the request.
         revision: u64,
     },
-    /// Something could not be evaluated; the rest goes on, and the next wish tries again.
+    /// A part of a request could not be evaluated; the next request tries again.
     Failed {
-        /// Of which wish.
+        /// Revision of the request.
         revision: u64,
-        /// Why.
+        /// Cause.
         error: EngineError,
     },
-    /// The device is gone, or nobody works any more: there are no more news, and whoever wants some starts anew.
+    /// The device is lost, or the worker ended: no event follows, and a new evaluator has to be started.
     Lost(EngineError),
 }
 
-/// A model at one size, ready to be drawn, picked and probed.
+/// Model at one size, ready to be drawn and picked.
 pub struct LiveModel {
-    /// Which model.
+    /// Revision of the model.
     pub model_revision: u64,
-    /// Texels for one unit of UV.
+    /// Texels per UV unit.
     pub size: u32,
-    /// The model with its atlas and what picking follows rays through.
+    /// Model with its atlas and the ray hierarchy for picking.
     pub linked: Arc<LinkedModel>,
-    /// The model on the device.
+    /// Model on the device.
     pub view: ViewModel,
-    /// Where it stands in view space.
+    /// Placement in view space.
     pub placement: Placement,
-    /// What counts as 1 in lengths and heights.
+    /// Fit: the unit of lengths and heights.
     pub fit: Fit,
-    /// Its texture sets; none where its UVs cover no texel at this size.
+    /// Texture sets; empty where its UVs cover no texel at this size.
     pub sets: Vec<TextureSet>,
 }
 
 impl LiveModel {
-    /// One of its texture sets, or the first where it does not have that one.
+    /// Returns a texture set, or the first where the model does not have the wanted one.
     pub fn set(&self, wanted: Option<SetKey>) -> Option<&TextureSet> {
         self.sets.get(self.index_of_set(wanted))
     }
 
-    /// Which of its sets that is.
+    /// Returns the index of [`LiveModel::set`].
     pub(super) fn index_of_set(&self, wanted: Option<SetKey>) -> usize {
         let at = self.sets.iter().position(|set| Some(set.key) == wanted);
         at.unwrap_or_default()
     }
 }
 
-/// A node's exact values in texture space.
+/// Exact values of a node in texture space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inspected {
-    /// What the node gives.
+    /// Type of the result.
     pub ty: PortType,
-    /// Pixels along a side.
+    /// Side in pixels.
     pub size: u32,
-    /// The texture set that is laid out.
+    /// Texture set whose layout is used.
     pub set: TextureSet,
-    /// Its planes; that of a mask, color or vector, or all that a material sets.
+    /// Planes: one of a mask, color or vector, all that are set of a material.
     pub planes: Vec<ResultPlane>,
-    /// For each pixel whether the surface lies there: other pixels hold padding.
+    /// For each pixel whether a chart covers it; others hold padding.
     pub is_on_surface: Vec<bool>,
 }
 
-/// What is wrong with a graph.
+/// Faults and warnings of a graph.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Faults {
-    /// What is wrong at nodes.
+    /// Faults of nodes.
     pub faults: Vec<NodeFault>,
-    /// Nodes that are right and wait for one that is not.
+    /// Nodes without a fault that need a faulty node.
     pub blocked: Vec<BlockedNode>,
-    /// What is wrong and at no node.
+    /// Faults that belong to no node.
     pub other: Vec<String>,
-    /// What the artist should know.
+    /// Warnings for the artist.
     pub warnings: Vec<Warning>,
 }
 
-/// What the artist should know.
+/// Warning for the artist.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// The node it is about, if it is about one; inside groups `instance/inner`.
+    /// Node it is about, if any; inside groups `instance/inner`.
     pub node: Option<String>,
-    /// A sentence.
+    /// Sentence to show.
     pub sentence: String,
 }
 
-/// What is wrong at a node.
+/// Fault of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeFault {
-    /// The node; inside groups `instance/inner`.
+    /// Id of the node; inside groups `instance/inner`.
     pub node: String,
-    /// What is wrong, as a sentence that names it.
+    /// Sentence that names the node.
     pub sentence: String,
 }
 
-/// A node that waits for another one.
+/// Node that cannot be evaluated because it needs a faulty one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockedNode {
-    /// The node that waits.
+    /// Id of the blocked node.
     pub node: String,
-    /// The one at fault.
+    /// Id of the faulty node.
     pub blocked_by: String,
 }
 
-/// What answering a wish took.
+/// Times and counts of a request.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LiveTimes {
-    /// Nodes that were evaluated, by id, all sizes together.
+    /// Time of each evaluated node by its id, summed over sizes.
     pub nodes: Vec<(String, Duration)>,
-    /// Steps that ran.
+    /// Plan steps that ran.
     pub steps: usize,
-    /// Steps that did not have to, since their results were known.
+    /// Plan steps whose results were cached.
     pub cache_hits: usize,
-    /// Bytes of results that are kept.
+    /// Bytes of cached results.
     pub texture_bytes: u64,
-    /// Bytes of results that may be kept.
+    /// Size limit of the cache in bytes.
     pub budget_bytes: u64,
-    /// From the wish until the last of what viewports show was told; none where they show the same as before.
+    /// Time from the request to the last picture of a viewport; none where no picture changed.
     pub latency: Option<Duration>,
 }

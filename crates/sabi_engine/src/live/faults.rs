@@ -1,4 +1,4 @@
-//! The graph without its groups, and what is wrong with it.
+//! Flattening of a request's graph, and its faults.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -8,24 +8,24 @@ use sabi_plan::{FileContents, PlanError, Target};
 
 use super::event::{BlockedNode, Faults, LiveEvent, NodeFault, Warning};
 use super::groups::{Ungrouped, open_groups};
-use super::model::Loaded;
+use super::model::LoadedModel;
 use super::request::ViewSubject;
 use super::worker::{Job, Worker};
 use crate::evaluating::outputs::clashes;
 use crate::opening::modelless::{all_nodes, planner};
 use crate::opening::pictures;
 
-/// The graph of a wish, flat, and where in it the wanted results are.
+/// Request with its flat graph and the targets in it.
 pub(super) struct FlattenedRequest {
     pub(super) graph: FlatGraph,
-    /// What the wish names, as far as it is there.
+    /// Targets of the nodes that the request names, as far as they exist.
     pub(super) found: BTreeMap<NodeRef, Target>,
     contents: FileContents,
-    /// What is wrong, before anything is evaluated.
+    /// Faults known before the evaluation.
     faults: Faults,
 }
 
-/// A node whose result could not be made, and what that hangs on: once it changes the node is tried again.
+/// Node whose result could not be made. It is tried again once its parameters or its file change.
 pub(super) struct FailedNode {
     why: String,
     params: BTreeMap<String, Value>,
@@ -33,7 +33,7 @@ pub(super) struct FailedNode {
 }
 
 impl Worker {
-    /// Flattens the graph of a wish and tells what is wrong with it; nothing where it cannot be flattened.
+    /// Flattens the graph of a request and sends its faults; none where it cannot be flattened.
     pub(super) fn flatten(&mut self, job: &Job) -> Option<FlattenedRequest> {
         let request = &job.request;
         let subject = request.subjects.iter().filter_map(|subject| match subject {
@@ -50,9 +50,9 @@ impl Worker {
         } = match open_groups(&request.graph, &named, &mut files) {
             Ok(opened) => opened,
             Err(error) => {
-                self.tell_files(job, files);
+                self.send_files(job, files);
                 let other = error.messages;
-                self.tell_if_new(
+                self.send_faults_if_changed(
                     job,
                     Faults {
                         other,
@@ -63,7 +63,7 @@ impl Worker {
             }
         };
         files.extend(pictures::files(request.graph.folder(), &graph, &request.kinds));
-        self.tell_files(job, files);
+        self.send_files(job, files);
         let mut other = clashes(&graph);
         let mut targets = BTreeMap::new();
         for (node, found) in named.into_iter().zip(found) {
@@ -88,35 +88,34 @@ impl Worker {
             found: targets,
             contents,
         };
-        self.failed_nodes
-            .retain(|id, failed_nodes| flattened.still_fails(id, failed_nodes));
-        self.tell_faults(job, &flattened);
+        self.failed_nodes.retain(|id, failed| flattened.still_fails(id, failed));
+        self.send_faults(job, &flattened);
         Some(flattened)
     }
 
-    /// Tells which files the graph names, if they are others than before.
-    fn tell_files(&mut self, job: &Job, files: BTreeSet<PathBuf>) {
+    /// Sends the files that the graph names, if they have changed.
+    fn send_files(&mut self, job: &Job, files: BTreeSet<PathBuf>) {
         if self.sent.files.as_ref() == Some(&files) {
             return;
         }
         self.sent.files = Some(files.clone());
-        self.tell(LiveEvent::Files {
+        self.send(LiveEvent::Files {
             revision: job.request.revision,
             files,
         });
     }
 
-    /// Tells what is wrong, if that has changed.
-    pub(super) fn tell_faults(&mut self, job: &Job, flattened: &FlattenedRequest) {
+    /// Sends all faults, if they have changed.
+    pub(super) fn send_faults(&mut self, job: &Job, flattened: &FlattenedRequest) {
         let mut faults = flattened.faults.clone();
-        let failed_nodes = self.failed_nodes.iter().map(|(node, failed_nodes)| NodeFault {
+        let failed = self.failed_nodes.iter().map(|(node, failed)| NodeFault {
             node: node.clone(),
-            sentence: failed_nodes.why.clone(),
+            sentence: failed.why.clone(),
         });
-        faults.faults.extend(failed_nodes);
+        faults.faults.extend(failed);
         for id in self.failed_nodes.keys() {
-            let waits = flattened.behind(id).filter(|node| !is_named(&faults, node));
-            let blocked: Vec<BlockedNode> = waits
+            let behind = flattened.behind(id).filter(|node| !is_named(&faults, node));
+            let blocked: Vec<BlockedNode> = behind
                 .map(|node| BlockedNode {
                     node: node.to_owned(),
                     blocked_by: id.clone(),
@@ -124,7 +123,7 @@ impl Worker {
                 .collect();
             faults.blocked.extend(blocked);
         }
-        if let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) {
+        if let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) {
             for sentence in sized.warnings() {
                 if faults.warnings.iter().all(|known| known.sentence != *sentence) {
                     faults.warnings.push(Warning {
@@ -134,15 +133,15 @@ impl Worker {
                 }
             }
         }
-        self.tell_if_new(job, faults);
+        self.send_faults_if_changed(job, faults);
     }
 
-    fn tell_if_new(&mut self, job: &Job, faults: Faults) {
+    fn send_faults_if_changed(&mut self, job: &Job, faults: Faults) {
         if self.sent.faults.as_ref() == Some(&faults) {
             return;
         }
         self.sent.faults = Some(faults.clone());
-        self.tell(LiveEvent::Faults {
+        self.send(LiveEvent::Faults {
             revision: job.request.revision,
             faults,
         });
@@ -150,8 +149,8 @@ impl Worker {
 }
 
 impl FlattenedRequest {
-    /// Takes down that a node's result cannot be made. Says whether that was news of a node of this graph: anything else is a
-    /// mistake, and trying again would not end.
+    /// Records that a node's result cannot be made. Returns whether this node of the graph had not failed before: otherwise
+    /// planning again without it would not end.
     pub(super) fn record_failure(
         &self,
         failed_nodes: &mut BTreeMap<String, FailedNode>,
@@ -173,14 +172,14 @@ impl FlattenedRequest {
         self.contents.get(&node)?.as_ref().ok().copied()
     }
 
-    fn still_fails(&self, id: &str, failed_nodes: &FailedNode) -> bool {
+    fn still_fails(&self, id: &str, failed: &FailedNode) -> bool {
         self.graph.find(id).is_some_and(|index| {
             let node = &self.graph.nodes[index];
-            !node.muted && node.params == failed_nodes.params && self.content(index) == failed_nodes.content
+            !node.muted && node.params == failed.params && self.content(index) == failed.content
         })
     }
 
-    /// Ids of all nodes that need a node.
+    /// Lists the ids of all nodes downstream of a node.
     fn behind(&self, id: &str) -> impl Iterator<Item = &str> {
         let index = self.graph.find(id);
         let needs = move |node: &usize| {
@@ -190,16 +189,16 @@ impl FlattenedRequest {
         nodes.map(|node| self.graph.nodes[node].id.as_str())
     }
 
-    /// Those of some targets that need no broken node.
+    /// Keeps the targets that need no failed node.
     pub(super) fn sound(&self, targets: &[Target], failed_nodes: &BTreeMap<String, FailedNode>) -> Vec<Target> {
         if failed_nodes.is_empty() {
             return targets.to_vec();
         }
-        let failed_nodes: Vec<usize> = failed_nodes.keys().filter_map(|id| self.graph.find(id)).collect();
+        let failed: Vec<usize> = failed_nodes.keys().filter_map(|id| self.graph.find(id)).collect();
         let is_sound = |target: &&Target| {
-            // The model's own looks, which stand after all nodes of the graph, need none of them.
+            // The node of the model's own materials is appended to the graph and has no inputs.
             let needed = self.graph.upstream(&[target.node]);
-            !failed_nodes.iter().any(|failed_nodes| needed.contains(failed_nodes))
+            !failed.iter().any(|node| needed.contains(node))
         };
         targets.iter().filter(is_sound).cloned().collect()
     }
@@ -209,7 +208,7 @@ fn is_named(faults: &Faults, node: &str) -> bool {
     faults.blocked.iter().any(|blocked| blocked.node == node) || faults.faults.iter().any(|fault| fault.node == node)
 }
 
-/// What is wrong, with why instances were set aside in the place of what is said of their stand-ins.
+/// Replaces the faults of the nodes that stand for failed group instances by the reasons of their failures.
 fn with_failed_groups(mut faults: Faults, failed_groups: BTreeMap<String, String>) -> Faults {
     faults.faults.retain(|fault| !failed_groups.contains_key(&fault.node));
     let failed_groups = failed_groups.into_iter();
@@ -218,7 +217,7 @@ fn with_failed_groups(mut faults: Faults, failed_groups: BTreeMap<String, String
     faults
 }
 
-/// What is wrong with all nodes of a graph, whoever needs them.
+/// Collects the faults of all nodes of a graph, whether their results are wanted or not.
 fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<String>) -> Faults {
     let resolved = planner(graph, &job.request.kinds, contents).resolve(&all_nodes(graph));
     let (warnings, errors): (Vec<&PlanError>, Vec<&PlanError>) =
@@ -231,8 +230,8 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
         })
         .collect();
     let at_fault: BTreeSet<&str> = errors.iter().map(|error| error.node.as_str()).collect();
-    let mut waits_for: BTreeMap<usize, &str> = BTreeMap::new();
-    // Inputs stand before those who read them.
+    let mut blocked_by: BTreeMap<usize, &str> = BTreeMap::new();
+    // A node follows its inputs in a flat graph.
     for (index, node) in graph.nodes.iter().enumerate() {
         if at_fault.contains(node.id.as_str()) || resolved.nodes[index].is_some() {
             continue;
@@ -240,13 +239,15 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
         let on = node.inputs.values().find_map(|from| {
             let id = graph.nodes[from.node].id.as_str();
             let is_at_fault = at_fault.contains(id);
-            is_at_fault.then_some(id).or_else(|| waits_for.get(&from.node).copied())
+            is_at_fault
+                .then_some(id)
+                .or_else(|| blocked_by.get(&from.node).copied())
         });
         if let Some(on) = on {
-            waits_for.insert(index, on);
+            blocked_by.insert(index, on);
         }
     }
-    let blocked = waits_for.iter().filter(|(index, _)| !graph.nodes[**index].muted);
+    let blocked = blocked_by.iter().filter(|(index, _)| !graph.nodes[**index].muted);
     Faults {
         blocked: blocked
             .map(|(index, on)| BlockedNode {

@@ -1,4 +1,4 @@
-//! Thumbnails of texture space.
+//! Thumbnails in texture space.
 
 use sabi_export::SetKey;
 use sabi_gpu::Run;
@@ -10,7 +10,7 @@ use crate::error::EngineError;
 use crate::evaluating::texture_space::rgb_codes;
 
 impl SizedModel {
-    /// A result in texture space as a square picture, clear where no chart lies.
+    /// Draws a result in texture space as a square picture, transparent where no chart lies.
     pub(super) fn flat_picture(
         &mut self,
         (plan, run): (&Plan, &Run),
@@ -37,7 +37,7 @@ impl SizedModel {
     }
 }
 
-/// A square picture of another size: each pixel is the mean of those that it covers and that are there, or is the nearest one.
+/// Resizes a square picture: each pixel is the mean of the covered pixels that lie on a chart, or the nearest one.
 fn reduced(from: usize, to: usize, is_there: &[bool], code: impl Fn(usize) -> [u8; 3]) -> Vec<u8> {
     let range = |at: usize| {
         let start = at * from / to;
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_pixel_is_the_mean_of_what_lies_on_charts() {
-        // Two by two become one; the last of them lies on no chart.
+        // Two by two pixels become one; the last of them lies on no chart.
         let codes = [[0, 0, 0], [90, 0, 0], [0, 0, 30], [255; 3]];
         let one = reduced(2, 1, &[true, true, true, false], |pixel| codes[pixel]);
         assert_eq!(one, [30, 0, 10, 191]);

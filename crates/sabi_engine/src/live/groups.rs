@@ -1,4 +1,4 @@
-//! Group instances that cannot be opened are set aside, so that the rest of their graph goes on.
+//! Flattening of graphs in which some group instances cannot be opened: the rest is evaluated without them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -8,22 +8,22 @@ use sabi_graph::{FlatGraph, Found, GROUP_KIND, NodeId, NodeRef, Overrides};
 use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
 
-/// A kind that there is not: what is of it has no result, and what hangs on it waits.
+/// Unknown kind that replaces a failed instance: its node has no result, and nodes downstream are blocked.
 const FAILED_GROUP_KIND: &str = "graph/failed-group";
 
-/// A graph without its groups, as far as they can be opened.
+/// Flat graph, and the instances that could not be opened.
 pub(super) struct Ungrouped {
     pub(super) graph: FlatGraph,
-    /// Where in it the results of the wanted nodes come from.
+    /// Origin of each wanted node's result in the flat graph.
     pub(super) found: Vec<Found>,
-    /// Why instances were set aside, by their ids.
+    /// Reason of each failed instance, by its id.
     pub(super) failed_groups: BTreeMap<String, String>,
 }
 
-/// Flattens a graph. Where it cannot be flattened, each instance is opened by itself to find out which ones are to blame.
+/// Flattens a graph. Where that fails, each instance is opened alone to find those that fail.
 ///
 /// # Errors
-/// It cannot be flattened without them either.
+/// The graph cannot be flattened without the failed instances either.
 pub(super) fn open_groups(
     open: &OpenGraph,
     wanted: &[NodeRef],

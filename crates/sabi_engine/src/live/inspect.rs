@@ -1,4 +1,4 @@
-//! The exact values of one node.
+//! Exact values of the inspected node.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use sabi_plan::{Plan, PlannedResult, Target};
 use super::evaluation_error::EvaluationError;
 use super::event::{Inspected, LiveEvent};
 use super::faults::FlattenedRequest;
-use super::model::Loaded;
+use super::model::LoadedModel;
 use super::queue::Watch;
 use super::show::evaluate;
 use super::sized_model::SizedModel;
@@ -18,18 +18,18 @@ use super::worker::{Job, Worker};
 use crate::error::EngineError;
 
 impl Worker {
-    /// Tells the values of the inspected node, if they have changed.
+    /// Sends the values of the inspected node, if they have changed.
     pub(super) fn inspect(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let inspected = job.request.inspected.clone();
         let Some((node, target)) = inspected.and_then(|node| flattened.found.get(&node).map(|target| (node, target)))
         else {
             return Ok(());
         };
-        self.go_on()?;
-        self.take_graph_in_full(job, flattened)?;
+        self.stop_if_superseded()?;
+        self.set_graph_in_full(job, flattened)?;
         match self.inspect_one(job, flattened, node, target) {
             Err(EvaluationError::Failed(error)) => {
-                self.tell(LiveEvent::Failed {
+                self.send(LiveEvent::Failed {
                     revision: job.request.revision,
                     error,
                 });
@@ -54,7 +54,7 @@ impl Worker {
             sent,
             ..
         } = self;
-        let Some(sized) = loaded.as_mut().and_then(Loaded::best) else {
+        let Some(sized) = loaded.as_mut().and_then(LoadedModel::best) else {
             return Ok(());
         };
         let wanted = std::slice::from_ref(target);
@@ -74,7 +74,10 @@ impl Worker {
         if sent.inspected == now {
             return Ok(());
         }
-        let watch = Watch { queue, gives_way: true };
+        let watch = Watch {
+            queue,
+            is_superseded_by_requests: true,
+        };
         let (plan, run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.totals)?;
         let Some(result) = plan.results.first() else {
             return Ok(());
@@ -83,7 +86,7 @@ impl Worker {
         let values = sized.inspected((&plan, &run), result, set);
         let values = values.map_err(|error| EvaluationError::of_results(gpu, size, error))?;
         sent.inspected = now;
-        self.tell(LiveEvent::Inspected {
+        self.send(LiveEvent::Inspected {
             revision: job.request.revision,
             node,
             values: Arc::new(values),

@@ -12,7 +12,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 
 /// A model, at one size or two.
-pub(super) struct Loaded {
+pub(super) struct LoadedModel {
     revision: u64,
     /// How it is taken; its size is the full one.
     options: Arc<ModelOptions>,
@@ -21,10 +21,10 @@ pub(super) struct Loaded {
     /// None until it was asked for, and where it cannot be had.
     pub(super) full: Option<SizedModel>,
     /// Whether the full size cannot be had.
-    is_full_refused: bool,
+    has_full_failed: bool,
 }
 
-impl Loaded {
+impl LoadedModel {
     /// Where first pictures are made.
     pub(super) fn first(&mut self) -> Option<&mut SizedModel> {
         self.coarse.as_mut().or(self.full.as_mut())
@@ -78,29 +78,29 @@ impl Worker {
             Ok(sized) => sized,
             Err(error) => return self.model_failed(job, error),
         };
-        self.tell_model(&sized);
+        self.send_model(&sized);
         let (coarse, full) = if is_coarse {
             (Some(sized), None)
         } else {
             (None, Some(sized))
         };
-        self.loaded = Some(Loaded {
+        self.loaded = Some(LoadedModel {
             revision: request.model_revision,
             options: request.model.clone(),
             coarse,
             full,
-            is_full_refused: false,
+            has_full_failed: false,
         });
         self.sent.looks.clear();
         self.sent.thumbnails.clear();
         self.sent.inspected = None;
-        self.full_took = None;
+        self.full_duration = None;
         Ok(())
     }
 
     /// Loads the model at full size, if it is not there yet.
     pub(super) fn load_full(&mut self, job: &Job) -> Result<(), EvaluationError> {
-        let Some(loaded) = self.loaded.as_mut().filter(|loaded| !loaded.is_full_refused) else {
+        let Some(loaded) = self.loaded.as_mut().filter(|loaded| !loaded.has_full_failed) else {
             return Ok(());
         };
         let (None, Some(coarse)) = (&loaded.full, &loaded.coarse) else {
@@ -121,42 +121,42 @@ impl Worker {
         });
         match sized {
             Ok(sized) => {
-                self.tell_model(&sized);
+                self.send_model(&sized);
                 if let Some(loaded) = &mut self.loaded {
                     loaded.full = Some(sized);
                 }
                 Ok(())
             }
             Err(error) => {
-                loaded.is_full_refused = error.kind != ErrorKind::Interrupted;
+                loaded.has_full_failed = error.kind != ErrorKind::Interrupted;
                 self.model_failed(job, error)
             }
         }
     }
 
     /// Puts the graph on the first size of the model.
-    pub(super) fn take_graph(&mut self, job: &Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
-        let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
+    pub(super) fn set_graph(&mut self, job: &Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
+        let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) else {
             return Ok(());
         };
         let is_another = sized.take(&job.request, &flattened.graph);
         if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))?
-            && let Some(sized) = self.loaded.as_mut().and_then(Loaded::first)
+            && let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first)
         {
             let event = model_event(sized);
-            self.tell(event);
+            self.send(event);
         }
         Ok(())
     }
 
     /// The same on the full size, which is loaded where it is not there yet. Says whether there is one.
-    pub(super) fn take_graph_in_full(
+    pub(super) fn set_graph_in_full(
         &mut self,
         job: &Job,
         flattened: &FlattenedRequest,
     ) -> Result<bool, EvaluationError> {
         self.load_full(job)?;
-        let Some(Loaded {
+        let Some(LoadedModel {
             coarse,
             full: Some(sized),
             ..
@@ -168,20 +168,20 @@ impl Worker {
             let is_another = sized.take(&job.request, &flattened.graph);
             if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))? {
                 let event = model_event(sized);
-                self.tell(event);
+                self.send(event);
             }
         }
         Ok(true)
     }
 
-    fn tell_model(&self, sized: &SizedModel) {
-        self.tell(model_event(sized));
+    fn send_model(&self, sized: &SizedModel) {
+        self.send(model_event(sized));
     }
 
     fn model_failed(&self, job: &Job, error: EngineError) -> Result<(), EvaluationError> {
         match EvaluationError::of(&self.gpu, error) {
             EvaluationError::Failed(error) => {
-                self.tell(LiveEvent::ModelFailed {
+                self.send(LiveEvent::ModelFailed {
                     model_revision: job.request.model_revision,
                     error,
                 });

@@ -1,4 +1,4 @@
-//! What lies between a window and the thread that works for it.
+//! Queue between a window and its worker thread.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -9,10 +9,10 @@ use super::event::LiveEvent;
 use super::request::{LiveRequest, ViewSubject};
 use crate::phases::{Phase, Progress};
 
-/// A wish, and when it was made.
-pub(super) type Asked = (LiveRequest, Instant);
+/// Request with the time of its submission.
+pub(super) type SubmittedRequest = (LiveRequest, Instant);
 
-/// The last wish on its way to the worker, and news on their way to the window.
+/// Latest request to the worker and pending events to the window.
 #[derive(Default)]
 pub(super) struct WorkerQueue {
     state: Mutex<State>,
@@ -21,56 +21,56 @@ pub(super) struct WorkerQueue {
 
 #[derive(Default)]
 struct State {
-    request: Option<Asked>,
+    request: Option<SubmittedRequest>,
     events: Vec<LiveEvent>,
-    forgotten: Forgotten,
+    dropped: Dropped,
     is_working: bool,
     is_closed: bool,
 }
 
-/// Pictures that the window had and has let go of.
+/// Pictures that the window has dropped.
 #[derive(Default)]
-pub(super) struct Forgotten {
+pub(super) struct Dropped {
     pub(super) subjects: Vec<ViewSubject>,
     pub(super) thumbnails: Vec<NodeRef>,
 }
 
 impl WorkerQueue {
-    /// Puts a wish in the place of the last one.
+    /// Replaces the pending request.
     pub(super) fn submit(&self, request: LiveRequest) {
         self.lock().request = Some((request, Instant::now()));
         self.changed.notify_one();
     }
 
-    /// Remembers that the window has let go of pictures, until the worker asks.
-    pub(super) fn forget(&self, forgotten: Forgotten) {
-        let known = &mut self.lock().forgotten;
-        known.subjects.extend(forgotten.subjects);
-        known.thumbnails.extend(forgotten.thumbnails);
+    /// Adds to the pictures that the window has dropped.
+    pub(super) fn mark_dropped(&self, dropped: Dropped) {
+        let known = &mut self.lock().dropped;
+        known.subjects.extend(dropped.subjects);
+        known.thumbnails.extend(dropped.thumbnails);
     }
 
-    /// What the window has let go of since the last call.
-    pub(super) fn take_forgotten(&self) -> Forgotten {
-        std::mem::take(&mut self.lock().forgotten)
+    /// Takes the pictures that the window has dropped since the last call.
+    pub(super) fn take_dropped(&self) -> Dropped {
+        std::mem::take(&mut self.lock().dropped)
     }
 
-    /// Waits for a wish; none once nobody wishes any more.
-    pub(super) fn next(&self) -> Option<Asked> {
+    /// Waits for a request; none once the queue is closed.
+    pub(super) fn next(&self) -> Option<SubmittedRequest> {
         let mut state = self.lock();
         loop {
             state.is_working = false;
             if state.is_closed {
                 return None;
             }
-            if let Some(asked) = state.request.take() {
+            if let Some(submitted) = state.request.take() {
                 state.is_working = true;
-                return Some(asked);
+                return Some(submitted);
             }
             state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
-    /// Ends all work.
+    /// Ends all work and wakes the worker.
     pub(super) fn close(&self) {
         self.lock().is_closed = true;
         self.changed.notify_one();
@@ -80,17 +80,17 @@ impl WorkerQueue {
         self.lock().is_closed
     }
 
-    /// Whether the work at hand is of no use any more.
+    /// Whether the current work is obsolete: a newer request is pending, or the queue is closed.
     pub(super) fn is_superseded(&self) -> bool {
         let state = self.lock();
         state.is_closed || state.request.is_some()
     }
 
-    /// Whether loading this model is of no use any more: another one is wished for, or none.
-    fn is_other_wanted(&self, model_revision: u64) -> bool {
+    /// Whether loading this model is obsolete: another one is requested, or the queue is closed.
+    fn is_other_model_requested(&self, model_revision: u64) -> bool {
         let state = self.lock();
-        let wished = state.request.as_ref().map(|(request, _)| request.model_revision);
-        state.is_closed || wished.is_some_and(|wished| wished != model_revision)
+        let requested = state.request.as_ref().map(|(request, _)| request.model_revision);
+        state.is_closed || requested.is_some_and(|requested| requested != model_revision)
     }
 
     pub(super) fn is_busy(&self) -> bool {
@@ -98,9 +98,9 @@ impl WorkerQueue {
         !state.is_closed && (state.is_working || state.request.is_some())
     }
 
-    pub(super) fn tell(&self, event: LiveEvent) {
+    pub(super) fn send(&self, event: LiveEvent) {
         let mut state = self.lock();
-        // A window that does not listen for a while wants the newest pictures and none of those before.
+        // A window that has not taken events for a while needs the newest pictures only.
         state.events.retain(|older| !is_outdated(older, &event));
         if matches!(event, LiveEvent::Done { .. } | LiveEvent::Lost(_)) {
             state.is_working = false;
@@ -113,12 +113,12 @@ impl WorkerQueue {
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
-        // What is in it is put in whole, so a panic elsewhere leaves nothing half made.
+        // Every change of the state is a single assignment or push, so a panic elsewhere leaves it consistent.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Whether older news are of no use beside newer ones: pictures of the same thing, of an older wish.
+/// Whether a newer event replaces an older one: a picture of the same subject, of an older request.
 fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     match (older, newer) {
         (
@@ -142,18 +142,18 @@ fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     }
 }
 
-/// Stops work that is of no use any more, between two of its steps.
+/// Cancels obsolete work between two of its steps.
 pub(super) struct Watch<'m> {
     pub(super) queue: &'m WorkerQueue,
-    /// Whether it is ended by a newer wish, or only when nobody wishes any more.
-    pub(super) gives_way: bool,
+    /// Whether a newer request cancels the work, too, and not the end of the evaluator alone.
+    pub(super) is_superseded_by_requests: bool,
 }
 
 impl Progress for Watch<'_> {
     fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {
-        if self.gives_way {
+        if self.is_superseded_by_requests {
             self.queue.is_superseded()
         } else {
             self.queue.is_closed()
@@ -161,7 +161,7 @@ impl Progress for Watch<'_> {
     }
 }
 
-/// Stops loading a model that nobody wants any more.
+/// Cancels loading a model once another one is requested.
 pub(super) struct LoadWatch<'m> {
     pub(super) queue: &'m WorkerQueue,
     pub(super) model_revision: u64,
@@ -171,6 +171,6 @@ impl Progress for LoadWatch<'_> {
     fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {
-        self.queue.is_other_wanted(self.model_revision)
+        self.queue.is_other_model_requested(self.model_revision)
     }
 }

@@ -1,4 +1,4 @@
-//! What a window wants to know.
+//! Requests of a window to the live evaluator.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,22 +12,22 @@ use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::ModelOptions;
 
-/// How a graph is evaluated while it is worked on.
+/// Options of the live evaluator.
 #[derive(Clone, Debug)]
 pub struct LiveOptions {
-    /// Where results that take long are kept between runs; none to make them anew.
+    /// Folder of the disk cache; none to compute everything on each start.
     pub cache_dir: Option<PathBuf>,
-    /// Bytes of results that are kept so that an edit evaluates only what it changes.
+    /// Size limit of the cache of results in GPU memory.
     pub cache_bytes: u64,
-    /// Bytes of textures that one evaluation may hold besides.
+    /// Size limit of the textures of one evaluation, besides the cache.
     pub budget_bytes: u64,
-    /// How long one piece of work may hold the device, which a window draws with, too.
+    /// Longest time of one GPU submission; the window draws with the same device.
     pub submission: Duration,
-    /// Pixels along the side of a thumbnail.
+    /// Side of a thumbnail, pixels.
     pub thumbnail_px: u32,
-    /// A coarse picture is made first unless the last full one came within this time: it would only flicker. Zero for always.
+    /// Skips the coarse picture where the last full one took less than this, since it would only flicker; zero to draw it always.
     pub coarse_after: Duration,
-    /// Who follows rays.
+    /// Ray caster.
     pub caster: CasterChoice,
 }
 
@@ -45,44 +45,44 @@ impl Default for LiveOptions {
     }
 }
 
-/// What a window wants to know of a graph on a model. A newer wish takes the place of an older one. Nodes and ports that are not
-/// there are left out of the answer.
+/// Request for the results of a graph on a model. A newer request replaces an older one. Nodes and ports that do not exist are
+/// left out of the answer.
 #[derive(Clone, Debug)]
 pub struct LiveRequest {
-    /// Stands in all news about it; rises with every edit.
+    /// Revision that all events of this request carry; rises with every edit.
     pub revision: u64,
     /// The graph.
     pub graph: Arc<OpenGraph>,
     /// All node kinds.
     pub kinds: Arc<Kinds>,
-    /// Rises when node files were read again.
+    /// Revision of the kinds; rises when node files are read again.
     pub kinds_revision: u64,
-    /// The model; its size is that of full pictures.
+    /// The model, with the size of full pictures.
     pub model: Arc<ModelOptions>,
-    /// Rises when another model is wanted, another size of it, or its file changed: it is loaded then and not otherwise.
+    /// Revision of the model; it is loaded again when this rises: for another model, another size, or a changed file.
     pub model_revision: u64,
-    /// Texels for one unit of UV of pictures that come at once; not used where the full size is not larger.
+    /// Texels per UV unit of coarse pictures; not used where the full size is not larger.
     pub coarse_size: u32,
-    /// What viewports show, most important first.
+    /// Subjects of the viewports, most important first.
     pub subjects: Vec<ViewSubject>,
-    /// The node whose exact values are wanted at full size.
+    /// Node whose exact values are read back at full size.
     pub inspected: Option<NodeRef>,
-    /// Which texture set is shown where texture space is; the model's first where it does not have this one.
+    /// Texture set of pictures in texture space; the model's first where it does not have this one.
     pub set: Option<SetKey>,
-    /// Nodes that are visible on the canvas, most important first.
+    /// Nodes that need a thumbnail, most important first.
     pub thumbnails: Vec<NodeRef>,
-    /// Whether thumbnails show texture space and not the model.
+    /// Whether thumbnails show texture space instead of the model.
     pub is_flat: bool,
-    /// Whether a knob is being moved: what rays hit is remembered, a first picture shoots few of them, and thumbnails wait for
-    /// full pictures.
+    /// Whether a knob is being dragged: ray hits are remembered, coarse pictures trace few rays, and thumbnails follow full
+    /// pictures.
     pub is_moving: bool,
 }
 
-/// What a viewport shows.
+/// Subject of a viewport.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ViewSubject {
-    /// What the outputs make of the model.
+    /// The model with the materials of the graph's outputs.
     Outputs,
-    /// One node's result on all of the model.
+    /// One node's result on the whole model.
     Node(NodeRef),
 }

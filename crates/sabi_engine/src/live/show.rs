@@ -22,7 +22,7 @@ impl Worker {
     /// Shows everything coarse, or in full where there is nothing coarser or that would only flicker.
     pub(super) fn show_first(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let has_coarse = self.loaded.as_ref().is_some_and(|loaded| loaded.coarse.is_some());
-        let is_quick = self.full_took.is_some_and(|took| took < self.options.coarse_after);
+        let is_quick = self.full_duration.is_some_and(|took| took < self.options.coarse_after);
         job.is_full_first = !has_coarse || is_quick;
         if has_coarse {
             self.show(job, flattened, true)?;
@@ -38,19 +38,19 @@ impl Worker {
         if job.is_full_first {
             return Ok(());
         }
-        self.go_on()?;
+        self.stop_if_superseded()?;
         self.show_in_full(job, flattened)
     }
 
     fn show_in_full(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
-        if !self.take_graph_in_full(job, flattened)? {
+        if !self.set_graph_in_full(job, flattened)? {
             return Ok(());
         }
         let started = Instant::now();
         let steps = job.totals.steps;
         self.show(job, flattened, false)?;
         if job.totals.steps > steps {
-            self.full_took = Some(started.elapsed());
+            self.full_duration = Some(started.elapsed());
         }
         Ok(())
     }
@@ -58,17 +58,17 @@ impl Worker {
     /// Shows everything at one size, as far as it has changed.
     fn show(&mut self, job: &mut Job, flattened: &FlattenedRequest, is_coarse: bool) -> Result<(), EvaluationError> {
         // A first picture is finished once it was begun, so that a stream of wishes has something to show.
-        let gives_way = !is_coarse && !job.is_full_first;
+        let is_superseded_by_requests = !is_coarse && !job.is_full_first;
         for subject in job.request.subjects.clone() {
-            if gives_way {
-                self.go_on()?;
+            if is_superseded_by_requests {
+                self.stop_if_superseded()?;
             }
-            match self.show_one(job, flattened, &subject, is_coarse, gives_way) {
+            match self.show_one(job, flattened, &subject, is_coarse, is_superseded_by_requests) {
                 Err(EvaluationError::Failed(error)) => {
                     if error.kind == ErrorKind::OutOfMemory {
                         self.forget_results();
                     }
-                    self.tell(LiveEvent::Failed {
+                    self.send(LiveEvent::Failed {
                         revision: job.request.revision,
                         error,
                     });
@@ -86,7 +86,7 @@ impl Worker {
         flattened: &FlattenedRequest,
         subject: &ViewSubject,
         is_coarse: bool,
-        gives_way: bool,
+        is_superseded_by_requests: bool,
     ) -> Result<(), EvaluationError> {
         let Worker {
             loaded,
@@ -114,7 +114,10 @@ impl Worker {
         if before.is_some_and(is_known) || (is_coarse && job.is_full_first) || is_worse(&plan) {
             return Ok(());
         }
-        let watch = Watch { queue, gives_way };
+        let watch = Watch {
+            queue,
+            is_superseded_by_requests,
+        };
         let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&wanted, plan), &watch, &mut job.totals)?;
         if is_worse(&plan) {
             return Ok(());
@@ -133,8 +136,8 @@ impl Worker {
             model: sized.model.clone(),
             looks: Arc::new(looks),
         };
-        self.tell(event);
-        job.latency = Some(job.asked.elapsed());
+        self.send(event);
+        job.latency = Some(job.submitted.elapsed());
         Ok(())
     }
 

@@ -36,9 +36,9 @@ pub(super) struct SizedModel {
     /// Which node each material is shown by.
     pub(super) serving: BTreeMap<u32, usize>,
     /// Outputs that serve nothing, as sentences.
-    idle: Vec<String>,
+    idle_outputs: Vec<String>,
     /// Sentences that came while something was made of these sources: sources whose results are known say nothing again.
-    noted: Vec<(BTreeSet<[u8; 32]>, String)>,
+    source_warnings: Vec<(BTreeSet<[u8; 32]>, String)>,
     /// Sources that the wish at hand needs.
     sources: BTreeSet<[u8; 32]>,
     /// Whether the wish at hand shoots rays.
@@ -106,8 +106,8 @@ impl SizedModel {
             cache: ResultCache::new(cache_bytes),
             texture_space: None,
             serving: BTreeMap::new(),
-            idle: Vec::new(),
-            noted: Vec::new(),
+            idle_outputs: Vec::new(),
+            source_warnings: Vec::new(),
             sources: BTreeSet::new(),
             shoots: false,
             kinds_revision: request.kinds_revision,
@@ -123,13 +123,13 @@ impl SizedModel {
             self.kinds_revision = request.kinds_revision;
         }
         let linked = &self.evaluator.linked;
-        let (serving, idle) = shown_by(graph, &linked.model, &linked.atlas);
+        let (serving, idle_outputs) = shown_by(graph, &linked.model, &linked.atlas);
         self.serving = serving;
         // Materials that no output serves are shown by a node of the model's own looks at the end of the graph.
         let mut graph = graph.clone();
         graph.nodes.push(model_source_node(request.graph.document.fit));
         self.evaluator.set_graph(&request.graph, graph)?;
-        self.idle = idle;
+        self.idle_outputs = idle_outputs;
         self.sources.clear();
         self.shoots = false;
         self.evaluator.hits = if request.is_moving {
@@ -187,11 +187,11 @@ impl SizedModel {
     /// What the artist should know of what the wish at hand needs.
     pub(super) fn warnings(&self) -> impl Iterator<Item = &String> {
         let is_of_now = |of: &BTreeSet<[u8; 32]>| of.is_empty() || !of.is_disjoint(&self.sources);
-        let noted = self.noted.iter().filter(move |(of, _)| is_of_now(of));
+        let source_warnings = self.source_warnings.iter().filter(move |(of, _)| is_of_now(of));
         let of_model = self.shoots.then(|| self.model.linked.solidity.get()).flatten();
-        let evaluator = self.evaluator.warnings.iter().chain(&self.idle);
+        let evaluator = self.evaluator.warnings.iter().chain(&self.idle_outputs);
         evaluator
-            .chain(noted.map(|(_, sentence)| sentence))
+            .chain(source_warnings.map(|(_, sentence)| sentence))
             .chain(of_model.into_iter().flatten())
     }
 
@@ -225,8 +225,8 @@ impl SizedModel {
         let cache = Some(&mut self.cache);
         let run = self.evaluator.run_on_levels(plan, self.submission, progress, cache);
         for sentence in self.evaluator.warnings.drain(known..) {
-            self.noted.retain(|(_, other)| *other != sentence);
-            self.noted.push((sources_of(plan).collect(), sentence));
+            self.source_warnings.retain(|(_, other)| *other != sentence);
+            self.source_warnings.push((sources_of(plan).collect(), sentence));
         }
         let run = run.map_err(|error| EvaluationError::of_run(&gpu, size, error))?;
         totals.add(plan, &run.report);

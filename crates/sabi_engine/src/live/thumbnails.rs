@@ -9,7 +9,7 @@ use sabi_view::Pixels;
 use super::evaluation_error::EvaluationError;
 use super::event::LiveEvent;
 use super::faults::FlattenedRequest;
-use super::model::Loaded;
+use super::model::LoadedModel;
 use super::queue::Watch;
 use super::request::LiveRequest;
 use super::show::evaluate;
@@ -26,7 +26,7 @@ impl Worker {
         job: &mut Job,
         flattened: &FlattenedRequest,
     ) -> Result<(), EvaluationError> {
-        let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) else {
+        let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) else {
             return Ok(());
         };
         let nodes = job.request.thumbnails.iter();
@@ -42,11 +42,11 @@ impl Worker {
             if self.sent.thumbnails.get(&node) == Some(key) {
                 continue;
             }
-            self.go_on()?;
+            self.stop_if_superseded()?;
             match self.picture(job, flattened, &target) {
                 Ok(Some(picture)) => {
                     self.sent.thumbnails.insert(node.clone(), *key);
-                    self.tell(LiveEvent::Thumbnail {
+                    self.send(LiveEvent::Thumbnail {
                         revision: job.request.revision,
                         node,
                         picture,
@@ -55,7 +55,7 @@ impl Worker {
                 Ok(None) => {}
                 Err(EvaluationError::Failed(error)) => {
                     // The others would most likely fail as well.
-                    self.tell(LiveEvent::Failed {
+                    self.send(LiveEvent::Failed {
                         revision: job.request.revision,
                         error,
                     });
@@ -83,10 +83,13 @@ impl Worker {
             options,
             ..
         } = self;
-        let Some(sized) = loaded.as_mut().and_then(Loaded::first) else {
+        let Some(sized) = loaded.as_mut().and_then(LoadedModel::first) else {
             return Ok(None);
         };
-        let watch = Watch { queue, gives_way: true };
+        let watch = Watch {
+            queue,
+            is_superseded_by_requests: true,
+        };
         let wanted = std::slice::from_ref(target);
         let plan = sized.plan(&flattened.sound(wanted, failed_nodes));
         let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.totals)?;

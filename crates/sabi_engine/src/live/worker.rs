@@ -12,7 +12,7 @@ use sabi_graph::NodeRef;
 use super::evaluation_error::EvaluationError;
 use super::event::{Faults, LiveEvent, LiveTimes};
 use super::faults::FailedNode;
-use super::model::Loaded;
+use super::model::LoadedModel;
 use super::queue::WorkerQueue;
 use super::request::{LiveOptions, LiveRequest, ViewSubject};
 use super::sized_model::RunTotals;
@@ -29,7 +29,7 @@ pub(super) struct Worker {
     pub(super) queue: Arc<WorkerQueue>,
     wake: Box<dyn Fn() + Send>,
     /// The last good model.
-    pub(super) loaded: Option<Loaded>,
+    pub(super) loaded: Option<LoadedModel>,
     /// The last model that was tried, good or not.
     pub(super) tried: Option<u64>,
     pub(super) sent: Sent,
@@ -37,7 +37,7 @@ pub(super) struct Worker {
     pub(super) failed_nodes: BTreeMap<String, FailedNode>,
     pub(super) thumbnail_renderer: Option<ThumbnailRenderer>,
     /// How long the last full picture took.
-    pub(super) full_took: Option<Duration>,
+    pub(super) full_duration: Option<Duration>,
 }
 
 /// What the window has been told, so that nothing is told twice.
@@ -64,7 +64,7 @@ pub(super) struct SentLooks {
 /// The answer to one wish in the making.
 pub(super) struct Job {
     pub(super) request: LiveRequest,
-    pub(super) asked: Instant,
+    pub(super) submitted: Instant,
     pub(super) totals: RunTotals,
     pub(super) latency: Option<Duration>,
     /// What coarse pictures of this wish are.
@@ -90,48 +90,48 @@ impl Worker {
             sent: Sent::default(),
             failed_nodes: BTreeMap::new(),
             thumbnail_renderer: None,
-            full_took: None,
+            full_duration: None,
         }
     }
 
     /// Answers wishes until nobody wishes any more, or the device is gone.
     pub(super) fn work(self) {
-        let mut worker = LastWords(self);
-        while let Some((request, asked)) = worker.0.queue.next() {
+        let mut worker = PanicGuard(self);
+        while let Some((request, submitted)) = worker.0.queue.next() {
             let revision = request.revision;
             // Whatever a mistake leaves half made is let go of.
-            match catch_unwind(AssertUnwindSafe(|| worker.0.answer(request, asked))) {
+            match catch_unwind(AssertUnwindSafe(|| worker.0.answer(request, submitted))) {
                 Ok(Ok(())) => {}
                 Ok(Err(loss)) => {
                     worker.0.queue.close();
-                    worker.0.tell(LiveEvent::Lost(loss));
+                    worker.0.send(LiveEvent::Lost(loss));
                     return;
                 }
-                Err(_) => worker.0.begin_anew(revision),
+                Err(_) => worker.0.reset(revision),
             }
         }
     }
 
     /// Forgets all that was made, after a mistake of the program in an answer; the next wish is answered from the beginning.
-    fn begin_anew(&mut self, revision: u64) {
+    fn reset(&mut self, revision: u64) {
         self.loaded = None;
         self.tried = None;
         self.sent = Sent::default();
         self.failed_nodes.clear();
         self.thumbnail_renderer = None;
-        self.full_took = None;
+        self.full_duration = None;
         let why = "the evaluation of the graph broke off, which is a mistake in Sabi; take back what was done last, or go on \
                    with something else";
         self.fail(revision, EngineError::new(ErrorKind::BadInput, why));
     }
 
-    pub(super) fn tell(&self, event: LiveEvent) {
-        self.queue.tell(event);
+    pub(super) fn send(&self, event: LiveEvent) {
+        self.queue.send(event);
         (self.wake)();
     }
 
     /// Ends the job if a newer wish is there.
-    pub(super) fn go_on(&self) -> Result<(), EvaluationError> {
+    pub(super) fn stop_if_superseded(&self) -> Result<(), EvaluationError> {
         if self.queue.is_superseded() {
             return Err(EvaluationError::Superseded);
         }
@@ -139,29 +139,29 @@ impl Worker {
     }
 
     /// Answers one wish; an error is the loss of the device.
-    fn answer(&mut self, request: LiveRequest, asked: Instant) -> Result<(), EngineError> {
+    fn answer(&mut self, request: LiveRequest, submitted: Instant) -> Result<(), EngineError> {
         let revision = request.revision;
-        self.forget_told();
+        self.forget_dropped();
         let mut job = Job {
             request,
-            asked,
+            submitted,
             totals: RunTotals::default(),
             latency: None,
             coarse_keys: BTreeMap::new(),
             is_full_first: false,
         };
-        let outcome = self.answer_in_order(&mut job);
+        let outcome = self.answer_by_priority(&mut job);
         if outcome.is_ok()
-            && let Some(sized) = self.loaded.as_mut().and_then(Loaded::best)
+            && let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::best)
         {
             // The window picks with it, and must not wait for it.
             sized.model.linked.hierarchy();
         }
         if job.totals.steps + job.totals.cache_hits > 0 {
-            self.tell_times(&job);
+            self.send_times(&job);
         }
         match outcome {
-            Ok(()) => self.tell(LiveEvent::Done { revision }),
+            Ok(()) => self.send(LiveEvent::Done { revision }),
             Err(EvaluationError::Superseded) => {}
             Err(EvaluationError::Lost(loss)) => return Err(loss),
             Err(EvaluationError::Failed(error)) => self.fail(revision, error),
@@ -171,35 +171,35 @@ impl Worker {
     }
 
     /// Takes what the window has let go of for something that it was never told.
-    fn forget_told(&mut self) {
-        let forgotten = self.queue.take_forgotten();
-        for subject in &forgotten.subjects {
+    fn forget_dropped(&mut self) {
+        let dropped = self.queue.take_dropped();
+        for subject in &dropped.subjects {
             self.sent.looks.remove(subject);
         }
-        for node in &forgotten.thumbnails {
+        for node in &dropped.thumbnails {
             self.sent.thumbnails.remove(node);
         }
     }
 
     /// Ends a wish that could not be answered.
     fn fail(&self, revision: u64, error: EngineError) {
-        self.tell(LiveEvent::Failed { revision, error });
-        self.tell(LiveEvent::Done { revision });
+        self.send(LiveEvent::Failed { revision, error });
+        self.send(LiveEvent::Done { revision });
     }
 
     /// All that a wish asks for, what is missed most first.
-    fn answer_in_order(&mut self, job: &mut Job) -> Result<(), EvaluationError> {
+    fn answer_by_priority(&mut self, job: &mut Job) -> Result<(), EvaluationError> {
         let flattened = self.flatten(job);
         self.load_first(job)?;
         let Some(flattened) = flattened else {
-            self.go_on()?;
+            self.stop_if_superseded()?;
             return self.load_full(job);
         };
-        self.take_graph(job, &flattened)?;
+        self.set_graph(job, &flattened)?;
         let failed_nodes = self.failed_nodes.len();
         self.show_first(job, &flattened)?;
         if self.failed_nodes.len() != failed_nodes {
-            self.tell_faults(job, &flattened);
+            self.send_faults(job, &flattened);
         }
         if job.request.is_moving {
             self.show_full(job, &flattened)?;
@@ -209,15 +209,15 @@ impl Worker {
             self.show_full(job, &flattened)?;
         }
         self.inspect(job, &flattened)?;
-        if let Some(sized) = self.loaded.as_mut().and_then(Loaded::first) {
+        if let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) {
             sized.look_at_solidity();
         }
-        self.tell_faults(job, &flattened);
+        self.send_faults(job, &flattened);
         Ok(())
     }
 
-    fn tell_times(&self, job: &Job) {
-        let sizes = self.loaded.iter().flat_map(Loaded::sizes);
+    fn send_times(&self, job: &Job) {
+        let sizes = self.loaded.iter().flat_map(LoadedModel::sizes);
         let (texture_bytes, budget_bytes) = sizes
             .map(|sized| sized.cache.bytes())
             .fold((0, 0), |(held, allowed), (more, most)| (held + more, allowed + most));
@@ -234,7 +234,7 @@ impl Worker {
             budget_bytes,
             latency: job.latency,
         };
-        self.tell(LiveEvent::Times {
+        self.send(LiveEvent::Times {
             revision: job.request.revision,
             times,
         });
@@ -242,14 +242,14 @@ impl Worker {
 }
 
 /// A worker that says so when it ends by a mistake, since nobody would wait for news otherwise.
-struct LastWords(Worker);
+struct PanicGuard(Worker);
 
-impl Drop for LastWords {
+impl Drop for PanicGuard {
     fn drop(&mut self) {
         if std::thread::panicking() {
             let why = "the evaluation of the graph broke off; this is a mistake in Sabi";
             self.0.queue.close();
-            self.0.tell(LiveEvent::Lost(EngineError::new(ErrorKind::BadInput, why)));
+            self.0.send(LiveEvent::Lost(EngineError::new(ErrorKind::BadInput, why)));
         }
     }
 }
