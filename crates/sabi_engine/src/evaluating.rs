@@ -1,4 +1,4 @@
-//! A graph evaluated on a model: plans, runs and what is made of their results.
+//! Evaluation of a graph on a model: plans, runs, and looks, previews and thumbnails of their results.
 
 pub(crate) mod evaluator;
 pub(crate) mod looks;

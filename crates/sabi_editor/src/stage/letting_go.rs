@@ -43,7 +43,7 @@ impl Stage {
     }
 
     /// Lets go of pictures, which come again once they are wanted again.
-    fn mark_dropped(&mut self, seen: Vec<ViewSubject>, nodes: Vec<NodeRef>) {
+    fn forget(&mut self, seen: Vec<ViewSubject>, nodes: Vec<NodeRef>) {
         for seen in &seen {
             self.pictures.remove(seen);
         }

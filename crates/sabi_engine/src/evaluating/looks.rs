@@ -1,4 +1,4 @@
-//! What each material of a model looks like, still on the device.
+//! Looks of a model's materials: textures on the device, made of a run's results.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
@@ -18,7 +18,7 @@ use crate::opening::modelless::targets;
 use crate::phases::Progress;
 use crate::source::SOURCE_MODEL;
 
-/// A node that shows the model's own looks. No node of a file can have its id.
+/// Makes a node of the model's own materials. Its id is not valid in a graph file.
 pub(crate) fn model_source_node(fit: Fit) -> FlatNode {
     FlatNode {
         id: "(model)".to_owned(),
@@ -34,31 +34,32 @@ pub(crate) fn model_source_node(fit: Fit) -> FlatNode {
     }
 }
 
-/// What is shown of a model.
+/// Looks of all materials of a model.
 pub struct ModelLooks {
-    /// What its materials look like.
+    /// Distinct looks.
     pub looks: Vec<MaterialLook>,
-    /// For each material of the model which of the looks it has.
+    /// Index into `looks` for each material of the model.
     pub look_of_material: Vec<usize>,
-    /// Whether these are materials, which are lit, and no node's number or color.
+    /// Whether the looks are materials, which are lit, and not a node's numbers or colors.
     pub is_lit: bool,
-    /// Lowest and highest height, working units.
+    /// Lowest and highest height, in working units.
     pub height_range: [f32; 2],
 }
 
-/// Which result each material shows.
+/// Assignment of results to the materials that show them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum LookAssignment {
-    /// All of them the only one.
+    /// All materials show the only result.
     One,
-    /// Each that of the node that serves it.
+    /// Each material shows the result of the node that serves it, by material index.
     Served(BTreeMap<u32, usize>),
 }
 
-/// How long one submission may take.
+/// Longest time of one GPU submission.
 const SUBMISSION: Duration = Duration::from_millis(200);
 
-/// Evaluates what is shown: one node, or else the outputs, and the model's own looks where no output serves a material.
+/// Evaluates the looks of a model: of one node, or else of the outputs, with the model's own materials where no output serves
+/// them.
 pub fn evaluate_looks(
     evaluator: &mut Evaluator,
     seen: Option<&Target>,
@@ -86,7 +87,7 @@ pub fn evaluate_looks(
     looks_of_run(evaluator, &plan, &mut run, &shows, &options)
 }
 
-/// What each material looks like by the results of a run.
+/// Makes the looks of all materials from the results of a run.
 pub(crate) fn looks_of_run(
     evaluator: &Evaluator,
     plan: &Plan,
@@ -95,8 +96,8 @@ pub(crate) fn looks_of_run(
     options: &RunOptions<'_>,
 ) -> Result<ModelLooks, EngineError> {
     let (are_opaque, height_range) = value_extents(evaluator, plan, run, options)?;
-    // Materials that cover no triangle look plain.
-    let mut looks = vec![plain()];
+    // Materials without triangles get the neutral look.
+    let mut looks = vec![neutral_look()];
     for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
         looks.push(MaterialLook {
             is_opaque,
@@ -119,8 +120,8 @@ pub(crate) fn looks_of_run(
     })
 }
 
-/// Which results are opaque everywhere; and the lowest and the highest height of all of them, working units, 0 where nothing
-/// sets it.
+/// Finds which results are opaque everywhere, and the lowest and highest height of all results, in working units; 0 without
+/// heights.
 fn value_extents(
     evaluator: &Evaluator,
     plan: &Plan,
@@ -153,8 +154,8 @@ fn value_extents(
     Ok((are_opaque, if heights[0] <= heights[1] { heights } else { [0.0; 2] }))
 }
 
-/// What one result looks like, taken for opaque: a material with its maps, anything else as the number or color it is. Where
-/// charts share a place it is what a bake or a preview writes there; see [`Evaluator::shares`].
+/// Makes the look of one result, taken as opaque: a material with its maps, any other type as numbers or colors. Where charts
+/// overlap it shows what a bake writes there; see [`Evaluator::shares`].
 fn look(
     evaluator: &Evaluator,
     run: &mut Run,
@@ -169,17 +170,17 @@ fn look(
         PortType::Vector => NodeType::Vector,
         PortType::Material => {
             let maps = gpu.device_maps(surface, run, material_slots(result), shares, options)?;
-            return Ok(MaterialLook { maps, ..plain() });
+            return Ok(MaterialLook { maps, ..neutral_look() });
         }
     };
     let texture = gpu.shown_texture(surface, run, result.slots[0], shares)?;
     Ok(MaterialLook {
         node: Some(NodeLook { texture, holds }),
-        ..plain()
+        ..neutral_look()
     })
 }
 
-/// Where the planes of a material are.
+/// Returns the slots of a material's planes.
 fn material_slots(result: &PlannedResult) -> MaterialSlots {
     let slot = |channel| slot_of(result, Plane::Material(channel));
     MaterialSlots {
@@ -191,14 +192,14 @@ fn material_slots(result: &PlannedResult) -> MaterialSlots {
     }
 }
 
-/// The slot of a plane of a result.
+/// Returns the slot of a plane of a result.
 pub(crate) fn slot_of(result: &PlannedResult, plane: Plane) -> Option<SlotRef> {
     let at = result.stored.planes().iter().position(|stored| *stored == plane)?;
     result.slots.get(at).copied()
 }
 
-/// What a material is where nothing sets it, as it would be exported.
-fn plain() -> MaterialLook {
+/// Returns the look of the neutral material, as it would be exported.
+fn neutral_look() -> MaterialLook {
     let [color, opacity] = [Channel::BaseColor, Channel::Opacity].map(|channel| channel.neutral());
     let surface = [Channel::Roughness, Channel::Metallic, Channel::Occlusion].map(|channel| channel.neutral()[0]);
     MaterialLook {

@@ -1,4 +1,4 @@
-//! The outputs of a graph: what is exported, and which of them serves which material.
+//! Outputs of a graph, and the materials that they serve.
 
 use std::collections::BTreeMap;
 
@@ -7,19 +7,19 @@ use sabi_graph::FlatGraph;
 
 use crate::source::{OUTPUT_MASK, OUTPUT_MATERIAL, claim, mask_name};
 
-/// The outputs that are not muted, in the order of their ids.
+/// Lists the outputs that are not muted, ordered by id.
 pub(crate) fn outputs(graph: &FlatGraph) -> Vec<usize> {
     let mut found: Vec<usize> = all_outputs(graph).filter(|&node| !graph.nodes[node].muted).collect();
     found.sort_by_key(|&node| &graph.nodes[node].id);
     found
 }
 
-/// Those of the outputs that give materials.
+/// Filters the material outputs.
 pub(crate) fn materials(graph: &FlatGraph, outputs: &[usize]) -> Vec<usize> {
     of_kind(graph, outputs, OUTPUT_MATERIAL)
 }
 
-/// Those of the outputs that give one more map.
+/// Filters the mask outputs.
 pub(crate) fn masks(graph: &FlatGraph, outputs: &[usize]) -> Vec<usize> {
     of_kind(graph, outputs, OUTPUT_MASK)
 }
@@ -34,7 +34,7 @@ fn all_outputs(graph: &FlatGraph) -> impl Iterator<Item = usize> {
     (0..graph.nodes.len()).filter(is_output)
 }
 
-/// Why nothing comes out of a graph, if nothing does.
+/// Explains why a graph has no output, if it has none.
 pub(crate) fn nothing_comes_out(graph: &FlatGraph) -> Option<String> {
     if !outputs(graph).is_empty() {
         return None;
@@ -47,13 +47,13 @@ pub(crate) fn nothing_comes_out(graph: &FlatGraph) -> Option<String> {
     })
 }
 
-/// Mask outputs whose maps would have the same file: a sentence for each that comes too late.
+/// Lists mask outputs whose maps would have the same file name, a sentence for each.
 pub(crate) fn clashes(graph: &FlatGraph) -> Vec<String> {
     let mut taken: BTreeMap<String, usize> = BTreeMap::new();
     let mut sentences = Vec::new();
     for node in masks(graph, &outputs(graph)) {
         let name = Channel::Mask(mask_name(&graph.nodes[node])).name().into_owned();
-        // Many file systems take upper and lower case for the same.
+        // Many file systems ignore case.
         match taken.get(&name.to_lowercase()) {
             Some(&first) => sentences.push(format!(
                 "nodes '{}' and '{}' ({OUTPUT_MASK}) both export a map named '{name}'; give one of them another name",
@@ -67,21 +67,21 @@ pub(crate) fn clashes(graph: &FlatGraph) -> Vec<String> {
     sentences
 }
 
-/// Which output serves each of the model's materials, told by the names it goes by: one that lists it before one that
-/// takes all, and among equals the first by id.
+/// Finds the output that serves each of the model's materials, given their names: an output that lists the material wins over
+/// one that takes all, and among equals the first by id.
 pub(crate) fn served(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<Option<usize>> {
     let nodes = materials(graph, outputs);
     let of = |names: &[&str; 2]| {
         let claims = nodes
             .iter()
             .filter_map(|&node| Some((claim(&graph.nodes[node], names)?, node)));
-        // The first of equals stays.
+        // `min_by_key` returns the first of equals.
         claims.min_by_key(|(claim, _)| *claim).map(|(_, node)| node)
     };
     names.iter().map(of).collect()
 }
 
-/// Outputs that serve no material of the model: a sentence for each.
+/// Lists the outputs that serve no material of the model, a sentence for each.
 pub(crate) fn idle(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<String> {
     let served = served(graph, outputs, names);
     let nodes = materials(graph, outputs).into_iter();
@@ -97,7 +97,7 @@ pub(crate) fn idle(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) ->
     idle.map(sentence).collect()
 }
 
-/// Names in quotes with commas between them.
+/// Joins quoted names with commas.
 pub(crate) fn quoted<'n>(names: impl Iterator<Item = &'n str>) -> String {
     names.map(|name| format!("'{name}'")).collect::<Vec<_>>().join(", ")
 }
@@ -118,7 +118,7 @@ mod tests {
         format!(r#""{id}": {{ "kind": "output/material", "params": {{ "materials": "{materials}" }} }}"#)
     }
 
-    /// Ids of the outputs that serve wood, steel and glass.
+    /// Finds the ids of the outputs that serve wood, steel and glass.
     fn serving(graph: &FlatGraph) -> Vec<Option<&str>> {
         let names = [["wood", "wood"], ["steel, raw", "steel, raw"], ["gl/ass", "gl_ass"]];
         let served = served(graph, &outputs(graph), &names).into_iter();

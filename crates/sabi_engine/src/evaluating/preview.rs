@@ -1,4 +1,4 @@
-//! Any node's result in texture space, as a picture or as exact numbers.
+//! Preview of a node's result in texture space, as a picture or as exact values.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -18,21 +18,21 @@ use crate::opening::kinds::Kinds;
 use crate::opening::modelless::refuse_faults;
 use crate::phases::Progress;
 
-/// What to look at.
+/// Request for a preview.
 pub struct PreviewRequest {
-    /// The graph file.
+    /// Graph file.
     pub graph: PathBuf,
-    /// Model, overrides, fit, adapter.
+    /// Model, overrides, fit and adapter.
     pub evaluator: EvaluatorOptions,
     /// Node id, or `id.port`.
     pub node: String,
-    /// `.png` for a picture, `.exr` for the exact values.
+    /// Output file: `.png` for a picture, `.exr` for exact values.
     pub output: PathBuf,
-    /// The material whose layout is shown; the first one if none.
+    /// Material whose texture set is shown; the first one if none.
     pub material: Option<String>,
 }
 
-/// Writes one node's result.
+/// Writes a preview and returns warnings.
 pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<String>, EngineError> {
     let is_exact = match request.output.extension().and_then(|ending| ending.to_str()) {
         Some("png") => false,
@@ -112,7 +112,7 @@ fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {
     encode_exr(size, size, &channels).map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
 }
 
-/// Masks as gray, colors in sRGB, vectors with −1..1 brought to 0..1.
+/// Encodes a PNG: masks as gray, colors in sRGB, vectors with −1..1 mapped to 0..1.
 fn picture(size: u32, ty: PortType, plane: &ResultPlane) -> Result<Vec<u8>, EngineError> {
     let rgb = plane
         .values

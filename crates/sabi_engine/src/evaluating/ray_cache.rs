@@ -1,24 +1,24 @@
-//! Results of rays on disk: they take long to shoot, and models seldom change.
+//! Disk cache of ray results: rays take long to trace, and models seldom change.
 
 use std::path::{Path, PathBuf};
 
 use sabi_surface::disk::{self, Kind};
 
-/// The number in the magic rises whenever rays start or are followed differently: keys name nodes, kernels and adapters, not
-/// what the program does between them. Results take four bytes a texel and more.
+/// The version in the magic rises whenever rays are generated or traced differently: keys name nodes, kernels and adapters, but
+/// not the code between them. A result takes four bytes per texel or more.
 const KIND: Kind = Kind {
     magic: b"sabi rays 2\n",
     prefix: "rays",
     limit_bytes: 2 << 30,
 };
 
-/// The folder of kept results.
+/// Disk cache of ray results.
 pub(crate) struct RayCache {
     folder: Option<PathBuf>,
 }
 
 impl RayCache {
-    /// In a cache folder; nothing is kept without one.
+    /// Creates the cache in a cache folder; without one nothing is cached.
     pub(crate) fn new(cache_dir: Option<&Path>) -> RayCache {
         RayCache {
             folder: cache_dir.map(|folder| folder.join("rays")),
@@ -29,12 +29,12 @@ impl RayCache {
         self.folder.is_some()
     }
 
-    /// What was kept under a key, if it is whole.
+    /// Reads the result of a key, if it is cached and intact.
     pub(crate) fn find(&self, key: &[u8; 32]) -> Option<Vec<u8>> {
         disk::read(self.folder.as_ref()?, &KIND, key)
     }
 
-    /// Keeps results; a sentence where that cannot be.
+    /// Caches results; returns a warning where that fails.
     pub(crate) fn keep(&self, key: &[u8; 32], results: &[u8]) -> Option<String> {
         let folder = self.folder.as_ref()?;
         let error = disk::keep(folder, &KIND, key, results).err()?;

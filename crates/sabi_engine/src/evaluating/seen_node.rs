@@ -1,4 +1,4 @@
-//! The node that somebody wants to see, by the name on a command line.
+//! Resolution of a node named on a command line.
 
 use sabi_graph::{FlatGraph, NodeRef, nearest};
 use sabi_plan::Target;
@@ -8,7 +8,8 @@ use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 
-/// The flat graph, and what of it is to be seen: the node itself, or what is behind a group instance or a reroute.
+/// Flattens the graph and finds the target of a node in it: the node itself, or the origin of a group instance's or reroute's
+/// result.
 pub(crate) fn graph_and_target(
     open: &OpenGraph,
     kinds: &Kinds,

@@ -1,4 +1,4 @@
-//! The viewport shows what is exported, where charts share a place on the maps.
+//! Texels of overlapping charts, which show in the viewport what the maps hold.
 
 use std::collections::BTreeSet;
 
@@ -12,12 +12,12 @@ use crate::evaluating::evaluator::Evaluator;
 use crate::opening::linked_model::LinkedModel;
 
 impl Evaluator {
-    /// Which texels show what other texels hold, since an engine would find that on the maps: found when first asked for. None
-    /// for a model whose charts all have places of their own.
+    /// Returns the texels that show the values of other texels, as an engine finds them on the maps; computed on first use. None
+    /// for a model without overlapping charts.
     ///
-    /// Sources and targets are texels of one result. Only an unwrapped model has a sheet with charts that other results serve,
-    /// and there charts have places of their own, unless they are too small for the size: a texel that lost its place to
-    /// another material's chart shows its own material there, and not that one.
+    /// Sources and targets are texels of one result. Only an unwrapped model has charts of several results on one sheet, and there
+    /// charts do not overlap, unless they are too small for the size: a texel that lost its pixel to another material's chart
+    /// shows its own material.
     pub(crate) fn shares(&self) -> Result<Option<&Shares>, EngineError> {
         if self.shares.get().is_none() {
             let shared = self.linked.shared_texels();
@@ -25,7 +25,7 @@ impl Evaluator {
                 true => None,
                 false => Some(Shares::upload(&self.gpu, shared.groups())?),
             };
-            // Whoever else was here meanwhile found the same.
+            // Another thread that was faster has computed the same value.
             let _ = self.shares.set(shares);
         }
         Ok(self.shares.get().and_then(Option::as_ref))
@@ -33,8 +33,8 @@ impl Evaluator {
 }
 
 impl LinkedModel {
-    /// Texels of all texture sets that show what other texels hold, as the maps do. For a model without overlap nothing is
-    /// laid out.
+    /// Finds the texels of all texture sets that show the values of other texels, as the maps do. Nothing is laid out for a model
+    /// without overlap.
     pub fn shared_texels(&self) -> SharedTexels {
         let sheets = sharing_sheets(&self.atlas);
         let mut shared = SharedTexels::default();
@@ -48,8 +48,8 @@ impl LinkedModel {
     }
 }
 
-/// Sheets on which charts may share a place, with another one or, where a texture repeats, with themselves. The atlas does not
-/// list all pairs of a crowded model, so that one that overlaps anywhere is looked at everywhere.
+/// Lists the sheets on which charts may overlap, each other or, where a texture repeats, themselves. The atlas report lists a
+/// limited number of pairs, so all sheets are returned for a model with any overlap.
 fn sharing_sheets(atlas: &Atlas) -> BTreeSet<u32> {
     let overlaps = atlas.report.overlap_texels > 0;
     let repeats = |chart: &&Chart| {

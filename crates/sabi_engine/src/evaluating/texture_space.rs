@@ -1,4 +1,4 @@
-//! A result in texture space: its values laid out as the maps of a texture set are.
+//! Results in texture space: values laid out like the maps of a texture set.
 
 use sabi_export::{Channel, Cover, Padding, PaddingMap, SetKey, SetLayout};
 use sabi_gpu::Run;
@@ -13,36 +13,36 @@ use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
 use crate::opening::linked_model::LinkedModel;
 
-/// Texels by which results are continued outside of charts, to be looked at.
+/// Padding around charts of results that are displayed.
 const PADDING: Padding = Padding::Texels(4);
 
-/// How a texture set is laid out.
+/// Layout and padding of a texture set.
 pub(crate) struct TextureSpace {
     pub(crate) layout: SetLayout,
     padding: PaddingMap,
 }
 
-/// What the numbers of a plane are.
+/// Meaning of the numbers of a plane, which decides how they are displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaneKind {
-    /// Numbers each of its own, 0..1 shown as black to white.
+    /// Independent numbers, with 0..1 displayed as black to white.
     Numbers,
-    /// A linear color, shown in sRGB; a fourth number is its opacity.
+    /// Linear color, displayed in sRGB; a fourth number is its opacity.
     Color,
-    /// Numbers of −1..1, shown as 0..1.
+    /// Numbers in −1..1, displayed as 0..1.
     Signed,
 }
 
-/// One plane of a result in texture space.
+/// Plane of a result in texture space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResultPlane {
-    /// What it is of a material: empty for its base color, and for results that have one plane.
+    /// Channel group of a material; empty for its base color and for results with one plane.
     pub name: &'static str,
-    /// How a display shows its numbers.
+    /// Meaning of its numbers.
     pub holds: PlaneKind,
-    /// Numbers for each pixel.
+    /// Numbers per pixel.
     pub components: usize,
-    /// The exact values, row by row from the top.
+    /// Exact values, row by row from the top.
     pub values: Vec<f32>,
 }
 
@@ -55,12 +55,12 @@ impl TextureSpace {
         }
     }
 
-    /// For each pixel whether a chart lies there, so that its value is one of the surface and no padding.
+    /// Returns for each pixel whether a chart covers it; the others hold padding.
     pub(crate) fn is_owned(&self) -> Vec<bool> {
         self.layout.cover.iter().map(|cover| *cover == Cover::Owned).collect()
     }
 
-    /// The planes of a result, read back. A material shows its base color first.
+    /// Reads back the planes of a result. The base color of a material comes first.
     pub(crate) fn planes(
         &self,
         evaluator: &Evaluator,
@@ -94,7 +94,7 @@ impl TextureSpace {
     }
 }
 
-/// A plane's name, what its numbers are, and how many a texel of it has.
+/// Returns the name of a plane, the meaning of its numbers, and how many a texel has.
 fn shape_of(plane: Plane) -> (&'static str, PlaneKind, usize) {
     use PlaneKind::{Color, Numbers, Signed};
     match plane {
@@ -109,7 +109,7 @@ fn shape_of(plane: Plane) -> (&'static str, PlaneKind, usize) {
     }
 }
 
-/// What a display shows of a texel's values: masks as gray, colors in sRGB, vectors with −1..1 brought to 0..1.
+/// Encodes a texel's values for a display: masks as gray, colors in sRGB, vectors with −1..1 mapped to 0..1.
 pub(crate) fn rgb_codes(ty: PortType, values: &[f32]) -> [u8; 3] {
     let code = |at: usize| {
         let value = values.get(at).copied().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Small pictures of what was saved, kept on this machine beside everything else that can be made again.
+//! Thumbnails of saved graphs and variants in the disk cache.
 
 use std::path::Path;
 
@@ -8,22 +8,22 @@ use sabi_view::Pixels;
 
 use crate::error::{EngineError, ErrorKind};
 
-/// Pixels along a side.
+/// Side of a thumbnail, pixels.
 const SIDE: u32 = 128;
 
-/// The number in the magic rises whenever pictures of before should not be shown any more.
+/// The version in the magic rises whenever older pictures must not be shown.
 const KIND: Kind = Kind {
     magic: b"sabi thumb1\n",
     prefix: "thumb",
     limit_bytes: 64 << 20,
 };
 
-/// The middle square of a picture, 128 pixels wide or as wide as it is.
+/// Crops a picture to its central square and reduces it to at most 128 pixels.
 pub fn thumbnail_of(picture: &Pixels) -> Pixels {
     smaller(picture, SIDE)
 }
 
-/// The middle square of a picture, so many pixels wide or as wide as it is.
+/// Crops a picture to its central square and reduces it to at most `side` pixels.
 pub(crate) fn smaller(picture: &Pixels, side: u32) -> Pixels {
     let [width, height] = picture.size.map(|side| side as usize);
     let square = width.min(height);
@@ -43,12 +43,12 @@ pub(crate) fn smaller(picture: &Pixels, side: u32) -> Pixels {
     }
 }
 
-/// Which pixels of a square become one of a smaller square.
+/// Returns the pixels of a square that become one pixel of a smaller square.
 fn span(at: usize, side: usize, square: usize, corner: usize) -> std::ops::Range<usize> {
     corner + at * square / side..corner + (at + 1) * square / side
 }
 
-/// The mean of some pixels, as light is added.
+/// Averages pixels in linear light, weighted by alpha.
 fn mean(picture: &Pixels, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> [u8; 4] {
     let count = (columns.len() * rows.len()).max(1) as f32;
     let (mut light, mut cover) = ([0.0; 3], 0.0);
@@ -69,8 +69,8 @@ fn mean(picture: &Pixels, columns: std::ops::Range<usize>, rows: std::ops::Range
     [r, g, b, (cover / count * 255.0).round() as u8]
 }
 
-/// Keeps a small picture in the cache folder under what it is of: texts that together name one thing, such as the path of a
-/// graph and the values of a variant.
+/// Writes a thumbnail to the cache folder under a key: texts that identify its subject, such as the path of a graph and the
+/// values of a variant.
 ///
 /// # Errors
 /// The folder cannot be written to.
@@ -92,7 +92,7 @@ pub fn keep_thumbnail(cache_dir: &Path, of: &[&str], picture: &Pixels) -> Result
     disk::keep(&folder(cache_dir), &KIND, &key(of), &bytes).map_err(|error| cannot(&error))
 }
 
-/// The small picture that was kept of something, if one was and still can be read.
+/// Reads the thumbnail of a key, if there is one and it is intact.
 pub fn find_thumbnail(cache_dir: &Path, of: &[&str]) -> Option<Pixels> {
     let bytes = disk::read(&folder(cache_dir), &KIND, &key(of))?;
     let picture = decode("thumbnail.png", &bytes).ok()?;
@@ -107,7 +107,7 @@ fn folder(cache_dir: &Path) -> std::path::PathBuf {
     cache_dir.join("thumbnails")
 }
 
-/// Each text with its length before it, so that no two lists of texts are alike.
+/// Hashes the texts, each after its length, so that no two lists collide.
 fn key(of: &[&str]) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     for text in of {

@@ -11,26 +11,26 @@ use super::worker::{Job, Worker};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 
-/// A model, at one size or two.
+/// Loaded model, at one size or two.
 pub(super) struct LoadedModel {
     revision: u64,
-    /// How it is taken; its size is the full one.
+    /// Options it was loaded with; their size is the full one.
     options: Arc<ModelOptions>,
-    /// None where the full size is no larger.
+    /// Coarse size; none where the full size is no larger.
     pub(super) coarse: Option<SizedModel>,
-    /// None until it was asked for, and where it cannot be had.
+    /// Full size; none before it is needed, and where it failed.
     pub(super) full: Option<SizedModel>,
-    /// Whether the full size cannot be had.
+    /// Whether the full size failed to load.
     has_full_failed: bool,
 }
 
 impl LoadedModel {
-    /// Where first pictures are made.
+    /// Returns the size for first pictures.
     pub(super) fn first(&mut self) -> Option<&mut SizedModel> {
         self.coarse.as_mut().or(self.full.as_mut())
     }
 
-    /// Where coarse or full pictures are made.
+    /// Returns the coarse or the full size.
     pub(super) fn at(&mut self, is_coarse: bool) -> Option<&mut SizedModel> {
         match is_coarse {
             true => self.coarse.as_mut(),
@@ -38,7 +38,7 @@ impl LoadedModel {
         }
     }
 
-    /// Where pictures are as good as they get.
+    /// Returns the largest loaded size.
     pub(super) fn best(&mut self) -> Option<&mut SizedModel> {
         self.full.as_mut().or(self.coarse.as_mut())
     }
@@ -49,7 +49,7 @@ impl LoadedModel {
 }
 
 impl Worker {
-    /// Loads the model if it is another one, coarse where that is enough for a first picture.
+    /// Loads the model if its revision has changed, at the coarse size if there is one.
     pub(super) fn load_first(&mut self, job: &Job) -> Result<(), EvaluationError> {
         let request = &job.request;
         if self.tried == Some(request.model_revision) {
@@ -98,7 +98,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Loads the model at full size, if it is not there yet.
+    /// Loads the model at full size, unless it is loaded.
     pub(super) fn load_full(&mut self, job: &Job) -> Result<(), EvaluationError> {
         let Some(loaded) = self.loaded.as_mut().filter(|loaded| !loaded.has_full_failed) else {
             return Ok(());
@@ -134,7 +134,7 @@ impl Worker {
         }
     }
 
-    /// Puts the graph on the first size of the model.
+    /// Sets the graph of the size for first pictures.
     pub(super) fn set_graph(&mut self, job: &Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) else {
             return Ok(());
@@ -149,7 +149,7 @@ impl Worker {
         Ok(())
     }
 
-    /// The same on the full size, which is loaded where it is not there yet. Says whether there is one.
+    /// Sets the graph of the full size, which is loaded if necessary. Returns whether it is available.
     pub(super) fn set_graph_in_full(
         &mut self,
         job: &Job,

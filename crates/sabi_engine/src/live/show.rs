@@ -1,4 +1,4 @@
-//! What viewports show: coarse pictures first, full ones after them.
+//! Pictures of viewports: coarse first, full after them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use crate::evaluating::looks::LookAssignment;
 use crate::opening::modelless::targets;
 
 impl Worker {
-    /// Shows everything coarse, or in full where there is nothing coarser or that would only flicker.
+    /// Sends coarse pictures, or full ones where there is no coarse size or full ones are quick.
     pub(super) fn show_first(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let has_coarse = self.loaded.as_ref().is_some_and(|loaded| loaded.coarse.is_some());
         let is_quick = self.full_duration.is_some_and(|took| took < self.options.coarse_after);
@@ -33,7 +33,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Shows everything in full, unless that was done first.
+    /// Sends full pictures, unless they were sent first.
     pub(super) fn show_full(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         if job.is_full_first {
             return Ok(());
@@ -55,9 +55,9 @@ impl Worker {
         Ok(())
     }
 
-    /// Shows everything at one size, as far as it has changed.
+    /// Sends pictures of all subjects at one size, as far as they have changed.
     fn show(&mut self, job: &mut Job, flattened: &FlattenedRequest, is_coarse: bool) -> Result<(), EvaluationError> {
-        // A first picture is finished once it was begun, so that a stream of wishes has something to show.
+        // A first picture is always finished, so that a stream of requests shows something.
         let is_superseded_by_requests = !is_coarse && !job.is_full_first;
         for subject in job.request.subjects.clone() {
             if is_superseded_by_requests {
@@ -108,7 +108,7 @@ impl Worker {
         if is_coarse {
             job.coarse_keys.insert(subject.clone(), key);
         }
-        // What was shown before is more to look at than the same with holes in it.
+        // An earlier complete picture is worth more than a newer one with missing materials.
         let is_whole = |plan: &Plan| plan.results.len() == wanted.len();
         let is_worse = |plan: &Plan| !is_whole(plan) && before.is_some_and(|before| before.is_whole);
         if before.is_some_and(is_known) || (is_coarse && job.is_full_first) || is_worse(&plan) {
@@ -141,7 +141,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Lets go of all results, so that the next wish has room.
+    /// Clears the caches of results, so that the next request finds free memory.
     pub(super) fn forget_results(&mut self) {
         if let Some(loaded) = &mut self.loaded {
             for sized in loaded.coarse.iter_mut().chain(&mut loaded.full) {
@@ -151,7 +151,7 @@ impl Worker {
     }
 }
 
-/// The results that something seen is made of, and which material shows which; none where a node is not there.
+/// Returns the targets of a subject and their assignment to materials; none where a node does not exist.
 fn wanted(
     sized: &SizedModel,
     flattened: &FlattenedRequest,
@@ -166,7 +166,7 @@ fn wanted(
     }
 }
 
-/// Runs a plan for what is wanted; where a node's result cannot be made, another one without what needs it.
+/// Runs a plan for the wanted targets. Where a source node fails, plans again without the targets that need it.
 pub(super) fn evaluate(
     sized: &mut SizedModel,
     flattened: &FlattenedRequest,
@@ -189,7 +189,7 @@ pub(super) fn evaluate(
     }
 }
 
-/// Names what is shown: what each material wears, and whether that may differ once nothing moves.
+/// Hashes the results that materials show, and whether they are approximate.
 fn looks_key(sized: &SizedModel, plan: &Plan, shows: &LookAssignment) -> Key {
     let mut hash = blake3::Hasher::new();
     hash.update(&[u8::from(sized.is_approximate(plan))]);

@@ -1,4 +1,4 @@
-//! The model at one size, with the graph on it and the results that are known there.
+//! Model at one size, with the graph on it and its cache of results.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -23,33 +23,33 @@ use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
 use crate::phases::Progress;
 
-/// Rays of a place in a first picture while a knob is moved.
+/// Rays per texel of a coarse picture while a knob is dragged.
 const FEW_RAYS: u32 = 8;
 
-/// The model at one size.
+/// Model at one size, with the evaluator of the graph on it and the cached results.
 pub(super) struct SizedModel {
     pub(super) evaluator: Evaluator,
     pub(super) cache: ResultCache,
     pub(super) model: Arc<LiveModel>,
-    /// The texture set that was last wanted, as results are laid out in it; made when one is.
+    /// Layout of the texture set that was last wanted.
     texture_space: Option<(TextureSet, TextureSpace)>,
-    /// Which node each material is shown by.
+    /// Node whose result each material shows.
     pub(super) serving: BTreeMap<u32, usize>,
-    /// Outputs that serve nothing, as sentences.
+    /// Warnings about outputs that serve no material.
     idle_outputs: Vec<String>,
-    /// Sentences that came while something was made of these sources: sources whose results are known say nothing again.
+    /// Warnings by the sources of the run that gave them: sources with cached results do not warn again.
     source_warnings: Vec<(BTreeSet<[u8; 32]>, String)>,
-    /// Sources that the wish at hand needs.
+    /// Sources that the current request needs.
     sources: BTreeSet<[u8; 32]>,
-    /// Whether the wish at hand shoots rays.
+    /// Whether the current request traces rays.
     shoots: bool,
     kinds_revision: u64,
-    /// Whether it is there for a first picture.
+    /// Whether this is the coarse size.
     is_coarse: bool,
     submission: Duration,
 }
 
-/// What runs took, all together.
+/// Times and counts, summed over runs.
 #[derive(Default)]
 pub(super) struct RunTotals {
     pub(super) nodes: BTreeMap<String, Duration>,
@@ -70,7 +70,7 @@ impl RunTotals {
 }
 
 impl SizedModel {
-    /// Brings a model onto the device.
+    /// Uploads a model at one size.
     pub(super) fn new(
         gpu: &Arc<Gpu>,
         options: &LiveOptions,
@@ -93,7 +93,7 @@ impl SizedModel {
         let graph = FlatGraph::default();
         let kinds = (*request.kinds).clone();
         let evaluator = Evaluator::assemble(&request.graph, graph, kinds, linked, gpu.clone(), &workpiece_options)?;
-        // Coarse results have a quarter of a full one's texels, or fewer.
+        // Coarse results have at most a quarter of the texels of full ones.
         let of_coarse = options.cache_bytes / 4;
         let cache_bytes = if is_coarse {
             of_coarse
@@ -116,7 +116,7 @@ impl SizedModel {
         })
     }
 
-    /// Takes the graph of a wish. Says whether the model is another one to those who draw it.
+    /// Sets the graph of a request. Returns whether the fit has changed, so that the model must be sent again.
     pub(super) fn take(&mut self, request: &LiveRequest, graph: &FlatGraph) -> Result<bool, EngineError> {
         if self.kinds_revision != request.kinds_revision {
             self.evaluator.set_kinds((*request.kinds).clone());
@@ -125,7 +125,7 @@ impl SizedModel {
         let linked = &self.evaluator.linked;
         let (serving, idle_outputs) = shown_by(graph, &linked.model, &linked.atlas);
         self.serving = serving;
-        // Materials that no output serves are shown by a node of the model's own looks at the end of the graph.
+        // A node at the end of the graph gives the model's own materials where no output serves them.
         let mut graph = graph.clone();
         graph.nodes.push(model_source_node(request.graph.document.fit));
         self.evaluator.set_graph(&request.graph, graph)?;
@@ -144,7 +144,7 @@ impl SizedModel {
         Ok(is_another)
     }
 
-    /// The wanted texture set, or the first where the model does not have it, laid out; with what results are read from.
+    /// Returns the layout of the wanted texture set, or of the first where the model does not have it, and the evaluator.
     pub(super) fn texture_space(
         &mut self,
         wanted: Option<SetKey>,
@@ -162,7 +162,7 @@ impl SizedModel {
         Ok((evaluator, set, texture_space))
     }
 
-    /// Plans what of the targets can be planned. While a knob is moved, rays of a first picture that are not known are few.
+    /// Plans the targets as far as possible. While a knob is dragged, coarse pictures trace few rays that are not cached.
     pub(super) fn plan(&mut self, targets: &[Target]) -> Plan {
         self.evaluator.most_rays = None;
         let mut plan = self.try_plan(targets);
@@ -180,11 +180,11 @@ impl SizedModel {
 
     fn try_plan(&self, targets: &[Target]) -> Plan {
         let limits = self.evaluator.gpu.limits();
-        // Faults of all nodes are told already.
+        // The faults of all nodes were sent when the request was flattened.
         self.evaluator.try_plan(targets, Mode::Interactive, limits).0
     }
 
-    /// What the artist should know of what the wish at hand needs.
+    /// Lists the warnings about nodes and sources that the current request needs.
     pub(super) fn warnings(&self) -> impl Iterator<Item = &String> {
         let is_of_now = |of: &BTreeSet<[u8; 32]>| of.is_empty() || !of.is_disjoint(&self.sources);
         let source_warnings = self.source_warnings.iter().filter(move |(of, _)| is_of_now(of));
@@ -195,7 +195,7 @@ impl SizedModel {
             .chain(of_model.into_iter().flatten())
     }
 
-    /// Finds out what rays cannot rely on, if there are any.
+    /// Checks the model for what rays cannot rely on, if the current request traces any.
     pub(super) fn look_at_solidity(&self) {
         if self.shoots {
             solidity::of_model(&self.model.linked);
@@ -206,7 +206,7 @@ impl SizedModel {
         self.evaluator.hits == Hits::Remembered
     }
 
-    /// Whether results of a plan may differ, by rounding or grain, from those that come once no knob is moved any more.
+    /// Whether results of a plan may differ, by rounding or noise, from those after the knob is released.
     pub(super) fn is_approximate(&self, plan: &Plan) -> bool {
         self.is_moving() && plan.steps.iter().any(has_rays)
     }
@@ -233,7 +233,7 @@ impl SizedModel {
         Ok(run)
     }
 
-    /// What the results of a run look like.
+    /// Makes the looks of materials from the results of a run.
     pub(super) fn looks(
         &self,
         plan: &Plan,
@@ -250,7 +250,7 @@ impl SizedModel {
     }
 }
 
-/// There is no texture space to show anything in.
+/// Error for a model without a texture set.
 pub(super) fn no_texture_space() -> EngineError {
     EngineError::new(ErrorKind::BadInput, "the model has no texture space to be shown")
 }
@@ -259,7 +259,7 @@ fn has_rays(step: &Step) -> bool {
     matches!(step, Step::Kernel(kernel) if kernel.rays.is_some())
 }
 
-/// Names of what a plan's sources give.
+/// Lists the keys of the results of a plan's sources.
 fn sources_of(plan: &Plan) -> impl Iterator<Item = [u8; 32]> {
     let keys = |step: &Step| match step {
         Step::Source(source) => source.keys.clone(),
@@ -285,7 +285,7 @@ fn live_model(evaluator: &Evaluator, model_revision: u64) -> Result<Arc<LiveMode
         placement: view.placement,
         view,
         fit: evaluator.fit,
-        // A model without any is told of where a set is wanted.
+        // An error is reported where a set is wanted.
         sets: texture_sets(&linked.model, &linked.atlas, None).unwrap_or_default(),
     }))
 }

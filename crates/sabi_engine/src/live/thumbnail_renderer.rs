@@ -1,4 +1,4 @@
-//! Where thumbnails are taken: one camera, one light, nothing behind the model.
+//! Renderer of thumbnails: one camera, one environment, a transparent background.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,22 +10,22 @@ use super::event::LiveModel;
 use crate::error::EngineError;
 use crate::opening::environment::{built_in_environments, load_environment};
 
-/// Pictures from slightly different places within each pixel: an outline on a clear background shows its steps.
+/// Samples per pixel; without several the outline on a transparent background has visible steps.
 const SAMPLES: u32 = 4;
 
-/// Takes pictures of models.
+/// Renderer of thumbnails.
 pub(super) struct ThumbnailRenderer {
     renderer: Renderer,
     environment: Environment,
-    /// The last model, as it sits for its pictures.
+    /// Pose of the last model.
     last_pose: Option<(Arc<LiveModel>, Pose)>,
 }
 
 impl ThumbnailRenderer {
-    /// Sets up the light.
+    /// Loads the environment.
     pub(super) fn new(gpu: &Gpu, cache_dir: Option<&Path>) -> Result<ThumbnailRenderer, EngineError> {
         let light = built_in_environments().next().unwrap_or_default();
-        // What could not be kept on disk is made again the next time.
+        // A light that could not be cached is computed again at the next start.
         let (environment, _) = load_environment(gpu, light, cache_dir)?;
         Ok(ThumbnailRenderer {
             renderer: Renderer::new(gpu)?,
@@ -34,7 +34,7 @@ impl ThumbnailRenderer {
         })
     }
 
-    /// A square picture of a look on all of a model.
+    /// Draws a square picture of a look on the whole model.
     pub(super) fn picture(
         &mut self,
         gpu: &Gpu,

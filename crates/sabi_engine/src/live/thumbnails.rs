@@ -1,4 +1,4 @@
-//! Small pictures of what nodes give.
+//! Thumbnails of nodes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,7 +20,7 @@ use crate::error::EngineError;
 use crate::evaluating::looks::LookAssignment;
 
 impl Worker {
-    /// Takes pictures of the nodes that give something else than on their last one.
+    /// Sends thumbnails of the nodes whose results have changed.
     pub(super) fn show_thumbnails(
         &mut self,
         job: &mut Job,
@@ -54,7 +54,7 @@ impl Worker {
                 }
                 Ok(None) => {}
                 Err(EvaluationError::Failed(error)) => {
-                    // The others would most likely fail as well.
+                    // The other thumbnails would most likely fail as well.
                     self.send(LiveEvent::Failed {
                         revision: job.request.revision,
                         error,
@@ -67,7 +67,7 @@ impl Worker {
         Ok(())
     }
 
-    /// A picture of one result; none where it turns out that it cannot be made.
+    /// Draws one result; none where the run finds that it cannot be made.
     fn picture(
         &mut self,
         job: &mut Job,
@@ -117,7 +117,7 @@ impl Worker {
     }
 }
 
-/// What the pictures of results show, by the results.
+/// Hashes what the thumbnail of each result shows.
 fn keys(sized: &SizedModel, plan: &Plan, request: &LiveRequest) -> BTreeMap<Target, Key> {
     let marks = [u8::from(sized.is_approximate(plan)), u8::from(request.is_flat)];
     let set = if request.is_flat {

@@ -1,4 +1,4 @@
-//! The thread that works: it takes the last wish and answers it step by step.
+//! Worker thread: answers the latest request step by step.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,28 +19,28 @@ use super::sized_model::RunTotals;
 use super::thumbnail_renderer::ThumbnailRenderer;
 use crate::error::{EngineError, ErrorKind};
 
-/// Names what a picture shows.
+/// Hash of what a picture shows.
 pub(super) type Key = [u8; 32];
 
-/// Owns all evaluation.
+/// State of the worker thread.
 pub(super) struct Worker {
     pub(super) gpu: Arc<Gpu>,
     pub(super) options: LiveOptions,
     pub(super) queue: Arc<WorkerQueue>,
     wake: Box<dyn Fn() + Send>,
-    /// The last good model.
+    /// Last model that was loaded successfully.
     pub(super) loaded: Option<LoadedModel>,
-    /// The last model that was tried, good or not.
+    /// Revision of the last model that was tried.
     pub(super) tried: Option<u64>,
     pub(super) sent: Sent,
-    /// Nodes that are no kernels and whose results could not be made.
+    /// Source nodes whose results could not be made, by id.
     pub(super) failed_nodes: BTreeMap<String, FailedNode>,
     pub(super) thumbnail_renderer: Option<ThumbnailRenderer>,
-    /// How long the last full picture took.
+    /// Time that the last full picture took.
     pub(super) full_duration: Option<Duration>,
 }
 
-/// What the window has been told, so that nothing is told twice.
+/// Hashes of what was sent, so that nothing is sent twice.
 #[derive(Default)]
 pub(super) struct Sent {
     pub(super) looks: BTreeMap<ViewSubject, SentLooks>,
@@ -50,26 +50,26 @@ pub(super) struct Sent {
     pub(super) files: Option<BTreeSet<PathBuf>>,
 }
 
-/// What a viewport shows.
+/// Picture that a viewport shows.
 #[derive(Clone, Copy, Default)]
 pub(super) struct SentLooks {
-    /// As a coarse picture has it, though the window may have the full one by now.
+    /// Hash of the coarse picture, also after the full one was sent.
     pub(super) coarse: Option<Key>,
-    /// As a full picture has it, once it was told.
+    /// Hash of the full picture, once it was sent.
     pub(super) full: Option<Key>,
-    /// Whether nothing that it is made of was at fault.
+    /// Whether no result was missing.
     pub(super) is_whole: bool,
 }
 
-/// The answer to one wish in the making.
+/// Work on one request.
 pub(super) struct Job {
     pub(super) request: LiveRequest,
     pub(super) submitted: Instant,
     pub(super) totals: RunTotals,
     pub(super) latency: Option<Duration>,
-    /// What coarse pictures of this wish are.
+    /// Hashes of the coarse pictures of this request.
     pub(super) coarse_keys: BTreeMap<ViewSubject, Key>,
-    /// Whether somebody waits for the full picture alone, so that it is finished once it was begun.
+    /// Whether the full picture is the first one, which is always finished.
     pub(super) is_full_first: bool,
 }
 
@@ -94,12 +94,12 @@ impl Worker {
         }
     }
 
-    /// Answers wishes until nobody wishes any more, or the device is gone.
+    /// Answers requests until the queue is closed or the device is lost.
     pub(super) fn work(self) {
         let mut worker = PanicGuard(self);
         while let Some((request, submitted)) = worker.0.queue.next() {
             let revision = request.revision;
-            // Whatever a mistake leaves half made is let go of.
+            // State that a panic leaves inconsistent is dropped by the reset.
             match catch_unwind(AssertUnwindSafe(|| worker.0.answer(request, submitted))) {
                 Ok(Ok(())) => {}
                 Ok(Err(loss)) => {
@@ -112,7 +112,7 @@ impl Worker {
         }
     }
 
-    /// Forgets all that was made, after a mistake of the program in an answer; the next wish is answered from the beginning.
+    /// Drops all state after a panic; the next request is answered from the beginning.
     fn reset(&mut self, revision: u64) {
         self.loaded = None;
         self.tried = None;
@@ -130,7 +130,7 @@ impl Worker {
         (self.wake)();
     }
 
-    /// Ends the job if a newer wish is there.
+    /// Returns an error if a newer request is pending.
     pub(super) fn stop_if_superseded(&self) -> Result<(), EvaluationError> {
         if self.queue.is_superseded() {
             return Err(EvaluationError::Superseded);
@@ -138,7 +138,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Answers one wish; an error is the loss of the device.
+    /// Answers one request; an error is the loss of the device.
     fn answer(&mut self, request: LiveRequest, submitted: Instant) -> Result<(), EngineError> {
         let revision = request.revision;
         self.forget_dropped();
@@ -154,7 +154,7 @@ impl Worker {
         if outcome.is_ok()
             && let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::best)
         {
-            // The window picks with it, and must not wait for it.
+            // Built here, since the window picks with it and must not block.
             sized.model.linked.hierarchy();
         }
         if job.totals.steps + job.totals.cache_hits > 0 {
@@ -170,7 +170,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Takes what the window has let go of for something that it was never told.
+    /// Forgets that pictures were sent which the window has dropped.
     fn forget_dropped(&mut self) {
         let dropped = self.queue.take_dropped();
         for subject in &dropped.subjects {
@@ -181,13 +181,13 @@ impl Worker {
         }
     }
 
-    /// Ends a wish that could not be answered.
+    /// Ends a request that could not be answered.
     fn fail(&self, revision: u64, error: EngineError) {
         self.send(LiveEvent::Failed { revision, error });
         self.send(LiveEvent::Done { revision });
     }
 
-    /// All that a wish asks for, what is missed most first.
+    /// Sends all results of a request, the most visible first.
     fn answer_by_priority(&mut self, job: &mut Job) -> Result<(), EvaluationError> {
         let flattened = self.flatten(job);
         self.load_first(job)?;
@@ -241,7 +241,7 @@ impl Worker {
     }
 }
 
-/// A worker that says so when it ends by a mistake, since nobody would wait for news otherwise.
+/// Guard that reports a panic of the worker as an event, since the window would wait forever otherwise.
 struct PanicGuard(Worker);
 
 impl Drop for PanicGuard {

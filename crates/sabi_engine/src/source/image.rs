@@ -1,4 +1,4 @@
-//! `source/image`: a picture from a file, brought onto the surface.
+//! `source/image`: a picture from a file, projected onto the surface.
 
 use sabi_graph::PortType;
 use sabi_image::{Declared, Picture, Pixels};
@@ -15,7 +15,7 @@ use crate::opening::pictures::OpenPicture;
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/image";
 
-/// The kind as the planner and the reference see it.
+/// Declares the kind.
 pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
@@ -102,7 +102,7 @@ fn params() -> Vec<Param> {
     ]
 }
 
-/// Where a decal is, and where it ends.
+/// Parameters that place a decal.
 fn decal_params() -> Vec<Param> {
     vec![
         Param::lengths("position", [0.0; 3], "The middle of the decal in model space."),
@@ -131,7 +131,7 @@ fn decal_params() -> Vec<Param> {
     ]
 }
 
-/// What a texel of a plane is made of.
+/// Use of a picture's values for an output.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Use {
     Color,
@@ -140,7 +140,7 @@ enum Use {
     Slope,
 }
 
-/// Whether the sRGB curve is undone.
+/// Whether to decode sRGB.
 fn is_srgb(choice: usize, of: Use, picture: &Picture) -> bool {
     match (choice, of) {
         (_, Use::Alpha | Use::Slope) | (2, _) => false,
@@ -154,7 +154,7 @@ fn is_srgb(choice: usize, of: Use, picture: &Picture) -> bool {
     }
 }
 
-/// A plane of a result. What is probably not meant is added to `warnings`.
+/// Fills a plane of a result. Adds probable mistakes to `warnings`.
 pub(crate) fn plane(
     surface: &SourceSurface<'_>,
     open: &OpenPicture,
@@ -208,7 +208,7 @@ pub(crate) fn plane(
     })
 }
 
-/// What is probably not meant, as sentences.
+/// Lists probable mistakes, as sentences.
 fn doubts(open: &OpenPicture, step: &SourceStep, of: Use) -> Vec<String> {
     let file = step.values.text("file");
     let mut sentences = Vec::new();

@@ -1,28 +1,28 @@
-//! A picture and its halves, in linear numbers.
+//! Mip chain of a picture, in linear values.
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
 use sabi_image::{Picture, Pixels, linear_from_srgb};
 
-/// A picture in linear numbers, with copies of half, a quarter… its size whose pixels are exact averages over the area.
+/// Picture with copies of half, a quarter… its size, whose pixels are exact area averages. All values are linear.
 pub(crate) struct MipChain {
     picture: Arc<Picture>,
-    /// Linear values of 8-bit codes.
+    /// Linear value of each 8-bit code.
     code_table: Option<[f32; 256]>,
     is_srgb: bool,
     smaller: Vec<Level>,
 }
 
-/// One of the smaller copies, linear RGBA.
+/// Smaller copy, linear RGBA.
 struct Level {
     size: [u32; 2],
     pixels: Vec<[f32; 4]>,
 }
 
 impl MipChain {
-    /// The levels of a picture; with `is_srgb` the sRGB curve is undone on everything but alpha. They are made down to the
-    /// first one that has at most `least` pixels along both sides.
+    /// Builds the mip chain of a picture, down to the first level with at most `least` pixels along both sides. With `is_srgb`,
+    /// sRGB is decoded in all channels but alpha.
     pub(crate) fn new(picture: Arc<Picture>, is_srgb: bool, least: u32) -> MipChain {
         let linear = |code: usize| {
             let value = code as f32 / 255.0;
@@ -42,18 +42,18 @@ impl MipChain {
         levels
     }
 
-    /// Number of the smallest level; 0 is the picture itself.
+    /// Returns the index of the smallest level; 0 is the picture itself.
     pub(crate) fn last(&self) -> usize {
         self.smaller.len()
     }
 
-    /// Bytes that the smaller copies take.
+    /// Returns the memory of the smaller copies, bytes.
     pub(crate) fn bytes(&self) -> u64 {
         let pixels = self.smaller.iter().map(|level| level.pixels.len());
         (pixels.sum::<usize>() * size_of::<[f32; 4]>()) as u64
     }
 
-    /// Pixels across and down of a level.
+    /// Returns width and height of a level.
     pub(crate) fn size(&self, level: usize) -> [u32; 2] {
         match level.checked_sub(1) {
             None => [self.picture.width, self.picture.height],
@@ -61,7 +61,7 @@ impl MipChain {
         }
     }
 
-    /// Linear RGBA of a pixel of a level; gray is repeated, a missing alpha is 1.
+    /// Returns the linear RGBA of a pixel; gray is repeated, a missing alpha is 1.
     pub(crate) fn pixel(&self, level: usize, x: usize, y: usize) -> [f32; 4] {
         let across = self.size(level)[0] as usize;
         if let Some(at) = level.checked_sub(1) {
@@ -78,7 +78,8 @@ impl MipChain {
         }
     }
 
-    /// One sample, linear; the last of two or four is alpha, which is never encoded. What is no number counts as 0.
+    /// Returns one linear sample. The last of two or four channels is alpha, which is never encoded. Non-finite values count as
+    /// 0.
     fn value(&self, index: usize, channel: usize) -> f32 {
         let is_alpha = matches!((self.picture.channels, channel), (2, 1) | (4, 3));
         let decode = |value: f32| {
@@ -99,7 +100,7 @@ impl MipChain {
         }
     }
 
-    /// The last level at half its size.
+    /// Computes the next level, of half the size of the last one.
     fn half(&self) -> Level {
         let level = self.last();
         let from = self.size(level);
@@ -128,7 +129,7 @@ impl MipChain {
     }
 }
 
-/// Which pixels of a row lie under one pixel of a smaller row: at most four, each with its share.
+/// Pixels of a row that one pixel of a smaller row covers: at most four, each with its weight.
 #[derive(Clone, Copy)]
 struct Share {
     first: usize,
@@ -136,7 +137,7 @@ struct Share {
 }
 
 impl Share {
-    /// Pixel `at` of a row of `size`, over a row of `from` pixels, at most three times and a bit as many.
+    /// Computes the coverage of pixel `at` of a row of `size` pixels over a row of `from` pixels; the ratio is below 4.
     fn new(at: u32, size: u32, from: u32) -> Share {
         let ratio = f64::from(from) / f64::from(size);
         let (low, high) = (f64::from(at) * ratio, f64::from(at + 1) * ratio);

@@ -1,4 +1,4 @@
-//! Node kinds that are not WGSL: one file each.
+//! Node kinds that are written in Rust, one file each: sources and outputs.
 
 mod image;
 mod mip_chain;
@@ -32,12 +32,12 @@ pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 pub(crate) use texels::SourceSurface;
 
-/// Kinds that give, by id. Those that show the model learn their content once it is loaded.
+/// Returns the source kinds by id. The content of those that show the model is set once it is loaded.
 pub(crate) fn kinds() -> BTreeMap<String, SourceKind> {
     by_id([image::kind(), model::kind(), surface_id::kind(), vertex_color::kind()])
 }
 
-/// Kinds that show the model, as they are for this one.
+/// Returns the kinds that show the model, with the content of this one.
 pub(crate) fn kinds_for(model: &Model) -> [SourceKind; 3] {
     [
         model::kind_for(model),
@@ -46,13 +46,13 @@ pub(crate) fn kinds_for(model: &Model) -> [SourceKind; 3] {
     ]
 }
 
-/// Adds bytes to a hash so that they cannot be taken for part of what comes before or after.
+/// Hashes bytes after their length, so that neighboring values cannot be confused.
 fn hash_apart(hash: &mut blake3::Hasher, bytes: &[u8]) {
     hash.update(&(bytes.len() as u64).to_le_bytes());
     hash.update(bytes);
 }
 
-/// Kinds that take, by id.
+/// Returns the output kinds by id.
 pub(crate) fn sinks() -> BTreeMap<String, SourceKind> {
     by_id([output_material::kind(), output_mask::kind()])
 }
@@ -61,27 +61,27 @@ fn by_id(kinds: impl IntoIterator<Item = SourceKind>) -> BTreeMap<String, Source
     kinds.into_iter().map(|kind| (kind.id.clone(), kind)).collect()
 }
 
-/// Where the files are that nodes name.
+/// Access to the files that nodes name.
 #[derive(Clone, Copy)]
 pub(crate) struct Files<'a> {
     pub(crate) pictures: &'a Pictures,
-    /// The graph's folder.
+    /// Folder of the graph file.
     pub(crate) folder: &'a Path,
     pub(crate) graph: &'a FlatGraph,
 }
 
-/// Fills the results of all kinds that give.
+/// Provider of the results of all source kinds.
 pub(crate) struct Sources<'a> {
     surface: SourceSurface<'a>,
     files: Files<'a>,
     model: model::ModelSource<'a>,
     ray_cache: &'a RayCache,
-    /// What cannot be shown, as sentences.
+    /// Warnings about what cannot be shown.
     pub(crate) warnings: Vec<String>,
 }
 
 impl<'a> Sources<'a> {
-    /// Sources that have not opened anything yet.
+    /// Creates sources; files are opened on first use.
     pub(crate) fn new(surface: SourceSurface<'a>, files: Files<'a>, ray_cache: &'a RayCache) -> Sources<'a> {
         Sources {
             surface,
@@ -94,7 +94,7 @@ impl<'a> Sources<'a> {
 }
 
 impl Files<'_> {
-    /// The picture of a `source/image`.
+    /// Opens the picture of a `source/image`.
     fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
         let written = step.values.text("file");
         let path = path_of(self.folder, &self.graph.nodes[step.node], written);
@@ -115,7 +115,7 @@ impl SourceFill for Sources<'_> {
             surface_id::NAME => Ok(surface_id::plane(surface, step, output, plane, warnings)),
             vertex_color::NAME => Ok(vertex_color::plane(surface, &step.id, plane, warnings)),
             other => Err(format!(
-                "node '{}' is of kind '{other}', which nobody fills; this is a mistake in Sabi",
+                "node '{}' is of kind '{other}', which no source fills; this is a mistake in Sabi",
                 step.id
             )),
         }

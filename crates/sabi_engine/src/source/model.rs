@@ -1,4 +1,4 @@
-//! `source/model`: the model's own textures and factors, brought onto the atlas.
+//! `source/model`: the model's own textures and factors on the atlas.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use super::texels::{SourceSurface, SurfacePoint};
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/model";
 
-/// The kind; without a model its material sets color and surface only.
+/// Declares the kind; without a model its material sets color and surface only.
 pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
@@ -50,19 +50,19 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// A texture of a material.
+/// Texture of a material.
 struct Texture<'a> {
     sampler: Sampler,
-    /// Of its own, on top of the coordinates.
+    /// Transform of the texture coordinates.
     transform: [[f64; 3]; 2],
-    /// The set that it is laid out by; none where that is the one of the atlas.
+    /// UV set of the texture; none where it is the set of the atlas.
     other: Option<&'a TextureUvs>,
-    /// Triangles that lack the set, in rising order.
+    /// Triangles without that set, in ascending order.
     missing: Vec<Range<u32>>,
 }
 
 impl<'a> Texture<'a> {
-    /// A texture for an atlas of `size` texels for one unit of its UV set.
+    /// Prepares a texture for an atlas of `size` texels per UV unit.
     fn new(
         picture: Picture,
         texture: &TextureRef,
@@ -72,7 +72,7 @@ impl<'a> Texture<'a> {
     ) -> Texture<'a> {
         let transform = texture.transform.map(|row| row.map(f64::from));
         let [u, v] = [0, 1].map(|axis: usize| transform[0][axis].hypot(transform[1][axis]));
-        // Laid out like the atlas, it is read at no level whose pixels are larger than a texel.
+        // A texture in the layout of the atlas is never sampled at a level coarser than its texels.
         let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
         let levels = MipChain::new(Arc::new(picture), is_srgb, least as u32);
         Texture {
@@ -83,7 +83,7 @@ impl<'a> Texture<'a> {
         }
     }
 
-    /// Whether it has a place on a triangle.
+    /// Whether a triangle has coordinates for it.
     fn covers(&self, triangle: usize) -> bool {
         let after = self.missing.partition_point(|range| range.start as usize <= triangle);
         let last = after.checked_sub(1).and_then(|at| self.missing.get(at));
@@ -91,7 +91,7 @@ impl<'a> Texture<'a> {
     }
 }
 
-/// The textures of one material; a picture is decoded when it is first asked for.
+/// Textures of one material.
 struct MaterialTextures<'a> {
     material: &'a ModelMaterial,
     base_color: Option<Texture<'a>>,
@@ -101,7 +101,7 @@ struct MaterialTextures<'a> {
     emission: Option<Texture<'a>>,
 }
 
-/// A point as textures are asked about it.
+/// Surface point at which textures are sampled.
 #[derive(Clone, Copy)]
 struct At<'a> {
     surface: &'a SourceSurface<'a>,
@@ -109,7 +109,7 @@ struct At<'a> {
 }
 
 impl At<'_> {
-    /// Linear RGBA of a picture; white where there is none.
+    /// Samples linear RGBA; white without a texture.
     fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
         let Some(texture) = texture.as_ref().filter(|texture| texture.covers(self.point.triangle)) else {
             return [1.0; 4];
@@ -130,7 +130,7 @@ impl MaterialTextures<'_> {
         color
     }
 
-    /// Roughness, metallic, occlusion.
+    /// Samples roughness, metallic and occlusion.
     fn surface(&self, at: At) -> [f32; 3] {
         let [_, rough, metal, _] = at.sample(&self.metallic_roughness);
         let [open, ..] = at.sample(&self.occlusion);
@@ -147,7 +147,7 @@ impl MaterialTextures<'_> {
         std::array::from_fn(|channel| emission[channel] * self.material.emission_factor[channel])
     }
 
-    /// The surface gradient of the normal map, in model space: it leans in the frame of its own set.
+    /// Computes the surface gradient of the normal map in model space, from the tangent frame of its own UV set.
     fn slope(&self, at: At) -> [f32; 3] {
         let Some(texture) = self.normal.as_ref().filter(|texture| texture.covers(at.point.triangle)) else {
             return [0.0; 3];
@@ -159,7 +159,7 @@ impl MaterialTextures<'_> {
             .slope([x * scale, y * scale, z])
     }
 
-    /// What a plane of a result holds at a point.
+    /// Computes the value of a plane at a point.
     fn value(&self, surface: &SourceSurface<'_>, output: &str, plane: Plane, point: &SurfacePoint) -> [f32; 4] {
         let at = At { surface, point };
         let triple = |[x, y, z]: [f32; 3]| [x, y, z, 1.0];
@@ -181,7 +181,7 @@ impl MaterialTextures<'_> {
     }
 }
 
-/// The kind for a model: which channels its material sets, and a hash of all that it shows.
+/// Declares the kind for a model: the channels that its material sets, and a hash of its textures and factors.
 pub(crate) fn kind_for(model: &Model) -> SourceKind {
     let mut kind = kind();
     let mut hash = blake3::Hasher::new();
@@ -217,13 +217,13 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     kind
 }
 
-/// The triangles that lack a set although others have it, in rising order.
+/// Lists the triangles without a UV set that others have, in ascending order.
 fn missing(model: &Model, set: u32) -> Vec<Range<u32>> {
     let of_set = model.mesh.missing_uvs.iter().filter(|missing| missing.set == set);
     of_set.map(|missing| missing.triangles.clone()).collect()
 }
 
-/// Decodes the pictures that the materials use. What cannot be shown is added to `warnings`.
+/// Decodes the pictures that the materials use. Adds what cannot be shown to `warnings`.
 fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -> Vec<MaterialTextures<'a>> {
     let is_used = |triangles: &Range<u32>, material: usize| {
         let own = model
@@ -268,15 +268,15 @@ fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -
     model.materials.iter().enumerate().map(open_material).collect()
 }
 
-/// The model's textures on the atlas.
+/// Provider of the model's textures on the atlas.
 #[derive(Default)]
 pub(crate) struct ModelSource<'a> {
-    /// Decoded at the first use: a run whose results are cached needs none of it.
+    /// Textures, decoded on first use, since cached results need none.
     materials: Option<Vec<MaterialTextures<'a>>>,
 }
 
 impl<'a> ModelSource<'a> {
-    /// A plane of a result. What cannot be shown is added to `warnings`.
+    /// Fills a plane of a result. Adds what cannot be shown to `warnings`.
     pub(crate) fn plane(
         &mut self,
         surface: &SourceSurface<'a>,

@@ -7,7 +7,7 @@ use sabi_plan::{SourceKind, SourcePort};
 /// Id of the kind.
 pub(crate) const NAME: &str = "output/mask";
 
-/// The kind as the planner and the reference see it.
+/// Declares the kind.
 pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
@@ -30,7 +30,7 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// The name of a node's map.
+/// Returns the name of a node's map.
 pub(crate) fn mask_name(node: &FlatNode) -> String {
     match node.params.get("name") {
         Some(Value::Text(name)) if !name.is_empty() => name.clone(),

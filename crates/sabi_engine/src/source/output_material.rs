@@ -7,7 +7,7 @@ use sabi_plan::{SourceKind, SourcePort};
 /// Id of the kind.
 pub(crate) const NAME: &str = "output/material";
 
-/// The kind as the planner and the reference see it.
+/// Declares the kind.
 pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
@@ -31,22 +31,22 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// How an output node comes to serve a material; the lesser wins.
+/// Priority with which an output serves a material; the lesser wins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Claim {
-    /// It lists the material.
+    /// The output lists the material.
     Listed,
-    /// It takes all.
+    /// The output takes all materials.
     All,
 }
 
-/// Whether and how an output node serves the model's material that goes by these names.
+/// Returns the priority with which an output serves the material with these names; none where it does not serve it.
 pub(crate) fn claim(node: &FlatNode, names: &[&str]) -> Option<Claim> {
     let Some(Value::Text(text)) = node.params.get("materials") else {
         return Some(Claim::All);
     };
     let listed = || text.split(',').map(str::trim);
-    // A material's own name may hold a comma.
+    // The name of a material may contain a comma.
     if names.contains(&text.trim()) || listed().any(|name| names.contains(&name)) {
         return Some(Claim::Listed);
     }

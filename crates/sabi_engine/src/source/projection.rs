@@ -1,24 +1,24 @@
-//! How a picture lies on a surface: along texture coordinates, from three sides, or pressed on from one.
+//! Projection of a picture onto a surface: by texture coordinates, triplanar, or as a decal.
 
 use sabi_plan::SourceValues;
 
 use super::sampler::Footprint;
 use super::texels::{Frame, SourceSurface, SurfacePoint};
 
-/// Radians over which a decal fades out where the surface turns away.
+/// Angle over which a decal fades out where the surface turns away, radians.
 const FACING_FADE: f64 = 10.0 * std::f64::consts::PI / 180.0;
-/// Share of a decal's depth over which it fades out.
+/// Fraction of a decal's depth over which it fades out.
 const DEPTH_FADE: f64 = 0.1;
 
-/// How a picture lies on a surface.
+/// Projection of a picture onto a surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projection {
     way: Way,
-    /// Cosine and sine of the picture's turn, counter-clockwise to the eye.
+    /// Cosine and sine of the picture's rotation, counter-clockwise as seen.
     turn: [f64; 2],
-    /// In tiles, to the right and up.
+    /// Offset to the right and up, in tiles.
     offset: [f64; 2],
-    /// Height of a tile over its width.
+    /// Height of a tile divided by its width.
     aspect: f64,
 }
 
@@ -29,7 +29,7 @@ enum Way {
     Decal(Decal),
 }
 
-/// A picture pressed onto the surface. Lengths and places in working units.
+/// Decal on the surface. Lengths and positions in working units.
 #[derive(Clone, Copy, Debug)]
 struct Decal {
     size: f64,
@@ -40,25 +40,25 @@ struct Decal {
     facing: f64,
 }
 
-/// Unit vectors in model space along which a picture's right and upper side point.
+/// Unit vectors in model space to the right and the top of a picture.
 #[derive(Clone, Copy, Debug)]
 struct Plane {
     right: [f64; 3],
     up: [f64; 3],
 }
 
-/// The picture at a point of the surface, once for each side from which it comes.
+/// Picture at a point of the surface, as seen from one direction.
 pub(crate) struct View {
     pub(crate) footprint: Footprint,
-    /// Share in the result; those of all views of a point add up to 1.
+    /// Weight in the result; the weights of all views of a point sum to 1.
     pub(crate) weight: f32,
-    /// How much of the picture is there: 1, or less where a decal ends.
+    /// Coverage: 1, or less where a decal ends.
     pub(crate) cover: f32,
     lies: Lies,
 }
 
 enum Lies {
-    /// In the model's own tangent frame.
+    /// In the tangent frame of the model.
     AlongTangents,
     On(Plane),
 }
@@ -85,7 +85,7 @@ fn unit(v: [f64; 3], otherwise: [f64; 3]) -> [f64; 3] {
 }
 
 impl Projection {
-    /// As the parameters of `source/image` want it; `pixels` is the picture's size.
+    /// Reads the parameters of `source/image`; `pixels` is the size of the picture.
     pub(crate) fn new(values: &SourceValues, pixels: [u32; 2]) -> Projection {
         let size = f64::from(values.number("size"));
         let (sin, cos) = f64::from(values.number("rotate")).sin_cos();
@@ -112,7 +112,7 @@ impl Projection {
         !matches!(self.way, Way::Decal(_))
     }
 
-    /// The picture at a point.
+    /// Returns the views of the picture at a point.
     pub(crate) fn views(&self, surface: &SourceSurface<'_>, point: &SurfacePoint) -> [Option<View>; 3] {
         match &self.way {
             Way::Uv { tiles } => [Some(self.along_uv(*tiles, surface, point)), None, None],
@@ -121,15 +121,15 @@ impl Projection {
         }
     }
 
-    /// The surface gradient in model space that a normal of the picture stands for, as it lies in a view.
+    /// Computes the surface gradient in model space of a normal of the picture in a view.
     pub(crate) fn slope(&self, view: &View, frame: &Frame, normal: [f32; 3]) -> [f32; 3] {
         let [cos, sin] = self.turn;
         let [x, y, z] = normal.map(f64::from);
         match view.lies {
             Lies::AlongTangents => frame.slope([(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, z as f32]),
             Lies::On(plane) => {
-                // The gradient in space of a height that is the same all along the way it is projected (Mikkelsen 2020,
-                // "Surface Gradient-Based Bump Mapping Framework"), and what of it lies in the surface.
+                // The gradient in space of a height that is constant along the projection, and its part in the surface
+                // (Mikkelsen 2020, "Surface Gradient-Based Bump Mapping Framework").
                 let steep = z.max(1e-3 * (x * x + y * y + z * z).sqrt()).max(1e-30);
                 let plane = self.turned(plane);
                 let gradient: [f64; 3] =
@@ -143,7 +143,7 @@ impl Projection {
 
     fn along_uv(&self, tiles: [f64; 2], surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
         let texel = 1.0 / f64::from(surface.atlas.size);
-        // Texture coordinates grow downward, angles count upward.
+        // v points down, angles are counter-clockwise.
         let turned = |u: f64, v: f64| {
             let [x, y] = [u * tiles[0], -v * tiles[1]];
             let [cos, sin] = self.turn;
@@ -173,7 +173,7 @@ impl Projection {
         let sum: f64 = weights.iter().sum();
         std::array::from_fn(|axis| {
             let weight = weights[axis] / sum.max(1e-30);
-            // The picture faces outward on both sides; where it changes sides its weight is 0.
+            // The picture faces outward on both sides; at the change of sides its weight is 0.
             let side = if normal[axis] < 0.0 { -1.0 } else { 1.0 };
             let plane = match axis {
                 0 => Plane {
@@ -201,7 +201,7 @@ impl Projection {
     fn pressed_on(&self, decal: &Decal, surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
         let footprint = self.on_plane(decal.plane, decal.middle, decal.size, surface, point);
         let share = |x: f64| x.clamp(0.0, 1.0);
-        // The part of the texel that lies on the picture, as far as it can be told from the texel's extent.
+        // Part of the texel that lies on the picture, estimated from the extent of the texel.
         let inside = |axis: usize| {
             let extent = footprint.steps[0][axis].abs() + footprint.steps[1][axis].abs();
             let at = footprint.uv[axis];
@@ -233,7 +233,7 @@ impl Projection {
         }
     }
 
-    /// Where a texel lies on a picture whose middle is at `middle`.
+    /// Returns the footprint of a texel on a picture with its center at `middle`.
     fn on_plane(
         &self,
         plane: Plane,
@@ -257,7 +257,7 @@ impl Decal {
     fn new(values: &SourceValues, size: f64) -> Decal {
         let toward = unit(values.numbers::<3>("toward").map(f64::from), [0.0, 0.0, 1.0]);
         let up = values.numbers::<3>("up").map(f64::from);
-        // Where up says nothing, the axis across which the picture is seen best does.
+        // Where `up` is parallel to `toward`, another axis replaces it.
         let otherwise = if toward[1].abs() < 0.9 {
             [0.0, 1.0, 0.0]
         } else {

@@ -1,4 +1,4 @@
-//! Reads a picture at texture coordinates, averaged over what a texel covers.
+//! Sampler of a picture, averaged over the footprint of a texel.
 
 use std::sync::Arc;
 
@@ -6,27 +6,27 @@ use sabi_surface::model::Wrap;
 
 use super::mip_chain::MipChain;
 
-/// Taps along one side of a texel's footprint, at most.
+/// Maximum taps along one side of a footprint.
 const TAPS_LIMIT: f64 = 16.0;
 
-/// A picture with its wrap.
+/// Mip chain with its wrap mode.
 #[derive(Clone)]
 pub(crate) struct Sampler {
     levels: Arc<MipChain>,
     wrap: [Wrap; 2],
 }
 
-/// What of a picture a texel of the atlas covers, in units of the picture: from 0 to 1 across and down.
+/// Area of a picture that a texel of the atlas covers, in texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Footprint {
-    /// Texture coordinates under the texel's center.
+    /// Texture coordinates of the texel's center.
     pub(crate) uv: [f64; 2],
-    /// How they change over one texel along the atlas' u, and along its v.
+    /// Change of the coordinates over one texel along the u and the v of the atlas.
     pub(crate) steps: [[f64; 2]; 2],
 }
 
 impl Footprint {
-    /// The same through a texture's own transform, rows.
+    /// Applies the transform of a texture, given by rows.
     pub(crate) fn through(&self, transform: &[[f64; 3]; 2]) -> Footprint {
         let step = |[u, v]: [f64; 2]| transform.map(|row| row[0] * u + row[1] * v);
         let start = step(self.uv);
@@ -36,7 +36,7 @@ impl Footprint {
         }
     }
 
-    /// Lengths of the steps in pixels of a picture of that size.
+    /// Returns the lengths of the steps in pixels of a picture.
     fn steps_px(&self, size: [u32; 2]) -> [f64; 2] {
         self.steps
             .map(|[u, v]| (u * f64::from(size[0])).hypot(v * f64::from(size[1])))
@@ -48,13 +48,13 @@ impl Sampler {
         Sampler { levels, wrap }
     }
 
-    /// Linear RGBA averaged over a footprint: taps on a grid, at the level whose pixels are at most half as large as the
-    /// footprint's shorter side; bilinear where the picture is magnified.
+    /// Averages linear RGBA over a footprint: taps on a grid, at the level whose pixels are at most half as large as the shorter
+    /// side of the footprint; bilinear where the picture is magnified.
     pub(crate) fn sample(&self, footprint: &Footprint) -> [f32; 4] {
         let sides = footprint.steps_px(self.levels.size(0));
         let (short, long) = (sides[0].min(sides[1]), sides[0].max(sides[1]));
         let finest = (short / 2.0).max(long / TAPS_LIMIT).max(1.0);
-        // A footprint of two pixels by rounding is one of two pixels.
+        // Rounding must not turn a footprint of two pixels into a finer level.
         let level = ((finest + 1e-9).log2().floor() as usize).min(self.levels.last());
         let pixel = (1_u64 << level.min(63)) as f64;
         let taps = sides.map(|side| ((side / pixel - 1e-6).ceil()).clamp(1.0, TAPS_LIMIT) as u32);
@@ -79,7 +79,7 @@ impl Sampler {
         let x = u * f64::from(across) - 0.5;
         let y = v * f64::from(down) - 0.5;
         let (column, row) = (x.floor(), y.floor());
-        // A texel whose center is a pixel's center must give that pixel exactly, whatever the last bits say.
+        // A texel at the center of a pixel must give that pixel exactly, despite rounding.
         let weight = |fraction: f64| {
             if !(1e-5..=1.0 - 1e-5).contains(&fraction) {
                 fraction.round()

@@ -1,4 +1,4 @@
-//! `surface/id`: what belongs together on the model: parts, materials, charts, names, pieces.
+//! `surface/id`: groups of triangles: parts, materials, charts, names, connected pieces.
 
 use std::collections::BTreeMap;
 
@@ -15,12 +15,12 @@ use super::texels::SourceSurface;
 /// Id of the kind.
 pub(crate) const NAME: &str = "surface/id";
 
-/// Words of `by`, in the order of [`By`].
+/// Choices of `by`.
 const WORDS: [&str; 5] = ["part", "material", "chart", "name", "piece"];
-/// Names that a warning lists at most.
+/// Maximum of names that a warning lists.
 const LISTED: usize = 12;
 
-/// The kind.
+/// Declares the kind.
 pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
@@ -62,7 +62,7 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// The kind for a model: with a hash of all names that can be picked, and of what bears them.
+/// Declares the kind for a model: with a hash of all names that can be picked and of their triangles.
 pub(crate) fn kind_for(model: &Model) -> SourceKind {
     let mut hash = blake3::Hasher::new();
     let own = model.materials.iter().map(|material| &material.name);
@@ -88,20 +88,20 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     }
 }
 
-/// The model's triangles in groups.
+/// Groups of the model's triangles.
 struct Groups {
-    /// What one of them is called in sentences.
+    /// Noun for a group in sentences.
     noun: &'static str,
     /// Group of each triangle.
     of_triangle: Vec<u32>,
-    /// Names of each group; none where groups have numbers only.
+    /// Names of each group; empty where groups have numbers only.
     names: Vec<Vec<String>>,
-    /// A random number for each group.
+    /// Random number of each group.
     random: Vec<u32>,
 }
 
 impl Groups {
-    /// `by` is an index into [`WORDS`].
+    /// Groups triangles; `by` is an index into [`WORDS`].
     fn new(surface: &SourceSurface<'_>, by: usize) -> Groups {
         let mesh = &surface.model.mesh;
         let (noun, of_triangle, names) = match by {
@@ -120,7 +120,7 @@ impl Groups {
             }
         };
         let last = of_triangle.iter().max().map_or(0, |last| *last + 1);
-        // Groups of different sorts that have one number have nothing in common.
+        // Groups of different choices must not share random numbers.
         let random = (0..last).map(|number| pcg(pcg(number) ^ by as u32)).collect();
         Groups {
             noun,
@@ -157,14 +157,14 @@ impl Groups {
         self.random.len()
     }
 
-    /// Which groups `pick` means, and what of it means none.
+    /// Returns the picked groups, and the words of `pick` that match none.
     fn picked<'p>(&self, pick: &'p str) -> (Vec<bool>, Vec<&'p str>) {
         let whole = pick.trim();
         if whole.is_empty() {
             return (vec![true; self.count()], Vec::new());
         }
         let mut picked = vec![false; self.count()];
-        // A name may hold a comma itself.
+        // A name may contain a comma.
         if self.mark(whole, &mut picked) {
             return (picked, Vec::new());
         }
@@ -173,7 +173,7 @@ impl Groups {
         (picked, unknown)
     }
 
-    /// Marks the groups of one name, of names that begin alike, or of a number; whether there are any.
+    /// Marks the groups of a name, a prefix or a number; returns whether there are any.
     fn mark(&self, word: &str, picked: &mut [bool]) -> bool {
         if word == "*" {
             picked.fill(true);
@@ -202,7 +202,7 @@ impl Groups {
         found
     }
 
-    /// A sentence about a word of a pick that means nothing here.
+    /// Warns about a word of `pick` that matches nothing.
     fn unknown(&self, node: &str, word: &str) -> String {
         let (noun, count) = (self.noun, self.count());
         let mut known: Vec<&str> = self.names.iter().flatten().map(String::as_str).collect();
@@ -225,7 +225,7 @@ impl Groups {
     }
 }
 
-/// A plane of a result. What is picked and is not there is added to `warnings`.
+/// Fills a plane of a result. Adds picked names that do not exist to `warnings`.
 pub(crate) fn plane(
     surface: &SourceSurface<'_>,
     step: &SourceStep,
@@ -259,7 +259,7 @@ pub(crate) fn plane(
     })
 }
 
-/// A place in working units, told along the sides of a box, from its middle.
+/// Transforms a position in working units to the axes of a box, relative to its center.
 fn place_in(own: &PieceBox, working_from_model: f64, place: [f64; 3]) -> [f32; 3] {
     let away: [f64; 3] = std::array::from_fn(|axis| place[axis] - f64::from(own.center[axis]) * working_from_model);
     own.axes.map(|side| {

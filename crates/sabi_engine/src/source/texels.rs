@@ -1,4 +1,4 @@
-//! What a source sees of the surface, and how its values become the texels of a plane.
+//! Surface as sources see it, and conversion of their values to the texels of a plane.
 
 use std::sync::OnceLock;
 
@@ -11,25 +11,25 @@ use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
 
-/// Texels that are filled in one go.
+/// Texels per parallel task.
 const CHUNK: usize = 4096;
 
-/// The surface that sources are brought onto.
+/// Surface that sources fill.
 #[derive(Clone, Copy)]
 pub(crate) struct SourceSurface<'a> {
     pub(crate) model: &'a Model,
     pub(crate) atlas: &'a Atlas,
     pub(crate) tables: &'a SurfaceTables,
     pub(crate) pieces: &'a Pieces,
-    /// Built when the first ray is shot.
+    /// Ray hierarchy, built when the first ray is traced.
     pub(crate) bvh: &'a OnceLock<Bvh>,
-    /// The same on the device, for a caster there.
+    /// Ray hierarchy on the device.
     pub(crate) bvh_on_device: &'a OnceLock<DeviceHierarchy>,
     /// Factor from model units to working units.
     pub(crate) working_from_model: f64,
 }
 
-/// A point of the surface: its triangle, where it lies on its chart's page, and its texture coordinates.
+/// Point of the surface: its triangle, its position on the page of its chart, and its texture coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfacePoint {
     pub(crate) triangle: usize,
@@ -37,7 +37,7 @@ pub(crate) struct SurfacePoint {
     pub(crate) uv: [f64; 2],
 }
 
-/// The shading frame at a point, in model space; interpolated, so not of unit length.
+/// Shading frame at a point, in model space; interpolated, so its vectors have not unit length.
 pub(crate) struct Frame {
     pub(crate) tangent: [f64; 3],
     pub(crate) bitangent: [f64; 3],
@@ -45,7 +45,7 @@ pub(crate) struct Frame {
 }
 
 impl SourceSurface<'_> {
-    /// The surface point under a texel of the atlas; over the seam for a ghost, none where nothing is.
+    /// Returns the surface point of a texel; beyond the seam for a ghost, none for an empty texel.
     fn point(&self, index: usize) -> Option<SurfacePoint> {
         let owner = self.atlas.owners[index];
         if owner == EMPTY {
@@ -67,8 +67,8 @@ impl SourceSurface<'_> {
         Some(SurfacePoint { triangle, texel, uv })
     }
 
-    /// What is linear over a triangle, at a point of it: three rows of a table, the value at the reference texel and its
-    /// change a texel along u and v.
+    /// Interpolates a value that is linear over a triangle, given by rows of a table: the value at the reference texel and its
+    /// change per texel along u and v.
     fn affine(&self, point: &SurfacePoint, rows: [&[f32; 4]; 3]) -> [f64; 3] {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         let step: [f64; 2] = std::array::from_fn(|axis| point.texel[axis] - f64::from(geometry[axis][3]));
@@ -77,19 +77,19 @@ impl SourceSurface<'_> {
         })
     }
 
-    /// The point itself, in working units.
+    /// Returns the position of a point, in working units.
     pub(crate) fn position(&self, point: &SurfacePoint) -> [f64; 3] {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         self.affine(point, [&geometry[0], &geometry[1], &geometry[2]])
     }
 
-    /// What a step of one texel along u and along v is in space, in working units.
+    /// Returns the steps of one texel along u and v in space, in working units.
     pub(crate) fn texel_sides(&self, point: &SurfacePoint) -> [[f64; 3]; 2] {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         [1, 2].map(|row: usize| std::array::from_fn(|axis| f64::from(geometry[row][axis])))
     }
 
-    /// The shading frame at a point.
+    /// Returns the shading frame at a point.
     pub(crate) fn frame(&self, point: &SurfacePoint) -> Frame {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         let frames = &self.tables.frames[4 * point.triangle..];
@@ -99,7 +99,7 @@ impl SourceSurface<'_> {
         Frame::new(normal, tangent, sign)
     }
 
-    /// All texels of a plane in its storage format, ghosts included; zeros where nothing is.
+    /// Fills all texels of a plane in its storage format, ghosts included; empty texels are zero.
     pub(crate) fn texels(&self, plane: Plane, value: impl Fn(&SurfacePoint) -> [f32; 4] + Sync) -> Vec<u8> {
         let format = plane.format();
         let size = format.texel_bytes() as usize;
@@ -116,7 +116,7 @@ impl SourceSurface<'_> {
 }
 
 impl Frame {
-    /// A frame of interpolated vectors and the sign of its bitangent.
+    /// Creates a frame from interpolated vectors and the sign of the bitangent.
     pub(crate) fn new(normal: [f64; 3], tangent: [f64; 3], sign: f64) -> Frame {
         let cross = |a: [f64; 3], b: [f64; 3]| {
             [
@@ -132,7 +132,7 @@ impl Frame {
         }
     }
 
-    /// The surface gradient that a tangent-space normal stands for: `up − n / (n · up)` with `n` in model space.
+    /// Converts a tangent-space normal to a surface gradient: `up − n / (n · up)` with `n` in model space.
     pub(crate) fn slope(&self, normal: [f32; 3]) -> [f32; 3] {
         if normal[0] == 0.0 && normal[1] == 0.0 {
             return [0.0; 3];
@@ -144,7 +144,7 @@ impl Frame {
         let length = dot(self.normal, self.normal).sqrt();
         let up = self.normal.map(|axis| axis / length.max(1e-30));
         let along = dot(tilted, up);
-        // A normal that leans back below the surface has no slope; it is taken as very steep instead.
+        // A normal that points below the surface has no slope; it counts as very steep.
         let along = along.max(1e-3 * dot(tilted, tilted).sqrt()).max(1e-30);
         std::array::from_fn(|axis| (up[axis] - tilted[axis] / along) as f32)
     }

@@ -1,4 +1,4 @@
-//! Points of the surface as the model's own textures see them: each through the UV set that it is laid out by.
+//! Surface points in the UV sets of the model's own textures.
 
 use sabi_surface::model::TextureUvs;
 
@@ -6,7 +6,7 @@ use super::sampler::Footprint;
 use super::texels::{Frame, SourceSurface, SurfacePoint};
 
 impl SourceSurface<'_> {
-    /// What a texel covers of a picture that is laid out like the atlas, or by another set.
+    /// Returns the footprint of a texel on a picture in the layout of the atlas, or of another UV set.
     pub(super) fn footprint(&self, point: &SurfacePoint, other: Option<&TextureUvs>) -> Footprint {
         let width = 1.0 / f64::from(self.atlas.size);
         let steps = [[width, 0.0], [0.0, width]];
@@ -23,7 +23,7 @@ impl SourceSurface<'_> {
         Footprint { uv, steps }
     }
 
-    /// The frame in which a normal map of the atlas' layout is meant, or one of another set.
+    /// Returns the tangent frame of a normal map in the layout of the atlas, or of another UV set.
     pub(super) fn frame_of(&self, point: &SurfacePoint, other: Option<&TextureUvs>) -> Frame {
         let Some(other) = other.filter(|other| !other.tangents.is_empty()) else {
             return self.frame(point);
@@ -39,7 +39,7 @@ impl SourceSurface<'_> {
         self.model.mesh.triangles[point.triangle].map(|corner| corner as usize)
     }
 
-    /// Weights of the second and third corner at a place of the atlas' layout; none for a triangle without area there.
+    /// Returns the barycentric weights of the second and third corner at texture coordinates; 0 for a triangle without area.
     pub(super) fn weights(&self, point: &SurfacePoint, uv: [f64; 2]) -> [f64; 2] {
         let [a, b, c] = self
             .corners(point)
@@ -55,7 +55,7 @@ impl SourceSurface<'_> {
     }
 }
 
-/// What the corners have, weighted.
+/// Interpolates values of the corners.
 fn blend<const N: usize>([second, third]: [f64; 2], [a, b, c]: [[f64; N]; 3]) -> [f64; N] {
     std::array::from_fn(|at| a[at] + (b[at] - a[at]) * second + (c[at] - a[at]) * third)
 }

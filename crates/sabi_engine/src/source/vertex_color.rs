@@ -10,7 +10,7 @@ use super::texels::SourceSurface;
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/vertex_color";
 
-/// The kind as the planner and the reference see it.
+/// Declares the kind.
 pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
@@ -35,7 +35,7 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// The kind for a model: with a hash of its colors.
+/// Declares the kind for a model: with a hash of its colors.
 pub(crate) fn kind_for(model: &Model) -> SourceKind {
     let mut hash = blake3::Hasher::new();
     for color in &model.mesh.colors {
@@ -47,7 +47,7 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     }
 }
 
-/// A plane of a result. A model without colors is told in `warnings`.
+/// Fills a plane of a result. Adds a warning for a model without colors.
 pub(crate) fn plane(surface: &SourceSurface<'_>, node: &str, plane: Plane, warnings: &mut Vec<String>) -> Vec<u8> {
     let mesh = &surface.model.mesh;
     if mesh.colors.is_empty() {
@@ -58,7 +58,7 @@ pub(crate) fn plane(surface: &SourceSurface<'_>, node: &str, plane: Plane, warni
         }
     }
     surface.texels(plane, |point| {
-        // A texel's middle may lie outside of its triangle, but no color lies outside of the corners'.
+        // The center of a texel may lie outside its triangle; colors are not extrapolated.
         let [second, third] = surface.weights(point, point.uv).map(|weight| weight.max(0.0));
         let sum = (second + third).max(1.0);
         let weights = [1.0 - (second + third) / sum, second / sum, third / sum].map(|weight| weight as f32);

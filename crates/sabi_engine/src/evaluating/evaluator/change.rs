@@ -1,4 +1,4 @@
-//! Another graph for the model that is loaded.
+//! Changes of the graph or the kinds while the model stays loaded.
 
 use std::sync::OnceLock;
 
