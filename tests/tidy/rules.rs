@@ -2,7 +2,7 @@
 
 /// A crate, the crates of ours it may name, and the outside crates that it alone owns. An arrow that is not here is a
 /// design change, not a detail: it changes ARCHITECTURE.md first.
-pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 12] = [
+pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 13] = [
     ("sabi_graph", &[], &["petgraph"]),
     ("sabi_nodes", &["sabi_graph"], &["naga"]),
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
@@ -25,9 +25,10 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 12] = [
         ],
         &["notify"],
     ),
+    ("sabi_editing", &["sabi_graph", "sabi_engine"], &[]),
     (
         "sabi_editor",
-        &["sabi_graph", "sabi_gpu", "sabi_view", "sabi_engine"],
+        &["sabi_graph", "sabi_gpu", "sabi_view", "sabi_engine", "sabi_editing"],
         &[
             "eframe",
             "egui",

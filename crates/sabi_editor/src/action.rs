@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use sabi_editing::{MaskMerge, PendingWire, StackEnd};
 use sabi_engine::NodeDraft;
 use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
 
 use crate::canvas::Way;
 use crate::command::Command;
-use crate::desk::{Loose, Merge, StackEnd};
 use crate::knobs::KnobEvent;
 use crate::reading::Reading;
 
@@ -21,7 +21,7 @@ pub(crate) enum Action {
     Add {
         kind: New,
         place: [f32; 2],
-        loose: Option<Loose>,
+        loose: Option<PendingWire>,
         /// The wire into which it is put.
         into: Option<SlotRef>,
     },
@@ -116,7 +116,11 @@ pub(crate) enum WireAsk {
         off: Option<SlotRef>,
     },
     /// Tie a second wire to an input.
-    Merge { from: OutputRef, to: SlotRef, how: Merge },
+    Merge {
+        from: OutputRef,
+        to: SlotRef,
+        how: MaskMerge,
+    },
     /// Take wires off inputs.
     Cut(Vec<SlotRef>),
     /// Put a node into a wire.

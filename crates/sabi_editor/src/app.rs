@@ -23,6 +23,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Context, Rect, Ui};
+use sabi_editing::OpenDocument;
 use sabi_engine::{Gpu, Session};
 use sabi_graph::NodeRef;
 
@@ -33,7 +34,6 @@ pub(crate) use keys::told_by_system;
 
 use crate::canvas::Canvas;
 use crate::command::Command;
-use crate::desk::Desk;
 use crate::dock::{self, Layout, Panel};
 use crate::files::{Files, Question};
 use crate::flat_view::FlatView;
@@ -77,7 +77,7 @@ pub(crate) struct Beginning {
 
 /// What outlives a window whose device was lost.
 pub(crate) struct Kept {
-    pub(crate) desk: Desk,
+    pub(crate) document: OpenDocument,
     pub(crate) canvas: Canvas,
     pub(crate) model: PathBuf,
     /// Node files that were being written.
@@ -91,7 +91,7 @@ pub(crate) type Handover = Arc<Mutex<Option<Kept>>>;
 
 /// The window.
 pub(crate) struct Editor {
-    pub(crate) desk: Desk,
+    pub(crate) document: OpenDocument,
     pub(crate) canvas: Canvas,
     pub(crate) stage: Stage,
     pub(crate) watching: Watching,
@@ -185,7 +185,7 @@ impl Editor {
             knob_memory: KnobMemory::default(),
             notices: VecDeque::new(),
             keeping: Keeping::default(),
-            desk: work.desk,
+            document: work.document,
             canvas: work.canvas,
             stage,
             watching,
@@ -249,7 +249,7 @@ impl Editor {
         for action in actions {
             self.perform(action, ui);
         }
-        for sentence in self.desk.take_notices() {
+        for sentence in self.document.take_notices() {
             self.say(sentence);
         }
         self.name_window(&context);
@@ -264,26 +264,26 @@ impl Editor {
 
     /// What may be added, brought up to date.
     fn refresh_candidates(&mut self) {
-        let now = (self.desk.session.revision(), self.desk.kinds().1);
+        let now = (self.document.session.revision(), self.document.kinds().1);
         let shelves = self.shelves();
         if self.candidates.0 == Some(now) && !self.panels.library.has_changed(&shelves) {
             return;
         }
-        let groups: Vec<String> = self.desk.document().groups.keys().cloned().collect();
-        let shelved = self.panels.library.shelved(shelves, self.desk.catalog());
-        let found = candidates(self.desk.catalog(), self.desk.faces(), &groups, shelved);
+        let groups: Vec<String> = self.document.contents().groups.keys().cloned().collect();
+        let shelved = self.panels.library.shelved(shelves, self.document.catalog());
+        let found = candidates(self.document.catalog(), self.document.faces(), &groups, shelved);
         self.candidates = (Some(now), found);
     }
 
     /// Leaves the work to a window on another device, since this one's is gone.
     fn hand_over(&mut self, context: &Context) {
-        let mut desk = self.take_desk();
+        let mut document = self.take_document();
         // Should the other window never come, what is here is kept.
-        keeping::keep_at_last(&mut desk, &self.panels.page.unsaved());
+        keeping::keep_at_last(&mut document, &self.panels.page.unsaved());
         self.canvas.drop_all();
         if let Ok(mut handover) = self.handover.lock() {
             *handover = Some(Kept {
-                desk,
+                document,
                 canvas: std::mem::take(&mut self.canvas),
                 model: self.stage.model_file().to_owned(),
                 drafts: self.panels.page.take_drafts(),

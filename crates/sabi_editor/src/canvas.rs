@@ -25,11 +25,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use egui::{Pos2, Rect, Sense, Ui, pos2, vec2};
+use sabi_editing::OpenDocument;
 use sabi_graph::NodeId;
 
 use crate::action::Action;
 use crate::command::{CanvasCommand, Habit};
-use crate::desk::Desk;
 use crate::search::Candidate;
 use crate::theme::Theme;
 use add_menu::{AddMenu, Outcome, Purpose};
@@ -77,7 +77,7 @@ pub(crate) struct Canvas {
 
 /// What the canvas is drawn from.
 pub(crate) struct Around<'a> {
-    pub(crate) desk: &'a Desk,
+    pub(crate) document: &'a OpenDocument,
     pub(crate) theme: &'a Arc<Theme>,
     /// What is known of a node's result.
     pub(crate) state_of: &'a dyn Fn(&NodeId) -> NodeState,
@@ -106,17 +106,17 @@ impl Canvas {
         ground.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Canvas"));
         self.panel = Some(panel);
         self.is_brought &= ui.input(|input| input.pointer.any_down());
-        self.follow_path(around.desk);
+        self.follow_path(around.document);
         if !self.was_framed {
-            self.frame_all(around.desk);
+            self.frame_all(around.document);
         }
-        self.follow_selection(around.desk);
-        self.snapshot.sync(around.desk);
+        self.follow_selection(around.document);
+        self.snapshot.sync(around.document);
         self.zoom_and_pan(ui, panel);
         draw_grid(ui, panel, &self.view, around.theme);
         let mut actions = Vec::new();
         frames::show(self, ui, panel, around, &mut actions);
-        let wires = wires::visible(around.desk, &self.view, panel);
+        let wires = wires::visible(around.document, &self.view, panel);
         self.draw_wires(ui, around, &wires);
         nodes::show(self, ui, panel, around, &mut actions);
         gesture::advance(self, ui, &ground, around, &wires, &mut actions);
@@ -129,17 +129,19 @@ impl Canvas {
     }
 
     /// Performs a command about the view of the graph.
-    pub(crate) fn command(&mut self, command: CanvasCommand, ui: &Ui, desk: &Desk) -> Vec<Action> {
+    pub(crate) fn command(&mut self, command: CanvasCommand, ui: &Ui, document: &OpenDocument) -> Vec<Action> {
         match command {
             CanvasCommand::AddMenu => self.open_menu(ui, None),
-            CanvasCommand::ShowAll => self.frame_all(desk),
-            CanvasCommand::ShowSelected => self.frame_nodes(desk, desk.selection().iter()),
+            CanvasCommand::ShowAll => self.frame_all(document),
+            CanvasCommand::ShowSelected => self.frame_nodes(document, document.selection().iter()),
             CanvasCommand::Rename => {
-                self.renaming = desk.selected_one().map(|id| Renaming::node(id.clone(), desk.title(id)));
+                self.renaming = document
+                    .selected_one()
+                    .map(|id| Renaming::node(id.clone(), document.title(id)));
             }
-            CanvasCommand::NextPort => self.step_port(desk, true),
-            CanvasCommand::PreviousPort => self.step_port(desk, false),
-            CanvasCommand::Wire => return self.wire_by_key(desk),
+            CanvasCommand::NextPort => self.step_port(document, true),
+            CanvasCommand::PreviousPort => self.step_port(document, false),
+            CanvasCommand::Wire => return self.wire_by_key(document),
         }
         Vec::new()
     }
@@ -209,8 +211,8 @@ impl Canvas {
         matches!(self.gesture, Gesture::Move { .. })
     }
 
-    fn follow_path(&mut self, desk: &Desk) {
-        let path: Vec<NodeId> = desk.path().into_iter().map(|(id, _)| id).collect();
+    fn follow_path(&mut self, document: &OpenDocument) {
+        let path: Vec<NodeId> = document.path().into_iter().map(|(id, _)| id).collect();
         if path == self.path {
             return;
         }
@@ -225,14 +227,14 @@ impl Canvas {
     }
 
     /// Shows all nodes.
-    pub(crate) fn frame_all(&mut self, desk: &Desk) {
-        self.frame_nodes(desk, desk.graph().ids());
+    pub(crate) fn frame_all(&mut self, document: &OpenDocument) {
+        self.frame_nodes(document, document.graph().ids());
         self.was_framed = true;
     }
 
     /// Shows these nodes.
-    pub(crate) fn frame_nodes<'i>(&mut self, desk: &Desk, ids: impl Iterator<Item = &'i NodeId>) {
-        let rects = ids.filter_map(|id| node_rect(desk, id));
+    pub(crate) fn frame_nodes<'i>(&mut self, document: &OpenDocument, ids: impl Iterator<Item = &'i NodeId>) {
+        let rects = ids.filter_map(|id| node_rect(document, id));
         let all = rects.fold(Rect::NOTHING, |all, rect| all.union(rect));
         if let Some(panel) = self.panel {
             self.view.frame(panel, all);
@@ -240,12 +242,15 @@ impl Canvas {
     }
 
     /// Nodes that are seen, those in the middle first.
-    pub(crate) fn visible(&self, desk: &Desk) -> Vec<NodeId> {
+    pub(crate) fn visible(&self, document: &OpenDocument) -> Vec<NodeId> {
         let Some(panel) = self.panel else {
             return Vec::new();
         };
         let seen = self.view.seen(panel);
-        let rects = desk.graph().ids().filter_map(|id| Some((node_rect(desk, id)?, id)));
+        let rects = document
+            .graph()
+            .ids()
+            .filter_map(|id| Some((node_rect(document, id)?, id)));
         let mut visible: Vec<(f32, &NodeId)> = rects
             .filter(|(rect, _)| rect.intersects(seen))
             .map(|(rect, id)| (rect.center().distance(seen.center()), id))
@@ -279,13 +284,13 @@ impl Canvas {
 
     fn draw_wires(&self, ui: &Ui, around: &Around<'_>, wires: &[Wire]) {
         let pointer = ui.input(|input| input.pointer.hover_pos());
-        let hot = self.gesture.hot_wire(self, around.desk, wires, pointer);
+        let hot = self.gesture.hot_wire(self, around.document, wires, pointer);
         for wire in wires {
             let look = if self.gesture.cuts(wire) {
                 wires::Look::Cut
             } else if hot == Some(&wire.to) {
                 wires::Look::Hot
-            } else if around.desk.is_selected(&wire.to.node) || around.desk.is_selected(&wire.from.node) {
+            } else if around.document.is_selected(&wire.to.node) || around.document.is_selected(&wire.from.node) {
                 wires::Look::Near
             } else {
                 wires::Look::Usual
@@ -296,7 +301,7 @@ impl Canvas {
 
     fn show_questions(&mut self, ui: &mut Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
         if let Some(menu) = &mut self.menu {
-            match menu.show(ui, around.desk, around.theme, around.candidates) {
+            match menu.show(ui, around.document, around.theme, around.candidates) {
                 Outcome::Open => {}
                 Outcome::Closed => self.menu = None,
                 Outcome::Chosen(action) => {
@@ -316,9 +321,9 @@ pub(crate) fn focus_id() -> egui::Id {
 }
 
 /// The rectangle of a node on the canvas.
-fn node_rect(desk: &Desk, id: &NodeId) -> Option<Rect> {
-    let pos = desk.node(id)?.pos;
-    Some(Rect::from_min_size(pos2(pos[0], pos[1]), desk.size(id).into()))
+fn node_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
+    let pos = document.node(id)?.pos;
+    Some(Rect::from_min_size(pos2(pos[0], pos[1]), document.size(id).into()))
 }
 
 fn draw_grid(ui: &Ui, panel: Rect, view: &View, theme: &Theme) {

@@ -9,11 +9,11 @@ pub(crate) mod system_dialog;
 use std::path::{Path, PathBuf};
 
 use egui::{Key, Modal, RichText, Ui};
+use sabi_editing::{KnobTarget, OpenDocument};
 use sabi_engine::{Recovery, canonical, recoveries};
 
 use crate::action::Action;
 use crate::app::Editor;
-use crate::desk::{Desk, KnobAt};
 use crate::dock::Panel;
 use system_dialog::{SystemDialog, answer_of};
 
@@ -24,7 +24,7 @@ pub(crate) enum PathFor {
     Save,
     Model,
     /// A knob that names a picture.
-    Picture(KnobAt),
+    Picture(KnobTarget),
 }
 
 /// Something that has to be answered before anything else.
@@ -80,12 +80,12 @@ impl Files {
         }
     }
 
-    pub(crate) fn ask_new(&mut self, desk: &mut Desk) {
-        self.ask_next(desk, Next::New);
+    pub(crate) fn ask_new(&mut self, document: &mut OpenDocument) {
+        self.ask_next(document, Next::New);
     }
 
-    pub(crate) fn ask_open(&mut self, desk: &Desk) {
-        let folder = desk.session.file().and_then(Path::parent);
+    pub(crate) fn ask_open(&mut self, document: &OpenDocument) {
+        let folder = document.session.file().and_then(Path::parent);
         self.ask_path(
             PathFor::Open,
             folder
@@ -94,8 +94,8 @@ impl Files {
         );
     }
 
-    pub(crate) fn ask_save(&mut self, desk: &Desk) {
-        let file = desk.session.file().map(|file| file.display().to_string());
+    pub(crate) fn ask_save(&mut self, document: &OpenDocument) {
+        let file = document.session.file().map(|file| file.display().to_string());
         self.ask_path(PathFor::Save, file.unwrap_or_else(|| "untitled.sabi".to_owned()));
     }
 
@@ -103,7 +103,7 @@ impl Files {
         self.ask_path(PathFor::Model, String::new());
     }
 
-    pub(crate) fn ask_for_picture(&mut self, knob: KnobAt) {
+    pub(crate) fn ask_for_picture(&mut self, knob: KnobTarget) {
         self.ask_path(PathFor::Picture(knob), String::new());
     }
 
@@ -113,20 +113,20 @@ impl Files {
     }
 
     /// Asks first where something would be lost.
-    pub(crate) fn ask_next(&mut self, desk: &mut Desk, next: Next) {
-        let is_dirty = desk.session.is_dirty();
+    pub(crate) fn ask_next(&mut self, document: &mut OpenDocument, next: Next) {
+        let is_dirty = document.session.is_dirty();
         self.question = is_dirty.then_some(Question::Unsaved { next: next.clone() });
         if !is_dirty {
             self.after_save = Some(next);
         }
     }
 
-    /// What is to be done now that nothing is lost by it. A save that failed ends it: the work stays on the desk.
-    pub(crate) fn take_next(&mut self, desk: &mut Desk) -> Option<Next> {
+    /// What is to be done now that nothing is lost by it. A save that failed ends it: the document stays open.
+    pub(crate) fn take_next(&mut self, document: &mut OpenDocument) -> Option<Next> {
         if self.question.is_some() {
             return None;
         }
-        self.after_save.take().filter(|_| !desk.session.is_dirty())
+        self.after_save.take().filter(|_| !document.session.is_dirty())
     }
 }
 
@@ -134,7 +134,7 @@ impl Editor {
     /// Shows what is asked, and the start page.
     pub(crate) fn show_files(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         if ui.input(|input| input.viewport().close_requested()) && !self.files.may_close {
-            let is_held = if self.desk.session.is_dirty() {
+            let is_held = if self.document.session.is_dirty() {
                 self.files.question = Some(Question::Unsaved { next: Next::Close });
                 true
             } else {
@@ -153,7 +153,7 @@ impl Editor {
             Some(Question::Exporting) => self.exporting_question(ui),
             None => {}
         }
-        if let Some(next) = self.files.take_next(&mut self.desk) {
+        if let Some(next) = self.files.take_next(&mut self.document) {
             self.go_on(next, ui);
         }
     }
@@ -218,13 +218,13 @@ impl Editor {
     /// Does with a path what it was asked for.
     fn take_path(&mut self, what: PathFor, path: PathBuf, actions: &mut Vec<Action>) {
         match what {
-            PathFor::Open => self.files.ask_next(&mut self.desk, Next::Open(path)),
-            // At once, since something may wait for it that takes the work off the desk.
+            PathFor::Open => self.files.ask_next(&mut self.document, Next::Open(path)),
+            // At once, since an action that closes the document may wait for it.
             PathFor::Save => self.save_unless_taken(with_ending(path)),
             PathFor::Model => actions.push(Action::TakeModel(path)),
             PathFor::Picture(knob) => {
-                let text = self.desk.relative(&path);
-                self.desk.set_at(&knob, sabi_graph::Value::Text(text));
+                let text = self.document.relative(&path);
+                self.document.set_at(&knob, sabi_graph::Value::Text(text));
             }
         }
     }
@@ -306,7 +306,7 @@ impl Editor {
     /// Saves under a name, unless a file is there that is another graph's: then that is asked about.
     fn save_unless_taken(&mut self, file: PathBuf) {
         let whole = |path: &Path| canonical(path).ok();
-        let own = self.desk.session.file().and_then(whole);
+        let own = self.document.session.file().and_then(whole);
         match whole(&file) {
             Some(found) if Some(&found) != own.as_ref() => self.files.question = Some(Question::Replace { file }),
             _ => self.save_to(&file),
@@ -376,12 +376,12 @@ pub(crate) fn in_whole_folder(file: &Path) -> PathBuf {
 fn with_ending(path: PathBuf) -> PathBuf {
     let is_graph = path
         .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case(crate::desk::ENDING));
+        .is_some_and(|ending| ending.eq_ignore_ascii_case(sabi_editing::GRAPH_EXTENSION));
     let Some(name) = path.file_name().filter(|_| !is_graph) else {
         return path;
     };
     let mut name = name.to_owned();
     name.push(".");
-    name.push(crate::desk::ENDING);
+    name.push(sabi_editing::GRAPH_EXTENSION);
     path.with_file_name(name)
 }

@@ -176,7 +176,7 @@ impl Offscreen {
     pub fn turn(&mut self, node: &str, knob: &str, value: f64, is_drag: bool) {
         let Ok(node) = node.parse::<NodeId>() else { return };
         self.editor.is_moving = is_drag;
-        self.editor.desk.set_knob(&node, knob, Some(Value::Number(value)));
+        self.editor.document.set_knob(&node, knob, Some(Value::Number(value)));
     }
 
     /// Looks at a node's result, as a click on it does.
@@ -187,22 +187,22 @@ impl Offscreen {
 
     /// The graph as it is.
     pub fn document(&self) -> &Document {
-        self.editor.desk.document()
+        self.editor.document.contents()
     }
 
     /// Makes an edit, unless it is refused.
     pub fn edit(&mut self, edit: Edit) {
-        self.editor.desk.edit("Edit", vec![edit]);
+        self.editor.document.edit("Edit", vec![edit]);
     }
 
     /// Takes the last step back.
     pub fn undo(&mut self) {
-        self.editor.desk.undo();
+        self.editor.document.undo();
     }
 
     /// Does the last step again that was taken back.
     pub fn redo(&mut self) {
-        self.editor.desk.redo();
+        self.editor.document.redo();
     }
 
     /// How many pictures of the model were drawn, and at how many texels the last one that came is.

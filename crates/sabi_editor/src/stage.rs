@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use sabi_editing::OpenDocument;
 use sabi_engine::view::Pixels;
 use sabi_engine::{
     EngineError, Faults, Gpu, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelLooks,
@@ -15,7 +16,6 @@ use sabi_engine::{
 };
 use sabi_graph::{Document, NodeRef};
 
-use crate::desk::Desk;
 use crate::reading::Reading;
 
 /// Texels for one unit of UV of a first picture.
@@ -191,19 +191,19 @@ impl Stage {
     }
 
     /// Asks for what is wanted of the graph, if it is anything new.
-    pub(crate) fn ask(&mut self, desk: &Desk, wanted: Wanted) {
-        let size = self.wanted_size(desk);
+    pub(crate) fn ask(&mut self, document: &OpenDocument, wanted: Wanted) {
+        let size = self.wanted_size(document);
         if size != self.model.size {
             self.model = Arc::new(self.model_of_size(size));
             self.model_revision += 1;
         }
-        let (kinds, kinds_revision) = desk.kinds();
-        self.take_graph(desk);
+        let (kinds, kinds_revision) = document.kinds();
+        self.take_graph(document);
         let asked = Asked {
             document: self.graph_number,
             kinds: kinds_revision,
             model: self.model_revision,
-            files: desk.files_revision(),
+            files: document.files_revision(),
         };
         if self
             .asked
@@ -212,7 +212,7 @@ impl Stage {
         {
             return;
         }
-        self.let_go(desk, &wanted);
+        self.let_go(document, &wanted);
         self.wishes += 1;
         self.live.submit(LiveRequest {
             revision: self.wishes,
@@ -233,12 +233,12 @@ impl Stage {
     }
 
     /// Takes the graph where something changed that results hang on; where nodes stand is nothing of that.
-    fn take_graph(&mut self, desk: &Desk) {
-        let now = (desk.session.revision(), desk.files_revision());
+    fn take_graph(&mut self, document: &OpenDocument) {
+        let now = (document.session.revision(), document.files_revision());
         if self.taken == Some(now) {
             return;
         }
-        let graph = desk.session.graph();
+        let graph = document.session.graph();
         let bare = graph.document.without_places();
         let has_other_files = self.taken.is_none_or(|(_, files)| files != now.1);
         if has_other_files || graph.path != self.graph.path || bare != self.bare {
@@ -249,12 +249,12 @@ impl Stage {
         self.taken = Some(now);
     }
 
-    fn wanted_size(&self, desk: &Desk) -> u32 {
+    fn wanted_size(&self, document: &OpenDocument) -> u32 {
         let usual = match self.gpu.summary().kind {
             sabi_engine::AdapterKind::Cpu => FULL[0],
             _ => FULL[1],
         };
-        let named = desk.document().preview.as_ref().and_then(|preview| preview.size);
+        let named = document.contents().preview.as_ref().and_then(|preview| preview.size);
         named.unwrap_or(usual).clamp(64, 4096)
     }
 

@@ -73,9 +73,9 @@ impl Editor {
         }
         let changes = watcher.changes();
         if changes.nodes {
-            let mut kinds = Kinds::clone(self.desk.kinds().0);
-            kinds.reread(&Kinds::folders(self.desk.session.file()));
-            self.desk.take_kinds(kinds);
+            let mut kinds = Kinds::clone(self.document.kinds().0);
+            kinds.reread(&Kinds::folders(self.document.session.file()));
+            self.document.take_kinds(kinds);
         }
         if changes.model {
             self.stage.reread_model();
@@ -90,7 +90,7 @@ impl Editor {
             self.model_view.reread_environment();
         }
         if !changes.files.is_disjoint(&followed.named) {
-            self.desk.files_changed(&changes.files);
+            self.document.files_changed(&changes.files);
         }
         if changes.graph {
             self.look_at_file();
@@ -101,7 +101,7 @@ impl Editor {
     fn follow(&mut self) {
         let stage = &self.stage;
         let now = Followed {
-            graph: self.desk.session.file().map(Path::to_owned),
+            graph: self.document.session.file().map(Path::to_owned),
             model: stage.model_file().to_owned(),
             loaded: stage.loaded_model(),
             named: stage.files.clone(),
@@ -154,11 +154,11 @@ impl Editor {
 
     /// Finds out whether another program wrote the graph's file.
     fn look_at_file(&mut self) {
-        let state = self.desk.session.look_at_file();
+        let state = self.document.session.look_at_file();
         self.watching.is_asked = state == FileState::Another;
         self.keep_soon();
         if state == FileState::Gone
-            && let Some(file) = self.desk.session.file()
+            && let Some(file) = self.document.session.file()
         {
             self.say(format!(
                 "{} is not there any more; saving writes it again",
@@ -169,7 +169,7 @@ impl Editor {
 
     /// Asks what becomes of a file that another program wrote.
     pub(crate) fn show_outside(&mut self, ui: &mut Ui) {
-        let Some(file) = self.desk.session.file().filter(|_| self.watching.is_asked) else {
+        let Some(file) = self.document.session.file().filter(|_| self.watching.is_asked) else {
             return;
         };
         let name = file.file_name().unwrap_or_default().to_string_lossy();
@@ -196,18 +196,18 @@ impl Editor {
         }
         if keep {
             self.watching.is_asked = false;
-            self.desk.session.keep_apart();
+            self.document.session.keep_apart();
             self.keep_soon();
         }
     }
 
     /// Takes what another program wrote in the place of what is here.
     fn open_anew(&mut self) {
-        let before = crate::app::model_of(&self.desk.session);
-        match self.desk.read_again() {
+        let before = crate::app::model_of(&self.document.session);
+        match self.document.read_again() {
             Ok(()) => {
                 self.watching.is_asked = false;
-                let model = crate::app::model_of(&self.desk.session);
+                let model = crate::app::model_of(&self.document.session);
                 if let Some(model) = model.filter(|model| before.as_ref() != Some(model)) {
                     self.take_model(&model);
                 }

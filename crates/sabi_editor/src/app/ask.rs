@@ -21,14 +21,14 @@ impl Editor {
             is_flat: self.settings.is_flat,
             is_moving: self.is_moving,
         };
-        self.stage.ask(&self.desk, wanted);
+        self.stage.ask(&self.document, wanted);
         // What is pointed at is known once all is drawn.
         if self.model_view.length != self.panels.parameters.length {
             context.request_repaint();
         }
         // A drag that ends outside of the window ends here.
         if self.is_moving && !context.input(|input| input.pointer.any_down()) {
-            self.desk.session.end();
+            self.document.session.end();
             self.is_moving = false;
             context.request_repaint();
         }
@@ -37,7 +37,11 @@ impl Editor {
     /// The results that nodes and layers show, as far as they are seen.
     fn pictured(&self) -> Vec<NodeRef> {
         let is_seen = |panel: Panel| self.rects.contains_key(&panel);
-        let nodes = self.canvas.visible(&self.desk).into_iter().map(|id| self.chosen(&id));
+        let nodes = self
+            .canvas
+            .visible(&self.document)
+            .into_iter()
+            .map(|id| self.chosen(&id));
         let nodes = nodes.filter(|_| is_seen(Panel::Canvas));
         let layers = self.panels.stack.wanted.iter().cloned();
         nodes.chain(layers.filter(|_| is_seen(Panel::Stack))).collect()
@@ -47,7 +51,7 @@ impl Editor {
     pub(super) fn problem_count(&self) -> usize {
         let stage = &self.stage;
         let failures = usize::from(stage.failure.is_some()) + usize::from(stage.model_failure.is_some());
-        let of_kinds = self.desk.kinds().0.faults.len();
+        let of_kinds = self.document.kinds().0.faults.len();
         stage.faults.faults.len() + stage.faults.other.len() + of_kinds + failures
     }
 }

@@ -56,8 +56,8 @@ impl Editor {
 
     /// What the graph's file is called, with a mark where it does not hold what is here.
     fn marked_name(&mut self) -> String {
-        let mark = if self.desk.session.is_dirty() { " •" } else { "" };
-        let name = self.desk.session.file().and_then(|file| file.file_name());
+        let mark = if self.document.session.is_dirty() { " •" } else { "" };
+        let name = self.document.session.file().and_then(|file| file.file_name());
         format!(
             "{}{mark}",
             name.map_or("untitled".into(), |name| name.to_string_lossy())
@@ -192,7 +192,7 @@ impl Editor {
 
     /// The path into groups.
     pub(super) fn breadcrumb(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        let path = self.desk.path();
+        let path = self.document.path();
         if path.is_empty() {
             return;
         }
@@ -249,7 +249,7 @@ impl Editor {
                     }
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         self.measures(ui);
-                        ui.label(quiet(format!("{} nodes", self.desk.graph().len())));
+                        ui.label(quiet(format!("{} nodes", self.document.graph().len())));
                     });
                 });
             });

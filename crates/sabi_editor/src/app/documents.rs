@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use egui::Ui;
+use sabi_editing::OpenDocument;
 use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
 use sabi_graph::{Edit, Preview, Value};
 
 use super::Editor;
 use crate::action::{Action, Shelf};
 use crate::command::Favorite;
-use crate::desk::Desk;
 use crate::files::{examples, whole};
 use crate::panels::library::KEPT_AS;
 
@@ -58,14 +58,14 @@ impl Editor {
             Err(error) => self.say(error.to_string()),
         }
         // Whatever became of the graph.
-        self.panels.page.recover(drafts, &self.desk);
+        self.panels.page.recover(drafts, &self.document);
     }
 
-    /// Puts another graph on the desk, on the model that it names.
+    /// Opens another graph, on the model that it names.
     pub(crate) fn take_session(&mut self, session: Session) {
         let model = super::model_of(&session);
         self.remember_export();
-        let before = std::mem::replace(&mut self.desk, Desk::new(session));
+        let before = std::mem::replace(&mut self.document, OpenDocument::new(session));
         before.session.close();
         self.recall_export();
         self.keeping.kept = None;
@@ -78,13 +78,13 @@ impl Editor {
 
     /// Saves to the graph's file, or asks for one.
     pub(crate) fn save(&mut self) {
-        match self.desk.session.file().map(Path::to_owned) {
+        match self.document.session.file().map(Path::to_owned) {
             Some(file) => {
                 self.keep_model();
-                let saved = self.desk.save();
+                let saved = self.document.save();
                 self.tell_saved(&file, saved);
             }
-            None => self.files.ask_save(&self.desk),
+            None => self.files.ask_save(&self.document),
         }
     }
 
@@ -93,7 +93,7 @@ impl Editor {
     /// save takes no step away.
     fn keep_model(&mut self) {
         let model = self.stage.model_file();
-        let own = model_of(&self.desk.session);
+        let own = model_of(&self.document.session);
         let is_own = own.as_ref().is_some_and(|own| whole(own) == whole(model));
         let is_stand_in = own.is_none()
             && self
@@ -101,23 +101,23 @@ impl Editor {
                 .examples
                 .as_ref()
                 .is_some_and(|of| whole(model).starts_with(whole(of)));
-        let has_redo = self.desk.session.redo_names().next().is_some();
+        let has_redo = self.document.session.redo_names().next().is_some();
         if is_own || is_stand_in || has_redo || self.stage.model_failure.is_some() {
             return;
         }
         let preview = Preview {
-            mesh: Some(self.desk.seen_from_own_folder(model)),
-            ..self.desk.document().preview.clone().unwrap_or_default()
+            mesh: Some(self.document.seen_from_own_folder(model)),
+            ..self.document.contents().preview.clone().unwrap_or_default()
         };
         let edit = Edit::SetPreview { preview: Some(preview) };
-        self.desk.edit("Remember the model", vec![edit]);
+        self.document.edit("Remember the model", vec![edit]);
     }
 
     pub(crate) fn save_to(&mut self, path: &Path) {
         self.keep_model();
-        let before = self.desk.session.file().unwrap_or(Path::new("")).to_owned();
-        let saved = self.desk.save_as(path);
-        let after = self.desk.session.file().unwrap_or(path);
+        let before = self.document.session.file().unwrap_or(Path::new("")).to_owned();
+        let saved = self.document.save_as(path);
+        let after = self.document.session.file().unwrap_or(path);
         if saved.is_ok()
             && let Err(why) = self.panels.keepsakes.follow(&before, after)
         {
@@ -143,7 +143,7 @@ impl Editor {
     fn shelf_folder(&self, shelf: Shelf) -> Option<PathBuf> {
         match shelf {
             Shelf::Project => {
-                let file = self.desk.session.file()?;
+                let file = self.document.session.file()?;
                 Some(file.parent().unwrap_or(Path::new("")).join("library"))
             }
             Shelf::User => self.folders.library.clone(),
@@ -167,11 +167,11 @@ impl Editor {
             });
             return;
         };
-        let picture = self.desk.selected_one().and_then(|id| {
+        let picture = self.document.selected_one().and_then(|id| {
             let result = self.reference(id, None);
             self.stage.thumbnail_pixels(&result).cloned()
         });
-        let Some(file) = self.desk.shelve(&folder) else {
+        let Some(file) = self.document.shelve(&folder) else {
             return;
         };
         self.panels.library.forget();
@@ -191,9 +191,9 @@ impl Editor {
                     "'{id}' is in {}, and among the nodes that can be added.",
                     file.display()
                 ));
-                let mut kinds = Kinds::clone(self.desk.kinds().0);
+                let mut kinds = Kinds::clone(self.document.kinds().0);
                 kinds.reread(std::slice::from_ref(folder));
-                self.desk.take_kinds(kinds);
+                self.document.take_kinds(kinds);
                 self.panels.page.saved(node);
             }
             Err(error) => self.say(error.to_string()),
@@ -230,7 +230,7 @@ impl Editor {
         match ending.as_deref() {
             Some("sabi") => self
                 .files
-                .ask_next(&mut self.desk, crate::files::Next::Open(path.to_owned())),
+                .ask_next(&mut self.document, crate::files::Next::Open(path.to_owned())),
             Some(ending) if MODELS.contains(&ending) => self.take_model(path),
             Some("hdr") => self.take_environment(path),
             Some("exr") if self.active != crate::dock::Panel::Canvas => self.take_environment(path),
@@ -262,7 +262,7 @@ impl Editor {
             return;
         }
         let place = self.canvas.place_for_new(ui);
-        self.desk.add_texture_sets(&files, place);
+        self.document.add_texture_sets(&files, place);
     }
 
     fn take_environment(&mut self, path: &Path) {
@@ -273,48 +273,16 @@ impl Editor {
 
     fn add_picture(&mut self, path: &Path, ui: &Ui) {
         let place = self.canvas.place_for_new(ui);
-        let text = self.desk.relative(path);
-        self.desk.session.begin("Add picture");
-        let added = self.desk.add("source/image", place, None);
+        let text = self.document.relative(path);
+        self.document.session.begin("Add picture");
+        let added = self.document.add("source/image", place, None);
         if let Some(id) = &added {
-            self.desk.set_knob(id, "file", Some(Value::Text(text)));
+            self.document.set_knob(id, "file", Some(Value::Text(text)));
         }
-        self.desk.session.end();
+        self.document.session.end();
         if let Some(id) = added {
             self.look_at(&id, None);
         }
-    }
-}
-
-impl Desk {
-    /// A path as the graph names it: from its own folder on where that is possible.
-    pub(crate) fn relative(&self, path: &Path) -> String {
-        match self.session.file() {
-            Some(_) => self.seen_from_own_folder(path),
-            None => whole(path).display().to_string(),
-        }
-    }
-
-    /// A path from the graph's folder on; that of one without a file is where the program was started, until it is saved.
-    fn seen_from_own_folder(&self, path: &Path) -> String {
-        let folder = self.session.graph().folder();
-        let folder = whole(folder);
-        let path = whole(path);
-        let common = folder
-            .components()
-            .zip(path.components())
-            .take_while(|(one, other)| one == other)
-            .count();
-        // Nothing in common but the root: the path from there says more.
-        if common <= 1 {
-            return path.display().to_string();
-        }
-        let up = folder.components().skip(common).map(|_| "..".to_owned());
-        let down = path
-            .components()
-            .skip(common)
-            .map(|part| part.as_os_str().to_string_lossy().into_owned());
-        up.chain(down).collect::<Vec<String>>().join("/")
     }
 }
 

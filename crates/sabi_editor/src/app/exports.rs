@@ -14,14 +14,14 @@ use crate::panels::export::{Bake, Running, folder_of};
 impl Editor {
     /// Turns the panel to where textures of the open graph went before.
     pub(super) fn recall_export(&mut self) {
-        let file = self.desk.session.file();
+        let file = self.document.session.file();
         let place = file.map(|file| self.settings.export_place(file)).unwrap_or_default();
         self.panels.export.turn_to(place);
     }
 
     /// Keeps where textures of the open graph go.
     pub(super) fn remember_export(&mut self) {
-        if let Some(file) = self.desk.session.file() {
+        if let Some(file) = self.document.session.file() {
             self.settings.remember_export(file, &self.panels.export.place);
         }
     }
@@ -73,7 +73,7 @@ impl Editor {
 
     /// Where textures go; none where that is not said, or hangs on the file that the graph does not have yet.
     fn export_folder(&self) -> Option<PathBuf> {
-        folder_of(&self.panels.export.place.folder, self.desk.session.file())
+        folder_of(&self.panels.export.place.folder, self.document.session.file())
     }
 
     /// Writes the textures beside the window's work; asks first where the folder has files of somebody else.
@@ -111,7 +111,7 @@ impl Editor {
             return None;
         };
         let request = self.bake_request(folder.clone(), force);
-        let (open, kinds) = (self.desk.session.graph().clone(), self.desk.kinds().0.clone());
+        let (open, kinds) = (self.document.session.graph().clone(), self.document.kinds().0.clone());
         self.panels.export.asks_force = needs_force(&open, &request);
         if self.panels.export.asks_force {
             self.say("No textures were written: their folder has other files. The export panel asks what to do.");
@@ -128,7 +128,7 @@ impl Editor {
     pub(super) fn bake_request(&self, output: PathBuf, force: bool) -> BakeRequest {
         let export = &self.settings.export;
         BakeRequest {
-            graph: self.desk.session.graph().path.clone(),
+            graph: self.document.session.graph().path.clone(),
             evaluator: EvaluatorOptions {
                 model: self.stage.model_of_size(export.size),
                 overrides: Overrides::default(),

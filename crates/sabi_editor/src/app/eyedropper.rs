@@ -1,16 +1,16 @@
 //! A color for a knob, taken where it is seen: on the model or in the 2D view.
 
 use egui::{Context, Key, Modifiers};
+use sabi_editing::KnobTarget;
 
 use super::Editor;
-use crate::desk::KnobAt;
 
 /// A color as a file has it, or why there is none to take.
 pub(crate) type Taken = Result<[u8; 3], String>;
 
 impl Editor {
     /// The next click on the model or in the 2D view takes a color for a knob; asked for again, it does not.
-    pub(super) fn ask_for_color(&mut self, knob: KnobAt) {
+    pub(super) fn ask_for_color(&mut self, knob: KnobTarget) {
         let held = &mut self.panels.parameters.eyedropper;
         if held.take_if(|held| *held == knob).is_some() {
             return;
@@ -26,7 +26,7 @@ impl Editor {
     /// Whether a color is wanted for a knob of a node, which goes by its name for the evaluation.
     pub(super) fn takes_color_for(&self, node: &str) -> bool {
         match &self.panels.parameters.eyedropper {
-            Some(KnobAt::Node { node: own, .. }) => self.desk.full_id(own) == node,
+            Some(KnobTarget::Node { node: own, .. }) => self.document.full_id(own) == node,
             _ => false,
         }
     }
@@ -46,7 +46,7 @@ impl Editor {
         };
         if let Some(knob) = self.panels.parameters.eyedropper.take() {
             let text = format!("#{red:02x}{green:02x}{blue:02x}");
-            self.desk.set_at(&knob, sabi_graph::Value::Text(text));
+            self.document.set_at(&knob, sabi_graph::Value::Text(text));
         }
     }
 }

@@ -3,10 +3,10 @@
 use std::time::{Duration, Instant};
 
 use egui::Context;
+use sabi_editing::OpenDocument;
 use sabi_engine::{NodeDraft, Session};
 
 use super::Editor;
-use crate::desk::Desk;
 
 /// How often what is not saved is kept in case the program ends.
 const KEEP_EVERY: Duration = Duration::from_secs(3);
@@ -35,11 +35,11 @@ impl Default for Keeping {
 impl Editor {
     /// Keeps what is not saved, and settings that changed.
     pub(super) fn keep(&mut self, context: &Context) {
-        let now = Some((self.desk.session.revision(), self.panels.page.revision()));
+        let now = Some((self.document.session.revision(), self.panels.page.revision()));
         if self.keeping.at.elapsed() >= self.keeping.every {
             self.keeping.at = Instant::now();
             self.keeping.kept = now;
-            if let Err(error) = self.desk.session.keep(&self.panels.page.unsaved()) {
+            if let Err(error) = self.document.session.keep(&self.panels.page.unsaved()) {
                 self.keeping.kept = None;
                 self.say(format!("What is not saved cannot be kept in case of a crash: {error}"));
             }
@@ -56,19 +56,19 @@ impl Editor {
     }
 
     /// The work, with nothing in its place: the window is about to end.
-    pub(super) fn take_desk(&mut self) -> Desk {
-        std::mem::replace(&mut self.desk, Desk::new(Session::new(None)))
+    pub(super) fn take_document(&mut self) -> OpenDocument {
+        std::mem::replace(&mut self.document, OpenDocument::new(Session::new(None)))
     }
 
-    /// Takes the work off the desk as the window ends. What is unsaved and was not let go is kept: systems end programs
+    /// Closes the document as the window ends. Unsaved changes that were not discarded are kept: systems end programs
     /// without asking them.
     pub(super) fn end_work(&mut self) {
-        let mut desk = self.take_desk();
+        let mut document = self.take_document();
         let drafts = self.panels.page.unsaved();
-        if self.files.may_close || !desk.session.is_dirty() && drafts.is_empty() {
-            desk.session.close();
+        if self.files.may_close || !document.session.is_dirty() && drafts.is_empty() {
+            document.session.close();
         } else {
-            keep_at_last(&mut desk, &drafts);
+            keep_at_last(&mut document, &drafts);
         }
     }
 
@@ -94,10 +94,10 @@ impl Editor {
 }
 
 /// Keeps what is not saved, where no window is left to say that it cannot be.
-pub(super) fn keep_at_last(desk: &mut Desk, drafts: &[NodeDraft]) {
+pub(super) fn keep_at_last(document: &mut OpenDocument, drafts: &[NodeDraft]) {
     // No hand holds anything any more.
-    desk.session.end();
-    if let Err(error) = desk.session.keep(drafts) {
+    document.session.end();
+    if let Err(error) = document.session.keep(drafts) {
         tracing::error!("what is not saved cannot be kept: {error}");
     }
 }

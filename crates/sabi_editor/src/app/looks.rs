@@ -60,7 +60,7 @@ impl Editor {
     /// Why what the outputs show is not what they would show by now.
     fn fault_of_outputs(&self) -> Option<&String> {
         let stage = &self.stage;
-        let outputs = self.desk.document().graph.nodes();
+        let outputs = self.document.contents().graph.nodes();
         let mut outputs = outputs.filter(|(_, node)| node.kind.starts_with("output/"));
         let of_model = stage.model_failure.as_ref().or(stage.failure.as_ref());
         of_model.or_else(|| outputs.find_map(|(id, _)| stage.fault(id.as_str()).or(stage.waits(id.as_str()))))
@@ -68,7 +68,7 @@ impl Editor {
 
     /// The name of a node that is looked at, with its output where it is not the first.
     pub(super) fn title_of(&self, node: &NodeRef) -> String {
-        let title = self.desk.title_at(&node.node);
+        let title = self.document.title_at(&node.node);
         match &node.port {
             Some(port) => format!("{title} · {port}"),
             None => title,
@@ -77,17 +77,17 @@ impl Editor {
 
     /// A node that is seen, as the evaluation knows it.
     pub(crate) fn reference(&self, id: &NodeId, port: Option<String>) -> NodeRef {
-        let outputs = self.desk.face(id).map_or(&[][..], |face| &face.outputs);
+        let outputs = self.document.face(id).map_or(&[][..], |face| &face.outputs);
         let others = outputs.iter().skip(1).map(|port| &port.name);
         NodeRef {
-            node: self.desk.full_id(id),
+            node: self.document.full_id(id),
             port: port.filter(|port| others.clone().any(|other| other == port)),
         }
     }
 
     /// The result of a node that was chosen last: its first one where none was.
     pub(super) fn chosen(&self, id: &NodeId) -> NodeRef {
-        let port = self.ports.get(&self.desk.full_id(id)).cloned();
+        let port = self.ports.get(&self.document.full_id(id)).cloned();
         self.reference(id, port)
     }
 
@@ -110,7 +110,7 @@ impl Editor {
         if ids.is_empty() {
             self.followed = None;
         }
-        self.desk.select(ids);
+        self.document.select(ids);
     }
 
     /// Nothing of the graph is looked at any more, since it is another one.
@@ -123,11 +123,11 @@ impl Editor {
 
     /// Looks no longer at nodes that are gone.
     pub(super) fn look_away_from_gone(&mut self) {
-        let desk = &self.desk;
+        let document = &self.document;
         for looked_at in [&mut self.shown, &mut self.followed, &mut self.pinned, &mut self.locked] {
-            looked_at.take_if(|node| !desk.has(&node.node));
+            looked_at.take_if(|node| !document.has(&node.node));
         }
-        self.ports.retain(|node, _| desk.has(node));
+        self.ports.retain(|node, _| document.has(node));
     }
 
     /// Looks at one node wherever another one was looked at.

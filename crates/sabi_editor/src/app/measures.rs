@@ -39,14 +39,14 @@ impl Editor {
         ui.label("Texels along a side while working");
         for offered in SIZES {
             if ui.radio(offered == size, format!("{offered} × {offered}")).clicked() {
-                self.desk.set_size(offered);
+                self.document.set_size(offered);
                 ui.close();
             }
         }
     }
 
     fn fits(&mut self, ui: &mut Ui) {
-        let fit = self.desk.document().fit;
+        let fit = self.document.contents().fit;
         ui.label("A length of 1 in the graph is");
         let mut wanted = fit;
         ui.radio_value(&mut wanted, Fit::Unit, "the largest side of the model");
@@ -62,16 +62,16 @@ impl Editor {
             }
         });
         if wanted != fit {
-            self.desk.set_fit(wanted);
+            self.document.set_fit(wanted);
         }
     }
 
     fn seed(&mut self, ui: &mut Ui) {
-        let mut seed = self.desk.document().seed;
+        let mut seed = self.document.contents().seed;
         ui.horizontal(|ui| {
             let label = ui.label("Seed of the graph");
             if ui.add(DragValue::new(&mut seed)).labelled_by(label.id).changed() {
-                self.desk.set_seed(seed);
+                self.document.set_seed(seed);
             }
         });
     }

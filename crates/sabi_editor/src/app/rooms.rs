@@ -51,7 +51,7 @@ impl Editor {
             Some(_) => None,
             None => {
                 // The whole graph is meant, its panel and its outputs, and keys are for nothing that is not seen.
-                self.desk.leave_to(0);
+                self.document.leave_to(0);
                 self.followed = None;
                 self.active = Panel::Viewport;
                 Some(dock::use_layout())
@@ -114,7 +114,7 @@ impl Editor {
         self.breadcrumb(ui, actions);
         // It is drawn from what is around it.
         let mut canvas = std::mem::take(&mut self.canvas);
-        let (stage, desk) = (&self.stage, &self.desk);
+        let (stage, document) = (&self.stage, &self.document);
         let state_of = |id: &sabi_graph::NodeId| {
             let result = self.chosen(id);
             NodeState {
@@ -124,11 +124,11 @@ impl Editor {
                 waits: stage.waits(&result.node).cloned(),
             }
         };
-        let here = |node: &NodeRef| desk.seen_at(&node.node);
+        let here = |node: &NodeRef| document.seen_at(&node.node);
         let previewed = self.inspected().and_then(here);
         let pinned = self.pinned.as_ref().and_then(here);
         let around = Around {
-            desk,
+            document,
             theme: &self.theme,
             state_of: &state_of,
             candidates: &self.candidates.1,

@@ -36,10 +36,10 @@ use std::time::{Duration, Instant};
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use sabi_editing::OpenDocument;
 use sabi_engine::{AdapterChoice, Gpu, Session};
 
 use super::{Beginning, Editor, Folders, Handover};
-use crate::desk::Desk;
 use crate::window::configuration;
 
 /// What runs tests needs a Vulkan driver.
@@ -93,7 +93,7 @@ impl Window {
 
     /// The next window, after the program ended without a word.
     fn after_a_crash(self) -> Window {
-        drop(self.harness.into_state().desk.session);
+        drop(self.harness.into_state().document.session);
         let mut next = Window::in_folder(self.folder, |_| Session::new(None));
         next.settle();
         next
@@ -103,8 +103,8 @@ impl Window {
         self.harness.state()
     }
 
-    fn desk(&self) -> &Desk {
-        &self.harness.state().desk
+    fn document(&self) -> &OpenDocument {
+        &self.harness.state().document
     }
 
     /// Draws frames until nothing moves any more.
@@ -125,7 +125,7 @@ impl Window {
 
     /// The graph's text.
     fn text(&mut self) -> String {
-        self.harness.state_mut().desk.session.text().to_owned()
+        self.harness.state_mut().document.session.text().to_owned()
     }
 
     fn path(&self, name: &str) -> PathBuf {

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use sabi_editing::OpenDocument;
 use sabi_engine::Session;
 
 use super::Handover;
 use crate::canvas::Canvas;
-use crate::desk::Desk;
 use crate::files::Files;
 use crate::panels::page::Draft;
 
@@ -14,7 +14,7 @@ const NOT_WRITTEN: &str = "The textures were not written, since the graphics dev
 
 /// What is worked on.
 pub(super) struct Work {
-    pub(super) desk: Desk,
+    pub(super) document: OpenDocument,
     pub(super) canvas: Canvas,
     pub(super) model: PathBuf,
     pub(super) files: Files,
@@ -35,7 +35,7 @@ impl Work {
         match kept {
             // Who was at work goes on, without a start page before it.
             Some(kept) => Work {
-                desk: kept.desk,
+                document: kept.document,
                 canvas: kept.canvas,
                 model: kept.model,
                 files: Files::new(false, None),
@@ -43,7 +43,7 @@ impl Work {
                 fault: kept.was_exporting.then(|| NOT_WRITTEN.to_owned()),
             },
             None => Work {
-                desk: Desk::new(session),
+                document: OpenDocument::new(session),
                 canvas: Canvas::default(),
                 model,
                 files: files(),

@@ -2,10 +2,10 @@
 
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Key, Order, Pos2, Sense, Ui, vec2};
 use egui_phosphor::regular as icon;
+use sabi_editing::{OpenDocument, PendingWire};
 use sabi_graph::{NodeId, SlotRef};
 
 use crate::action::{Action, New};
-use crate::desk::{Desk, Loose};
 use crate::search::{Candidate, ranked};
 use crate::theme::{Theme, space, type_size};
 
@@ -19,7 +19,7 @@ pub(super) struct Purpose {
     /// Where it stands on the canvas.
     pub(super) place: [f32; 2],
     /// The wire that is tied to it.
-    pub(super) loose: Option<Loose>,
+    pub(super) loose: Option<PendingWire>,
     /// The wire into which it is put.
     pub(super) into: Option<SlotRef>,
     /// The node in whose place it is put.
@@ -56,7 +56,13 @@ impl AddMenu {
         }
     }
 
-    pub(super) fn show(&mut self, ui: &Ui, desk: &Desk, theme: &Theme, candidates: &[Candidate]) -> Outcome {
+    pub(super) fn show(
+        &mut self,
+        ui: &Ui,
+        document: &OpenDocument,
+        theme: &Theme,
+        candidates: &[Candidate],
+    ) -> Outcome {
         let mut outcome = Outcome::Open;
         let area = Area::new(Id::new("add_menu"))
             .order(Order::Foreground)
@@ -66,7 +72,7 @@ impl AddMenu {
             let frame = Frame::popup(ui.style()).fill(theme.panel).inner_margin(space::USUAL);
             frame.show(ui, |ui| {
                 ui.set_width(SIZE[0]);
-                outcome = self.contents(ui, desk, theme, candidates);
+                outcome = self.contents(ui, document, theme, candidates);
             });
         });
         let is_outside = ui.input(|input| {
@@ -83,7 +89,7 @@ impl AddMenu {
         if is_over { Outcome::Closed } else { outcome }
     }
 
-    fn contents(&mut self, ui: &mut Ui, desk: &Desk, theme: &Theme, candidates: &[Candidate]) -> Outcome {
+    fn contents(&mut self, ui: &mut Ui, document: &OpenDocument, theme: &Theme, candidates: &[Candidate]) -> Outcome {
         let edit = egui::TextEdit::singleline(&mut self.query)
             .hint_text(format!("{} Find a node", icon::MAGNIFYING_GLASS))
             .desired_width(f32::INFINITY);
@@ -95,7 +101,7 @@ impl AddMenu {
         }
         let fitting: Vec<Candidate> = candidates
             .iter()
-            .filter(|it| self.shows_all || self.fits(desk, it))
+            .filter(|it| self.shows_all || self.fits(document, it))
             .cloned()
             .collect();
         let found = ranked(&fitting, &self.query);
@@ -190,15 +196,17 @@ impl AddMenu {
         response.on_hover_text(&face.summary).clicked()
     }
 
-    fn fits(&self, desk: &Desk, candidate: &Candidate) -> bool {
+    fn fits(&self, document: &OpenDocument, candidate: &Candidate) -> bool {
         let face = &candidate.face;
         if let Some(into) = &self.purpose.into {
-            return desk.may_insert_new(face, into);
+            return document.may_insert_new(face, into);
         }
         match &self.purpose.loose {
             None => true,
-            Some(Loose::From(from)) => face.input_for(desk.faces().carried(&desk.body(), from)).is_some(),
-            Some(Loose::Into(to)) => desk.input(to).is_some_and(|input| face.output_for(input).is_some()),
+            Some(PendingWire::From(from)) => face
+                .input_for(document.faces().carried(&document.body(), from))
+                .is_some(),
+            Some(PendingWire::Into(to)) => document.input(to).is_some_and(|input| face.output_for(input).is_some()),
         }
     }
 

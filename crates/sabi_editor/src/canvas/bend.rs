@@ -9,15 +9,15 @@ use super::{Around, Canvas, node_rect, nodes};
 /// Draws a bend, as large as it is at any zoom.
 pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, key: Key) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
-    let rect = canvas.view.screen_rect(panel, node_rect(around.desk, &shown.id)?);
+    let rect = canvas.view.screen_rect(panel, node_rect(around.document, &shown.id)?);
     let response = nodes::sensed(ui, key, rect);
     let theme = around.theme;
     let passed = OutputRef {
         node: shown.id.clone(),
         port: None,
     };
-    let color = theme.port(around.desk.faces().carried(&around.desk.body(), &passed));
-    let outline = match (around.desk.is_selected(&shown.id), &shown.state.fault) {
+    let color = theme.port(around.document.faces().carried(&around.document.body(), &passed));
+    let outline = match (around.document.is_selected(&shown.id), &shown.state.fault) {
         (true, _) => Stroke::new(2.0, theme.accent),
         (false, Some(_)) => Stroke::new(1.5, theme.fault),
         (false, None) => Stroke::new(1.0, color),

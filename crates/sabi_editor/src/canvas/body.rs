@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use egui::{Align2, Color32, CornerRadius, FontId, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
 use egui_phosphor::regular as icon;
+use sabi_editing::{MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT};
 
 use super::snapshot::{Hand, Shown};
-use crate::desk::{MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT};
 use crate::knobs::{KnobRow, knob_inline};
 use crate::theme::{Theme, space, type_size};
 

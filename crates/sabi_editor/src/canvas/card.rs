@@ -16,10 +16,10 @@ const LETTERS: f32 = 26.0;
 pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, key: Key) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
     let zoom = canvas.view.zoom;
-    let rect = canvas.view.screen_rect(panel, node_rect(around.desk, &shown.id)?);
+    let rect = canvas.view.screen_rect(panel, node_rect(around.document, &shown.id)?);
     let response = nodes::sensed(ui, key, rect);
     let theme = around.theme;
-    let is_selected = around.desk.is_selected(&shown.id);
+    let is_selected = around.document.is_selected(&shown.id);
     ui.painter().add(body::backdrop(theme, shown, rect, zoom, is_selected));
     let letters = LETTERS * zoom;
     let has_name = letters >= LEAST_LETTERS;

@@ -1,12 +1,12 @@
 //! The canvas by keys alone: from node to node, from port to port, and wires between them.
 
+use sabi_editing::OpenDocument;
 use sabi_graph::{NodeId, OutputRef};
 
 use super::gesture::Gesture;
 use super::ports::{self, Place};
 use super::{Canvas, node_rect};
 use crate::action::Action;
-use crate::desk::Desk;
 
 /// The port that keys are about.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,21 +40,21 @@ impl Canvas {
     }
 
     /// The port that keys are about.
-    pub(super) fn port_place(&self, desk: &Desk) -> Option<Place> {
+    pub(super) fn port_place(&self, document: &OpenDocument) -> Option<Place> {
         let port = self.port.as_ref()?;
-        ports::places(desk, &port.node)
+        ports::places(document, &port.node)
             .into_iter()
             .nth(port.at)
             .map(|(place, _)| place)
     }
 
     /// Goes to the next port of the selected node, or to the one before; with a wire in hand, only to those that take it.
-    pub(super) fn step_port(&mut self, desk: &Desk, is_on: bool) {
-        let Some(id) = desk.selected_one().cloned() else {
+    pub(super) fn step_port(&mut self, document: &OpenDocument, is_on: bool) {
+        let Some(id) = document.selected_one().cloned() else {
             return;
         };
-        let places = ports::places(desk, &id);
-        let fits = |at: usize| self.gesture.takes(desk, &places[at].0) != Some(false);
+        let places = ports::places(document, &id);
+        let fits = |at: usize| self.gesture.takes(document, &places[at].0) != Some(false);
         let now = self.port.as_ref().filter(|port| port.node == id).map(|port| port.at);
         let order: Vec<usize> = match (is_on, now) {
             (true, None) => (0..places.len()).collect(),
@@ -64,19 +64,19 @@ impl Canvas {
         };
         let next = order.into_iter().find(|at| fits(*at));
         self.port = next.map(|at| PortAt { node: id, at });
-        self.focused = self.port_place(desk);
+        self.focused = self.port_place(document);
     }
 
     /// Takes a wire at the port that keys are about, or drops the one in hand there.
-    pub(super) fn wire_by_key(&mut self, desk: &Desk) -> Vec<Action> {
+    pub(super) fn wire_by_key(&mut self, document: &OpenDocument) -> Vec<Action> {
         let mut actions = Vec::new();
-        let Some(place) = self.port_place(desk) else {
+        let Some(place) = self.port_place(document) else {
             return actions;
         };
         match std::mem::take(&mut self.gesture) {
             Gesture::Wire { loose, off, .. } => {
                 let at = self.panel.map_or(egui::Pos2::ZERO, |panel| panel.center());
-                self.tie(desk, loose, place, off, at, &mut actions);
+                self.tie(document, loose, place, off, at, &mut actions);
                 self.leave_port();
             }
             _ => {
@@ -93,24 +93,24 @@ impl Canvas {
 
     /// Where an arrow key leads: up and down through the ports of a node once one of them has the focus, left and right along
     /// its wire or to the ports on the other side; and from node to node otherwise, or with a wire in hand.
-    pub(crate) fn arrow(&mut self, desk: &Desk, way: Way) -> Vec<Action> {
-        let focused = self.port_place(desk);
+    pub(crate) fn arrow(&mut self, document: &OpenDocument, way: Way) -> Vec<Action> {
+        let focused = self.port_place(document);
         let is_aside = matches!(way, Way::Left | Way::Right);
         let is_in_hand = matches!(self.gesture, Gesture::Wire { .. });
         match focused {
             Some(_) if !is_aside => {
-                self.step_port(desk, way == Way::Down);
+                self.step_port(document, way == Way::Down);
                 return Vec::new();
             }
             Some(place) if !is_in_hand => {
-                if let Some(next) = aside(desk, &place, way) {
-                    return self.go_to_port(desk, &next);
+                if let Some(next) = aside(document, &place, way) {
+                    return self.go_to_port(document, &next);
                 }
             }
             _ => {}
         }
         self.leave_port();
-        let Some(id) = self.neighbor(desk, way) else {
+        let Some(id) = self.neighbor(document, way) else {
             return Vec::new();
         };
         let shown = Action::Show {
@@ -121,12 +121,14 @@ impl Canvas {
     }
 
     /// Gives a port the focus, and selects its node.
-    fn go_to_port(&mut self, desk: &Desk, place: &Place) -> Vec<Action> {
+    fn go_to_port(&mut self, document: &OpenDocument, place: &Place) -> Vec<Action> {
         let node = place.node().clone();
-        let at = ports::places(desk, &node).iter().position(|(known, _)| known == place);
+        let at = ports::places(document, &node)
+            .iter()
+            .position(|(known, _)| known == place);
         self.port = at.map(|at| PortAt { node: node.clone(), at });
-        self.focused = self.port_place(desk);
-        if desk.selected_one() == Some(&node) {
+        self.focused = self.port_place(document);
+        if document.selected_one() == Some(&node) {
             return Vec::new();
         }
         let shown = Action::Show {
@@ -143,33 +145,37 @@ impl Canvas {
     }
 
     /// A port of a node that is not the selected one has no focus.
-    pub(super) fn follow_selection(&mut self, desk: &Desk) {
+    pub(super) fn follow_selection(&mut self, document: &OpenDocument) {
         if self
             .port
             .as_ref()
-            .is_some_and(|port| desk.selected_one() != Some(&port.node))
+            .is_some_and(|port| document.selected_one() != Some(&port.node))
         {
             self.leave_port();
         }
     }
 
     /// The node to which an arrow key leads: of those that lie that way, the nearest.
-    fn neighbor(&self, desk: &Desk, way: Way) -> Option<NodeId> {
-        let from = desk.selected_one().and_then(|id| node_rect(desk, id));
+    fn neighbor(&self, document: &OpenDocument, way: Way) -> Option<NodeId> {
+        let from = document.selected_one().and_then(|id| node_rect(document, id));
         let Some(from) = from else {
-            return desk.graph().ids().next().cloned();
+            return document.graph().ids().next().cloned();
         };
-        let found = desk.graph().ids().filter(|id| !desk.is_selected(id)).filter_map(|id| {
-            let to = node_rect(desk, id)?.center() - from.center();
-            let (along, aside) = match way {
-                Way::Left => (-to.x, to.y),
-                Way::Right => (to.x, to.y),
-                Way::Up => (-to.y, to.x),
-                Way::Down => (to.y, to.x),
-            };
-            // What lies aside counts as farther than what lies ahead.
-            (along > 1.0).then(|| (along + 2.0 * aside.abs(), id))
-        });
+        let found = document
+            .graph()
+            .ids()
+            .filter(|id| !document.is_selected(id))
+            .filter_map(|id| {
+                let to = node_rect(document, id)?.center() - from.center();
+                let (along, aside) = match way {
+                    Way::Left => (-to.x, to.y),
+                    Way::Right => (to.x, to.y),
+                    Way::Up => (-to.y, to.x),
+                    Way::Down => (to.y, to.x),
+                };
+                // What lies aside counts as farther than what lies ahead.
+                (along > 1.0).then(|| (along + 2.0 * aside.abs(), id))
+            });
         found
             .min_by(|(one, _), (other, _)| one.total_cmp(other))
             .map(|(_, id)| id.clone())
@@ -178,24 +184,24 @@ impl Canvas {
 
 /// The port to the left or right of one: the other end of its wire, or the first port on the other side of its node. None
 /// where it has no wire on that side.
-fn aside(desk: &Desk, place: &Place, way: Way) -> Option<Place> {
+fn aside(document: &OpenDocument, place: &Place, way: Way) -> Option<Place> {
     let inside = |is_input: bool| {
-        let places = ports::places(desk, place.node()).into_iter();
+        let places = ports::places(document, place.node()).into_iter();
         let mut places = places.map(|(place, _)| place);
         places.find(|place| matches!(place, Place::Input(_)) == is_input)
     };
     match (place, way) {
         (Place::Input(slot), Way::Left) => {
-            let from = desk.wire_into(slot)?;
-            let port = desk.face(&from.node)?.output(from.port.as_deref())?;
+            let from = document.wire_into(slot)?;
+            let port = document.face(&from.node)?.output(from.port.as_deref())?;
             Some(Place::Output(OutputRef {
                 node: from.node.clone(),
                 port: Some(port.name.clone()),
             }))
         }
         (Place::Output(from), Way::Right) => {
-            let mut readers = desk.graph().readers(from.node.as_str()).into_iter();
-            readers.find(|slot| desk.reads(slot, from)).map(Place::Input)
+            let mut readers = document.graph().readers(from.node.as_str()).into_iter();
+            readers.find(|slot| document.reads(slot, from)).map(Place::Input)
         }
         (Place::Input(_), _) => inside(false),
         (Place::Output(_), _) => inside(true),

@@ -3,38 +3,38 @@
 use std::collections::BTreeMap;
 
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
+use sabi_editing::{FRAME_AROUND, FRAME_STRIP, OpenDocument};
 
 use super::gesture::Gesture;
 use super::questions::Renaming;
 use super::{Around, Canvas, node_rect};
 use crate::action::{Action, FrameAsk};
-use crate::desk::{Desk, FRAME_AROUND, FRAME_STRIP};
 use crate::theme::type_size;
 
 /// The rectangle of a frame on the canvas; none where none of its nodes is there.
-pub(super) fn rect_of(desk: &Desk, id: &str) -> Option<Rect> {
-    let frame = desk.graph().frames().get(id)?;
-    let rects = frame.nodes.iter().filter_map(|id| node_rect(desk, id));
+pub(super) fn rect_of(document: &OpenDocument, id: &str) -> Option<Rect> {
+    let frame = document.graph().frames().get(id)?;
+    let rects = frame.nodes.iter().filter_map(|id| node_rect(document, id));
     let all = rects.reduce(|all, rect| all.union(rect))?.expand(FRAME_AROUND);
     Some(Rect::from_min_max(all.min - vec2(0.0, FRAME_STRIP), all.max))
 }
 
 /// The frame into which the selected nodes are dropped there: one that holds none of them yet.
-pub(super) fn under(canvas: &Canvas, desk: &Desk, pointer: egui::Pos2) -> Option<String> {
+pub(super) fn under(canvas: &Canvas, document: &OpenDocument, pointer: egui::Pos2) -> Option<String> {
     let panel = canvas.panel?;
-    let frames = desk.graph().frames().iter();
-    let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| desk.is_selected(id)));
+    let frames = document.graph().frames().iter();
+    let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| document.is_selected(id)));
     let mut under = others.filter(|(id, _)| {
-        let rect = rect_of(desk, id).map(|rect| canvas.view.screen_rect(panel, rect));
+        let rect = rect_of(document, id).map(|rect| canvas.view.screen_rect(panel, rect));
         rect.is_some_and(|rect| rect.contains(pointer))
     });
     under.next().map(|(id, _)| id.clone())
 }
 
 pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, actions: &mut Vec<Action>) {
-    let desk = around.desk;
-    for (id, frame) in desk.graph().frames() {
-        let Some(rect) = rect_of(desk, id).map(|rect| canvas.view.screen_rect(panel, rect)) else {
+    let document = around.document;
+    for (id, frame) in document.graph().frames() {
+        let Some(rect) = rect_of(document, id).map(|rect| canvas.view.screen_rect(panel, rect)) else {
             continue;
         };
         if !rect.intersects(panel) {
@@ -68,7 +68,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
             let places = frame
                 .nodes
                 .iter()
-                .filter_map(|id| Some((id.clone(), desk.node(id)?.pos)));
+                .filter_map(|id| Some((id.clone(), document.node(id)?.pos)));
             let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(strip.center());
             actions.push(Action::Frame(FrameAsk::Select(id.clone())));
             actions.push(Action::BeginMove);

@@ -6,6 +6,7 @@ mod marking;
 use std::collections::BTreeMap;
 
 use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
+use sabi_editing::{OpenDocument, PendingWire};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::ports::Place;
@@ -14,7 +15,6 @@ use super::wires::{self, Wire};
 use super::{AddMenu, Around, Canvas, Purpose, ports};
 use crate::action::{Action, WireAsk};
 use crate::command::{Habit, Scope};
-use crate::desk::{Desk, Loose};
 use crate::mouse::{self, Drags};
 use carrying::drag;
 use marking::{end_box, end_line};
@@ -45,7 +45,7 @@ pub(super) enum Gesture {
     },
     /// A wire that is tied at one end; `off` is the input that it was taken off.
     Wire {
-        loose: Loose,
+        loose: PendingWire,
         off: Option<SlotRef>,
         /// Taken by a key: it follows the focus and not the pointer.
         by_key: bool,
@@ -59,7 +59,7 @@ pub(super) enum Gesture {
 }
 
 impl Gesture {
-    pub(super) fn wire(loose: Loose, off: Option<SlotRef>) -> Gesture {
+    pub(super) fn wire(loose: PendingWire, off: Option<SlotRef>) -> Gesture {
         Gesture::Wire {
             loose,
             off,
@@ -68,24 +68,24 @@ impl Gesture {
     }
 
     /// Whether the wire in hand may be dropped there; none where there is no wire.
-    pub(super) fn takes(&self, desk: &Desk, place: &Place) -> Option<bool> {
+    pub(super) fn takes(&self, document: &OpenDocument, place: &Place) -> Option<bool> {
         let Gesture::Wire { loose, .. } = self else {
             return None;
         };
         let ends = ends(loose, place);
-        Some(ends.is_some_and(|(from, to)| from.node != to.node && desk.fits(from, to).is_ok()))
+        Some(ends.is_some_and(|(from, to)| from.node != to.node && document.fits(from, to).is_ok()))
     }
 
     /// How little a place suits the wire in hand, among those that take it: one that has a wire already, then one that converts.
-    pub(super) fn cost(&self, desk: &Desk, place: &Place) -> (bool, bool) {
+    pub(super) fn cost(&self, document: &OpenDocument, place: &Place) -> (bool, bool) {
         let Gesture::Wire { loose, .. } = self else {
             return (false, false);
         };
         let Some((from, to)) = ends(loose, place) else {
             return (true, true);
         };
-        let is_taken = matches!(place, Place::Input(_)) && desk.wire_into(to).is_some();
-        let converts = desk.input(to).is_none_or(|port| port.ty != desk.carried(from));
+        let is_taken = matches!(place, Place::Input(_)) && document.wire_into(to).is_some();
+        let converts = document.input(to).is_none_or(|port| port.ty != document.carried(from));
         (is_taken, converts)
     }
 
@@ -99,9 +99,9 @@ impl Gesture {
 }
 
 /// Where a loose wire begins and ends that is dropped at a place; none where both are of one side.
-fn ends<'w>(loose: &'w Loose, place: &'w Place) -> Option<(&'w OutputRef, &'w SlotRef)> {
+fn ends<'w>(loose: &'w PendingWire, place: &'w Place) -> Option<(&'w OutputRef, &'w SlotRef)> {
     match (loose, place) {
-        (Loose::From(from), Place::Input(to)) | (Loose::Into(to), Place::Output(from)) => Some((from, to)),
+        (PendingWire::From(from), Place::Input(to)) | (PendingWire::Into(to), Place::Output(from)) => Some((from, to)),
         _ => None,
     }
 }
@@ -190,10 +190,10 @@ fn flick(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, panel: Rect, actions
         return false;
     };
     let is_ours = ui.ctx().layer_id_at(from).is_none_or(|layer| layer == ui.layer_id());
-    let Some(place) = ports::at(canvas, around.desk, panel, from).filter(|_| is_ours) else {
+    let Some(place) = ports::at(canvas, around.document, panel, from).filter(|_| is_ours) else {
         return false;
     };
-    canvas.gesture = ports::taken(around.desk, &place);
+    canvas.gesture = ports::taken(around.document, &place);
     drop_wire(canvas, around, panel, to, actions);
     true
 }
@@ -281,7 +281,7 @@ fn drop_wire(canvas: &mut Canvas, around: &Around<'_>, panel: Rect, pointer: Pos
         return;
     };
     match target {
-        Some(place) => canvas.tie(around.desk, loose, place, off, pointer, actions),
+        Some(place) => canvas.tie(around.document, loose, place, off, pointer, actions),
         None => match off {
             Some(slot) => actions.push(Action::Wire(WireAsk::Cut(vec![slot]))),
             None => {
@@ -300,8 +300,8 @@ impl Canvas {
     /// Ties a wire, or asks how where a mask is there already.
     pub(super) fn tie(
         &mut self,
-        desk: &Desk,
-        loose: Loose,
+        document: &OpenDocument,
+        loose: PendingWire,
         place: Place,
         off: Option<SlotRef>,
         at: Pos2,
@@ -314,7 +314,7 @@ impl Canvas {
         if off.as_ref() == Some(&to) {
             return;
         }
-        if off.is_none() && desk.may_merge(&from, &to) {
+        if off.is_none() && document.may_merge(&from, &to) {
             self.merge = Some(MergeQuestion::new(at, from, to));
         } else {
             actions.push(Action::Wire(WireAsk::Connect { from, to, off }));
@@ -333,22 +333,22 @@ pub(super) fn draw(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>) {
     match &canvas.gesture {
         Gesture::Wire { loose, by_key, .. } => {
             let place = match loose {
-                Loose::From(from) => Place::Output(from.clone()),
-                Loose::Into(to) => Place::Input(to.clone()),
+                PendingWire::From(from) => Place::Output(from.clone()),
+                PendingWire::Into(to) => Place::Input(to.clone()),
             };
-            let Some(tied) = place.on_canvas(around.desk) else {
+            let Some(tied) = place.on_canvas(around.document) else {
                 return;
             };
             let tied = canvas.view.screen(panel, tied);
             let target = match by_key {
-                true => canvas.port_place(around.desk),
+                true => canvas.port_place(around.document),
                 false => ports::target(canvas, around, panel, pointer),
             };
-            let end = target.and_then(|place| place.on_canvas(around.desk));
+            let end = target.and_then(|place| place.on_canvas(around.document));
             let end = end.map_or(pointer, |place| canvas.view.screen(panel, place));
             let ends = match loose {
-                Loose::From(_) => [tied, end],
-                Loose::Into(_) => [end, tied],
+                PendingWire::From(_) => [tied, end],
+                PendingWire::Into(_) => [end, tied],
             };
             wires::draw_curve(painter, wires::curve(ends, canvas.view.zoom), theme.accent, 2.5);
         }

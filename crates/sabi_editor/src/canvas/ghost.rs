@@ -1,12 +1,12 @@
 //! A node that is dragged to the canvas from elsewhere.
 
 use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
+use sabi_editing::{NODE_WIDTH, OpenDocument, PICTURE_SIDE, TITLE_HEIGHT};
 use sabi_engine::catalog::Entry;
 
 use super::gesture::{EDGE, pull};
 use super::wires::{self, Wire};
 use super::{Canvas, body};
-use crate::desk::{Desk, NODE_WIDTH, PICTURE_SIDE, TITLE_HEIGHT};
 use crate::theme::{Theme, space, type_size};
 
 /// How large it is beside the canvas.
@@ -14,12 +14,12 @@ const BESIDE: f32 = 0.6;
 
 impl Canvas {
     /// Shows a node that is dragged, where it would come to stand.
-    pub(crate) fn ghost(&self, ui: &Ui, theme: &Theme, desk: &Desk, face: &Entry, at: Pos2) {
+    pub(crate) fn ghost(&self, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
         let zoom = self.place_at(at).map_or(BESIDE, |_| self.view.zoom);
         let painter = ui
             .ctx()
             .layer_painter(LayerId::new(Order::Tooltip, Id::new("node that is dragged")));
-        if let Some((wire, panel)) = self.wire_for(desk, face, at).zip(self.panel) {
+        if let Some((wire, panel)) = self.wire_for(document, face, at).zip(self.panel) {
             wires::draw(&painter.with_clip_rect(panel), theme, &wire, zoom, wires::Look::Hot);
         }
         let rect = Rect::from_min_size(at, vec2(NODE_WIDTH, TITLE_HEIGHT + PICTURE_SIDE) * zoom);
@@ -37,11 +37,11 @@ impl Canvas {
     }
 
     /// The wire at a place of the screen into which a new node would be put.
-    pub(crate) fn wire_for(&self, desk: &Desk, face: &Entry, at: Pos2) -> Option<Wire> {
+    pub(crate) fn wire_for(&self, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<Wire> {
         let panel = self.panel.filter(|panel| panel.contains(at))?;
-        let wires = wires::visible(desk, &self.view, panel);
+        let wires = wires::visible(document, &self.view, panel);
         let wire = wires::under(&wires, at)?;
-        desk.may_insert_new(face, &wire.to).then(|| wire.clone())
+        document.may_insert_new(face, &wire.to).then(|| wire.clone())
     }
 
     /// What is dragged here pulls the canvas along at an edge, once it has been farther in.

@@ -8,18 +8,18 @@ const SIZE: [f32; 2] = [180.0, 120.0];
 const FROM_CORNER: f32 = 12.0;
 
 pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_>) {
-    let desk = around.desk;
-    let nodes: Vec<(Rect, egui::Color32)> = desk
+    let document = around.document;
+    let nodes: Vec<(Rect, egui::Color32)> = document
         .graph()
         .ids()
         .filter_map(|id| {
-            let category = desk.face(id).map_or("", |face| face.category());
-            let color = if desk.is_selected(id) {
+            let category = document.face(id).map_or("", |face| face.category());
+            let color = if document.is_selected(id) {
                 around.theme.accent
             } else {
                 around.theme.category(category)
             };
-            Some((node_rect(desk, id)?, color))
+            Some((node_rect(document, id)?, color))
         })
         .collect();
     let corner = panel.max - vec2(FROM_CORNER, FROM_CORNER);

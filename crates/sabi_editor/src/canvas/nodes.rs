@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use egui::layers::ShapeIdx;
 use egui::{Rect, Response, Sense, Shape, Ui, WidgetInfo, WidgetType, vec2};
 use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
+use sabi_editing::{TITLE_HEIGHT, is_bend};
 use sabi_graph::NodeId;
 
 use super::snapshot::{Hand, Key};
 use super::{Around, CARD_ZOOM, Canvas, bend, body, card, node_rect, ports, sides, tips};
 use crate::action::{Action, FrameAsk};
 use crate::command::{CanvasCommand, Command, GraphCommand, LookCommand, WindowCommand};
-use crate::desk::{TITLE_HEIGHT, is_bend};
 use crate::knobs::KnobEvent;
 
 /// The shape that a node's backdrop takes among those that its widget begins with: an outline, then what is behind it.
@@ -42,7 +42,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
         };
         let Some(response) = response else { continue };
         let title = &canvas.snapshot.graph[key].user_data.title;
-        let is_selected = around.desk.is_selected(id);
+        let is_selected = around.document.is_selected(id);
         response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, title));
         let shown = &canvas.snapshot.graph[key].user_data;
         let sentence = shown.state.fault.as_ref().or(shown.state.waits.as_ref());
@@ -69,13 +69,18 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
 
 /// Ids of the nodes that are seen: those that were touched last above the others, and the selected ones above all.
 fn in_order(canvas: &mut Canvas, around: &Around<'_>, seen: Rect) -> Vec<NodeId> {
-    let graph = around.desk.graph();
+    let graph = around.document.graph();
     canvas.touched.retain(|id| graph.node(id.as_str()).is_some());
-    let is_seen = |id: &&NodeId| node_rect(around.desk, id).is_some_and(|rect| rect.intersects(seen));
+    let is_seen = |id: &&NodeId| node_rect(around.document, id).is_some_and(|rect| rect.intersects(seen));
     let turns: BTreeMap<&NodeId, usize> = canvas.touched.iter().zip(1..).collect();
     let mut in_turn: Vec<NodeId> = graph.ids().filter(is_seen).cloned().collect();
     // Those that were never touched stay as the graph has them, below the others.
-    in_turn.sort_by_key(|id| (around.desk.is_selected(id), turns.get(id).copied().unwrap_or_default()));
+    in_turn.sort_by_key(|id| {
+        (
+            around.document.is_selected(id),
+            turns.get(id).copied().unwrap_or_default(),
+        )
+    });
     in_turn
 }
 
@@ -90,8 +95,8 @@ fn widget(
 ) -> Option<Response> {
     let zoom = canvas.view.zoom;
     let id = canvas.snapshot.graph[key].user_data.id.clone();
-    let place = around.desk.node(&id)?.pos;
-    let rect = canvas.view.screen_rect(panel, node_rect(around.desk, &id)?);
+    let place = around.document.node(&id)?.pos;
+    let rect = canvas.view.screen_rect(panel, node_rect(around.document, &id)?);
     let mut hand = Hand {
         theme: around.theme.clone(),
         zoom,
@@ -118,7 +123,7 @@ fn widget(
     // What it says of wires and moves is not asked: ports and drags are ours.
     let _ = widget.show(&pan_zoom, ui, &mut hand);
     let shown = &canvas.snapshot.graph[key].user_data;
-    let is_selected = around.desk.is_selected(&id);
+    let is_selected = around.document.is_selected(&id);
     let backdrop = body::backdrop(around.theme, shown, rect, zoom, is_selected);
     ui.painter().set(ShapeIdx(before.0 + BACKDROP), backdrop);
     actions.extend(hand.knob_events.into_iter().map(|(node, event)| knob(node, event)));
@@ -174,10 +179,10 @@ fn context_menu(
     around: &Around<'_>,
     actions: &mut Vec<Action>,
 ) {
-    if response.secondary_clicked() && !around.desk.is_selected(id) {
+    if response.secondary_clicked() && !around.document.is_selected(id) {
         actions.push(Action::Select(vec![id.clone()]));
     }
-    let is_group = around.desk.node(id).is_some_and(|node| node.group.is_some());
+    let is_group = around.document.node(id).is_some_and(|node| node.group.is_some());
     response.context_menu(|ui_menu| {
         if ui_menu.button("Replace by…").clicked() {
             canvas.open_menu(ui, Some(id.clone()));
@@ -185,7 +190,7 @@ fn context_menu(
         if is_group && ui_menu.button("Go into the group").clicked() {
             actions.push(Action::Enter(id.clone()));
         }
-        let frames = around.desk.graph().frames().values();
+        let frames = around.document.graph().frames().values();
         let is_framed = frames.into_iter().any(|frame| frame.nodes.contains(id));
         if is_framed && ui_menu.button("Take out of the frame").clicked() {
             actions.push(Action::Frame(FrameAsk::Fill(None)));
@@ -254,13 +259,13 @@ mod tests {
 
     use super::super::snapshot::Snapshot;
     use super::*;
-    use crate::desk::{Desk, NODE_WIDTH, input_row, output_row};
     use crate::theme::{Shade, Theme};
+    use sabi_editing::{NODE_WIDTH, OpenDocument, input_row, output_row};
 
     /// Where the canvas crate's widget of a node has its ports, and what it says of its size.
-    fn drawn(desk: &Desk, id: &NodeId, zoom: f32) -> (Vec<(AnyParameterId, Pos2)>, Rect) {
+    fn drawn(document: &OpenDocument, id: &NodeId, zoom: f32) -> (Vec<(AnyParameterId, Pos2)>, Rect) {
         let mut snapshot = Snapshot::default();
-        snapshot.sync(desk);
+        snapshot.sync(document);
         let key = snapshot.key(id).expect("a node of the snapshot");
         let theme = Arc::new(Theme::of(Shade::Dark));
         let found = Rc::new(RefCell::new((Vec::new(), Rect::NOTHING)));
@@ -300,14 +305,14 @@ mod tests {
 
     #[test]
     fn ports_of_every_kind_are_where_its_wires_end_at_every_zoom() {
-        let mut desk = Desk::new(Session::new(None));
-        let drawn_by_widget = desk.catalog().entries().filter(|entry| !is_bend(entry));
+        let mut document = OpenDocument::new(Session::new(None));
+        let drawn_by_widget = document.catalog().entries().filter(|entry| !is_bend(entry));
         let kinds: Vec<String> = drawn_by_widget.map(|entry| entry.id.clone()).collect();
         for (at, kind) in kinds.iter().enumerate() {
-            let id = desk.add(kind, [0.0, 0.0], None).expect("a kind of the catalog");
-            let face = desk.face(&id).expect("a node").clone();
+            let id = document.add(kind, [0.0, 0.0], None).expect("a kind of the catalog");
+            let face = document.face(&id).expect("a node").clone();
             for zoom in [[1.0, 0.6], [1.7, 1.0], [0.6, 3.0]][at % 3] {
-                let (ports, rect) = drawn(&desk, &id, zoom);
+                let (ports, rect) = drawn(&document, &id, zoom);
                 let inputs = (0..face.inputs.len()).map(|row| (true, pos2(0.0, input_row(&face, row))));
                 let outputs = (0..face.outputs.len()).map(|row| (false, pos2(NODE_WIDTH, output_row(&face, row))));
                 for (is_input, place) in inputs.chain(outputs) {
@@ -317,13 +322,13 @@ mod tests {
                     });
                     assert!(is_there, "{kind} at {zoom}: {expected:?} in {ports:?}");
                 }
-                let size = vec2(NODE_WIDTH, desk.size(&id)[1]) * zoom;
+                let size = vec2(NODE_WIDTH, document.size(&id)[1]) * zoom;
                 assert!(
                     (rect.size() - size).length() < 1.5,
                     "{kind} at {zoom}: {rect:?}, and we say {size:?}"
                 );
             }
-            desk.undo();
+            document.undo();
         }
     }
 }

@@ -1,25 +1,31 @@
 //! What can be done with a port besides wiring it; and the marks of ports that the graph gives to those who use it as a group.
 
 use egui::{Align2, FontId, Painter, Pos2, Response, Stroke, vec2};
+use sabi_editing::OpenDocument;
 use sabi_graph::{Body, SlotRef};
 
 use super::ports::Place;
 use super::{AddMenu, Canvas, Purpose};
 use crate::action::{Action, PortAsk, WireAsk};
-use crate::desk::Desk;
 use crate::theme::{Theme, type_size};
 
 /// Below this zoom the names of what is given on cannot be read.
 const LEGIBLE: f32 = 0.7;
 
 /// The menu of a port.
-pub(super) fn show(canvas: &mut Canvas, response: &Response, place: &Place, desk: &Desk, actions: &mut Vec<Action>) {
+pub(super) fn show(
+    canvas: &mut Canvas,
+    response: &Response,
+    place: &Place,
+    document: &OpenDocument,
+    actions: &mut Vec<Action>,
+) {
     response.context_menu(|ui| {
-        let whole = match desk.body() {
+        let whole = match document.body() {
             Body::Main => "graph",
             Body::Group(_) => "group",
         };
-        let given_as = desk.given_as(&place.loose());
+        let given_as = document.given_as(&place.loose());
         let (publish, off) = match place {
             Place::Input(_) => (
                 format!("Publish as input of the {whole}"),
@@ -37,7 +43,7 @@ pub(super) fn show(canvas: &mut Canvas, response: &Response, place: &Place, desk
             }
             _ => {}
         }
-        let tied = tied(desk, place);
+        let tied = tied(document, place);
         ui.separator();
         if ui
             .add_enabled(!tied.is_empty(), egui::Button::new("Disconnect"))
@@ -50,7 +56,7 @@ pub(super) fn show(canvas: &mut Canvas, response: &Response, place: &Place, desk
             _ => "Connect a new node…",
         };
         if ui.button(instead).clicked() {
-            canvas.open_port_menu(desk, place, response.rect.center());
+            canvas.open_port_menu(document, place, response.rect.center());
         }
     });
 }
@@ -70,24 +76,24 @@ fn taken_back(place: &Place, name: &str) -> PortAsk {
 }
 
 /// The inputs whose wires end or begin at a port.
-fn tied(desk: &Desk, place: &Place) -> Vec<SlotRef> {
+fn tied(document: &OpenDocument, place: &Place) -> Vec<SlotRef> {
     match place {
-        Place::Input(slot) => desk.wire_into(slot).map(|_| slot.clone()).into_iter().collect(),
+        Place::Input(slot) => document.wire_into(slot).map(|_| slot.clone()).into_iter().collect(),
         Place::Output(from) => {
-            let readers = desk.graph().readers(from.node.as_str()).into_iter();
-            readers.filter(|slot| desk.reads(slot, from)).collect()
+            let readers = document.graph().readers(from.node.as_str()).into_iter();
+            readers.filter(|slot| document.reads(slot, from)).collect()
         }
     }
 }
 
 impl Canvas {
     /// Opens the menu of nodes for one that is tied to a port.
-    fn open_port_menu(&mut self, desk: &Desk, place: &Place, at: Pos2) {
+    fn open_port_menu(&mut self, document: &OpenDocument, place: &Place, at: Pos2) {
         let aside = match place {
-            Place::Input(_) => -(crate::desk::NODE_WIDTH + 60.0),
+            Place::Input(_) => -(sabi_editing::NODE_WIDTH + 60.0),
             Place::Output(_) => 60.0,
         };
-        let on_canvas = place.on_canvas(desk).unwrap_or_default();
+        let on_canvas = place.on_canvas(document).unwrap_or_default();
         let purpose = Purpose {
             place: [on_canvas[0] + aside, on_canvas[1] - 20.0],
             loose: Some(place.loose()),
@@ -98,8 +104,8 @@ impl Canvas {
 }
 
 /// Marks a port that the graph gives on, with the name that it has outside.
-pub(super) fn mark(painter: &Painter, theme: &Theme, desk: &Desk, place: &Place, center: Pos2, zoom: f32) {
-    let Some(name) = desk.given_as(&place.loose()) else {
+pub(super) fn mark(painter: &Painter, theme: &Theme, document: &OpenDocument, place: &Place, center: Pos2, zoom: f32) {
+    let Some(name) = document.given_as(&place.loose()) else {
         return;
     };
     let (way, align) = match place {

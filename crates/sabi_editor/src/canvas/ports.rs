@@ -1,13 +1,13 @@
 //! Ports: their dots, by color and form, and taking a wire at them.
 
 use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetType, pos2, vec2};
+use sabi_editing::{OpenDocument, PendingWire};
 use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, OutputRef, PortType, SlotRef};
 
 use super::gesture::Gesture;
 use super::{Around, Canvas, port_menu, wires};
 use crate::action::Action;
-use crate::desk::{Desk, Loose};
 use crate::theme::Theme;
 
 /// Half the width of a dot, canvas points.
@@ -26,10 +26,10 @@ pub(super) enum Place {
 
 impl Place {
     /// Where it is on the canvas.
-    pub(super) fn on_canvas(&self, desk: &Desk) -> Option<[f32; 2]> {
+    pub(super) fn on_canvas(&self, document: &OpenDocument) -> Option<[f32; 2]> {
         match self {
-            Place::Input(slot) => wires::end_of(desk, slot),
-            Place::Output(from) => wires::start_of(desk, from),
+            Place::Input(slot) => wires::end_of(document, slot),
+            Place::Output(from) => wires::start_of(document, from),
         }
     }
 
@@ -41,17 +41,17 @@ impl Place {
     }
 
     /// A wire that begins here.
-    pub(super) fn loose(&self) -> Loose {
+    pub(super) fn loose(&self) -> PendingWire {
         match self {
-            Place::Input(slot) => Loose::Into(slot.clone()),
-            Place::Output(from) => Loose::From(from.clone()),
+            Place::Input(slot) => PendingWire::Into(slot.clone()),
+            Place::Output(from) => PendingWire::From(from.clone()),
         }
     }
 }
 
 /// All ports of a node, in order.
-pub(super) fn places(desk: &Desk, id: &NodeId) -> Vec<(Place, Port)> {
-    let Some(face) = desk.face(id) else {
+pub(super) fn places(document: &OpenDocument, id: &NodeId) -> Vec<(Place, Port)> {
+    let Some(face) = document.face(id) else {
         return Vec::new();
     };
     let inputs = face.inputs.iter().map(|port| {
@@ -80,29 +80,29 @@ pub(super) fn show(
     id: &NodeId,
     actions: &mut Vec<Action>,
 ) {
-    let desk = around.desk;
+    let document = around.document;
     let zoom = canvas.view.zoom;
-    let title = desk.title(id);
-    for (place, port) in places(desk, id) {
-        let Some(at) = place.on_canvas(desk) else { continue };
+    let title = document.title(id);
+    for (place, port) in places(document, id) {
+        let Some(at) = place.on_canvas(document) else { continue };
         let center = canvas.view.screen(panel, at);
         let reach = (DOT * 1.6 * zoom).max(REACH);
         let is_input = matches!(place, Place::Input(_));
         // Of a small node enough is left to take it itself.
-        let inside = reach.min(desk.size(id)[0] * zoom * INSIDE);
+        let inside = reach.min(document.size(id)[0] * zoom * INSIDE);
         let [left, right] = if is_input { [reach, inside] } else { [inside, reach] };
         let rect = Rect::from_min_max(center - vec2(left, reach), center + vec2(right, reach));
         let widget = ui.id().with(("port", id, &port.name, is_input));
         let response = ui.interact(rect, widget, Sense::click_and_drag());
         let name = accessible(&title, &port, is_input);
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &name));
-        let fits = canvas.gesture.takes(desk, &place);
+        let fits = canvas.gesture.takes(document, &place);
         let is_hot = fits != Some(false) && response.contains_pointer() || canvas.is_focused(&place);
         let mut color = around.theme.port(port.ty);
         if fits == Some(false) {
             color = color.gamma_multiply(0.25);
         }
-        let is_wired = is_wired(desk, &place);
+        let is_wired = is_wired(document, &place);
         let size = DOT * zoom * if is_hot { 1.35 } else { 1.0 };
         dot(ui.painter(), around.theme, center, size, (port.ty, color), is_wired);
         if port.is_required && !is_wired && is_input && zoom > 0.6 {
@@ -110,13 +110,13 @@ pub(super) fn show(
                 .circle_stroke(center, size + 2.5 * zoom, Stroke::new(1.0, around.theme.warning));
         }
         if response.drag_started_by(egui::PointerButton::Primary) {
-            canvas.gesture = taken(desk, &place);
+            canvas.gesture = taken(document, &place);
         }
         if response.clicked() {
             clicked(&place, actions);
         }
-        port_menu::mark(ui.painter(), around.theme, desk, &place, center, zoom);
-        port_menu::show(canvas, &response, &place, desk, actions);
+        port_menu::mark(ui.painter(), around.theme, document, &place, center, zoom);
+        port_menu::show(canvas, &response, &place, document, actions);
         if matches!(canvas.gesture, Gesture::Idle) {
             response.on_hover_ui(|ui| tooltip(ui, around.theme, &port));
         }
@@ -158,27 +158,27 @@ pub(super) fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port) {
     }
 }
 
-pub(super) fn is_wired(desk: &Desk, place: &Place) -> bool {
+pub(super) fn is_wired(document: &OpenDocument, place: &Place) -> bool {
     match place {
-        Place::Input(slot) => desk.wire_into(slot).is_some(),
+        Place::Input(slot) => document.wire_into(slot).is_some(),
         Place::Output(from) => {
-            let face = desk.face(&from.node);
+            let face = document.face(&from.node);
             let first = face.and_then(|face| face.outputs.first()).map(|port| &port.name);
-            let readers = desk.graph().readers(from.node.as_str());
+            let readers = document.graph().readers(from.node.as_str());
             readers
                 .iter()
-                .filter_map(|slot| desk.wire_into(slot))
+                .filter_map(|slot| document.wire_into(slot))
                 .any(|wire| wire.port == from.port || wire.port.is_none() && first == from.port.as_ref())
         }
     }
 }
 
 /// What is in hand once a port was taken: a wire from it; or, of an input that has one, that wire, taken off it.
-pub(super) fn taken(desk: &Desk, place: &Place) -> Gesture {
+pub(super) fn taken(document: &OpenDocument, place: &Place) -> Gesture {
     if let Place::Input(slot) = place
-        && let Some(from) = desk.wire_into(slot)
+        && let Some(from) = document.wire_into(slot)
     {
-        return Gesture::wire(Loose::From(from.clone()), Some(slot.clone()));
+        return Gesture::wire(PendingWire::From(from.clone()), Some(slot.clone()));
     }
     Gesture::wire(place.loose(), None)
 }
@@ -212,15 +212,15 @@ pub(super) fn dot(
 }
 
 /// The port under a place of the screen.
-pub(super) fn at(canvas: &Canvas, desk: &Desk, panel: Rect, pointer: Pos2) -> Option<Place> {
+pub(super) fn at(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2) -> Option<Place> {
     let reach = (DOT * 1.6 * canvas.view.zoom).max(REACH);
     let near = |id: &&NodeId| {
-        let rect = super::node_rect(desk, id).map(|rect| canvas.view.screen_rect(panel, rect));
+        let rect = super::node_rect(document, id).map(|rect| canvas.view.screen_rect(panel, rect));
         rect.is_some_and(|rect| rect.expand(reach).contains(pointer))
     };
-    let places = desk.graph().ids().filter(near).flat_map(|id| places(desk, id));
+    let places = document.graph().ids().filter(near).flat_map(|id| places(document, id));
     let found = places.filter_map(|(place, _)| {
-        let center = canvas.view.screen(panel, place.on_canvas(desk)?);
+        let center = canvas.view.screen(panel, place.on_canvas(document)?);
         Some((center.distance(pointer), place)).filter(|(distance, _)| *distance < reach)
     });
     let nearest = found.min_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -230,23 +230,23 @@ pub(super) fn at(canvas: &Canvas, desk: &Desk, panel: Rect, pointer: Pos2) -> Op
 /// The port that a wire would be dropped at: the nearest that takes it, or on a node's body the first that does, a free one
 /// before one that has a wire, and one of its type before one that converts.
 pub(super) fn target(canvas: &Canvas, around: &Around<'_>, panel: Rect, pointer: Pos2) -> Option<Place> {
-    let desk = around.desk;
+    let document = around.document;
     let here = canvas.view.place(panel, pointer);
     let here = pos2(here[0], here[1]);
     let margin = 24.0;
     let mut best: Option<(f32, Place)> = None;
     let mut under: Option<((bool, bool), Place)> = None;
-    for id in desk.graph().ids() {
-        let Some(rect) = super::node_rect(desk, id).filter(|rect| rect.expand(margin).contains(here)) else {
+    for id in document.graph().ids() {
+        let Some(rect) = super::node_rect(document, id).filter(|rect| rect.expand(margin).contains(here)) else {
             continue;
         };
-        for (place, _) in places(desk, id) {
-            if canvas.gesture.takes(desk, &place) != Some(true) {
+        for (place, _) in places(document, id) {
+            if canvas.gesture.takes(document, &place) != Some(true) {
                 continue;
             }
-            let Some(at) = place.on_canvas(desk) else { continue };
+            let Some(at) = place.on_canvas(document) else { continue };
             let distance = here.distance(pos2(at[0], at[1]));
-            let cost = canvas.gesture.cost(desk, &place);
+            let cost = canvas.gesture.cost(document, &place);
             if rect.contains(here) && under.as_ref().is_none_or(|(least, _)| cost < *least) {
                 under = Some((cost, place.clone()));
             }

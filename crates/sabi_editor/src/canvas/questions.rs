@@ -1,11 +1,11 @@
 //! Small questions on the canvas: how two masks become one, and what something is called.
 
 use egui::{Area, EventFilter, Frame, Id, Key, Order, Pos2, Ui, WidgetInfo, WidgetType};
+use sabi_editing::MaskMerge;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::{Around, Canvas, focus_id};
 use crate::action::{Action, FrameAsk, WireAsk};
-use crate::desk::Merge;
 
 /// How a second mask is put together with the first one.
 pub(super) struct MergeQuestion {
@@ -32,17 +32,17 @@ impl MergeQuestion {
     }
 
     /// Shows the answers; one is given by a click, by its number, or by arrows and Enter.
-    fn answers(&mut self, ui: &mut Ui) -> Option<Merge> {
+    fn answers(&mut self, ui: &mut Ui) -> Option<MaskMerge> {
         let (down, up) = ui.input(|input| (input.key_pressed(Key::ArrowDown), input.key_pressed(Key::ArrowUp)));
         if down {
-            self.chosen = (self.chosen + 1).min(Merge::OFFERED.len() - 1);
+            self.chosen = (self.chosen + 1).min(MaskMerge::OFFERED.len() - 1);
         }
         if up {
             self.chosen = self.chosen.saturating_sub(1);
         }
         ui.label("There is a mask already");
         let mut given = None;
-        for (at, ((name, how), key)) in Merge::OFFERED.into_iter().zip(ANSWERS).enumerate() {
+        for (at, ((name, how), key)) in MaskMerge::OFFERED.into_iter().zip(ANSWERS).enumerate() {
             let button = ui.add(egui::Button::new(name).shortcut_text(key.symbol_or_name()));
             button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
             if at == self.chosen {
@@ -129,8 +129,8 @@ pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions:
         return;
     };
     let corner = match &renaming.what {
-        Named::Node(id) => around.desk.node(id).map(|node| node.pos),
-        Named::Frame(id) => super::frames::rect_of(around.desk, id).map(|rect| [rect.min.x, rect.min.y]),
+        Named::Node(id) => around.document.node(id).map(|node| node.pos),
+        Named::Frame(id) => super::frames::rect_of(around.document, id).map(|rect| [rect.min.x, rect.min.y]),
     };
     let Some(corner) = corner else {
         canvas.renaming = None;

@@ -1,6 +1,7 @@
 //! The sides of cards, whose ports are too small to be taken one by one: a wire is taken at the nearest.
 
 use egui::{PointerButton, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, pos2};
+use sabi_editing::{OpenDocument, input_row, output_row};
 use sabi_engine::catalog::{Entry, Port};
 use sabi_graph::NodeId;
 
@@ -8,7 +9,6 @@ use super::gesture::Gesture;
 use super::ports::{self, DOT, INSIDE, Place};
 use super::{Around, Canvas, node_rect};
 use crate::action::Action;
-use crate::desk::{Desk, input_row, output_row};
 
 /// How near the pointer has to be to a side, screen points.
 const REACH: f32 = 7.0;
@@ -34,7 +34,7 @@ pub(super) fn show(
     id: &NodeId,
     actions: &mut Vec<Action>,
 ) {
-    let Some((face, rect)) = around.desk.face(id).zip(node_rect(around.desk, id)) else {
+    let Some((face, rect)) = around.document.face(id).zip(node_rect(around.document, id)) else {
         return;
     };
     for is_input in [true, false] {
@@ -87,16 +87,16 @@ impl Side<'_> {
     }
 
     /// The port that is nearest to a place.
-    fn nearest(&self, desk: &Desk, at: Pos2) -> Option<(Place, Port)> {
+    fn nearest(&self, document: &OpenDocument, at: Pos2) -> Option<(Place, Port)> {
         let rows = 0..self.ports().len();
         let away = |row: &usize| (self.y(*row) - at.y).abs();
         let row = rows.min_by(|one, other| away(one).total_cmp(&away(other)))?;
         let before = if self.is_input { 0 } else { self.face.inputs.len() };
-        ports::places(desk, self.id).into_iter().nth(before + row)
+        ports::places(document, self.id).into_iter().nth(before + row)
     }
 
     fn touched(&self, canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
-        let desk = around.desk;
+        let document = around.document;
         let inside = REACH.min(self.rect.width() * INSIDE);
         let [left, right] = if self.is_input {
             [REACH, inside]
@@ -108,13 +108,13 @@ impl Side<'_> {
         let response = ui.interact(area, widget, Sense::click_and_drag());
         response.widget_info(|| {
             let what = if self.is_input { "inputs" } else { "outputs" };
-            WidgetInfo::labeled(WidgetType::Button, true, format!("{}, {what}", desk.title(self.id)))
+            WidgetInfo::labeled(WidgetType::Button, true, format!("{}, {what}", document.title(self.id)))
         });
-        let nearest = |at: Pos2| self.nearest(desk, at);
+        let nearest = |at: Pos2| self.nearest(document, at);
         if response.drag_started_by(PointerButton::Primary) {
             let origin = ui.input(|input| input.pointer.press_origin());
             if let Some((place, _)) = origin.and_then(nearest) {
-                canvas.gesture = ports::taken(desk, &place);
+                canvas.gesture = ports::taken(document, &place);
             }
         } else if response.clicked() {
             if let Some((place, _)) = response.interact_pointer_pos().and_then(nearest) {

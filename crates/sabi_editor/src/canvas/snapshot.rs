@@ -9,11 +9,11 @@ use egui::{Color32, Ui};
 use egui_node_graph::{
     DataTypeTrait, InputParamKind, NodeDataTrait, NodeResponse, UserResponseTrait, WidgetValueTrait,
 };
+use sabi_editing::{OpenDocument, own_knobs};
 use sabi_engine::catalog::Entry;
 use sabi_graph::{Body, NodeId, PortType, Value};
 
 use super::body;
-use crate::desk::{Desk, own_knobs};
 use crate::knobs::KnobEvent;
 use crate::theme::Theme;
 
@@ -163,9 +163,9 @@ pub(super) struct Snapshot {
 
 impl Snapshot {
     /// Brings it up to date. Nodes that are the same keep their keys, so that what is being dragged stays in hand.
-    pub(super) fn sync(&mut self, desk: &Desk) {
-        let body = desk.body();
-        let now = (body.clone(), desk.session.revision(), desk.kinds().1);
+    pub(super) fn sync(&mut self, document: &OpenDocument) {
+        let body = document.body();
+        let now = (body.clone(), document.session.revision(), document.kinds().1);
         if self.of.as_ref() == Some(&now) {
             return;
         }
@@ -173,12 +173,17 @@ impl Snapshot {
             *self = Snapshot::default();
         }
         self.of = Some(now);
-        let gone: Vec<NodeId> = self.keys.keys().filter(|id| desk.node(id).is_none()).cloned().collect();
+        let gone: Vec<NodeId> = self
+            .keys
+            .keys()
+            .filter(|id| document.node(id).is_none())
+            .cloned()
+            .collect();
         for id in gone {
             self.remove(&id);
         }
-        for (id, node) in desk.graph().nodes() {
-            let Some(face) = desk.face(id) else { continue };
+        for (id, node) in document.graph().nodes() {
+            let Some(face) = document.face(id) else { continue };
             let is_same = |key: &Key| {
                 Arc::ptr_eq(&self.graph[*key].user_data.face, face) || self.graph[*key].user_data.face == *face
             };
@@ -188,11 +193,11 @@ impl Snapshot {
             }
             let Some(key) = self.keys.get(id) else { continue };
             let shown = &mut self.graph[*key];
-            shown.user_data.title = desk.title(id);
+            shown.user_data.title = document.title(id);
             shown.user_data.is_muted = node.muted;
             shown.user_data.values.clone_from(&node.params);
         }
-        self.tie(desk);
+        self.tie(document);
     }
 
     pub(super) fn key(&self, id: &NodeId) -> Option<Key> {
@@ -236,12 +241,12 @@ impl Snapshot {
     }
 
     /// Ties the wires anew.
-    fn tie(&mut self, desk: &Desk) {
+    fn tie(&mut self, document: &OpenDocument) {
         let tied: Vec<_> = self.graph.iter_connections().map(|(input, _)| input).collect();
         for input in tied {
             self.graph.remove_connection(input);
         }
-        for (id, node) in desk.graph().nodes() {
+        for (id, node) in document.graph().nodes() {
             for (name, from) in &node.inputs {
                 let ends = self.keys.get(id).zip(self.keys.get(&from.node));
                 let Some((reader, source)) = ends else { continue };

@@ -1,10 +1,10 @@
 //! Wires: their curves, which one is under the pointer, which ones a line crosses.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, epaint::CubicBezierShape, pos2};
+use sabi_editing::{OpenDocument, TITLE_HEIGHT, input_row, output_row, size_of};
 use sabi_graph::{OutputRef, PortType, SlotRef};
 
 use super::view::View;
-use crate::desk::{Desk, TITLE_HEIGHT, input_row, output_row, size_of};
 use crate::theme::Theme;
 
 /// Straight pieces that a curve is taken for where distances are measured.
@@ -56,23 +56,23 @@ impl Wire {
 }
 
 /// All wires that may be seen.
-pub(super) fn visible(desk: &Desk, view: &View, panel: Rect) -> Vec<Wire> {
+pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<Wire> {
     let mut wires = Vec::new();
-    for (id, node) in desk.graph().nodes() {
+    for (id, node) in document.graph().nodes() {
         for (name, from) in &node.inputs {
             let to = SlotRef {
                 node: id.clone(),
                 name: name.clone(),
             };
-            let ends = start_of(desk, from).zip(end_of(desk, &to));
+            let ends = start_of(document, from).zip(end_of(document, &to));
             let Some((start, end)) = ends else { continue };
             let ends = [start, end].map(|place| view.screen(panel, place));
             let curve = curve(ends, view.zoom);
             if !Rect::from_points(&curve).intersects(panel) {
                 continue;
             }
-            let carries = desk.faces().carried(&desk.body(), from);
-            let takes = desk.input(&to).and_then(|port| port.ty);
+            let carries = document.faces().carried(&document.body(), from);
+            let takes = document.input(&to).and_then(|port| port.ty);
             wires.push(Wire {
                 from: from.clone(),
                 to,
@@ -86,9 +86,9 @@ pub(super) fn visible(desk: &Desk, view: &View, panel: Rect) -> Vec<Wire> {
 }
 
 /// Where a wire from an output begins, on the canvas; at the title where there is no such output.
-pub(super) fn start_of(desk: &Desk, from: &OutputRef) -> Option<[f32; 2]> {
-    let node = desk.node(&from.node)?;
-    let face = desk.face(&from.node)?;
+pub(super) fn start_of(document: &OpenDocument, from: &OutputRef) -> Option<[f32; 2]> {
+    let node = document.node(&from.node)?;
+    let face = document.face(&from.node)?;
     let row = match &from.port {
         Some(name) => face.outputs.iter().position(|port| port.name == *name),
         None => (!face.outputs.is_empty()).then_some(0),
@@ -98,9 +98,9 @@ pub(super) fn start_of(desk: &Desk, from: &OutputRef) -> Option<[f32; 2]> {
 }
 
 /// Where a wire into an input ends, on the canvas; at the title where there is no such input.
-pub(super) fn end_of(desk: &Desk, to: &SlotRef) -> Option<[f32; 2]> {
-    let node = desk.node(&to.node)?;
-    let face = desk.face(&to.node)?;
+pub(super) fn end_of(document: &OpenDocument, to: &SlotRef) -> Option<[f32; 2]> {
+    let node = document.node(&to.node)?;
+    let face = document.face(&to.node)?;
     let row = face.inputs.iter().position(|port| port.name == to.name);
     let down = row.map_or(TITLE_HEIGHT / 2.0, |row| input_row(face, row));
     Some([node.pos[0], node.pos[1] + down])

@@ -65,8 +65,8 @@ pub(super) fn show(editor: &mut Editor, ui: &Ui, actions: &mut Vec<Action>) {
         editor.files.is_start = false;
     }
     if let Some(next) = next {
-        let Editor { files, desk, .. } = editor;
-        files.ask_next(desk, next);
+        let Editor { files, document, .. } = editor;
+        files.ask_next(document, next);
     }
 }
 

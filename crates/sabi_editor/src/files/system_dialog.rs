@@ -5,10 +5,10 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use egui::Context;
 use rfd::{AsyncFileDialog, FileHandle};
+use sabi_editing::GRAPH_EXTENSION;
 
 use super::PathFor;
 use crate::app::{MODELS, PICTURES};
-use crate::desk::ENDING;
 
 /// A dialog that is open.
 pub(crate) struct SystemDialog {
@@ -24,8 +24,8 @@ impl SystemDialog {
             None => dialog,
         };
         match what {
-            PathFor::Open => SystemDialog::open(context, dialog.add_filter("Graphs", &[ENDING]).pick_file()),
-            PathFor::Save => SystemDialog::open(context, dialog.add_filter("Graphs", &[ENDING]).save_file()),
+            PathFor::Open => SystemDialog::open(context, dialog.add_filter("Graphs", &[GRAPH_EXTENSION]).pick_file()),
+            PathFor::Save => SystemDialog::open(context, dialog.add_filter("Graphs", &[GRAPH_EXTENSION]).save_file()),
             PathFor::Model => SystemDialog::open(context, dialog.add_filter("Models", &MODELS).pick_file()),
             PathFor::Picture(_) => SystemDialog::open(context, dialog.add_filter("Pictures", &PICTURES).pick_file()),
         }

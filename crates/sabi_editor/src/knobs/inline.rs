@@ -1,6 +1,7 @@
 //! One small row on a node itself: the name and the value in one bar.
 
 use egui::{Align2, Color32, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
+use sabi_editing::ROW_HEIGHT;
 use sabi_engine::catalog::{KnobRole, readable};
 use sabi_graph::Value;
 
@@ -10,7 +11,6 @@ use super::curve::View;
 use super::lettering::write;
 use super::values::{Held, Stop, code_of, read, step_of, text_of};
 use super::{KnobEvent, KnobRow, Lengths, choice, color, doc, numbers};
-use crate::desk::ROW_HEIGHT;
 use crate::theme::{Theme, space, type_size};
 
 /// Below this zoom nobody reads, and a row is a plain block.

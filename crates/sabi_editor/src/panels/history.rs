@@ -7,8 +7,8 @@ use crate::app::Editor;
 use crate::theme::Theme;
 
 pub(crate) fn show(editor: &Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
-    let done: Vec<&str> = editor.desk.session.undo_names().collect();
-    let undone: Vec<&str> = editor.desk.session.redo_names().rev().collect();
+    let done: Vec<&str> = editor.document.session.undo_names().collect();
+    let undone: Vec<&str> = editor.document.session.redo_names().rev().collect();
     if done.is_empty() && undone.is_empty() {
         ui.colored_label(theme.quiet, "Nothing was changed yet.");
         return;

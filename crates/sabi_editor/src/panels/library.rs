@@ -97,7 +97,10 @@ impl Found {
             }
         };
         let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-        files.retain(|file| file.extension().is_some_and(|ending| ending == crate::desk::ENDING));
+        files.retain(|file| {
+            file.extension()
+                .is_some_and(|ending| ending == sabi_editing::GRAPH_EXTENSION)
+        });
         files.sort();
         for file in &files {
             match shelved(shelf, file, catalog) {
@@ -131,8 +134,8 @@ fn shelved(shelf: Shelf, file: &Path, catalog: &Catalog) -> Result<Shelved, Stri
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
     head(editor, ui, actions);
     ui.add_space(space::TIGHT);
-    let Editor { panels, desk, .. } = editor;
-    panels.library.pictures.poll(ui.ctx(), desk.catalog());
+    let Editor { panels, document, .. } = editor;
+    panels.library.pictures.poll(ui.ctx(), document.catalog());
     let query = editor.panels.library.query.clone();
     let all = editor.candidates().to_vec();
     let mut found: Vec<&Candidate> = ranked(&all, &query);
@@ -187,7 +190,7 @@ pub(crate) fn picture(editor: &mut Editor, context: &Context, new: &New) -> Opti
         New::Library(file) => editor.panels.keepsakes.find(context, file, KEPT_AS),
         New::Kind(kind) => editor.panels.library.pictures.find(kind),
         New::Group(group) => {
-            let mut nodes = editor.desk.graph().nodes();
+            let mut nodes = editor.document.graph().nodes();
             let instance = nodes.find(|(_, node)| node.group.as_ref() == Some(group));
             instance.and_then(|(id, _)| editor.thumbnail_of(id))
         }
@@ -215,7 +218,7 @@ fn faults(ui: &mut Ui, theme: &Theme, faults: &[String]) {
 
 /// The search, and the way of a group into the library.
 fn head(editor: &mut Editor, ui: &mut Ui, actions: &mut Vec<Action>) {
-    let has_file = editor.desk.session.file().is_some();
+    let has_file = editor.document.session.file().is_some();
     let row = egui::vec2(ui.available_width(), space::ROW);
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.allocate_ui_with_layout(row, layout, |ui| {

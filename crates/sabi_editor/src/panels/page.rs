@@ -6,12 +6,12 @@ mod draft;
 use egui::{ColorImage, RichText, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use egui_phosphor::regular as icon;
+use sabi_editing::OpenDocument;
 use sabi_engine::NodeDraft;
 use sabi_engine::catalog::{Entry, Port, picture_of};
 
 use crate::action::Action;
 use crate::app::Editor;
-use crate::desk::Desk;
 use crate::theme::{Theme, space};
 pub(crate) use draft::Draft;
 use draft::Left;
@@ -60,9 +60,9 @@ impl Page {
     }
 
     /// Goes on with what was being written when the program ended.
-    pub(crate) fn recover(&mut self, drafts: Vec<NodeDraft>, desk: &Desk) {
+    pub(crate) fn recover(&mut self, drafts: Vec<NodeDraft>, document: &OpenDocument) {
         for draft in drafts {
-            let draft = Draft::recovered(desk, draft);
+            let draft = Draft::recovered(document, draft);
             // One that is written on is nothing less: both are shown then.
             self.drafts.retain(|known| known.is_unsaved() || !known.is_like(&draft));
             self.shown = Some(self.drafts.len());
@@ -135,10 +135,10 @@ impl Page {
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
-    let Editor { desk, panels, .. } = editor;
+    let Editor { document, panels, .. } = editor;
     let page = &mut panels.page;
     if let Some((at, draft)) = page.shown.and_then(|at| Some((at, page.drafts.get_mut(at)?))) {
-        match draft.show(ui, theme, desk, actions) {
+        match draft.show(ui, theme, document, actions) {
             Left::No => {}
             Left::Aside => page.shown = None,
             Left::ForGood => {
@@ -149,7 +149,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
         return;
     }
     page.ways(ui);
-    let face = desk.selected_one().and_then(|id| desk.face(id)).cloned();
+    let face = document.selected_one().and_then(|id| document.face(id)).cloned();
     let Some(face) = face else {
         ui.colored_label(theme.quiet, "Select a node to read what it does.");
         return;
@@ -161,7 +161,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
         });
         ui.label(&face.summary);
         if let Some(text) = &face.source {
-            file(ui, theme, desk, page, &face.id, text);
+            file(ui, theme, document, page, &face.id, text);
         }
         page.picture(ui, &face);
         if !face.description.is_empty() {
@@ -178,27 +178,27 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
 }
 
 /// The file that a node is, and the ways to write one.
-fn file(ui: &mut Ui, theme: &Theme, desk: &mut Desk, page: &mut Page, id: &str, text: &str) {
+fn file(ui: &mut Ui, theme: &Theme, document: &mut OpenDocument, page: &mut Page, id: &str, text: &str) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         ui.toggle_value(&mut page.shows_source, "The file");
-        if let Some(own) = desk.kinds().0.own_folder(desk.session.file(), id) {
+        if let Some(own) = document.kinds().0.own_folder(document.session.file(), id) {
             let change = ui
                 .button("Change it")
                 .on_hover_text(format!("It lies in {}", own.display()));
             if change.clicked() {
-                match Draft::of_own(desk, id) {
+                match Draft::of_own(document, id) {
                     Ok(draft) => page.open(draft),
-                    Err(why) => desk.say(why),
+                    Err(why) => document.say(why),
                 }
             }
         }
         let new = ui.button("New node from here");
         if new.on_hover_text("Copies the file to a node of your own").clicked() {
             let missing = "This system has no folder for nodes; save the graph first, so that there is one beside it.";
-            match Draft::like(desk, id, text) {
+            match Draft::like(document, id, text) {
                 Some(draft) => page.open(draft),
-                None => desk.say(missing),
+                None => document.say(missing),
             }
         }
     });

@@ -43,14 +43,20 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
     let share = last.texture_bytes as f32 / last.budget_bytes.max(1) as f32;
     ui.add(egui::ProgressBar::new(share).desired_height(4.0).fill(theme.accent));
     ui.separator();
-    let desk = &editor.desk;
+    let document = &editor.document;
     // Times may come of nodes that are gone by then.
-    let mut times: Vec<_> = editor.stage.times().iter().filter(|(node, _)| desk.has(node)).collect();
+    let mut times: Vec<_> = editor
+        .stage
+        .times()
+        .iter()
+        .filter(|(node, _)| document.has(node))
+        .collect();
     times.sort_by(|(_, one), (_, other)| other.cmp(one));
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::Grid::new("times").num_columns(2).striped(true).show(ui, |ui| {
             for (node, time) in times.into_iter().take(100) {
-                if ui.link(desk.title_at(node)).on_hover_text("Goes to the node").clicked() {
+                let link = ui.link(document.title_at(node));
+                if link.on_hover_text("Goes to the node").clicked() {
                     actions.push(Action::GoTo(node.clone()));
                 }
                 ui.label(RichText::new(shown_time(*time)).monospace());

@@ -2,19 +2,19 @@
 
 use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_editing::OpenDocument;
 use sabi_engine::catalog::Port;
 use sabi_graph::{Body, GroupInput, OutputRef, SlotRef};
 
 use super::field::Field;
 use crate::action::PortAsk;
-use crate::desk::Desk;
 use crate::theme::{Theme, space, type_size};
 
 /// Shows them and says what is asked.
-pub(crate) fn show(ui: &mut Ui, theme: &Theme, desk: &Desk) -> Vec<PortAsk> {
+pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortAsk> {
     let mut asked = Vec::new();
-    let is_group = matches!(desk.body(), Body::Group(_));
-    let count = desk.group_inputs().len() + desk.group_outputs().len();
+    let is_group = matches!(document.body(), Body::Group(_));
+    let count = document.group_inputs().len() + document.group_outputs().len();
     let title = match (is_group, count) {
         (true, _) => "THE GROUP".to_owned(),
         (false, 0) => "AS A GROUP".to_owned(),
@@ -23,22 +23,22 @@ pub(crate) fn show(ui: &mut Ui, theme: &Theme, desk: &Desk) -> Vec<PortAsk> {
     ui.add_space(space::WIDE);
     let title = RichText::new(title).size(type_size::SMALL).color(theme.quiet);
     egui::CollapsingHeader::new(title)
-        .id_salt(("ports", desk.body()))
+        .id_salt(("ports", document.body()))
         .default_open(is_group)
         .show_unindented(ui, |ui| {
-            name(ui, theme, desk, is_group, &mut asked);
+            name(ui, theme, document, is_group, &mut asked);
             if count == 0 {
                 let sentence = "It takes and gives nothing yet. Right-click a port of a node on the canvas to publish it as an \
                                 input or an output.";
                 ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
             }
-            inputs(ui, theme, desk, &mut asked);
-            outputs(ui, theme, desk, &mut asked);
+            inputs(ui, theme, document, &mut asked);
+            outputs(ui, theme, document, &mut asked);
         });
     asked
 }
 
-fn name(ui: &mut Ui, theme: &Theme, desk: &Desk, is_group: bool, asked: &mut Vec<PortAsk>) {
+fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, asked: &mut Vec<PortAsk>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "Name");
         let field = Field {
@@ -48,19 +48,19 @@ fn name(ui: &mut Ui, theme: &Theme, desk: &Desk, is_group: bool, asked: &mut Vec
                 "Name of the graph"
             },
             hint: "no name",
-            held: &desk.graph_name(),
+            held: &document.graph_name(),
             width: ui.available_width() - space::USUAL,
         };
-        asked.extend(field.show(ui, ("name of", desk.body())).map(PortAsk::NameGraph));
+        asked.extend(field.show(ui, ("name of", document.body())).map(PortAsk::NameGraph));
     });
 }
 
-fn inputs(ui: &mut Ui, theme: &Theme, desk: &Desk, asked: &mut Vec<PortAsk>) {
-    if !desk.group_inputs().is_empty() {
+fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAsk>) {
+    if !document.group_inputs().is_empty() {
         ui.label(RichText::new("Inputs").color(theme.quiet));
     }
-    for (name, input) in desk.group_inputs() {
-        let port = desk.own_face().and_then(|face| face.input(name));
+    for (name, input) in document.group_inputs() {
+        let port = document.own_face().and_then(|face| face.input(name));
         ui.horizontal(|ui| {
             dot(ui, theme, port);
             let width = (ui.available_width() - 34.0 - 2.0 * space::USUAL) / 2.0 - space::USUAL;
@@ -88,28 +88,28 @@ fn inputs(ui: &mut Ui, theme: &Theme, desk: &Desk, asked: &mut Vec<PortAsk>) {
                 asked.push(PortAsk::RemoveInput(name.clone()));
             }
         });
-        fed(ui, theme, desk, name, input, asked);
+        fed(ui, theme, document, name, input, asked);
     }
 }
 
 /// What an input feeds, and what else it could.
-fn fed(ui: &mut Ui, theme: &Theme, desk: &Desk, name: &str, input: &GroupInput, asked: &mut Vec<PortAsk>) {
+fn fed(ui: &mut Ui, theme: &Theme, document: &OpenDocument, name: &str, input: &GroupInput, asked: &mut Vec<PortAsk>) {
     ui.horizontal_wrapped(|ui| {
         ui.add_space(space::WIDE);
         ui.colored_label(theme.quiet, icon::ARROW_BEND_DOWN_RIGHT);
         for slot in &input.to {
-            let title = title_of_slot(desk, slot);
+            let title = title_of_slot(document, slot);
             let chip = egui::Button::new(format!("{title} {}", icon::X)).small();
             if ui.add(chip).on_hover_text("Feeds this no longer").clicked() {
                 asked.push(PortAsk::Unfeed(slot.clone()));
             }
         }
-        let feedable = desk.feedable(name);
+        let feedable = document.feedable(name);
         let more = ui.add_enabled_ui(!feedable.is_empty(), |ui| {
             let menu = ui.menu_button(icon::PLUS, |ui| {
                 list(
                     ui,
-                    feedable.iter().map(|slot| (title_of_slot(desk, slot), slot)),
+                    feedable.iter().map(|slot| (title_of_slot(document, slot), slot)),
                     |slot| {
                         asked.push(PortAsk::Feed {
                             name: name.to_owned(),
@@ -130,12 +130,12 @@ fn fed(ui: &mut Ui, theme: &Theme, desk: &Desk, name: &str, input: &GroupInput, 
     });
 }
 
-fn outputs(ui: &mut Ui, theme: &Theme, desk: &Desk, asked: &mut Vec<PortAsk>) {
-    if !desk.group_outputs().is_empty() {
+fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAsk>) {
+    if !document.group_outputs().is_empty() {
         ui.label(RichText::new("Outputs").color(theme.quiet));
     }
-    for (name, from) in desk.group_outputs() {
-        let port = desk.own_face().and_then(|face| face.output(Some(name)));
+    for (name, from) in document.group_outputs() {
+        let port = document.own_face().and_then(|face| face.output(Some(name)));
         ui.horizontal(|ui| {
             dot(ui, theme, port);
             let width = (ui.available_width() - 34.0 - 2.0 * space::USUAL) / 2.0 - space::USUAL;
@@ -149,11 +149,11 @@ fn outputs(ui: &mut Ui, theme: &Theme, desk: &Desk, asked: &mut Vec<PortAsk>) {
                 let name = name.clone();
                 asked.push(PortAsk::RenameOutput { name, to });
             }
-            let menu = ui.menu_button(title_of_result(desk, from), |ui| {
-                let results = desk.results();
+            let menu = ui.menu_button(title_of_result(document, from), |ui| {
+                let results = document.results();
                 list(
                     ui,
-                    results.iter().map(|from| (title_of_result(desk, from), from)),
+                    results.iter().map(|from| (title_of_result(document, from), from)),
                     |from| {
                         asked.push(PortAsk::Retarget {
                             name: name.clone(),
@@ -181,17 +181,17 @@ fn list<'l, T: 'l>(ui: &mut Ui, entries: impl Iterator<Item = (String, &'l T)>, 
     });
 }
 
-fn title_of_slot(desk: &Desk, slot: &SlotRef) -> String {
-    let port = desk.input(slot).map_or(&slot.name, |port| &port.label);
-    format!("{} · {port}", desk.title(&slot.node))
+fn title_of_slot(document: &OpenDocument, slot: &SlotRef) -> String {
+    let port = document.input(slot).map_or(&slot.name, |port| &port.label);
+    format!("{} · {port}", document.title(&slot.node))
 }
 
-fn title_of_result(desk: &Desk, from: &OutputRef) -> String {
-    let face = desk.face(&from.node);
+fn title_of_result(document: &OpenDocument, from: &OutputRef) -> String {
+    let face = document.face(&from.node);
     let port = face.and_then(|face| face.output(from.port.as_deref()));
     match port {
-        Some(port) => format!("{} · {}", desk.title(&from.node), port.label),
-        None => desk.title(&from.node),
+        Some(port) => format!("{} · {}", document.title(&from.node), port.label),
+        None => document.title(&from.node),
     }
 }
 

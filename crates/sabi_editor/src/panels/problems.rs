@@ -10,7 +10,14 @@ use crate::theme::Theme;
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
     let stage = &editor.stage;
     let faults = &stage.faults;
-    let of_kinds: Vec<String> = editor.desk.kinds().0.faults.iter().map(ToString::to_string).collect();
+    let of_kinds: Vec<String> = editor
+        .document
+        .kinds()
+        .0
+        .faults
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     let failures = [&stage.failure, &stage.model_failure].into_iter().flatten();
     let others: Vec<&String> = failures.chain(&faults.other).chain(&of_kinds).collect();
     if faults.faults.is_empty() && others.is_empty() && faults.warnings.is_empty() {

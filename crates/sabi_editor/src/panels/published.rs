@@ -4,9 +4,9 @@ mod editing;
 
 use egui::{RichText, Ui};
 use egui_phosphor::regular as icon;
+use sabi_editing::{OpenDocument, PanelKnob};
 
 use crate::action::PanelAsk;
-use crate::desk::{Desk, PanelKnob};
 use crate::knobs::{KnobMemory, KnobRow, KnobSection, Lengths, published_ui};
 use crate::theme::Theme;
 
@@ -27,16 +27,16 @@ pub(crate) struct Published {
 /// Shows the panel and says what is asked of it.
 pub(crate) fn show(
     ui: &mut Ui,
-    desk: &Desk,
+    document: &OpenDocument,
     around: &Around<'_>,
     published: &mut Published,
     memory: &mut KnobMemory,
 ) -> Vec<PanelAsk> {
     let theme = around.theme;
-    let panel = desk.panel();
+    let panel = document.panel();
     let mut asked = Vec::new();
     ui.horizontal(|ui| {
-        let name = desk.graph_name();
+        let name = document.graph_name();
         ui.heading(if name.is_empty() { "Untitled" } else { &name });
         if around.is_use || panel.is_empty() {
             published.is_editing = false;
@@ -75,7 +75,7 @@ pub(crate) fn show(
     }
     let knobs: Vec<_> = panel.iter().map(shown).collect();
     let sections = sections(&panel, &knobs);
-    ui.push_id(("published", desk.body()), |ui| {
+    ui.push_id(("published", document.body()), |ui| {
         let events = published_ui(ui, theme, memory, &sections, &around.lengths);
         asked.extend(events.into_iter().map(PanelAsk::Turn));
     });

@@ -4,12 +4,12 @@ mod row;
 
 use egui::{Rect, RichText, Ui};
 use egui_phosphor::regular as icon;
+use sabi_editing::{OpenDocument, Stack, StackEnd};
 use sabi_graph::NodeRef;
 
 use super::order;
 use crate::action::{Action, LayerAsk};
 use crate::app::Editor;
-use crate::desk::{Desk, Stack, StackEnd};
 use crate::theme::{Theme, space};
 
 /// What the panel holds from frame to frame.
@@ -26,7 +26,7 @@ struct Dragged {
 }
 
 pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
-    let stacks = editor.desk.stacks();
+    let stacks = editor.document.stacks();
     editor.panels.stack.wanted = wanted(editor, &stacks);
     if stacks.is_empty() {
         let sentence = "There is no output yet; add a Material output and wire a material to it.";
@@ -55,7 +55,7 @@ fn wanted(editor: &Editor, stacks: &[Stack]) -> Vec<NodeRef> {
 }
 
 fn list(editor: &Editor, ui: &mut Ui, theme: &Theme, stack: &Stack, actions: &mut Vec<Action>) {
-    head(&editor.desk, ui, stack, actions);
+    head(&editor.document, ui, stack, actions);
     let sentence = match (stack.layers.is_empty(), stack.is_plain()) {
         (true, _) => "Nothing leads to this output yet; add a layer, or wire a material to it.",
         (false, false) => "Layers with a lock are read elsewhere too, and stay where they are.",
@@ -73,9 +73,9 @@ fn list(editor: &Editor, ui: &mut Ui, theme: &Theme, stack: &Stack, actions: &mu
             at,
         });
         response.context_menu(|ui| {
-            ui.menu_button("Add above", |ui| kinds(&editor.desk, ui, stack, at, actions));
+            ui.menu_button("Add above", |ui| kinds(&editor.document, ui, stack, at, actions));
             if ui.button("Show on the canvas").clicked() {
-                actions.push(Action::GoTo(editor.desk.full_id(&layer.node)));
+                actions.push(Action::GoTo(editor.document.full_id(&layer.node)));
             }
             if ui.button("Remove").clicked() {
                 actions.push(Action::Layer(ask_of(stack, at, row::Ask::Remove)));
@@ -98,20 +98,22 @@ fn list(editor: &Editor, ui: &mut Ui, theme: &Theme, stack: &Stack, actions: &mu
     }
 }
 
-fn head(desk: &Desk, ui: &mut Ui, stack: &Stack, actions: &mut Vec<Action>) {
+fn head(document: &OpenDocument, ui: &mut Ui, stack: &Stack, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         ui.strong(&stack.title);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let menu = ui.menu_button(format!("{} Layer", icon::PLUS), |ui| kinds(desk, ui, stack, 0, actions));
+            let menu = ui.menu_button(format!("{} Layer", icon::PLUS), |ui| {
+                kinds(document, ui, stack, 0, actions)
+            });
             menu.response.on_hover_text("Adds a layer on top");
         });
     });
 }
 
 /// The kinds that a layer above another one can be.
-fn kinds(desk: &Desk, ui: &mut Ui, stack: &Stack, at: usize, actions: &mut Vec<Action>) {
+fn kinds(document: &OpenDocument, ui: &mut Ui, stack: &Stack, at: usize, actions: &mut Vec<Action>) {
     let is_lowest = stack.layers.is_empty();
-    for kind in desk.layer_kinds(is_lowest) {
+    for kind in document.layer_kinds(is_lowest) {
         if ui.button(&kind.label).on_hover_text(&kind.summary).clicked() {
             actions.push(Action::Layer(LayerAsk::Add {
                 end: stack.end.clone(),

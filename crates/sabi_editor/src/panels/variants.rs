@@ -4,12 +4,12 @@ use std::path::Path;
 
 use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_editing::OpenDocument;
 use sabi_engine::catalog::readable;
 use sabi_graph::Value;
 
 use super::keepsakes::Keepsakes;
 use crate::action::VariantAsk;
-use crate::desk::Desk;
 use crate::theme::{Theme, space, type_size};
 
 /// Width of a card, and height of its picture.
@@ -36,32 +36,32 @@ struct Renaming {
 pub(crate) fn show(
     ui: &mut Ui,
     theme: &Theme,
-    desk: &Desk,
+    document: &OpenDocument,
     variants: &mut Variants,
     keepsakes: &mut Keepsakes,
 ) -> Option<VariantAsk> {
-    let panel = desk.panel();
+    let panel = document.panel();
     if panel.is_empty() {
         return None;
     }
     let mut asked = None;
     ui.add_space(space::WIDE);
     ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
-    let file = desk.session.file().unwrap_or(Path::new(""));
+    let file = document.session.file().unwrap_or(Path::new(""));
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
-        for (name, values) in desk.graph().variants() {
+        for (name, values) in document.graph().variants() {
             let holds = |knob: &str, value: &Value| panel.iter().any(|it| it.name == knob && it.value == *value);
             let card = Card {
                 name,
-                picture: keepsakes.find(ui.ctx(), file, &desk.variant_as_text(name)),
+                picture: keepsakes.find(ui.ctx(), file, &document.variant_as_text(name)),
                 is_held: values.iter().all(|(knob, value)| holds(knob, value)),
             };
             asked = card.show(ui, theme, variants).or(asked.take());
         }
     });
     let renamed = rename(ui, &mut variants.renaming);
-    let saved = save(ui, desk, variants);
+    let saved = save(ui, document, variants);
     renamed.or(saved).or(asked)
 }
 
@@ -151,12 +151,12 @@ fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<VariantAsk> {
 }
 
 /// A line to save what the panel holds now.
-fn save(ui: &mut Ui, desk: &Desk, variants: &mut Variants) -> Option<VariantAsk> {
+fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option<VariantAsk> {
     let row = egui::vec2(ui.available_width(), space::ROW);
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.allocate_ui_with_layout(row, layout, |ui| {
         let name = &mut variants.name;
-        let is_known = desk.graph().variants().contains_key(name.trim());
+        let is_known = document.graph().variants().contains_key(name.trim());
         let verb = if is_known { "Replace" } else { "Save" };
         let can_save = !name.trim().is_empty();
         let save = ui.add_enabled(can_save, egui::Button::new(verb));

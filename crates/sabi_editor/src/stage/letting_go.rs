@@ -1,17 +1,17 @@
 //! Pictures that are let go of.
 
+use sabi_editing::OpenDocument;
 use sabi_engine::ViewSubject;
 use sabi_graph::NodeRef;
 
 use super::{Picture, Stage, Wanted};
-use crate::desk::Desk;
 
 /// Pictures of the model that are kept besides those that are wanted, since one goes back to what one has just seen.
 const KEPT_PICTURES: usize = 6;
 
 impl Stage {
     /// Lets go of what nobody wants and nobody will want soon: of nodes that are gone, of other models, of long ago.
-    pub(super) fn let_go(&mut self, desk: &Desk, wanted: &Wanted) {
+    pub(super) fn let_go(&mut self, document: &OpenDocument, wanted: &Wanted) {
         let mut numbers: Vec<u64> = self.pictures.values().map(|picture| picture.number).collect();
         numbers.sort_unstable();
         let oldest = numbers.len().saturating_sub(KEPT_PICTURES + wanted.seen.len());
@@ -20,7 +20,7 @@ impl Stage {
         let is_kept = |seen: &ViewSubject, picture: &Picture| {
             let is_there = match seen {
                 ViewSubject::Outputs => true,
-                ViewSubject::Node(node) => desk.has(&node.node),
+                ViewSubject::Node(node) => document.has(&node.node),
             };
             is_there && picture.number >= oldest && picture.model.model_revision == revision
         };
@@ -28,9 +28,9 @@ impl Stage {
         let gone = gone.filter(|(seen, picture)| !wanted.seen.contains(seen) && !is_kept(seen, picture));
         let gone: Vec<ViewSubject> = gone.map(|(seen, _)| seen.clone()).collect();
         let nodes = self.thumbnails.keys();
-        let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !desk.has(&node.node));
+        let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !document.has(&node.node));
         let nodes: Vec<NodeRef> = nodes.cloned().collect();
-        self.times.retain(|node, _| desk.has(node));
+        self.times.retain(|node, _| document.has(node));
         self.forget(gone, nodes);
     }
 

@@ -1,13 +1,13 @@
 //! Commands, performed by the owner of their group. No match here has a wildcard.
 
 use egui::Ui;
+use sabi_editing::Align;
 
 use super::Editor;
 use crate::action::LookAsk;
 use crate::command::{
     ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, LookCommand, ViewportCommand, WindowCommand,
 };
-use crate::desk::Align;
 use crate::dock::Panel;
 
 /// Factor of one step of the interface's size.
@@ -31,10 +31,10 @@ impl Editor {
 
     fn file_command(&mut self, command: FileCommand) {
         match command {
-            FileCommand::New => self.files.ask_new(&mut self.desk),
-            FileCommand::Open => self.files.ask_open(&self.desk),
+            FileCommand::New => self.files.ask_new(&mut self.document),
+            FileCommand::Open => self.files.ask_open(&self.document),
             FileCommand::Save => self.save(),
-            FileCommand::SaveAs => self.files.ask_save(&self.desk),
+            FileCommand::SaveAs => self.files.ask_save(&self.document),
             FileCommand::Export => {
                 self.bring_up(Panel::Export);
                 self.export();
@@ -58,52 +58,52 @@ impl Editor {
     }
 
     fn graph_command(&mut self, command: GraphCommand, ui: &Ui) {
-        let desk = &mut self.desk;
+        let document = &mut self.document;
         match command {
-            GraphCommand::Undo => desk.undo(),
-            GraphCommand::Redo => desk.redo(),
-            GraphCommand::Delete => drop(desk.delete(false)),
-            GraphCommand::Heal => drop(desk.delete(true)),
-            GraphCommand::TakeOut => drop(desk.take_out()),
-            GraphCommand::SwapInputs => drop(desk.swap_inputs()),
-            GraphCommand::Mute => drop(desk.mute()),
-            GraphCommand::Duplicate => drop(desk.duplicate(false)),
-            GraphCommand::DuplicateWired => drop(desk.duplicate(true)),
+            GraphCommand::Undo => document.undo(),
+            GraphCommand::Redo => document.redo(),
+            GraphCommand::Delete => drop(document.delete(false)),
+            GraphCommand::Heal => drop(document.delete(true)),
+            GraphCommand::TakeOut => drop(document.take_out()),
+            GraphCommand::SwapInputs => drop(document.swap_inputs()),
+            GraphCommand::Mute => drop(document.mute()),
+            GraphCommand::Duplicate => drop(document.duplicate(false)),
+            GraphCommand::DuplicateWired => drop(document.duplicate(true)),
             GraphCommand::Copy => self.copy(ui),
             GraphCommand::Cut => {
-                if let Some(text) = desk.cut_out() {
+                if let Some(text) = document.cut_out() {
                     ui.ctx().copy_text(text);
                 }
             }
             GraphCommand::Paste => self.ask_paste(ui.ctx()),
-            GraphCommand::Frame => drop(desk.frame()),
-            GraphCommand::Group => drop(desk.make_group()),
-            GraphCommand::Ungroup => drop(desk.dissolve_groups()),
+            GraphCommand::Frame => drop(document.frame()),
+            GraphCommand::Group => drop(document.make_group()),
+            GraphCommand::Ungroup => drop(document.dissolve_groups()),
             GraphCommand::Enter => {
-                if let Some(id) = desk.selected_one().cloned() {
-                    desk.enter(&id);
+                if let Some(id) = document.selected_one().cloned() {
+                    document.enter(&id);
                 }
             }
             GraphCommand::Leave => {
                 if !self.canvas.let_go() {
-                    desk.leave();
+                    document.leave();
                 }
             }
         }
     }
 
     fn arrange_command(&mut self, command: ArrangeCommand) {
-        let desk = &mut self.desk;
+        let document = &mut self.document;
         match command {
-            ArrangeCommand::AlignLeft => drop(desk.align(Align::Left)),
-            ArrangeCommand::AlignRight => drop(desk.align(Align::Right)),
-            ArrangeCommand::AlignTop => drop(desk.align(Align::Top)),
-            ArrangeCommand::AlignBottom => drop(desk.align(Align::Bottom)),
-            ArrangeCommand::Straighten => drop(desk.straighten()),
-            ArrangeCommand::LayOut => drop(desk.lay_out()),
-            ArrangeCommand::SelectAll => desk.select_all(),
-            ArrangeCommand::SelectUp => desk.select_stream(true),
-            ArrangeCommand::SelectDown => desk.select_stream(false),
+            ArrangeCommand::AlignLeft => drop(document.align(Align::Left)),
+            ArrangeCommand::AlignRight => drop(document.align(Align::Right)),
+            ArrangeCommand::AlignTop => drop(document.align(Align::Top)),
+            ArrangeCommand::AlignBottom => drop(document.align(Align::Bottom)),
+            ArrangeCommand::Straighten => drop(document.straighten()),
+            ArrangeCommand::LayOut => drop(document.lay_out()),
+            ArrangeCommand::SelectAll => document.select_all(),
+            ArrangeCommand::SelectUp => document.select_stream(true),
+            ArrangeCommand::SelectDown => document.select_stream(false),
         }
     }
 
@@ -112,13 +112,13 @@ impl Editor {
             // The menu and the text field open on the canvas.
             self.bring_up(Panel::Canvas);
         }
-        for action in self.canvas.command(command, ui, &self.desk) {
+        for action in self.canvas.command(command, ui, &self.document) {
             self.perform(action, ui);
         }
     }
 
     fn look_command(&mut self, command: LookCommand) {
-        let selected = self.desk.selected_one().cloned();
+        let selected = self.document.selected_one().cloned();
         match command {
             LookCommand::FlatPictures => self.settings.is_flat = !self.settings.is_flat,
             LookCommand::MiniMap => self.settings.has_mini_map = !self.settings.has_mini_map,
@@ -166,7 +166,7 @@ impl Editor {
     }
 
     fn copy(&mut self, ui: &Ui) {
-        match self.desk.copied() {
+        match self.document.copied() {
             Some(text) => ui.ctx().copy_text(text),
             None => self.say("Select the nodes to copy first"),
         }

@@ -17,9 +17,9 @@ fn the_start_page_begins_opens_and_unpacks() {
         window.settle();
         window.press(card);
         assert!(!window.editor().files.is_start, "{card}");
-        let file = window.desk().session.file();
+        let file = window.document().session.file();
         let name = file.map(|file| file.file_name().unwrap_or_default().to_string_lossy().into_owned());
-        (name.unwrap_or_default(), window.desk().graph().len())
+        (name.unwrap_or_default(), window.document().graph().len())
     };
     assert_eq!(choose("other"), ("other.sabi".to_owned(), 0));
     let example = &crate::files::examples::EXAMPLES[0];
@@ -45,7 +45,7 @@ fn a_graph_and_a_model_are_taken_where_they_are_dropped() {
     window.dropped(&other);
     assert!(window.says("There are changes that are not saved"));
     window.press("Let them go");
-    assert_eq!(window.desk().session.file(), Some(&*other));
+    assert_eq!(window.document().session.file(), Some(&*other));
 }
 
 #[test]

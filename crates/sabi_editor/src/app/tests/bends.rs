@@ -19,7 +19,7 @@ fn bent() -> (Window, NodeId, [f32; 2]) {
     let gap = between(window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source"));
     let place = window.editor().canvas.place_at(gap).expect("a place on the canvas");
     window.double_click(gap);
-    let mut nodes = window.desk().graph().nodes();
+    let mut nodes = window.document().graph().nodes();
     let bend = nodes.find(|(_, node)| node.kind == "graph/reroute");
     let bend = bend.expect("a bend").0.clone();
     drop(nodes);
@@ -51,10 +51,10 @@ fn a_bend_is_dragged_selected_and_wired_as_a_node_is() {
     let (mut window, bend, _) = bent();
     let at = window.rect(&bend).center();
     window.click_at(at);
-    assert_eq!(window.desk().selected_one(), Some(&bend));
-    let before = window.desk().node(&bend).expect("the bend").pos;
+    assert_eq!(window.document().selected_one(), Some(&bend));
+    let before = window.document().node(&bend).expect("the bend").pos;
     window.drag_with(at, beside(at, [0.0, 90.0]), Modifiers::COMMAND);
-    let after = window.desk().node(&bend).expect("the bend").pos;
+    let after = window.document().node(&bend).expect("the bend").pos;
     assert!(
         (after[1] - before[1] - 90.0 / window.zoom()).abs() < 1.5,
         "{before:?} {after:?}"
@@ -99,7 +99,7 @@ fn titles_knobs_cards_and_bends_say_what_they_are_and_what_is_wrong() {
     let (mut window, bend, _) = bent();
     window.until("the fault", |editor| editor.stage.fault("blur").is_some());
     let fault = window.editor().stage.fault("blur").expect("a sentence").clone();
-    let face = |window: &Window, node: &str| window.desk().face(&id(node)).expect("a node").clone();
+    let face = |window: &Window, node: &str| window.document().face(&id(node)).expect("a node").clone();
     let summary = face(&window, "invert").summary.clone();
     assert!(!window.says(&summary));
     window.rest_at(window.title(&id("invert")));
@@ -198,5 +198,5 @@ fn what_is_put_into_a_wire_by_its_menu_is_only_what_fits_both_ends() {
     assert!(right < left, "there is room for it: {right} {left}");
     assert_eq!(window.steps(), 1);
     window.undo(1);
-    assert_eq!(window.desk().node(&id("invert")).expect("a node").pos, [400.0, 0.0]);
+    assert_eq!(window.document().node(&id("invert")).expect("a node").pos, [400.0, 0.0]);
 }

@@ -37,13 +37,13 @@ impl Window {
     /// Puts everything as it was opened, with these nodes selected and the pointer where keys of a scope are meant.
     pub(super) fn prepare(&mut self, selected: &[&str], scope: Scope) -> Before {
         let editor = self.harness.state_mut();
-        while editor.desk.session.undo_names().next().is_some() {
-            editor.desk.undo();
+        while editor.document.session.undo_names().next().is_some() {
+            editor.document.undo();
         }
-        editor.desk.leave_to(0);
-        editor.desk.take_notices();
-        editor.desk.select(selected.iter().map(|text| id(text)));
-        editor.canvas.frame_all(&editor.desk);
+        editor.document.leave_to(0);
+        editor.document.take_notices();
+        editor.document.select(selected.iter().map(|text| id(text)));
+        editor.canvas.frame_all(&editor.document);
         editor.files.question = None;
         let panel = match scope {
             Scope::Viewport => Panel::Viewport,
@@ -62,11 +62,11 @@ impl Window {
     }
 
     fn places(&self) -> Vec<[f32; 2]> {
-        self.desk().graph().nodes().map(|(_, node)| node.pos).collect()
+        self.document().graph().nodes().map(|(_, node)| node.pos).collect()
     }
 
     fn place(&self, node: &str) -> [f32; 2] {
-        self.desk().node(&id(node)).expect("a node").pos
+        self.document().node(&id(node)).expect("a node").pos
     }
 
     pub(super) fn chord(&mut self, text: &str) {
@@ -129,14 +129,14 @@ fn of_window(command: WindowCommand) -> Option<Proof> {
 fn of_graph(command: GraphCommand) -> Option<Proof> {
     let proof: Proof = match command {
         GraphCommand::Delete => (&["mix"], |window, _| {
-            window.desk().graph().len() == 5 && window.reads(&id("layer"), "mask").is_empty()
+            window.document().graph().len() == 5 && window.reads(&id("layer"), "mask").is_empty()
         }),
         GraphCommand::Heal => (&["mix"], |window, _| {
-            window.desk().graph().len() == 5 && window.reads(&id("layer"), "mask") == "clouds"
+            window.document().graph().len() == 5 && window.reads(&id("layer"), "mask") == "clouds"
         }),
-        GraphCommand::Cut => (&["mix"], |window, _| window.desk().graph().len() == 5),
+        GraphCommand::Cut => (&["mix"], |window, _| window.document().graph().len() == 5),
         GraphCommand::TakeOut => (&["mix"], |window, _| {
-            window.desk().graph().len() == 6
+            window.document().graph().len() == 6
                 && window.reads(&id("layer"), "mask") == "clouds"
                 && window.reads(&id("mix"), "below").is_empty()
         }),
@@ -144,21 +144,21 @@ fn of_graph(command: GraphCommand) -> Option<Proof> {
             window.reads(&id("mix"), "below") == "dots" && window.reads(&id("mix"), "above") == "clouds"
         }),
         GraphCommand::Mute => (&["mix"], |window, _| {
-            window.desk().node(&id("mix")).expect("a node").muted
+            window.document().node(&id("mix")).expect("a node").muted
         }),
         GraphCommand::Duplicate => (&["mix"], |window, _| {
-            let copy = window.desk().selected_one().expect("the copy").clone();
-            window.desk().graph().len() == 7 && window.reads(&copy, "below").is_empty()
+            let copy = window.document().selected_one().expect("the copy").clone();
+            window.document().graph().len() == 7 && window.reads(&copy, "below").is_empty()
         }),
         GraphCommand::DuplicateWired => (&["mix"], |window, _| {
-            let copy = window.desk().selected_one().expect("the copy").clone();
+            let copy = window.document().selected_one().expect("the copy").clone();
             copy != id("mix") && window.reads(&copy, "below") == "clouds"
         }),
         GraphCommand::Frame => (&["clouds", "dots"], |window, _| {
-            window.desk().graph().frames().len() == 1
+            window.document().graph().frames().len() == 1
         }),
         GraphCommand::Group => (&["mix", "clouds"], |window, _| {
-            window.desk().document().groups.len() == 1
+            window.document().contents().groups.len() == 1
         }),
         GraphCommand::Undo
         | GraphCommand::Redo
@@ -177,7 +177,7 @@ fn of_arrange(command: ArrangeCommand) -> Proof {
         ArrangeCommand::AlignRight => (&["clouds", "dots"], |window, _| window.place("clouds")[0] == 10.0),
         ArrangeCommand::AlignTop => (&["clouds", "mix"], |window, _| window.place("mix")[1] == 0.0),
         ArrangeCommand::AlignBottom => (&["clouds", "mix"], |window, before| {
-            let bottom = |node: &str| window.place(node)[1] + window.desk().size(&id(node))[1];
+            let bottom = |node: &str| window.place(node)[1] + window.document().size(&id(node))[1];
             (bottom("clouds") - bottom("mix")).abs() < 1.0 && window.places() != before.places
         }),
         ArrangeCommand::Straighten => (&["clouds", "mix"], |window, _| {
@@ -187,10 +187,10 @@ fn of_arrange(command: ArrangeCommand) -> Proof {
         ArrangeCommand::LayOut => (&[], |window, before| {
             window.places() != before.places && window.place("mix")[0] < window.place("layer")[0]
         }),
-        ArrangeCommand::SelectAll => (&[], |window, _| window.desk().selection().len() == 6),
+        ArrangeCommand::SelectAll => (&[], |window, _| window.document().selection().len() == 6),
         ArrangeCommand::SelectUp => (&["mix"], |window, _| {
             window
-                .desk()
+                .document()
                 .selection()
                 .iter()
                 .map(NodeId::as_str)
@@ -198,7 +198,7 @@ fn of_arrange(command: ArrangeCommand) -> Proof {
         }),
         ArrangeCommand::SelectDown => (&["mix"], |window, _| {
             window
-                .desk()
+                .document()
                 .selection()
                 .iter()
                 .map(NodeId::as_str)
@@ -218,7 +218,7 @@ fn of_canvas(command: CanvasCommand) -> Option<Proof> {
             window.keys(Modifiers::COMMAND, Key::A);
             window.typed("Worn");
             window.key(Key::Enter);
-            window.desk().title(&id("mix")) == "Worn"
+            window.document().title(&id("mix")) == "Worn"
         }),
         CanvasCommand::ShowSelected => (&["clouds"], |window, before| {
             let rect = window.rect(&id("clouds"));
@@ -379,8 +379,8 @@ fn the_keys_1_to_9_add_favorites_under_the_pointer() {
         let place = window.on_canvas([0.2, 0.9]);
         window.point(place);
         window.chord(&(at + 1).to_string());
-        let added = window.desk().selected_one().expect("a node").clone();
-        assert_eq!(window.desk().node(&added).expect("a node").kind, *kind);
+        let added = window.document().selected_one().expect("a node").clone();
+        assert_eq!(window.document().node(&added).expect("a node").kind, *kind);
         assert!((window.rect(&added).left_top() - place).length() < 1.5, "{kind}");
     }
 }
@@ -391,15 +391,15 @@ fn undo_redo_groups_and_files_by_their_keys() {
         let mut window = window_with(habit);
         let before = window.prepare(&["mix", "clouds"], Scope::Canvas);
         window.chord(Command::Graph(GraphCommand::Group).keys(habit)[0]);
-        let group = window.desk().selected_one().expect("an instance").clone();
+        let group = window.document().selected_one().expect("an instance").clone();
         let grouped = window.text();
         for enter in Command::Graph(GraphCommand::Enter).keys(habit) {
             window.chord(enter);
-            assert_eq!(window.desk().path().len(), 1, "{enter} in {name}");
+            assert_eq!(window.document().path().len(), 1, "{enter} in {name}");
             window.key(Key::Escape);
-            assert_eq!(window.desk().path().len(), 0, "Escape in {name}");
+            assert_eq!(window.document().path().len(), 0, "Escape in {name}");
             assert_eq!(
-                window.desk().selected_one(),
+                window.document().selected_one(),
                 Some(&group),
                 "the instance that was left is selected"
             );
@@ -412,14 +412,14 @@ fn undo_redo_groups_and_files_by_their_keys() {
                 assert_eq!(window.text(), grouped, "{redo} in {name}");
             }
         }
-        window.harness.state_mut().desk.select([group]);
+        window.harness.state_mut().document.select([group]);
         window.chord(Command::Graph(GraphCommand::Ungroup).keys(habit)[0]);
-        assert_eq!(window.desk().document().groups.len(), 0, "{name}");
+        assert_eq!(window.document().contents().groups.len(), 0, "{name}");
         window.chord("Ctrl+S");
-        assert!(!window.harness.state_mut().desk.session.is_dirty(), "{name}");
+        assert!(!window.harness.state_mut().document.session.is_dirty(), "{name}");
         window.chord("Ctrl+N");
         assert!(
-            window.desk().session.file().is_none() && window.desk().graph().is_empty(),
+            window.document().session.file().is_none() && window.document().graph().is_empty(),
             "{name}"
         );
     }

@@ -154,7 +154,14 @@ fn the_graph_of_the_design_is_built_from_nothing_and_its_file_is_the_designs() {
     for (id, name) in &names {
         text = text.replace(&id.to_string(), name);
     }
-    let frame = window.desk().graph().frames().keys().next().expect("a frame").clone();
+    let frame = window
+        .document()
+        .graph()
+        .frames()
+        .keys()
+        .next()
+        .expect("a frame")
+        .clone();
     text = text.replace(&frame, "wear_x2c4");
     let read: Json = serde_json::from_str(&text).expect("a graph file");
     assert_eq!(read, file_of_the_design(), "{text}");

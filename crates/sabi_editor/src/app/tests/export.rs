@@ -82,8 +82,8 @@ fn maps_are_written_to_the_folder_that_was_named() {
 #[test]
 fn a_material_without_any_pattern_says_why_there_are_no_maps() {
     let mut window = ready();
-    window.harness.state_mut().desk.select([id("clouds")]);
-    window.harness.state_mut().desk.delete(false);
+    window.harness.state_mut().document.select([id("clouds")]);
+    window.harness.state_mut().document.delete(false);
     window.press("Export");
     window.until("the end", |editor| editor.panels.export.running.is_none());
     assert!(

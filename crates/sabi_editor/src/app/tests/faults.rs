@@ -16,7 +16,7 @@ const BROKEN: &str = r#"
 /// What is said of a node besides its name.
 fn told_of(window: &Window, node: &str) -> String {
     let near = window.rect(&id(node)).expand(10.0);
-    let title = window.desk().title(&id(node));
+    let title = window.document().title(&id(node));
     let found = window.harness.query_all_by_label(&title);
     let mut told = found.filter(|found| near.contains(found.rect().center()));
     told.find_map(|found| found.accesskit_node().description())
@@ -65,8 +65,8 @@ fn a_click_in_problems_goes_to_the_node_whatever_group_it_is_in() {
     let fault = window.editor().stage.faults.faults[0].sentence.clone();
     let at = window.harness.get_by_label_contains(&fault).rect().center();
     window.click_at(at);
-    assert_eq!(window.desk().path().len(), 1);
-    assert_eq!(window.desk().selected_one(), Some(&id("blur")));
+    assert_eq!(window.document().path().len(), 1);
+    assert_eq!(window.document().selected_one(), Some(&id("blur")));
     assert!(
         window.editor().rects[&Panel::Canvas].contains(window.rect(&id("blur")).center()),
         "it is in sight"
@@ -164,5 +164,5 @@ fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
     );
     window.open(Panel::Problems);
     window.click_at(window.harness.get_by_label_contains(&fault).rect().center());
-    assert_eq!(window.desk().selected_one(), Some(&id("gone")));
+    assert_eq!(window.document().selected_one(), Some(&id("gone")));
 }

@@ -26,12 +26,12 @@ fn grouped() -> Window {
 #[test]
 fn a_group_is_made_entered_by_a_double_click_and_left_by_escape() {
     let mut window = grouped();
-    let group = window.desk().selected_one().expect("an instance").clone();
+    let group = window.document().selected_one().expect("an instance").clone();
     assert!(window.reads(&id("layer"), "mask").starts_with(group.as_str()));
-    assert_eq!((window.desk().graph().len(), window.steps()), (2, 1));
+    assert_eq!((window.document().graph().len(), window.steps()), (2, 1));
     window.double_click(window.title(&group));
-    assert_eq!(window.desk().graph().len(), 2, "what is inside is seen");
-    assert!(window.desk().node(&id("clouds")).is_some());
+    assert_eq!(window.document().graph().len(), 2, "what is inside is seen");
+    assert!(window.document().node(&id("clouds")).is_some());
     assert!(
         window
             .harness
@@ -40,23 +40,23 @@ fn a_group_is_made_entered_by_a_double_click_and_left_by_escape() {
         "the way out is shown"
     );
     window.key(Key::Escape);
-    assert!(window.desk().node(&id("layer")).is_some());
+    assert!(window.document().node(&id("layer")).is_some());
     window.double_click(window.title(&id("layer")));
-    assert_eq!(window.desk().path().len(), 0, "only groups are entered");
+    assert_eq!(window.document().path().len(), 0, "only groups are entered");
 }
 
 #[test]
 fn groups_in_groups_are_left_step_by_step_or_at_once_by_the_path() {
     let mut window = grouped();
-    let outer = window.desk().selected_one().expect("an instance").clone();
+    let outer = window.document().selected_one().expect("an instance").clone();
     window.double_click(window.title(&outer));
     window.click_at(window.title(&id("clouds")));
     window.keys(Modifiers::COMMAND, Key::G);
-    let inner = window.desk().selected_one().expect("an instance").clone();
+    let inner = window.document().selected_one().expect("an instance").clone();
     window.double_click(window.title(&inner));
-    assert_eq!(window.desk().path().len(), 2);
+    assert_eq!(window.document().path().len(), 2);
     window.key(Key::Escape);
-    assert_eq!(window.desk().path().len(), 1);
+    assert_eq!(window.document().path().len(), 1);
     window.double_click(window.title(&inner));
     let way_out = window
         .harness
@@ -64,17 +64,17 @@ fn groups_in_groups_are_left_step_by_step_or_at_once_by_the_path() {
         .rect()
         .center();
     window.click_at(way_out);
-    assert_eq!(window.desk().path().len(), 0);
+    assert_eq!(window.document().path().len(), 0);
     // Undo takes back what was done inside, seen from wherever one is.
     window.undo(2);
-    assert_eq!(window.desk().document().groups.len(), 0);
-    assert_eq!(window.desk().graph().len(), 3);
+    assert_eq!(window.document().contents().groups.len(), 0);
+    assert_eq!(window.document().graph().len(), 3);
 }
 
 #[test]
 fn each_graph_is_looked_at_where_it_was_left() {
     let mut window = grouped();
-    let group = window.desk().selected_one().expect("an instance").clone();
+    let group = window.document().selected_one().expect("an instance").clone();
     window.wheel(window.title(&group), -120.0);
     let before = window.title(&group);
     window.double_click(before);
@@ -104,13 +104,16 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
     // Another graph, in which there is no group yet.
     window.keys(Modifiers::COMMAND, Key::S);
     window.keys(Modifiers::COMMAND, Key::N);
-    assert_eq!(window.desk().document().groups.len(), 0);
+    assert_eq!(window.document().contents().groups.len(), 0);
     let kept = window.add([0.3, 0.3], "group");
-    let brought = window.desk().node(&kept).expect("a node").group.clone();
-    assert!(brought.is_some_and(|name| window.desk().document().groups.contains_key(&name)));
+    let brought = window.document().node(&kept).expect("a node").group.clone();
+    assert!(brought.is_some_and(|name| window.document().contents().groups.contains_key(&name)));
     window.undo(1);
     assert_eq!(
-        (window.desk().graph().len(), window.desk().document().groups.len()),
+        (
+            window.document().graph().len(),
+            window.document().contents().groups.len()
+        ),
         (0, 0),
         "one step"
     );
@@ -129,14 +132,14 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
     let at = window.on_canvas([0.5, 0.4]);
     let there = window.editor().canvas.place_at(at).expect("a place");
     window.drag_from(entry, at);
-    let added = window.desk().selected_one().expect("an instance").clone();
-    let pos = window.desk().node(&added).expect("a node").pos;
+    let added = window.document().selected_one().expect("an instance").clone();
+    let pos = window.document().node(&added).expect("a node").pos;
     assert!(
         (pos[0] - there[0]).abs() <= 1.0 && (pos[1] - there[1]).abs() <= 1.0,
         "{pos:?} {there:?}"
     );
     window.drag_from(entry, beside(library.right_top(), [-3.0, -3.0]));
-    assert_eq!(window.desk().graph().len(), 1, "dropped elsewhere it is nowhere");
+    assert_eq!(window.document().graph().len(), 1, "dropped elsewhere it is nowhere");
     window.undo(1);
     replaces_by_a_group_of_the_library(&mut window);
 }
@@ -148,8 +151,10 @@ fn replaces_by_a_group_of_the_library(window: &mut Window) {
     window.press("Replace by…");
     window.typed("group");
     window.key(Key::Enter);
-    let placed = window.desk().selected_one().expect("an instance").clone();
-    assert!(window.desk().node(&placed).expect("a node").group.is_some() && window.desk().node(&levels).is_none());
+    let placed = window.document().selected_one().expect("an instance").clone();
+    assert!(
+        window.document().node(&placed).expect("a node").group.is_some() && window.document().node(&levels).is_none()
+    );
     assert_eq!(window.steps(), steps + 1);
 }
 
@@ -167,7 +172,7 @@ fn what_fits_a_wire_is_found_in_the_library_panel_by_a_click_too() {
     let entry = found.into_iter().find(|at| library.contains(*at)).expect("an entry");
     window.click_at(entry);
     assert_eq!(
-        window.desk().graph().len(),
+        window.document().graph().len(),
         1,
         "a click adds it in the middle of what is seen"
     );
@@ -176,10 +181,10 @@ fn what_fits_a_wire_is_found_in_the_library_panel_by_a_click_too() {
 #[test]
 fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
     let mut window = grouped();
-    let group = window.desk().selected_one().expect("an instance").clone();
+    let group = window.document().selected_one().expect("an instance").clone();
     window.double_click(window.title(&group));
-    let inside = window.desk().path().len();
-    let nodes = window.desk().graph().len();
+    let inside = window.document().path().len();
+    let nodes = window.document().graph().len();
     // A text in a panel, with the pointer over the canvas.
     window.open(Panel::Library);
     let field = window.harness.get_by_label("Search the library").rect().center();
@@ -187,12 +192,12 @@ fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
     window.typed("clouds");
     window.point(window.on_canvas([0.9, 0.9]));
     window.key(Key::Escape);
-    assert_eq!(window.desk().path().len(), inside, "it ended the text");
+    assert_eq!(window.document().path().len(), inside, "it ended the text");
     // A menu.
     window.click_with(window.title(&id("clouds")), PointerButton::Secondary, Modifiers::NONE);
     assert!(egui::Popup::is_any_open(&window.harness.ctx));
     window.key(Key::Escape);
-    assert_eq!(window.desk().path().len(), inside, "it closed the menu");
+    assert_eq!(window.document().path().len(), inside, "it closed the menu");
     // An entry of the library that is being dragged.
     let library = window.editor().rects[&Panel::Library];
     let entries = window.harness.query_all_by_label("Clouds");
@@ -205,9 +210,9 @@ fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
     window.button(to, PointerButton::Primary, false);
     window.settle();
     assert_eq!(
-        (window.desk().path().len(), window.desk().graph().len()),
+        (window.document().path().len(), window.document().graph().len()),
         (inside, nodes)
     );
     window.key(Key::Escape);
-    assert_eq!(window.desk().path().len(), inside - 1);
+    assert_eq!(window.document().path().len(), inside - 1);
 }

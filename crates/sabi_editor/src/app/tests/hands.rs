@@ -5,10 +5,10 @@ use std::path::Path;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Rect, TouchPhase, Vec2, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable, by};
+use sabi_editing::TITLE_HEIGHT;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::Window;
-use crate::desk::TITLE_HEIGHT;
 use crate::dock::Panel;
 
 /// The pointer.
@@ -175,8 +175,8 @@ impl Window {
 
     /// The rectangle of a node on the screen.
     pub(super) fn rect(&self, id: &NodeId) -> Rect {
-        let pos = self.desk().node(id).expect("a node").pos;
-        let size = Vec2::from(self.desk().size(id)) * self.zoom();
+        let pos = self.document().node(id).expect("a node").pos;
+        let size = Vec2::from(self.document().size(id)) * self.zoom();
         Rect::from_min_size(self.screen(pos), size)
     }
 
@@ -198,28 +198,28 @@ impl Window {
     pub(super) fn pick(&mut self, query: &str) -> NodeId {
         self.typed(query);
         self.key(Key::Enter);
-        let added = self.desk().selected_one().cloned();
+        let added = self.document().selected_one().cloned();
         added.unwrap_or_else(|| panic!("nothing is called '{query}'"))
     }
 
     /// Where a port of a node is on the screen: its input of that name, or else its output.
     pub(super) fn port(&self, node: &NodeId, name: &str) -> Pos2 {
-        let face = self.desk().face(node).expect("a node");
+        let face = self.document().face(node).expect("a node");
         let side = if face.input(name).is_some() { "input" } else { "output" };
         self.port_at(node, side, name)
     }
 
     /// Where a port is, found by what is said of it to those who do not see it.
     pub(super) fn port_at(&self, node: &NodeId, side: &str, name: &str) -> Pos2 {
-        let desk = self.desk();
-        let face = desk.face(node).expect("a node");
+        let document = self.document();
+        let face = document.face(node).expect("a node");
         let port = match side {
             "input" => face.input(name),
             _ => face.output(Some(name)),
         };
         let port = port.expect("a port");
         let carries = port.ty.map_or("anything".to_owned(), |ty| ty.to_string());
-        let said = format!("{}, {side} {}, {carries}", desk.title(node), port.label);
+        let said = format!("{}, {side} {}, {carries}", document.title(node), port.label);
         let near = self.rect(node).expand(20.0);
         let mut found = self.harness.query_all_by_label(&said).map(|node| node.rect().center());
         found
@@ -229,7 +229,7 @@ impl Window {
 
     /// Drags a wire from one port to another: from an output where there is one of that name.
     pub(super) fn wire(&mut self, from: (&NodeId, &str), to: (&NodeId, &str)) {
-        let face = self.desk().face(from.0).expect("a node");
+        let face = self.document().face(from.0).expect("a node");
         let side = if face.output(Some(from.1)).is_some() {
             "output"
         } else {
@@ -244,7 +244,7 @@ impl Window {
             node: node.clone(),
             name: input.to_owned(),
         };
-        self.desk().wire_into(&slot).cloned()
+        self.document().wire_into(&slot).cloned()
     }
 
     /// What an input reads, as the file has it; empty where it reads nothing.
@@ -334,7 +334,7 @@ impl Window {
 
     /// What a parameter of a node is set to, as text.
     pub(super) fn param(&self, node: &NodeId, name: &str) -> Option<String> {
-        let node = self.desk().node(node).expect("a node");
+        let node = self.document().node(node).expect("a node");
         node.params.get(name).map(sabi_graph::Value::to_json)
     }
 }

@@ -26,8 +26,8 @@ fn a_graph_is_built_turned_and_taken_back_by_keys_alone() {
     window.key(Key::Tab);
     let layer = window.pick("effect layer");
     assert_ne!(
-        window.desk().node(&noise).expect("a node").pos,
-        window.desk().node(&layer).expect("a node").pos,
+        window.document().node(&noise).expect("a node").pos,
+        window.document().node(&layer).expect("a node").pos,
         "no node hides another"
     );
     // From the second input of the layer, the mask, back to the noise.
@@ -35,7 +35,7 @@ fn a_graph_is_built_turned_and_taken_back_by_keys_alone() {
     window.key(Key::J);
     window.key(Key::W);
     window.key(Key::ArrowLeft);
-    assert_eq!(window.desk().selected_one(), Some(&noise));
+    assert_eq!(window.document().selected_one(), Some(&noise));
     window.key(Key::J);
     window.key(Key::W);
     assert_eq!(window.reads(&layer, "mask"), noise.to_string());
@@ -150,10 +150,10 @@ fn the_menu_is_gone_through_by_arrows() {
     window.key(Key::ArrowDown);
     window.key(Key::ArrowUp);
     window.key(Key::Enter);
-    let second = window.desk().selected_one().cloned().expect("a node");
+    let second = window.document().selected_one().cloned().expect("a node");
     window.key(Key::Tab);
     let first = window.pick("noise");
-    let kind = |id| window.desk().node(id).expect("a node").kind.clone();
+    let kind = |id| window.document().node(id).expect("a node").kind.clone();
     assert_ne!(kind(&first), kind(&second));
 }
 
@@ -169,7 +169,7 @@ fn what_is_typed_into_a_field_is_no_command() {
         window.key(key);
     }
     assert_eq!(window.steps(), 0);
-    assert_eq!(window.desk().graph().len(), 1);
+    assert_eq!(window.document().graph().len(), 1);
     assert!(!window.says("Find a node"));
 }
 
@@ -182,7 +182,7 @@ fn keys_act_on_what_the_pointer_is_over_whatever_was_turned_before() {
     window.point(window.on_canvas([0.8, 0.8]));
     window.key(Key::Delete);
     assert_eq!(
-        window.desk().graph().len(),
+        window.document().graph().len(),
         0,
         "the node is deleted, and not its knob reset"
     );
@@ -197,10 +197,10 @@ fn asked_about_masks() -> Window {
         "invert": { "kind": "adjust/invert", "inputs": { "source": "clouds" }, "pos": [300, 0] }
         "#,
     );
-    window.harness.state_mut().desk.select([id("dots")]);
+    window.harness.state_mut().document.select([id("dots")]);
     window.key(Key::K);
     window.key(Key::W);
-    window.harness.state_mut().desk.select([id("invert")]);
+    window.harness.state_mut().document.select([id("invert")]);
     window.key(Key::J);
     window.key(Key::W);
     assert!(window.says("There is a mask already"));
@@ -213,7 +213,7 @@ fn the_question_about_a_second_mask_is_answered_by_keys_alone() {
     let mode = |window: &mut Window| {
         assert!(!window.says("There is a mask already"));
         assert_eq!(focused(window), "Canvas", "keys are for the canvas again");
-        let blend = window.desk().selected_one().expect("the blend").clone();
+        let blend = window.document().selected_one().expect("the blend").clone();
         window.param(&blend, "mode")
     };
     let mut window = asked_about_masks();
@@ -241,7 +241,7 @@ fn the_question_about_a_second_mask_is_answered_by_keys_alone() {
     assert_eq!(window.reads(&id("invert"), "source"), "clouds");
     assert_eq!(focused(&window), "Canvas");
     window.key(Key::M);
-    assert!(window.desk().node(&id("invert")).expect("a node").muted);
+    assert!(window.document().node(&id("invert")).expect("a node").muted);
 }
 
 #[test]
@@ -257,8 +257,8 @@ fn arrows_step_through_ports_follow_wires_and_leave_no_focus_behind() {
         let place = window.editor().canvas.focused_port();
         place.unwrap_or_default()
     };
-    let selected = |window: &Window| window.desk().selected_one().expect("a node").to_string();
-    window.harness.state_mut().desk.select([id("mix")]);
+    let selected = |window: &Window| window.document().selected_one().expect("a node").to_string();
+    window.harness.state_mut().document.select([id("mix")]);
     window.settle();
     window.key(Key::J);
     let first = port(&window);

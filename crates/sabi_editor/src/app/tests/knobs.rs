@@ -33,7 +33,7 @@ fn a_drag_in_the_panel_is_one_step_and_the_window_knows_that_it_moves() {
         window.steps(),
         1,
         "{:?}",
-        window.desk().session.undo_names().collect::<Vec<_>>()
+        window.document().session.undo_names().collect::<Vec<_>>()
     );
     assert!(window.param(&id("clouds"), "gain").is_some());
     window.undo(1);
@@ -55,7 +55,7 @@ fn a_drag_on_the_node_itself_turns_its_knob_and_does_not_move_it() {
         .expect("a knob on the node");
     window.drag_from(bar, beside(bar, [25.0, 0.0]));
     assert!(window.param(&id("dots"), "spacing").is_some());
-    assert_eq!(window.desk().node(&id("dots")).expect("a node").pos, [300.0, 0.0]);
+    assert_eq!(window.document().node(&id("dots")).expect("a node").pos, [300.0, 0.0]);
     assert_eq!(window.steps(), 1);
 }
 
@@ -105,7 +105,7 @@ fn after_a_number_was_typed_keys_mean_commands_again() {
     assert_eq!(window.param(&id("clouds"), "gain"), None);
     window.point(window.on_canvas([0.9, 0.9]));
     window.key(Key::M);
-    assert!(window.desk().node(&id("clouds")).expect("a node").muted);
+    assert!(window.document().node(&id("clouds")).expect("a node").muted);
 }
 
 #[test]
@@ -115,12 +115,12 @@ fn a_knob_is_put_on_the_panel_of_the_graph_and_taken_off_by_its_menu() {
     let bar = window.knob("Grain");
     window.click_with(bar, PointerButton::Secondary, Modifiers::NONE);
     window.press("Put on the panel");
-    let published: Vec<_> = window.desk().graph().exposed().values().cloned().collect();
+    let published: Vec<_> = window.document().graph().exposed().values().cloned().collect();
     assert_eq!(published.len(), 1);
     assert_eq!(published[0].to[0].to_string(), "clouds.gain");
     window.click_with(window.knob("Grain"), PointerButton::Secondary, Modifiers::NONE);
     window.press("Take off the panel");
-    assert_eq!(window.desk().graph().exposed().len(), 0);
+    assert_eq!(window.document().graph().exposed().len(), 0);
     assert_eq!(window.steps(), 2);
 }
 
@@ -178,7 +178,7 @@ fn a_drag_whose_node_is_gone_ends_with_the_button_outside_of_the_window() {
     window.button(outside, PointerButton::Primary, false);
     window.settle();
     assert!(!window.editor().is_moving);
-    window.harness.state_mut().desk.select([id("clouds")]);
+    window.harness.state_mut().document.select([id("clouds")]);
     let empty = window.on_canvas([0.98, 0.02]);
     window.point(empty);
     window.key(Key::M);

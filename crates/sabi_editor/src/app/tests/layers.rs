@@ -25,7 +25,7 @@ fn layered(text: &str) -> Window {
 }
 
 fn titles(window: &Window) -> Vec<String> {
-    let stacks = window.editor().desk.stacks();
+    let stacks = window.editor().document.stacks();
     stacks[0].layers.iter().map(|layer| layer.title.clone()).collect()
 }
 
@@ -59,7 +59,7 @@ fn a_layer_is_dragged_to_another_place_and_what_cannot_be_says_why() {
 fn eyes_bars_and_bins_of_layers_do_what_they_say_as_one_step_each() {
     let mut window = layered(LAYERED);
     window.click("Show Rust");
-    assert!(window.editor().desk.stacks()[0].layers[0].is_muted);
+    assert!(window.editor().document.stacks()[0].layers[0].is_muted);
     let bars: Vec<egui::Rect> = window
         .harness
         .get_all_by_label("Opacity")
@@ -74,7 +74,9 @@ fn eyes_bars_and_bins_of_layers_do_what_they_say_as_one_step_each() {
         PointerButton::Primary,
         Modifiers::NONE,
     );
-    let opacity = window.editor().desk.stacks()[0].layers[0].opacity.expect("an opacity");
+    let opacity = window.editor().document.stacks()[0].layers[0]
+        .opacity
+        .expect("an opacity");
     assert!((0.0..1.0).contains(&opacity), "{opacity}");
     window.click("Remove Dents");
     assert_eq!(titles(&window), ["Rust", "Paint"]);

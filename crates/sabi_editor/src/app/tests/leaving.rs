@@ -30,7 +30,7 @@ fn a_recent_file_is_opened_only_once_it_is_said_what_becomes_of_changes() {
         window.labels()
     );
     window.press("Let them go");
-    assert_eq!(window.desk().graph().len(), 0);
+    assert_eq!(window.document().graph().len(), 0);
 }
 
 #[test]
@@ -90,13 +90,13 @@ fn a_graph_never_takes_the_place_of_a_picture_by_its_name() {
     window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     window.answer_path(&window.path("wood.png"));
     assert!(!window.path("wood.png").exists());
-    assert_eq!(window.desk().session.file(), Some(&*window.path("wood.png.sabi")));
+    assert_eq!(window.document().session.file(), Some(&*window.path("wood.png.sabi")));
 }
 
 #[test]
 fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().desk.select([super::hands::id("clouds")]);
+    window.harness.state_mut().document.select([super::hands::id("clouds")]);
     window.keys(Modifiers::COMMAND, Key::G);
     let keep = |window: &mut Window| {
         window.harness.state_mut().shelve_selected(Shelf::User);
@@ -105,12 +105,12 @@ fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
     };
     assert_eq!(keep(&mut window), 1);
     assert_eq!(keep(&mut window), 1, "the same is kept once");
-    let instance = window.desk().selected_one().cloned().expect("the group");
-    assert!(window.harness.state_mut().desk.enter(&instance));
-    window.harness.state_mut().desk.select_all();
-    window.harness.state_mut().desk.mute();
-    window.harness.state_mut().desk.leave();
-    window.harness.state_mut().desk.select([instance]);
+    let instance = window.document().selected_one().cloned().expect("the group");
+    assert!(window.harness.state_mut().document.enter(&instance));
+    window.harness.state_mut().document.select_all();
+    window.harness.state_mut().document.mute();
+    window.harness.state_mut().document.leave();
+    window.harness.state_mut().document.select([instance]);
     assert_eq!(keep(&mut window), 2);
 }
 
@@ -183,7 +183,7 @@ fn where_textures_go_is_known_for_each_graph_and_in_the_next_window() {
 #[test]
 fn a_window_with_the_unsaved_text_of_a_node_stays() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().desk.select([super::hands::id("clouds")]);
+    window.harness.state_mut().document.select([super::hands::id("clouds")]);
     window.key(Key::F1);
     window.press("New node from here");
     assert!(window.asks_to_close(), "nothing was written yet");
@@ -196,7 +196,7 @@ fn a_window_with_the_unsaved_text_of_a_node_stays() {
 fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_without_changes_of_it() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().keeping.every = Duration::ZERO;
-    window.harness.state_mut().desk.select([super::hands::id("clouds")]);
+    window.harness.state_mut().document.select([super::hands::id("clouds")]);
     window.key(Key::F1);
     window.press("New node from here");
     window.fill("Id of the node", "noise/mine");
@@ -232,9 +232,9 @@ fn a_recovered_node_file_stands_beside_one_that_is_being_written_and_takes_the_p
     };
     let (first, second) = (draft("//! First"), draft("//! Second"));
     first.save().expect("a file");
-    let Editor { panels, desk, .. } = window.harness.state_mut();
-    panels.page.recover(vec![first.clone()], desk);
-    panels.page.recover(vec![second.clone()], desk);
+    let Editor { panels, document, .. } = window.harness.state_mut();
+    panels.page.recover(vec![first.clone()], document);
+    panels.page.recover(vec![second.clone()], document);
     assert_eq!(panels.page.unsaved(), [first.clone(), second.clone()], "both are kept");
     panels.page.saved(&first);
     assert_eq!(
@@ -242,7 +242,7 @@ fn a_recovered_node_file_stands_beside_one_that_is_being_written_and_takes_the_p
         std::slice::from_ref(&second),
         "the other one is in no file"
     );
-    panels.page.recover(vec![second.clone()], desk);
+    panels.page.recover(vec![second.clone()], document);
     assert_eq!(panels.page.unsaved(), [second.clone(), second]);
 }
 

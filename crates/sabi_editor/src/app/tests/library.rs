@@ -15,14 +15,14 @@ const GROUPED: &str = r#"{
 }"#;
 
 fn kinds(window: &Window) -> Vec<String> {
-    let nodes = window.editor().desk.graph().nodes();
+    let nodes = window.editor().document.graph().nodes();
     nodes.map(|(_, node)| node.kind.clone()).collect()
 }
 
 /// Selects the only node that there is.
 fn select_only(window: &mut Window) -> NodeId {
-    let id = window.editor().desk.graph().ids().next().cloned().expect("a node");
-    window.harness.state_mut().desk.select([id.clone()]);
+    let id = window.editor().document.graph().ids().next().cloned().expect("a node");
+    window.harness.state_mut().document.select([id.clone()]);
     window.settle();
     id
 }
@@ -37,8 +37,8 @@ fn the_first_favorites_are_added_by_number_where_the_pointer_is() {
     window.key(Key::Num2);
     assert_eq!(kinds(&window), ["filter/blur"]);
     let place = window.editor().canvas.place_at(at).expect("on the canvas");
-    let id = window.editor().desk.selected_one().cloned().expect("the new node");
-    let pos = window.editor().desk.node(&id).map(|node| node.pos).expect("a node");
+    let id = window.editor().document.selected_one().cloned().expect("the new node");
+    let pos = window.editor().document.node(&id).map(|node| node.pos).expect("a node");
     assert!(
         (pos[0] - place[0]).abs() <= 1.0 && (pos[1] - place[1]).abs() <= 1.0,
         "{pos:?} {place:?}"
@@ -196,10 +196,10 @@ fn a_node_of_ones_own_begins_as_another_one_and_its_faults_are_told_as_it_is_typ
     assert!(window.harness.query_by_label("Saved; nothing is wrong.").is_some());
     window.click("Close");
     assert!(
-        window.editor().desk.catalog().entry("adjust/mine").is_some(),
+        window.editor().document.catalog().entry("adjust/mine").is_some(),
         "it can be added at once"
     );
-    assert_eq!(window.editor().desk.selected_one(), Some(&added));
+    assert_eq!(window.editor().document.selected_one(), Some(&added));
 }
 
 #[test]
@@ -231,7 +231,7 @@ fn a_dropped_picture_is_a_node_in_one_step() {
     let mut window = Window::of(GROUPED);
     let before = window.text();
     window.dropped(&window.path("rust.png"));
-    let added = window.editor().desk.selected_one().cloned().expect("the picture");
+    let added = window.editor().document.selected_one().cloned().expect("the picture");
     assert_eq!(window.param(&added, "file").as_deref(), Some("\"rust.png\""));
     assert_eq!(window.steps(), 1);
     window.undo(1);
@@ -250,7 +250,7 @@ fn an_entry_that_is_dropped_on_a_wire_is_put_into_it_where_it_fits() {
     let middle = super::hands::between(window.port(&clouds, "mask"), window.port(&invert, "source"));
     let entry = window.harness.get_by_label("Levels").rect().center();
     window.drag(entry, middle, PointerButton::Primary, Modifiers::NONE);
-    let added = window.editor().desk.selected_one().cloned().expect("the node");
+    let added = window.editor().document.selected_one().cloned().expect("the node");
     assert_eq!(window.reads(&added, "source"), "clouds");
     assert_eq!(window.reads(&invert, "source"), added.to_string());
     assert_eq!(window.steps(), 1);
@@ -259,7 +259,7 @@ fn an_entry_that_is_dropped_on_a_wire_is_put_into_it_where_it_fits() {
     window.settle();
     let paint = window
         .editor()
-        .desk
+        .document
         .catalog()
         .entry("source/material")
         .expect("a kind")

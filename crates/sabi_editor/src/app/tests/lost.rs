@@ -22,7 +22,7 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     window.add([0.2, 0.2], "clouds");
     let added = window.text();
     window.destroy_device();
-    window.harness.state_mut().desk.mute();
+    window.harness.state_mut().document.mute();
     let muted = window.text();
     assert_ne!(muted, added);
     let handover = window.handover.clone();
@@ -38,7 +38,7 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     assert!(!window.says("Examples"), "no start page stands before the work");
     window.until("pictures on another device", |editor| editor.model_view.drawn > 0);
     for expected in [&added, &empty] {
-        window.harness.state_mut().desk.undo();
+        window.harness.state_mut().document.undo();
         assert_eq!(&window.text(), expected);
     }
     window.redo(2);

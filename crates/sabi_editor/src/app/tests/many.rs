@@ -29,15 +29,15 @@ fn inverts(window: &Window) -> usize {
 #[test]
 fn of_five_hundred_nodes_only_those_that_are_seen_are_drawn() {
     let mut window = Window::opened(&field());
-    assert_eq!(window.desk().graph().len(), 500);
+    assert_eq!(window.document().graph().len(), 500);
     let at = window.on_canvas([0.5, 0.5]);
     window.wheel(at, 5000.0);
     window.wheel(at, -300.0);
-    let seen = window.editor().canvas.visible(window.desk()).len();
+    let seen = window.editor().canvas.visible(window.document()).len();
     assert!((1..30).contains(&seen), "{seen}");
     assert_eq!(inverts(&window), seen);
     window.wheel(at, -5000.0);
-    let seen = window.editor().canvas.visible(window.desk()).len();
+    let seen = window.editor().canvas.visible(window.document()).len();
     assert_eq!(inverts(&window), seen);
     assert!(seen > 300, "from afar {seen} are seen");
 }

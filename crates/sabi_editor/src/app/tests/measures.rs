@@ -21,11 +21,11 @@ fn what_a_length_of_one_is_can_be_chosen_and_taken_back() {
     let mut window = Window::opened("");
     window.click("64 texels");
     window.click("a metre");
-    assert_eq!(window.desk().document().fit, Fit::Metres);
+    assert_eq!(window.document().contents().fit, Fit::Metres);
     window.click("as many metres as");
-    assert_eq!(window.desk().document().fit, Fit::Length(0.1));
+    assert_eq!(window.document().contents().fit, Fit::Length(0.1));
     window.undo(2);
-    assert_eq!(window.desk().document().fit, Fit::Unit);
+    assert_eq!(window.document().contents().fit, Fit::Unit);
 }
 
 #[test]

@@ -110,12 +110,12 @@ fn in_blender_a_box_selects_and_a_selects_all() {
     let mut window = window_with(Habit::Blender);
     let around: [Pos2; 2] = [window.on_canvas([0.01, 0.03]), window.on_canvas([0.99, 0.97])];
     window.drag_from(around[0], around[1]);
-    let all = window.desk().graph().len();
-    assert_eq!(window.desk().selection().len(), all);
+    let all = window.document().graph().len();
+    assert_eq!(window.document().selection().len(), all);
     window.click_at(around[1]);
-    assert_eq!(window.desk().selection().len(), 0);
+    assert_eq!(window.document().selection().len(), 0);
     window.chord("A");
-    assert_eq!(window.desk().selection().len(), all);
+    assert_eq!(window.document().selection().len(), all);
 }
 
 #[test]

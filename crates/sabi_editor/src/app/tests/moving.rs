@@ -12,11 +12,11 @@ const THREE: &str = r#"
 "#;
 
 fn pos(window: &Window, node: &str) -> [f32; 2] {
-    window.desk().node(&id(node)).expect("a node").pos
+    window.document().node(&id(node)).expect("a node").pos
 }
 
 fn selected(window: &Window) -> Vec<String> {
-    window.desk().selection().iter().map(ToString::to_string).collect()
+    window.document().selection().iter().map(ToString::to_string).collect()
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn escape_lets_nodes_go_that_are_dragged_as_if_nothing_had_been() {
     window.hold(Modifiers::NONE);
     window.settle();
     assert_eq!(window.text(), before, "the wires are back too");
-    assert_eq!((window.steps(), window.desk().session.redo_names().count()), (0, 0));
+    assert_eq!((window.steps(), window.document().session.redo_names().count()), (0, 0));
     window.key(Key::M);
     assert_eq!(window.steps(), 1, "what comes next is a step of its own");
 }
@@ -139,7 +139,7 @@ fn a_frame_moves_its_nodes_is_named_and_goes_while_they_stay() {
     );
     assert_eq!(pos(&window, "invert"), [0.0, 400.0]);
     let title = |window: &Window| {
-        let frame = window.desk().graph().frames().values().next().cloned();
+        let frame = window.document().graph().frames().values().next().cloned();
         frame.and_then(|frame| frame.title)
     };
     window.double_click(strip(&window));
@@ -151,7 +151,7 @@ fn a_frame_moves_its_nodes_is_named_and_goes_while_they_stay() {
     window.click_with(strip(&window), PointerButton::Secondary, Modifiers::NONE);
     window.press("Remove the frame");
     assert_eq!(title(&window), None);
-    assert_eq!(window.desk().graph().len(), 3);
+    assert_eq!(window.document().graph().len(), 3);
     window.undo(4);
     assert_eq!(window.steps(), 0);
 }
@@ -184,10 +184,10 @@ fn nodes_are_copied_as_text_and_pasted_under_the_pointer() {
         .map(f32::round);
     window.harness.event(Event::Paste(copied));
     window.settle();
-    assert_eq!(window.desk().graph().len(), 5);
-    let copies: Vec<_> = window.desk().selection().iter().cloned().collect();
+    assert_eq!(window.document().graph().len(), 5);
+    let copies: Vec<_> = window.document().selection().iter().cloned().collect();
     assert_eq!(copies.len(), 2, "what was pasted is selected");
-    let corner = window.desk().node(&copies[0]).expect("a copy").pos;
+    let corner = window.document().node(&copies[0]).expect("a copy").pos;
     assert!(
         (corner[0] - there[0]).abs() <= 1.0 && (corner[1] - there[1]).abs() <= 1.0,
         "{corner:?} {there:?}"
@@ -208,19 +208,19 @@ fn the_right_button_on_a_node_offers_what_can_be_done_with_it() {
     window.click_with(window.title(&id("invert")), PointerButton::Secondary, Modifiers::NONE);
     assert_eq!(selected(&window), ["invert"]);
     window.press("Mute");
-    assert!(window.desk().node(&id("invert")).expect("a node").muted);
+    assert!(window.document().node(&id("invert")).expect("a node").muted);
     window.harness.state_mut().pin(&id("invert"));
     window.click_with(window.title(&id("invert")), PointerButton::Secondary, Modifiers::NONE);
     window.press("Replace by…");
     window.typed("threshold");
     window.key(Key::Enter);
     let replaced = window
-        .desk()
+        .document()
         .graph()
         .nodes()
         .find(|(_, node)| node.kind == "adjust/threshold");
     let replaced = replaced.expect("another node").0.clone();
-    assert!(window.desk().node(&id("invert")).is_none());
+    assert!(window.document().node(&id("invert")).is_none());
     assert_eq!(window.reads(&replaced, "source"), "clouds", "wires that fit stay");
     let pinned = window.editor().pinned.as_ref().map(|pinned| pinned.node.as_str());
     assert_eq!(
@@ -285,7 +285,7 @@ fn a_frame_takes_only_its_own_nodes_along_whatever_is_selected() {
     window.click_at(window.title(&id("invert")));
     window.key(Key::C);
     let holds = |window: &Window| -> Vec<Vec<String>> {
-        let frames = window.desk().graph().frames().values();
+        let frames = window.document().graph().frames().values();
         let mut held: Vec<Vec<String>> = frames
             .map(|frame| frame.nodes.iter().map(ToString::to_string).collect())
             .collect();
@@ -310,7 +310,7 @@ fn a_frame_takes_its_next_color_by_its_menu() {
     window.click_at(window.title(&id("clouds")));
     window.key(Key::C);
     let color = |window: &Window| {
-        let frame = window.desk().graph().frames().values().next().cloned();
+        let frame = window.document().graph().frames().values().next().cloned();
         frame.and_then(|frame| frame.color).expect("a color")
     };
     let mut seen = vec![color(&window)];

@@ -74,11 +74,11 @@ impl Window {
     }
 
     pub(super) fn steps(&self) -> usize {
-        self.editor().desk.session.undo_names().count()
+        self.editor().document.session.undo_names().count()
     }
 
     pub(super) fn held(&self, knob: &str) -> Option<Value> {
-        let panel = self.editor().desk.panel();
+        let panel = self.editor().document.panel();
         panel
             .into_iter()
             .find(|known| known.name == knob)
@@ -105,7 +105,7 @@ fn a_drag_of_a_published_knob_is_one_step_and_turns_what_it_stands_for() {
     let layer = "l".parse().expect("an id");
     let own = window
         .editor()
-        .desk
+        .document
         .node(&layer)
         .and_then(|node| node.params.get("opacity").cloned());
     assert_eq!(own, Some(Value::Number(held)), "the node's own knob was turned");
@@ -117,7 +117,7 @@ fn a_drag_of_a_published_knob_is_one_step_and_turns_what_it_stands_for() {
 fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_else() {
     let mut window = Window::of(PUBLISHED);
     let noise = "n".parse().expect("an id");
-    window.harness.state_mut().desk.select([noise]);
+    window.harness.state_mut().document.select([noise]);
     window.settle();
     assert!(
         window.harness.query_by_label("Grain size").is_none(),
@@ -157,7 +157,7 @@ fn the_pen_changes_what_published_knobs_say_of_themselves() {
     window.fill("Section", "Looks");
     window.fill("Name in files", "wear");
     window.click(&format!("{} Start here", egui_phosphor::regular::PUSH_PIN));
-    let exposed = window.editor().desk.graph().exposed().clone();
+    let exposed = window.editor().document.graph().exposed().clone();
     let wear = &exposed["wear"];
     assert_eq!(exposed.len(), 1);
     assert_eq!(
@@ -166,7 +166,7 @@ fn the_pen_changes_what_published_knobs_say_of_themselves() {
     );
     assert_eq!(window.steps(), 5, "each is one step");
     assert!(
-        window.editor().desk.graph().variants()["faint"].contains_key("wear"),
+        window.editor().document.graph().variants()["faint"].contains_key("wear"),
         "variants follow"
     );
 }
@@ -183,7 +183,13 @@ fn published_knobs_are_put_into_order_by_dragging() {
         PointerButton::Primary,
         Modifiers::NONE,
     );
-    let names: Vec<String> = window.editor().desk.panel().into_iter().map(|knob| knob.name).collect();
+    let names: Vec<String> = window
+        .editor()
+        .document
+        .panel()
+        .into_iter()
+        .map(|knob| knob.name)
+        .collect();
     assert_eq!(names, ["size", "amount"]);
     assert_eq!(window.steps(), 1);
 }
@@ -195,22 +201,22 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
     window.click("Faint");
     assert_eq!(window.held("amount"), Some(Value::Number(0.25)));
     window.fill("Name of a variant", "as bought");
-    let variants = window.editor().desk.graph().variants().clone();
+    let variants = window.editor().document.graph().variants().clone();
     assert_eq!(variants["as bought"]["amount"], Value::Number(0.25));
-    let what = window.editor().desk.variant_as_text("as bought");
+    let what = window.editor().document.variant_as_text("as bought");
     let file = window.path("worn.sabi");
     let cache = window.editor().stage.cache_dir().expect("a cache");
     let kept = sabi_engine::find_thumbnail(cache, &[&file.to_string_lossy(), &what]).expect("a picture");
     assert_eq!(kept.size, [128, 128]);
     window.choose("As bought", "Rename");
     window.fill("New name of the variant", "new");
-    assert!(window.editor().desk.graph().variants().contains_key("new"));
+    assert!(window.editor().document.graph().variants().contains_key("new"));
     assert_eq!(
-        window.editor().desk.variant_as_text("new"),
+        window.editor().document.variant_as_text("new"),
         what,
         "the picture is found under the new name"
     );
     window.choose("New", "Remove");
-    assert_eq!(window.editor().desk.graph().variants().len(), 1);
+    assert_eq!(window.editor().document.graph().variants().len(), 1);
     assert_eq!(window.steps(), 4);
 }

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use egui::Rect;
+use sabi_editing::{MARGIN, PICTURE_SIDE};
 
 use super::Window;
 use super::hands::id;
-use crate::desk::{MARGIN, PICTURE_SIDE};
 use crate::dock::Panel;
 
 /// Colors in a part of the screen.

@@ -30,11 +30,11 @@ impl Window {
     }
 
     fn is_dirty(&mut self) -> bool {
-        self.harness.state_mut().desk.session.is_dirty()
+        self.harness.state_mut().document.session.is_dirty()
     }
 
     pub(super) fn mute(&mut self) {
-        self.harness.state_mut().desk.select([id("clouds")]);
+        self.harness.state_mut().document.select([id("clouds")]);
         self.point(self.on_canvas([0.9, 0.9]));
         self.key(Key::M);
     }
@@ -62,7 +62,7 @@ fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
     let file = window.path("chosen.sabi");
     answers.send(Some(file.clone())).expect("somebody who waits");
     window.until("the answer", |editor| editor.question().is_none());
-    assert_eq!(window.desk().session.file(), Some(&*file));
+    assert_eq!(window.document().session.file(), Some(&*file));
     assert!(file.exists());
     // One that is closed without an answer leaves the question as it was, and so does one that cannot be opened.
     window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
@@ -93,9 +93,9 @@ fn a_graph_is_saved_under_a_name_and_opens_again_as_it_was() {
     assert!(!window.is_dirty() && window.says("first.sabi") && !window.says("first.sabi •"));
     window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     window.answer_path(&window.path("second.sabi"));
-    assert_eq!(window.desk().session.file(), Some(&*window.path("second.sabi")));
+    assert_eq!(window.document().session.file(), Some(&*window.path("second.sabi")));
     window.keys(Modifiers::COMMAND, Key::N);
-    assert_eq!(window.desk().graph().len(), 0);
+    assert_eq!(window.document().graph().len(), 0);
     window.keys(Modifiers::COMMAND, Key::O);
     window.answer_path(&file);
     assert_eq!(window.text(), text);
@@ -132,7 +132,7 @@ fn before_something_else_is_opened_changes_are_asked_about() {
     assert_eq!(window.text(), changed, "nothing happened");
     window.keys(Modifiers::COMMAND, Key::N);
     window.press("Let them go");
-    assert_eq!(window.desk().graph().len(), 0);
+    assert_eq!(window.document().graph().len(), 0);
     assert_eq!(
         fs::read_to_string(window.path("graph.sabi")).expect("a file"),
         super::graph_text(CLOUDS)
@@ -144,7 +144,7 @@ fn before_something_else_is_opened_changes_are_asked_about() {
     window.answer_path(&other);
     window.press("Save");
     assert_eq!(fs::read_to_string(window.path("graph.sabi")).expect("a file"), changed);
-    assert_eq!(window.desk().session.file(), Some(&*other));
+    assert_eq!(window.document().session.file(), Some(&*other));
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn a_graph_without_a_file_is_saved_before_it_makes_room_for_another() {
         text,
         "what was there, and not what came after"
     );
-    assert_eq!(window.desk().graph().len(), 0);
+    assert_eq!(window.document().graph().len(), 0);
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn work_that_could_not_be_saved_stays() {
     window.keys(Modifiers::COMMAND, Key::S);
     window.answer_path(&window.path("later.sabi"));
     assert_eq!(
-        window.desk().graph().len(),
+        window.document().graph().len(),
         2,
         "an answer that was not given is forgotten"
     );

@@ -5,10 +5,10 @@
 
 use egui::{Key, Rect, vec2};
 use egui_kittest::{SnapshotOptions, SnapshotResult, SnapshotResults, try_image_snapshot_options};
+use sabi_editing::TITLE_HEIGHT;
 
 use super::Window;
 use super::hands::id;
-use crate::desk::TITLE_HEIGHT;
 use crate::dock::Panel;
 use crate::theme::Shade;
 
@@ -28,7 +28,7 @@ impl Window {
         editor.settings.shade = shade;
         editor.take_settings(&context);
         editor.look_at(&id(node), None);
-        editor.desk.select([id(node)]);
+        editor.document.select([id(node)]);
         context.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
         window.harness.event(egui::Event::PointerGone);
         window.until("rest", |editor| {

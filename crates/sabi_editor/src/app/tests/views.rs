@@ -137,8 +137,8 @@ fn escape_leaves_the_list_of_keys_as_it_was_and_a_known_key_is_not_added_twice()
 fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
     let mut window = window_with(Habit::Default);
     window.prepare(&["mix"], Scope::Canvas);
-    let copied = window.harness.state_mut().desk.copied().expect("a copy");
-    let count = window.desk().graph().len();
+    let copied = window.harness.state_mut().document.copied().expect("a copy");
+    let count = window.document().graph().len();
     let context = window.harness.ctx.clone();
     let editor = window.harness.state_mut();
     editor.settings.keys.insert("paste".to_owned(), Vec::new());
@@ -149,25 +149,25 @@ fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
     editor.take_settings(&context);
     window.harness.event(egui::Event::Paste(copied));
     window.settle();
-    assert_eq!(window.desk().graph().len(), count, "nothing is pasted");
-    assert!(window.desk().node(&id("mix")).expect("a node").muted);
+    assert_eq!(window.document().graph().len(), count, "nothing is pasted");
+    assert!(window.document().node(&id("mix")).expect("a node").muted);
 }
 
 #[test]
 fn paste_works_by_the_menu_and_by_any_key_wherever_the_pointer_is() {
     let mut window = window_with(Habit::Default);
     window.prepare(&["mix"], Scope::Canvas);
-    let copied = window.harness.state_mut().desk.copied().expect("a copy");
-    let count = window.desk().graph().len();
+    let copied = window.harness.state_mut().document.copied().expect("a copy");
+    let count = window.document().graph().len();
     window.press_entry("Edit", "Paste");
     // The system answers.
     window.harness.event(egui::Event::Paste(copied.clone()));
     window.settle();
-    assert_eq!(window.desk().graph().len(), count + 1);
+    assert_eq!(window.document().graph().len(), count + 1);
     window.point(window.editor().rects[&Panel::Viewport].center());
     window.harness.event(egui::Event::Paste(copied));
     window.settle();
-    assert_eq!(window.desk().graph().len(), count + 1, "nobody asked");
+    assert_eq!(window.document().graph().len(), count + 1, "nobody asked");
 }
 
 #[test]

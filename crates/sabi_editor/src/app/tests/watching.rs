@@ -97,7 +97,7 @@ fn a_node_file_that_changes_changes_what_is_shown_and_a_broken_one_leaves_it() {
         Some(0.5),
         "the last good version stays"
     );
-    let faults = &watched.window.editor().desk.kinds().0.faults;
+    let faults = &watched.window.editor().document.kinds().0.faults;
     assert!(faults[0].path.ends_with("nodes/own/level.wgsl"), "{faults:?}");
     watched.write("nodes/own/level.wgsl", level(0.75));
     watched.until_value(0.75);
@@ -109,7 +109,7 @@ fn a_first_node_file_of_ones_own_is_found() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     watched.write("nodes/own/level.wgsl", level(0.5));
     watched.window.until("another kind", |editor| {
-        editor.desk.kinds().0.library.kind("own/level").is_some()
+        editor.document.kinds().0.library.kind("own/level").is_some()
     });
 }
 
@@ -194,9 +194,9 @@ fn a_graph_that_another_program_writes_is_asked_about_and_can_be_opened_anew() {
     watched.window.harness.get_by_label("Open it anew").click();
     watched.until_value(0.0);
     assert!(!watched.window.editor().watching.is_asked);
-    let desk = &mut watched.window.harness.state_mut().desk;
-    assert!(!desk.session.is_dirty());
-    desk.undo();
+    let document = &mut watched.window.harness.state_mut().document;
+    assert!(!document.session.is_dirty());
+    document.undo();
     watched.until_value(1.0);
 }
 
@@ -222,7 +222,7 @@ fn saving_is_no_news() {
     let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
     let editor = watched.window.harness.state_mut();
     let seen = "seen".parse().expect("an id");
-    editor.desk.set_knob(
+    editor.document.set_knob(
         &seen,
         "projection",
         Some(sabi_graph::Value::Text("triplanar".to_owned())),
@@ -242,7 +242,7 @@ fn a_device_that_goes_while_nothing_is_evaluated_is_noticed() {
     watched.window.harness.run_steps(3);
     let kept = watched.window.handover.lock().expect("nobody panicked").take();
     let kept = kept.expect("the work goes on");
-    assert_eq!(kept.desk.session.file(), Some(watched.path("graph.sabi").as_path()));
+    assert_eq!(kept.document.session.file(), Some(watched.path("graph.sabi").as_path()));
 }
 
 /// An environment of the same light all around, as a Radiance file.

@@ -1,10 +1,10 @@
 //! Wires by the pointer.
 
 use egui::{Key, Modifiers, PointerButton};
+use sabi_editing::{ROW_HEIGHT, TITLE_HEIGHT};
 
 use super::Window;
 use super::hands::{beside, between, id};
-use crate::desk::{ROW_HEIGHT, TITLE_HEIGHT};
 
 /// Two masks, a blend of nothing yet, and a layer on paint.
 const LOOSE: &str = r#"
@@ -73,7 +73,7 @@ fn a_wire_pulled_from_an_input_into_empty_space_offers_what_gives_that() {
     window.drag_from(from, window.on_canvas([0.6, 0.85]));
     window.typed("source material");
     window.key(Key::Enter);
-    let added = window.desk().selected_one().expect("a node").clone();
+    let added = window.document().selected_one().expect("a node").clone();
     assert_eq!(window.reads(&id("layer"), "base"), added.to_string());
 }
 
@@ -119,7 +119,7 @@ fn a_second_wire_on_a_taken_mask_asks_how_both_are_put_together() {
             "nothing is done before the answer"
         );
         window.press(answer);
-        let blend = window.desk().selected_one().expect("the blend").clone();
+        let blend = window.document().selected_one().expect("the blend").clone();
         assert_eq!(window.reads(&id("layer"), "mask"), blend.to_string());
         assert_eq!(
             [window.reads(&blend, "below"), window.reads(&blend, "above")],
@@ -163,7 +163,10 @@ fn a_node_dropped_on_a_wire_is_put_into_it() {
     assert_eq!(window.steps(), 1, "moved and tied in one step");
     window.undo(1);
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
-    assert_eq!(window.desk().node(&id("invert")).expect("a node").pos, [300.0, 520.0]);
+    assert_eq!(
+        window.document().node(&id("invert")).expect("a node").pos,
+        [300.0, 520.0]
+    );
 }
 
 const CHAIN: &str = r#"
@@ -180,7 +183,7 @@ fn a_node_dragged_with_alt_leaves_its_wires_which_heal() {
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
     assert_eq!(window.reads(&id("invert"), "source"), "");
     assert_eq!(window.steps(), 1);
-    assert!(window.desk().node(&id("invert")).expect("a node").pos[1] > 300.0);
+    assert!(window.document().node(&id("invert")).expect("a node").pos[1] > 300.0);
     window.undo(1);
     assert_eq!(window.reads(&id("layer"), "mask"), "invert");
 }
@@ -207,7 +210,7 @@ fn a_click_with_alt_cuts_a_wire_and_a_double_click_bends_it() {
     let gap = between(window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source"));
     window.double_click(gap);
     let bend = window
-        .desk()
+        .document()
         .graph()
         .nodes()
         .find(|(_, node)| node.kind == "graph/reroute");
@@ -270,5 +273,5 @@ fn a_wire_dropped_on_a_node_takes_a_free_port_of_its_type_before_all_others() {
     );
     window.drag_from(window.port(&dots, "mask"), window.rect(&all).center());
     assert_eq!(window.reads(&all, "base_color"), "", "a mask is no color");
-    assert_eq!(window.desk().node(&all).expect("a node").inputs.len(), 1);
+    assert_eq!(window.document().node(&all).expect("a node").inputs.len(), 1);
 }

@@ -3,20 +3,20 @@
 use std::collections::BTreeMap;
 
 use egui::{Key, Modifiers, Pos2, Rect, Response, Ui};
+use sabi_editing::{GRID, OpenDocument};
 use sabi_graph::{NodeId, SlotRef};
 
 use super::super::wires::{self, Wire};
 use super::super::{Around, Canvas, frames, node_rect};
 use super::{Gesture, pull};
 use crate::action::{Action, FrameAsk, WireAsk};
-use crate::desk::{Desk, GRID};
 
 impl Gesture {
     /// The wire that would take the dragged node; or, with nothing in hand, the one under the pointer.
     pub(in crate::canvas) fn hot_wire<'w>(
         &self,
         canvas: &Canvas,
-        desk: &Desk,
+        document: &OpenDocument,
         wires: &'w [Wire],
         pointer: Option<Pos2>,
     ) -> Option<&'w SlotRef> {
@@ -27,14 +27,14 @@ impl Gesture {
                 from, is_frame: false, ..
             } if from.len() == 1 => {
                 let id = from.keys().next()?;
-                let rect = canvas.view.screen_rect(canvas.panel?, node_rect(desk, id)?);
+                let rect = canvas.view.screen_rect(canvas.panel?, node_rect(document, id)?);
                 let crossing = wires.iter().filter(|wire| {
                     let middle = rect.center();
                     wire.to.node != *id && wire.from.node != *id && wire.distance(middle) < rect.height().min(60.0)
                 });
                 let crossing = crossing
                     .min_by(|one, other| one.distance(rect.center()).total_cmp(&other.distance(rect.center())))?;
-                desk.may_insert(id, &crossing.to).then_some(&crossing.to)
+                document.may_insert(id, &crossing.to).then_some(&crossing.to)
             }
             _ => None,
         }
@@ -54,10 +54,10 @@ impl Canvas {
         let (Some(panel), Some(at)) = (self.panel, response.ctx.input(|input| input.pointer.press_origin())) else {
             return;
         };
-        let mut from = around.desk.places();
+        let mut from = around.document.places();
         if !from.contains_key(id) {
             actions.push(Action::Select(vec![id.clone()]));
-            let Some(node) = around.desk.node(id) else { return };
+            let Some(node) = around.document.node(id) else { return };
             from = BTreeMap::from([(id.clone(), node.pos)]);
         }
         actions.push(Action::BeginMove);
@@ -119,7 +119,7 @@ pub(super) fn drag(
     }
     let into = canvas
         .gesture
-        .hot_wire(canvas, around.desk, wires, Some(pointer))
+        .hot_wire(canvas, around.document, wires, Some(pointer))
         .cloned();
     if let (Some(into), Gesture::Move { from, .. }) = (into, &canvas.gesture)
         && let Some(id) = from.keys().next()
@@ -127,7 +127,7 @@ pub(super) fn drag(
         let node = id.clone();
         actions.push(Action::Wire(WireAsk::Insert { node, into }));
     }
-    if !is_frame && let Some(frame) = frames::under(canvas, around.desk, pointer) {
+    if !is_frame && let Some(frame) = frames::under(canvas, around.document, pointer) {
         actions.push(Action::Frame(FrameAsk::Fill(Some(frame))));
     }
     actions.push(Action::EndMove);

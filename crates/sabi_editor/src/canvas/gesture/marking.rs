@@ -26,11 +26,14 @@ pub(super) fn end_box(
 
 /// Selects what is inside; with Shift or Ctrl, besides what was.
 fn select(around: &Around<'_>, modifiers: Modifiers, actions: &mut Vec<Action>, is_in: impl Fn(Rect) -> bool) {
-    let desk = around.desk;
-    let inside = desk.graph().ids().filter(|id| node_rect(desk, id).is_some_and(&is_in));
+    let document = around.document;
+    let inside = document
+        .graph()
+        .ids()
+        .filter(|id| node_rect(document, id).is_some_and(&is_in));
     let mut ids: Vec<NodeId> = inside.cloned().collect();
     if modifiers.shift || modifiers.command {
-        ids.extend(desk.selection().iter().cloned());
+        ids.extend(document.selection().iter().cloned());
     }
     actions.push(Action::Select(ids));
 }

@@ -51,12 +51,12 @@ impl Shown<'_> {
         let (at, is_given_up) = ui.input(|input| (input.pointer.latest_pos(), input.key_pressed(Key::Escape)));
         let dragged = at.filter(|_| response.dragged());
         if let Some(at) = dragged {
-            editor.canvas.ghost(ui, theme, &editor.desk, face, at);
+            editor.canvas.ghost(ui, theme, &editor.document, face, at);
         }
         let (place, into) = if response.clicked() {
             (Some(editor.canvas.middle()), None)
         } else if let Some(at) = at.filter(|_| response.drag_stopped() && !is_given_up) {
-            let wire = editor.canvas.wire_for(&editor.desk, face, at);
+            let wire = editor.canvas.wire_for(&editor.document, face, at);
             (editor.canvas.place_at(at), wire.map(|wire| wire.to))
         } else {
             (None, None)

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use egui::{RichText, TextEdit, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_editing::OpenDocument;
 use sabi_engine::{NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id};
 
 use super::code;
 use crate::action::Action;
-use crate::desk::Desk;
 use crate::theme::{Theme, space};
 
 /// A node file that is being written.
@@ -65,17 +65,17 @@ impl Draft {
     }
 
     /// The text changed.
-    fn written(&mut self, desk: &Desk) {
+    fn written(&mut self, document: &OpenDocument) {
         self.is_saved = false;
         self.is_written = true;
         self.edits += 1;
-        self.check(desk);
+        self.check(document);
     }
 
     /// A new node that begins as another one is; none where there is no folder for it.
-    pub(super) fn like(desk: &Desk, id: &str, text: &str) -> Option<Draft> {
-        let folder = new_node_folder(desk.session.file())?;
-        let kinds = desk.kinds().0;
+    pub(super) fn like(document: &OpenDocument, id: &str, text: &str) -> Option<Draft> {
+        let folder = new_node_folder(document.session.file())?;
+        let kinds = document.kinds().0;
         let numbered = (2..).map(|number| format!("{id}_{number}"));
         let mut ids = std::iter::once(format!("{id}_own")).chain(numbered);
         let id = ids.find(|id| why_no_node_id(kinds, &folder, id).is_none())?;
@@ -85,16 +85,16 @@ impl Draft {
             id,
             known: None,
         };
-        Some(Draft::checked(desk, node, false))
+        Some(Draft::checked(document, node, false))
     }
 
     /// The file of one of the artist's own nodes, as it is by now, which need not be the last one without a fault.
     ///
     /// # Errors
     /// A sentence: it is none of those, or cannot be read.
-    pub(super) fn of_own(desk: &Desk, id: &str) -> Result<Draft, String> {
-        let kinds = desk.kinds().0;
-        let folder = kinds.own_folder(desk.session.file(), id);
+    pub(super) fn of_own(document: &OpenDocument, id: &str) -> Result<Draft, String> {
+        let kinds = document.kinds().0;
+        let folder = kinds.own_folder(document.session.file(), id);
         let folder = folder.ok_or_else(|| format!("'{id}' is no node of your own; begin a new one from it"))?;
         let text = read_node(&folder, id).map_err(|error| error.to_string())?;
         let node = NodeDraft {
@@ -103,14 +103,14 @@ impl Draft {
             known: Some(text.clone()),
             text,
         };
-        Ok(Draft::checked(desk, node, true))
+        Ok(Draft::checked(document, node, true))
     }
 
     /// One that was being written when the program ended.
-    pub(super) fn recovered(desk: &Desk, node: NodeDraft) -> Draft {
+    pub(super) fn recovered(document: &OpenDocument, node: NodeDraft) -> Draft {
         Draft {
             is_written: true,
-            ..Draft::checked(desk, node, false)
+            ..Draft::checked(document, node, false)
         }
     }
 
@@ -120,7 +120,7 @@ impl Draft {
         self.node.known = Some(self.node.text.clone());
     }
 
-    fn checked(desk: &Desk, node: NodeDraft, is_saved: bool) -> Draft {
+    fn checked(document: &OpenDocument, node: NodeDraft, is_saved: bool) -> Draft {
         let mut draft = Draft {
             node,
             edits: 0,
@@ -130,20 +130,26 @@ impl Draft {
             faults: Vec::new(),
             why_no_id: None,
         };
-        draft.check(desk);
+        draft.check(document);
         draft
     }
 
-    fn check(&mut self, desk: &Desk) {
-        let kinds = desk.kinds().0;
+    fn check(&mut self, document: &OpenDocument) {
+        let kinds = document.kinds().0;
         let NodeDraft { folder, id, text, .. } = &self.node;
         self.why_no_id = why_no_node_id(kinds, folder, id);
         self.faults = check_node(kinds, folder, id, text);
     }
 
     /// Shows it; says whether it is left.
-    pub(super) fn show(&mut self, ui: &mut Ui, theme: &Theme, desk: &Desk, actions: &mut Vec<Action>) -> Left {
-        let mut left = self.head(ui, desk, actions);
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        theme: &Theme,
+        document: &OpenDocument,
+        actions: &mut Vec<Action>,
+    ) -> Left {
+        let mut left = self.head(ui, document, actions);
         let would_lose = self.is_unsaved();
         if left == Left::ForGood && would_lose {
             self.asks = true;
@@ -156,7 +162,7 @@ impl Draft {
         let faulty: Vec<u32> = self.faults.iter().map(|fault| fault.line).collect();
         ui.separator();
         if code::edit(ui, theme, &mut self.node.text, &faulty) {
-            self.written(desk);
+            self.written(document);
         }
         left
     }
@@ -175,7 +181,7 @@ impl Draft {
         .inner
     }
 
-    fn head(&mut self, ui: &mut Ui, desk: &Desk, actions: &mut Vec<Action>) -> Left {
+    fn head(&mut self, ui: &mut Ui, document: &OpenDocument, actions: &mut Vec<Action>) -> Left {
         let row = egui::vec2(ui.available_width(), space::ROW);
         let layout = egui::Layout::right_to_left(egui::Align::Center);
         ui.allocate_ui_with_layout(row, layout, |ui| {
@@ -200,7 +206,7 @@ impl Draft {
                 if node_text_like(&node.text, &before) == node.text {
                     node.text = node_text_like(&node.text, &node.id);
                 }
-                self.written(desk);
+                self.written(document);
             }
             match (leave.clicked(), aside.clicked()) {
                 (true, _) => Left::ForGood,

@@ -2,10 +2,10 @@
 
 use egui::{DragValue, Rect, RichText, Sense, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_editing::PanelKnob;
 use sabi_graph::Value;
 
 use crate::action::PanelAsk;
-use crate::desk::PanelKnob;
 use crate::panels::field::Field;
 use crate::panels::order;
 use crate::theme::{Theme, space};

@@ -5,11 +5,11 @@ use egui::{
     WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
+use sabi_editing::Layer;
 use sabi_graph::Value;
 
 use crate::action::{Action, LayerAsk};
 use crate::app::Editor;
-use crate::desk::Layer;
 use crate::knobs::{KnobEvent, KnobRow, knob_inline};
 use crate::theme::{Theme, space, type_size};
 
@@ -38,7 +38,7 @@ pub(super) fn show(
     actions: &mut Vec<Action>,
 ) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click_and_drag());
-    let is_selected = editor.desk.is_selected(&layer.node);
+    let is_selected = editor.document.is_selected(&layer.node);
     response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, &layer.title));
     let fill = match (is_selected, response.hovered()) {
         (true, _) => theme.raised.lerp_to_gamma(theme.accent, 0.25),
@@ -112,7 +112,7 @@ fn picture(ui: &Ui, theme: &Theme, rect: Rect, picture: Option<TextureId>, tint:
 /// A click on the mask goes to where it comes from.
 fn mask_of(editor: &Editor, ui: &Ui, layer: &Layer, rect: Rect, actions: &mut Vec<Action>) {
     let Some(mask) = &layer.mask else { return };
-    let title = editor.desk.title(&mask.node);
+    let title = editor.document.title(&mask.node);
     let response = ui.interact(rect, ui.id().with(("mask", &layer.node)), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Mask of {}", layer.title)));
     if response.hovered() {
@@ -165,7 +165,7 @@ fn name_and_opacity(
     asked: &impl Fn(Ask) -> LayerAsk,
     actions: &mut Vec<Action>,
 ) {
-    let knob = editor.desk.face(&layer.node).and_then(|face| face.knob("opacity"));
+    let knob = editor.document.face(&layer.node).and_then(|face| face.knob("opacity"));
     let bar = knob.zip(layer.opacity).filter(|_| layer.opacity.is_some());
     let (name, below) = match bar {
         Some(_) => room.split_top_bottom_at_y(room.center().y - 2.0),

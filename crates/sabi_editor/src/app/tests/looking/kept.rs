@@ -31,9 +31,9 @@ fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
     assert!(pictures <= 8, "{pictures} pictures of the model");
     assert!(thumbnails <= COUNT && times <= COUNT, "{thumbnails} {times}");
     let all = (0..COUNT).map(|at| id(&format!("n{at}")));
-    let desk = &mut window.harness.state_mut().desk;
-    desk.select(all.skip(1));
-    desk.delete(false);
+    let document = &mut window.harness.state_mut().document;
+    document.select(all.skip(1));
+    document.delete(false);
     window.until("the end of it", |editor| {
         let [pictures, thumbnails, times] = editor.stage.held();
         pictures <= 2 && thumbnails <= 1 && times <= 1 && !editor.stage.is_busy()

@@ -28,8 +28,8 @@ fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
     let is_beside = |time: &egui::Pos2| (time.y - at.y).abs() < 8.0 && time.x > at.x;
     assert!(times.iter().any(is_beside), "its time");
     window.click_at(at);
-    assert_eq!(window.desk().selected_one(), Some(&id("dots")));
-    window.harness.state_mut().desk.delete(false);
+    assert_eq!(window.document().selected_one(), Some(&id("dots")));
+    window.harness.state_mut().document.delete(false);
     window.settle();
     assert!(row(&window, "Spots").is_none() && row(&window, "Tiles").is_some());
 }

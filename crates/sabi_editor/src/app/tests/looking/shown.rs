@@ -81,7 +81,7 @@ fn a_locked_node_stays_on_the_model_whatever_is_clicked() {
 fn a_second_node_that_is_shown_takes_the_place_of_the_first() {
     let mut window = Window::opened(NODES);
     for node in ["cells", "dots", "dots"] {
-        window.harness.state_mut().desk.select([id(node)]);
+        window.harness.state_mut().document.select([id(node)]);
         window.point(window.on_canvas([0.9, 0.9]));
         window.key(Key::V);
         assert_eq!(window.on_model(), node);

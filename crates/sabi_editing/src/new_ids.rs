@@ -1,0 +1,82 @@
+//! Ids and seeds of new nodes.
+
+use std::collections::BTreeSet;
+use std::hash::{BuildHasher, RandomState};
+
+use sabi_graph::{Graph, NodeId};
+
+/// Letters of the tail of an id.
+const LETTERS: &[u8] = b"abcdefghijklmnopqrstuvwxyz0123456789";
+const TAIL: usize = 4;
+/// Seeds are short enough to be read out.
+const SEEDS: u64 = 10_000;
+
+/// Where random tails and seeds come from.
+#[derive(Clone, Debug)]
+pub(crate) struct IdGenerator {
+    state: u64,
+}
+
+impl IdGenerator {
+    /// Other names in every session, so that two people who add nodes to one file do not take the same.
+    pub(super) fn random() -> IdGenerator {
+        IdGenerator {
+            state: RandomState::new().hash_one(0),
+        }
+    }
+
+    #[cfg(test)]
+    pub(super) fn seeded(state: u64) -> IdGenerator {
+        IdGenerator { state }
+    }
+
+    /// SplitMix64, Steele, Lea and Flood 2014.
+    fn next(&mut self) -> u64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.state;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// A seed for a new node.
+    pub(super) fn seed(&mut self) -> u32 {
+        (self.next() % SEEDS) as u32
+    }
+
+    /// An id that is free in the graph and not among those `taken`: a readable stem, and a random tail.
+    pub(super) fn id(&mut self, stem: &str, graph: &Graph, taken: &BTreeSet<NodeId>) -> NodeId {
+        let readable: String = stem
+            .chars()
+            .filter(|letter| letter.is_ascii_lowercase() || *letter == '_')
+            .collect();
+        let readable = readable.trim_matches('_');
+        let stem = if readable.is_empty() {
+            "node"
+        } else {
+            &readable[..readable.len().min(32)]
+        };
+        loop {
+            let mut random = self.next();
+            let tail = (0..TAIL).map(|_| {
+                let letter = LETTERS[(random % LETTERS.len() as u64) as usize];
+                random /= LETTERS.len() as u64;
+                char::from(letter)
+            });
+            let id = format!("{stem}_{}", tail.collect::<String>()).parse::<NodeId>();
+            // Letters, digits and strokes are always an id.
+            if let Ok(id) = id
+                && graph.node(id.as_str()).is_none()
+                && !taken.contains(&id)
+            {
+                return id;
+            }
+        }
+    }
+
+    /// An id for a copy: the same stem.
+    pub(super) fn copy_of(&mut self, id: &NodeId, graph: &Graph, taken: &BTreeSet<NodeId>) -> NodeId {
+        let stem = id.as_str().rsplit_once('_').map_or(id.as_str(), |(stem, _)| stem);
+        self.id(stem, graph, taken)
+    }
+}

@@ -1,0 +1,47 @@
+//! Nodes by the names that the evaluation knows them by: the instances that they are in, then their own id.
+
+use sabi_graph::{Body, NodeId};
+
+use super::OpenDocument;
+
+impl OpenDocument {
+    /// Whether there is a node of that name. What is inside groups of other files is there as long as their instance is.
+    pub fn has(&self, full_id: &str) -> bool {
+        let mut body = Body::Main;
+        let mut steps = full_id.split('/').peekable();
+        while let Some(step) = steps.next() {
+            let Some(graph) = self.graph_of(&body) else {
+                return true;
+            };
+            let Some(node) = graph.node(step) else {
+                return false;
+            };
+            body = match &node.group {
+                Some(name) => Body::Group(name.clone()),
+                None => return steps.peek().is_none(),
+            };
+        }
+        true
+    }
+
+    /// What a node of that name is called, after the instances that it is in.
+    pub fn title_at(&self, full_id: &str) -> String {
+        let mut body = Some(Body::Main);
+        let mut titles = Vec::new();
+        for step in full_id.split('/') {
+            let node = body.as_ref().and_then(|body| self.graph_of(body)?.node(step));
+            let face = body.as_ref().and_then(|body| self.faces().of(body, step));
+            let own = node.and_then(|node| node.label.clone());
+            let title = own.or_else(|| face.map(|face| face.label.clone()));
+            titles.push(title.unwrap_or_else(|| step.to_owned()));
+            body = node.and_then(|node| node.group.clone()).map(Body::Group);
+        }
+        titles.join(" › ")
+    }
+
+    /// The node of that name, where it is in the graph that is seen.
+    pub fn seen_at(&self, full_id: &str) -> Option<NodeId> {
+        let own = full_id.rsplit('/').next()?.parse::<NodeId>().ok()?;
+        (self.full_id(&own) == full_id).then_some(own)
+    }
+}

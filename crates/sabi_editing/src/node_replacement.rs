@@ -1,0 +1,192 @@
+//! A node of another kind in the place of one.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_engine::catalog::{Entry, Knob, KnobRole, Port};
+use sabi_graph::{Edit, Node, NodeId, OutputRef, SlotRef, Value};
+
+use super::OpenDocument;
+use super::references::Heir;
+use super::wires::port_in_wire;
+
+/// A node that takes the place of another.
+struct Successor<'a> {
+    id: &'a NodeId,
+    /// What the old one showed, and what the new one does.
+    faces: [&'a Entry; 2],
+    /// The new input for each old one.
+    inputs: BTreeMap<String, String>,
+}
+
+impl Heir for Successor<'_> {
+    fn knobs(&self, _: &str, knob: &SlotRef) -> Vec<SlotRef> {
+        let [old, new] = self.faces;
+        let name = match self.inputs.get(&knob.name) {
+            Some(input) => new.knob(input).map(|knob| &knob.name),
+            None => new
+                .knob(&knob.name)
+                .filter(|new| are_alike(old.knob(&knob.name), new))
+                .map(|knob| &knob.name),
+        };
+        name.map(|name| self.slot(name)).into_iter().collect()
+    }
+
+    fn inputs(&self, input: &SlotRef) -> Vec<SlotRef> {
+        let new = self.inputs.get(&input.name);
+        new.map(|name| self.slot(name)).into_iter().collect()
+    }
+
+    fn output(&self, from: &OutputRef) -> Option<OutputRef> {
+        let [old, new] = self.faces;
+        let port = old.output(from.port.as_deref())?;
+        let same = new
+            .outputs
+            .iter()
+            .find(|other| other.name == port.name && other.ty == port.ty);
+        let output = same.or_else(|| new.outputs.iter().find(|other| other.ty == port.ty))?;
+        Some(OutputRef {
+            node: self.id.clone(),
+            port: port_in_wire(new, output),
+        })
+    }
+
+    fn nodes(&self, _: &NodeId) -> Vec<NodeId> {
+        vec![self.id.clone()]
+    }
+}
+
+impl Successor<'_> {
+    fn slot(&self, name: &str) -> SlotRef {
+        SlotRef {
+            node: self.id.clone(),
+            name: name.to_owned(),
+        }
+    }
+}
+
+/// Whether a knob of one kind means what one of another does.
+fn are_alike(old: Option<&Knob>, new: &Knob) -> bool {
+    let like = |knob: &Knob| (knob.role.clone(), knob.components, knob.is_whole, knob.is_of_input);
+    old.is_some_and(|old| like(old) == like(new))
+}
+
+/// Whether a knob takes a value that another one held.
+fn takes(knob: &Knob, value: &Value) -> bool {
+    let one = std::slice::from_ref(value);
+    let numbers = || value.as_list().unwrap_or(one).iter().filter_map(Value::as_number);
+    match (&knob.role, knob.range) {
+        (KnobRole::Stops | KnobRole::Curve, _) | (_, None) => true,
+        (_, Some([low, high])) => numbers().all(|number| (low..=high).contains(&number)),
+    }
+}
+
+impl OpenDocument {
+    /// Puts a node of another kind in the place of one; wires that fit stay, and so do parameters of the same name, what is
+    /// published of them and the frames around it.
+    pub fn replace(&mut self, id: &NodeId, kind: &str) -> bool {
+        let Some(entry) = self.catalog.entry(kind).cloned() else {
+            return self.refuse(format!("there is no node kind '{kind}'"));
+        };
+        let (new_id, node) = self.fresh(kind, [0.0; 2]);
+        self.put_in_place(id, new_id, node, &entry)
+    }
+
+    /// The same with an instance of a group.
+    pub fn replace_by_group(&mut self, id: &NodeId, group: &str) -> bool {
+        let made = self.new_instance(group, [0.0; 2]);
+        made.is_some_and(|(new_id, node, entry)| self.put_in_place(id, new_id, node, &entry))
+    }
+
+    fn put_in_place(&mut self, id: &NodeId, new_id: NodeId, mut node: Node, entry: &Entry) -> bool {
+        let Some((old, face)) = self.node(id).cloned().zip(self.face(id).cloned()) else {
+            return self.refuse("the node that should be replaced is gone");
+        };
+        if entry.id == face.id && node.group == old.group {
+            return self.refuse(format!("this is a node of kind '{}' already", entry.label));
+        }
+        node.pos = old.pos;
+        node.muted = old.muted;
+        node.label = old.label.clone();
+        let successor = Successor {
+            id: &new_id,
+            faces: [&face, entry],
+            inputs: self.paired_inputs(id, &old, &face, entry),
+        };
+        for (name, from) in &old.inputs {
+            if let Some(input) = successor.inputs.get(name) {
+                node.inputs.insert(input.clone(), from.clone());
+            }
+        }
+        for (name, value) in &old.params {
+            let slot = SlotRef {
+                node: id.clone(),
+                name: name.clone(),
+            };
+            let heirs = successor.knobs("", &slot).into_iter();
+            let taken = heirs.filter(|slot| entry.knob(&slot.name).is_some_and(|knob| takes(knob, value)));
+            node.params.extend(taken.map(|slot| (slot.name, value.clone())));
+        }
+        let readers = self.graph().readers(id.as_str());
+        let mut edits = vec![self.adding(&new_id, node)];
+        edits.extend(readers.iter().filter_map(|slot| self.retied(slot, &new_id, entry)));
+        edits.extend(self.inherited(&BTreeSet::from([id.clone()]), &successor));
+        edits.push(Edit::RemoveNode {
+            body: self.body(),
+            id: id.clone(),
+        });
+        self.edit_and_select(&format!("Replace by {}", entry.label), edits, [new_id])
+    }
+
+    /// The inputs of a new kind that take what leads to the old ones: those of the same name first, then others that fit.
+    fn paired_inputs(&self, id: &NodeId, old: &Node, face: &Entry, entry: &Entry) -> BTreeMap<String, String> {
+        let mut free: Vec<&Port> = entry.inputs.iter().collect();
+        let mut paired = BTreeMap::new();
+        // In the order in which they stand on the node; those that nobody knows come last.
+        let known = face.inputs.iter().map(|port| &port.name);
+        let unknown = old.inputs.keys().filter(|name| face.input(name).is_none());
+        let names: Vec<&String> = known.chain(unknown).collect();
+        for is_named in [true, false] {
+            for name in &names {
+                let carried = match old.inputs.get(*name) {
+                    Some(from) => self.carried(from),
+                    None => face.input(name).and_then(|port| port.ty),
+                };
+                let slot = SlotRef {
+                    node: id.clone(),
+                    name: (*name).clone(),
+                };
+                let is_used = old.inputs.contains_key(*name) || self.feeder(&self.seen, &slot).is_some();
+                if paired.contains_key(*name) || !is_used {
+                    continue;
+                }
+                let fitting = match is_named {
+                    true => free
+                        .iter()
+                        .position(|port| port.name == **name && port.accepts(carried)),
+                    false => free.iter().position(|port| port.ty == carried),
+                };
+                if let Some(at) = fitting {
+                    paired.insert((*name).clone(), free.remove(at).name.clone());
+                }
+            }
+        }
+        paired
+    }
+
+    /// The edit that has a reader read another node instead, by the output of the same name or one that fits.
+    fn retied(&self, slot: &SlotRef, id: &NodeId, entry: &Entry) -> Option<Edit> {
+        let input = self.input(slot)?;
+        let named = self.wire_into(slot)?.port.clone();
+        let same = entry.output(named.as_deref()).filter(|port| input.accepts(port.ty));
+        let output = same.or_else(|| entry.output_for(input))?;
+        Some(Edit::Connect {
+            body: self.body(),
+            node: slot.node.clone(),
+            input: slot.name.clone(),
+            from: OutputRef {
+                node: id.clone(),
+                port: port_in_wire(entry, output),
+            },
+        })
+    }
+}

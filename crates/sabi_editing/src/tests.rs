@@ -1,0 +1,187 @@
+//! Claims about the document: what an artist does with a graph, and that all of it can be taken back.
+
+mod arrangement;
+mod clipboard;
+mod frames;
+mod group_ports;
+mod grouping;
+mod layers;
+mod navigation;
+mod node_replacement;
+mod nodes;
+mod panel;
+mod random;
+mod reconnection;
+mod saving;
+mod texture_sets;
+mod variants;
+mod wire_insertion;
+mod wires;
+
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::{Arc, OnceLock};
+
+use sabi_engine::catalog::Catalog;
+use sabi_engine::{Kinds, Overrides, Session};
+use sabi_graph::{Document, FlatGraph, NodeId, OutputRef, SlotRef, Value};
+
+use super::new_ids::IdGenerator;
+use super::{OpenDocument, PendingWire};
+
+/// The built-in kinds, read once for all tests.
+fn kinds() -> (Arc<Kinds>, Arc<Catalog>) {
+    static KINDS: OnceLock<(Arc<Kinds>, Arc<Catalog>)> = OnceLock::new();
+    let read = || {
+        let kinds = Arc::new(Kinds::builtin());
+        let catalog = Arc::new(Catalog::new(&kinds));
+        (kinds, catalog)
+    };
+    KINDS.get_or_init(read).clone()
+}
+
+fn document_with(session: Session, seed: u64) -> OpenDocument {
+    let (kinds, catalog) = kinds();
+    OpenDocument::with_kinds(session, IdGenerator::seeded(seed), kinds, catalog)
+}
+
+/// An empty graph, with names that are the same in every run.
+fn document() -> OpenDocument {
+    document_with(Session::new(None), 7)
+}
+
+/// A graph with these nodes, and more top-level keys before them.
+fn opened(more: &str, nodes: &str) -> OpenDocument {
+    let text = format!(r#"{{ "format": "sabi", "version": 1, {more} "nodes": {{ {nodes} }} }}"#);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("test.sabi");
+    std::fs::write(&file, &text).expect("a writable folder");
+    let session = Session::open(&file, None).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    document_with(session, 7)
+}
+
+fn id(text: &str) -> NodeId {
+    text.parse().expect("an id")
+}
+
+fn add(document: &mut OpenDocument, kind: &str) -> NodeId {
+    document.add(kind, [0.0, 0.0], None).expect("a built-in kind")
+}
+
+fn out(id: &NodeId) -> OutputRef {
+    OutputRef {
+        node: id.clone(),
+        port: None,
+    }
+}
+
+/// `node` or `node.port`.
+fn from(text: &str) -> OutputRef {
+    text.parse().expect("a result")
+}
+
+/// `node.input`.
+fn to(text: &str) -> SlotRef {
+    text.parse().expect("an input")
+}
+
+fn slot(id: &NodeId, name: &str) -> SlotRef {
+    SlotRef {
+        node: id.clone(),
+        name: name.to_owned(),
+    }
+}
+
+fn select(document: &mut OpenDocument, ids: &[&str]) {
+    document.select(ids.iter().map(|text| id(text)));
+}
+
+/// What an input reads, as the file has it; empty where it reads nothing.
+fn wire(document: &OpenDocument, text: &str) -> String {
+    document
+        .wire_into(&to(text))
+        .map(OutputRef::to_string)
+        .unwrap_or_default()
+}
+
+fn number(x: f64) -> Option<Value> {
+    Some(Value::Number(x))
+}
+
+fn param(document: &OpenDocument, id: &str, name: &str) -> Option<Value> {
+    document.graph().node(id)?.params.get(name).cloned()
+}
+
+/// Does something that has to be one step: undo leads back to the same bytes, redo forth to the same bytes, and the text is
+/// that of the document.
+fn step<T>(document: &mut OpenDocument, does: impl FnOnce(&mut OpenDocument) -> T) -> T {
+    let (before, steps) = (
+        document.session.text().to_owned(),
+        document.session.undo_names().count(),
+    );
+    let done = does(document);
+    let notices = document.take_notices();
+    let after = document.session.text().to_owned();
+    let selection = document.selection().clone();
+    assert_eq!(
+        document.session.undo_names().count(),
+        steps + 1,
+        "one step: {notices:?}"
+    );
+    assert_eq!(Document::from_json(&after).as_ref(), Ok(document.contents()));
+    document.undo();
+    assert_eq!(document.session.text(), before);
+    document.redo();
+    assert_eq!(document.session.text(), after);
+    document.take_notices();
+    document.notices = notices;
+    document.select(selection);
+    done
+}
+
+/// Does something that has to be refused with a sentence and change nothing.
+fn refused<T>(document: &mut OpenDocument, does: impl FnOnce(&mut OpenDocument) -> T) -> String {
+    let (before, steps) = (
+        document.session.text().to_owned(),
+        document.session.undo_names().count(),
+    );
+    document.take_notices();
+    does(document);
+    assert_eq!(document.session.text(), before);
+    assert_eq!(document.session.undo_names().count(), steps);
+    document.take_notices().join("; ")
+}
+
+fn flat(document: &OpenDocument) -> FlatGraph {
+    let flat = document.session.graph().flatten(&Overrides::default());
+    flat.unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What the outputs of a graph are made of, whatever ids the nodes have.
+fn evaluated(document: &OpenDocument) -> Vec<u64> {
+    let flat = flat(document);
+    let mut known: BTreeMap<usize, u64> = BTreeMap::new();
+    for (at, node) in flat.nodes.iter().enumerate() {
+        let mut hash = DefaultHasher::new();
+        let told = (
+            &node.kind,
+            node.version,
+            &node.params,
+            node.muted,
+            &node.seeds,
+            node.fit,
+        );
+        format!("{told:?} {}", node.length_scale).hash(&mut hash);
+        for (input, from) in &node.inputs {
+            // Sources stand before their readers.
+            (input, known[&from.node], &from.port).hash(&mut hash);
+        }
+        known.insert(at, hash.finish());
+    }
+    let outputs = flat.nodes.iter().enumerate();
+    let outputs = outputs.filter(|(_, node)| node.kind.starts_with("output/"));
+    let mut made: Vec<u64> = outputs.map(|(at, _)| known[&at]).collect();
+    made.sort_unstable();
+    assert!(!made.is_empty(), "a graph without outputs tells nothing");
+    made
+}

@@ -1,0 +1,155 @@
+//! Where nodes stand.
+
+use super::super::Align;
+use super::super::arrangement::{GRID, NODE_WIDTH, input_row, output_row};
+use super::*;
+
+const NODES: &str = r#"
+    "n": { "kind": "noise/simplex", "pos": [10, 400] }, "w": { "kind": "noise/cells", "pos": [-30, 90] },
+    "m": { "kind": "blend/mask", "inputs": { "above": "w.id", "below": "n" }, "pos": [250, 0] },
+    "base": { "kind": "source/material", "pos": [500, 0] },
+    "layer": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "m" }, "pos": [500, 10] },
+    "out": { "kind": "output/material", "inputs": { "material": "layer" }, "pos": [0, 0] }"#;
+
+fn pos(document: &OpenDocument, id: &str) -> [f32; 2] {
+    document.graph().node(id).expect("a node").pos
+}
+
+#[test]
+fn nodes_are_brought_in_line() {
+    let mut document = opened("", NODES);
+    select(&mut document, &["n", "w", "m"]);
+    let all = |document: &OpenDocument| ["n", "w", "m"].map(|id| pos(document, id));
+    step(&mut document, |document| document.align(Align::Left));
+    assert_eq!(all(&document), [[-30.0, 400.0], [-30.0, 90.0], [-30.0, 0.0]]);
+    document.undo();
+    step(&mut document, |document| document.align(Align::Right));
+    assert_eq!(all(&document).map(|pos| pos[0]), [250.0; 3]);
+    document.undo();
+    step(&mut document, |document| document.align(Align::Top));
+    assert_eq!(all(&document).map(|pos| pos[1]), [0.0; 3]);
+    document.undo();
+    step(&mut document, |document| document.align(Align::Bottom));
+    let ends = ["n", "w", "m"].map(|name| pos(&document, name)[1] + document.size(&id(name))[1]);
+    assert!(ends.iter().all(|end| (end - ends[0]).abs() < 1e-3), "{ends:?}");
+    assert_eq!(pos(&document, "out"), [0.0, 0.0], "what is not selected stays");
+}
+
+/// How far the ends of a wire are from each other, up and down.
+fn slant(document: &OpenDocument, input: &str) -> f32 {
+    let input = to(input);
+    let wire = document.wire_into(&input).expect("a wire");
+    let [reader, source] = [&input.node, &wire.node].map(|id| document.face(id).expect("a face"));
+    let row = reader
+        .inputs
+        .iter()
+        .position(|port| port.name == input.name)
+        .expect("an input");
+    let output = source.output(wire.port.as_deref()).expect("a result");
+    let out = source
+        .outputs
+        .iter()
+        .position(|port| port.name == output.name)
+        .expect("a result");
+    let [end, begin] = [&input.node, &wire.node].map(|id| pos(document, id.as_str())[1]);
+    (end + input_row(reader, row)) - (begin + output_row(source, out))
+}
+
+#[test]
+fn wires_among_straightened_nodes_run_level() {
+    let mut document = opened("", NODES);
+    document.select_all();
+    step(&mut document, OpenDocument::straighten);
+    // Each node is level with the first that it reads.
+    for input in ["m.below", "layer.base", "out.material"] {
+        assert!(
+            slant(&document, input).abs() < 1e-3,
+            "{input}: {}",
+            slant(&document, input)
+        );
+    }
+    assert_eq!(["n", "w", "base"].map(|id| pos(&document, id)[1]), [400.0, 90.0, 0.0]);
+    let before = pos(&document, "m");
+    select(&mut document, &["m"]);
+    refused(&mut document, OpenDocument::straighten);
+    assert_eq!(pos(&document, "m"), before, "alone it is level with nothing");
+}
+
+#[test]
+fn a_layout_reads_from_left_to_right_without_overlaps_and_is_the_same_again() {
+    let mut document = opened("", NODES);
+    step(&mut document, OpenDocument::lay_out);
+    let ids: Vec<NodeId> = document.graph().ids().cloned().collect();
+    for one in &ids {
+        let node = document.node(one).expect("a node");
+        for from in node.inputs.values() {
+            let [reader, source] = [one, &from.node].map(|id| pos(&document, id.as_str())[0]);
+            assert!(source + NODE_WIDTH < reader, "{one} reads {}", from.node);
+        }
+        for other in ids.iter().filter(|other| *other != one) {
+            let [[x, y], [other_x, other_y]] = [one, other].map(|id| pos(&document, id.as_str()));
+            let is_apart = (x - other_x).abs() >= NODE_WIDTH
+                || y + document.size(one)[1] <= other_y
+                || other_y + document.size(other)[1] <= y;
+            assert!(is_apart, "{one} and {other}");
+        }
+        assert!(pos(&document, one.as_str()).iter().all(|at| at % GRID == 0.0));
+    }
+    refused(&mut document, OpenDocument::lay_out);
+    assert!(!super::document().lay_out(), "nothing is laid out");
+}
+
+#[test]
+fn frames_are_laid_out_whole_and_apart_unless_they_read_each_other_in_turn() {
+    let framed = |frames: [[&str; 2]; 2]| {
+        let mut document = opened("", NODES);
+        for ids in frames {
+            select(&mut document, &ids);
+            step(&mut document, OpenDocument::frame);
+        }
+        document.select([]);
+        step(&mut document, OpenDocument::lay_out);
+        let ends = |ids: [&str; 2]| {
+            let lefts = ids.map(|id| pos(&document, id)[0]);
+            [lefts[0].min(lefts[1]), lefts[0].max(lefts[1]) + NODE_WIDTH]
+        };
+        frames.map(ends)
+    };
+    let [first, second] = framed([["n", "m"], ["layer", "out"]]);
+    assert!(first[1] < second[0], "{first:?} {second:?}");
+    let [outer, inner] = framed([["n", "layer"], ["m", "w"]]);
+    assert!(outer[0] < inner[1] && inner[0] < outer[1], "{outer:?} {inner:?}");
+}
+
+#[test]
+fn only_what_is_selected_is_laid_out() {
+    let mut document = opened("", NODES);
+    select(&mut document, &["base", "layer"]);
+    step(&mut document, OpenDocument::lay_out);
+    assert_eq!(pos(&document, "n"), [10.0, 400.0]);
+    assert!(pos(&document, "base")[0] + NODE_WIDTH < pos(&document, "layer")[0]);
+}
+
+#[test]
+fn a_drag_is_one_step_and_only_of_what_moves() {
+    let mut document = opened("", NODES);
+    select(&mut document, &["n", "w"]);
+    let begin = document.places();
+    step(&mut document, |document| {
+        document.session.begin("Move");
+        for way in 1..20u8 {
+            let shifted = begin
+                .iter()
+                .map(|(id, pos)| (id.clone(), [pos[0] + f32::from(way), pos[1]]));
+            let shifted = shifted.collect();
+            document.move_to("Move", shifted);
+        }
+        document.session.end();
+    });
+    assert_eq!(pos(&document, "n"), [29.0, 400.0]);
+    let places = document.places();
+    refused(&mut document, |document| document.move_to("Move", places));
+    let nowhere = [(id("n"), [f32::INFINITY, 0.0])].into();
+    let said = refused(&mut document, |document| document.move_to("Move", nowhere));
+    assert_eq!(said, "a node can only stand at a finite place on the canvas");
+}

@@ -1,0 +1,77 @@
+//! Titled boxes around nodes.
+
+use sabi_graph::Frame;
+
+use super::*;
+
+#[test]
+fn a_frame_stands_around_the_selected_nodes_and_goes_without_them() {
+    let mut document = opened("", r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#);
+    document.select_all();
+    step(&mut document, OpenDocument::frame);
+    select(&mut document, &["b"]);
+    step(&mut document, OpenDocument::frame);
+    let frames: Vec<String> = document.graph().frames().keys().cloned().collect();
+    let colors: Vec<_> = document
+        .graph()
+        .frames()
+        .values()
+        .map(|frame| frame.color.clone())
+        .collect();
+    assert!(frames.len() == 2 && colors[0] != colors[1]);
+    document.select([]);
+    let both = document
+        .graph()
+        .frames()
+        .iter()
+        .find(|(_, frame)| frame.nodes.len() == 2);
+    let both = both.map(|(name, _)| name.clone()).expect("the first frame");
+    document.select_frame(&both);
+    assert_eq!(document.selection().len(), 2);
+    step(&mut document, |document| document.remove_frame(&both));
+    assert_eq!(document.graph().len(), 2);
+    let said = refused(&mut document, |document| document.remove_frame(&both));
+    assert!(said.starts_with("there is no frame"), "{said}");
+    assert_eq!(
+        OpenDocument::next_color(Some("#123456")),
+        OpenDocument::next_color(None),
+        "a color of one's own begins the row"
+    );
+}
+
+#[test]
+fn a_node_is_in_one_frame_at_a_time_where_it_is_put_into_one() {
+    let mut document = opened(
+        r#""frames": { "f": { "nodes": ["a", "gone"] }, "g": { "nodes": ["b"] } },"#,
+        r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#,
+    );
+    let nodes = |document: &OpenDocument| -> BTreeMap<String, Vec<String>> {
+        let frames = document.graph().frames().iter();
+        let ids = |frame: &Frame| frame.nodes.iter().map(NodeId::to_string).collect();
+        frames.map(|(name, frame)| (name.clone(), ids(frame))).collect()
+    };
+    let expected =
+        |nodes: &[&str]| BTreeMap::from([("g".to_owned(), nodes.iter().map(|id| (*id).to_owned()).collect())]);
+    let a = [id("a")].into();
+    step(&mut document, |document| document.put_into_frame(&a, Some("g")));
+    assert_eq!(nodes(&document), expected(&["b", "a"]), "an empty frame goes");
+    refused(&mut document, |document| document.put_into_frame(&a, Some("g")));
+    step(&mut document, |document| document.put_into_frame(&a, None));
+    assert_eq!(nodes(&document), expected(&["b"]));
+}
+
+#[test]
+fn a_frame_goes_with_its_last_node_and_comes_back_with_it() {
+    let mut document = opened(
+        r#""frames": { "f": { "nodes": ["a", "b"] } },"#,
+        r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }, "c": { "kind": "noise/white" }"#,
+    );
+    select(&mut document, &["a"]);
+    step(&mut document, |document| document.delete(false));
+    assert!(document.graph().frames().contains_key("f"), "it holds another node");
+    select(&mut document, &["b"]);
+    step(&mut document, |document| document.delete(false));
+    assert!(document.graph().frames().is_empty());
+    document.undo();
+    assert!(document.graph().frames().contains_key("f"));
+}

@@ -1,0 +1,190 @@
+//! Inputs and outputs of groups, and instances that follow.
+
+use super::*;
+
+/// A group in two instances, one of them inside another group, which publishes what it is.
+fn wear() -> OpenDocument {
+    let groups = r#""groups": {
+        "wear": { "inputs": { "where": { "to": ["l.source"], "label": "Where" } }, "outputs": { "mask": "l" },
+          "exposed": { "low": { "to": ["l.low"], "range": [0, 1] } }, "variants": { "dark": { "low": 0 } },
+          "nodes": { "l": { "kind": "adjust/levels" }, "b": { "kind": "blend/mask", "inputs": { "below": "l" } },
+                     "n": { "kind": "noise/cells" }, "base": { "kind": "effect/relief" } } },
+        "outer": { "inputs": { "in": { "to": ["i.where"] } }, "outputs": { "out": "i.mask" },
+          "exposed": { "outer_low": { "to": ["i.low"] } },
+          "nodes": { "i": { "kind": "graph/group", "group": "wear", "params": { "low": 0.25, "variant": "dark" } } } } },"#;
+    let nodes = r#""w": { "kind": "noise/white" },
+        "g": { "kind": "graph/group", "group": "wear", "inputs": { "where": "w" }, "params": { "low": 0.5 } },
+        "o": { "kind": "graph/group", "group": "outer", "inputs": { "in": "g" }, "params": { "outer_low": 0.75 } },
+        "out": { "kind": "output/mask", "inputs": { "source": "o" } },
+        "two": { "kind": "output/mask", "inputs": { "source": "g.mask" } }"#;
+    let mut document = opened(groups, nodes);
+    assert!(document.enter(&id("g")));
+    document
+}
+
+#[test]
+fn an_input_feeds_what_takes_it_and_nothing_else() {
+    let mut document = wear();
+    let name = step(&mut document, |document| document.publish_input(&to("b.above")));
+    assert_eq!(name.as_deref(), Some("above"));
+    step(&mut document, |document| document.feed("above", &to("b.mask")));
+    assert_eq!(document.group_inputs()["above"].to, [to("b.above"), to("b.mask")]);
+    // What another input fed it feeds no more.
+    step(&mut document, |document| document.feed("where", &to("b.mask")));
+    assert_eq!(document.group_inputs()["above"].to, [to("b.above")]);
+    step(&mut document, |document| document.unfeed(&to("b.mask")));
+    let mut said = |input: &str, slot: &str| refused(&mut document, |document| document.feed(input, &to(slot)));
+    assert_eq!(
+        said("above", "n.position"),
+        "'Position' takes a vector, and this input of the group carries a mask"
+    );
+    assert_eq!(said("above", "n.lost"), "'Cells' has no input 'lost'");
+    assert_eq!(said("lost", "b.mask"), "the group has no input 'lost'");
+    let said = refused(&mut document, |document| document.publish_input(&to("l.source")));
+    assert_eq!(said, "the group's input 'where' leads there already");
+    flat(&document);
+}
+
+#[test]
+fn a_renamed_input_is_renamed_in_all_instances_and_in_groups_around() {
+    let mut document = wear();
+    let before = evaluated(&document);
+    step(&mut document, |document| document.rename_input("where", "place"));
+    assert_eq!(evaluated(&document), before);
+    step(&mut document, |document| document.label_input("place", "The place"));
+    document.leave();
+    assert_eq!(wire(&document, "g.place"), "w");
+    assert_eq!(
+        document
+            .face(&id("g"))
+            .map(|face| face.inputs[0].label.clone())
+            .as_deref(),
+        Some("The place")
+    );
+}
+
+#[test]
+fn a_removed_input_takes_the_wires_of_all_instances_with_it() {
+    let mut document = wear();
+    step(&mut document, |document| document.remove_input("where"));
+    document.leave();
+    assert_eq!(wire(&document, "g.where"), "");
+    assert!(document.contents().groups["outer"].inputs["in"].to.is_empty());
+    flat(&document);
+}
+
+#[test]
+fn a_second_output_does_not_make_wires_from_the_first_one_unclear() {
+    let mut document = wear();
+    let before = evaluated(&document);
+    let name = step(&mut document, |document| document.publish_output(&from("n.id")));
+    assert_eq!(name.as_deref(), Some("id"));
+    assert_eq!(evaluated(&document), before);
+    step(&mut document, |document| document.rename_output("mask", "result"));
+    assert_eq!(evaluated(&document), before);
+    step(&mut document, |document| document.retarget_output("result", &from("b")));
+    assert_ne!(evaluated(&document), before);
+    document.leave();
+    assert_eq!(
+        [wire(&document, "o.in"), wire(&document, "two.source")],
+        ["g.result", "g.result"]
+    );
+}
+
+#[test]
+fn a_removed_output_takes_the_wires_from_all_instances_with_it() {
+    let mut document = wear();
+    step(&mut document, |document| document.remove_output("mask"));
+    document.leave();
+    assert_eq!([wire(&document, "two.source"), wire(&document, "out.source")], ["", ""]);
+    assert!(
+        document.contents().groups["outer"].outputs.is_empty(),
+        "what gave it out gives nothing either"
+    );
+    flat(&document);
+}
+
+#[test]
+fn a_removed_node_takes_along_what_it_published_everywhere() {
+    let mut document = wear();
+    select(&mut document, &["l"]);
+    step(&mut document, |document| document.delete(false));
+    document.leave();
+    assert_eq!(param(&document, "g", "low"), None);
+    assert_eq!(
+        param(&document, "o", "outer_low"),
+        None,
+        "the group around published it in turn"
+    );
+    assert_eq!(
+        wire(&document, "g.where"),
+        "w",
+        "the input is there still, and feeds nothing"
+    );
+    flat(&document);
+}
+
+#[test]
+fn what_is_taken_already_is_no_new_name() {
+    let mut document = wear();
+    document.publish_input(&to("b.above"));
+    document.publish_output(&from("n.id"));
+    let mut said = |does: &dyn Fn(&mut OpenDocument) -> bool| refused(&mut document, |document| does(document));
+    assert_eq!(
+        said(&|document| document.rename_input("where", "above")),
+        "the group has an input 'above' already; choose another name"
+    );
+    assert_eq!(
+        said(&|document| document.rename_output("mask", "id")),
+        "the group has an output 'id' already; choose another name"
+    );
+    assert_eq!(
+        said(&|document| document.rename_input("lost", "x")),
+        "the group has no input 'lost'"
+    );
+    assert_eq!(
+        said(&|document| document.rename_output("lost", "x")),
+        "the group has no output 'lost'"
+    );
+    assert_eq!(
+        said(&|document| document.retarget_output("lost", &from("n"))),
+        "the group has no output 'lost'"
+    );
+    assert_eq!(
+        said(&|document| document.retarget_output("mask", &from("n.x"))),
+        "'Cells' gives no such result"
+    );
+    assert_eq!(
+        said(&|document| document.rename_input("where", "a.b")),
+        "\"a.b\" cannot be the name of a port; use 1 to 64 characters without dots and slashes"
+    );
+}
+
+#[test]
+fn the_main_graph_has_inputs_and_outputs_for_those_who_use_its_file() {
+    let mut document = opened("", r#""l": { "kind": "adjust/levels" }"#);
+    step(&mut document, |document| document.publish_input(&to("l.source")));
+    step(&mut document, |document| document.publish_output(&from("l")));
+    step(&mut document, |document| document.rename_output("mask", "wear"));
+    step(&mut document, |document| document.rename_input("source", "where"));
+    assert_eq!(document.group_inputs()["where"].to, [to("l.source")]);
+    assert_eq!(document.group_outputs()["wear"], from("l"));
+}
+
+#[test]
+fn what_an_instance_never_had_from_its_group_is_left_alone() {
+    let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } },
+        "nodes": { "n": { "kind": "noise/white" } } } },"#;
+    let mut document = opened(
+        groups,
+        r#""i": { "kind": "graph/group", "group": "g", "params": { "of_old": 1 } }"#,
+    );
+    document.enter(&id("i"));
+    step(&mut document, |document| document.unexpose("size"));
+    document.leave();
+    assert_eq!(
+        param(&document, "i", "of_old"),
+        number(1.0),
+        "it was wrong before, and may be somebody's"
+    );
+}

@@ -1,0 +1,126 @@
+//! The graph that is seen, and what is selected in it.
+
+use super::*;
+
+const GROUPS: &str = r#""groups": {
+    "inner": { "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/white" }, "g": { "kind": "noise/cells" } } },
+    "outer": { "outputs": { "mask": "i" }, "nodes": { "i": { "kind": "graph/group", "group": "inner" } } } },"#;
+const NODES: &str = r#""g": { "kind": "graph/group", "group": "outer", "label": "Wear" },
+    "h": { "kind": "graph/group", "group": "outer" }, "n": { "kind": "noise/white" }"#;
+
+#[test]
+fn one_goes_into_groups_and_back_to_where_one_came_from() {
+    let mut document = opened(GROUPS, NODES);
+    assert!(!document.enter(&id("n")), "no group");
+    assert!(document.enter(&id("g")) && document.enter(&id("i")));
+    let path: Vec<String> = document.path().into_iter().map(|(_, title)| title).collect();
+    assert_eq!(path, ["Wear", "inner"]);
+    assert_eq!(document.body(), sabi_graph::Body::Group("inner".to_owned()));
+    assert_eq!(document.full_id(&id("n")), "g/i/n");
+    assert!(document.leave());
+    assert_eq!(document.selected_one(), Some(&id("i")));
+    assert!(document.leave_to(0) && !document.leave());
+    assert_eq!(document.selected_one(), Some(&id("g")));
+    assert_eq!(document.full_id(&id("n")), "n");
+}
+
+#[test]
+fn a_node_is_found_and_called_by_the_way_to_it() {
+    let mut document = opened(GROUPS, NODES);
+    for (path, title) in [
+        ("n", Some("Grains")),
+        ("g/i", Some("Wear › inner")),
+        ("g/i/g", Some("Wear › inner › Cells")),
+        ("g/n", None),
+        ("n/n", None),
+        ("gone", None),
+    ] {
+        assert_eq!(document.has(path), title.is_some(), "{path}");
+        assert!(
+            title.is_none_or(|title| document.title_at(path) == title),
+            "{path}: {}",
+            document.title_at(path)
+        );
+    }
+    assert_eq!(document.title_at("gone"), "gone", "what is not there goes by its id");
+    document.enter(&id("g"));
+    assert_eq!(document.seen_at("g/i"), Some(id("i")));
+    assert_eq!(document.seen_at("i"), None);
+}
+
+#[test]
+fn an_edit_inside_is_one_in_all_instances() {
+    let mut document = opened(GROUPS, NODES);
+    document.enter(&id("g"));
+    document.enter(&id("i"));
+    step(&mut document, |document| {
+        document.set_knob(&id("n"), "size", number(0.5))
+    });
+    let sizes: Vec<_> = flat(&document)
+        .nodes
+        .into_iter()
+        .filter(|node| node.id.ends_with("/n"))
+        .collect();
+    assert!(sizes.len() == 2 && sizes.iter().all(|node| node.params.get("size") == number(0.5).as_ref()));
+}
+
+#[test]
+fn an_entered_group_that_is_gone_is_left_and_nothing_there_stays_selected() {
+    let mut document = opened(GROUPS, NODES);
+    select(&mut document, &["n"]);
+    document.make_group();
+    let made = document.selected_one().cloned().expect("the instance");
+    document.enter(&made);
+    select(&mut document, &["n"]);
+    // The graph outside has a node of that id once more.
+    document.undo();
+    assert!(document.path().is_empty());
+    assert!(document.selection().is_empty(), "{:?}", document.selection());
+    document.redo();
+    assert_eq!(document.selected_one(), Some(&made), "what came back is selected");
+}
+
+#[test]
+fn undo_keeps_the_selection_as_far_as_it_is_there() {
+    let mut document = opened("", NODES_PLAIN);
+    select(&mut document, &["a", "b"]);
+    document.set_knob(&id("a"), "size", number(0.5));
+    document.undo();
+    assert_eq!(document.selection().len(), 2);
+    let new = add(&mut document, "noise/white");
+    document.select([new, id("a")]);
+    document.undo();
+    assert_eq!(document.selected_one(), Some(&id("a")));
+    assert_eq!(document.take_notices().pop().as_deref(), Some("Undone: Add Grains"));
+}
+
+const NODES_PLAIN: &str = r#""a": { "kind": "noise/white" }, "b": { "kind": "adjust/levels", "inputs": { "source": "a" } },
+    "c": { "kind": "adjust/invert", "inputs": { "source": "b" } }, "d": { "kind": "noise/cells" }"#;
+
+#[test]
+fn streams_are_selected_up_and_down() {
+    let mut document = opened("", NODES_PLAIN);
+    let selected = |document: &OpenDocument| document.selection().iter().map(NodeId::to_string).collect::<Vec<_>>();
+    select(&mut document, &["b", "lost"]);
+    document.select_stream(true);
+    assert_eq!(selected(&document), ["a", "b"]);
+    select(&mut document, &["b"]);
+    document.select_stream(false);
+    assert_eq!(selected(&document), ["b", "c"]);
+    document.toggle(&id("b"));
+    document.toggle(&id("d"));
+    document.toggle(&id("lost"));
+    assert_eq!(selected(&document), ["c", "d"]);
+}
+
+#[test]
+fn a_group_that_holds_itself_is_entered_once() {
+    let groups = r#""groups": { "a": { "nodes": { "i": { "kind": "graph/group", "group": "a" } } } },"#;
+    let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "a" }"#);
+    assert!(document.enter(&id("g")));
+    assert!(!document.enter(&id("i")));
+    assert_eq!(
+        document.take_notices(),
+        ["'a' holds itself; take this instance of it away"]
+    );
+}

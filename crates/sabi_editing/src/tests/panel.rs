@@ -1,0 +1,275 @@
+//! Knobs that are published.
+
+use super::*;
+
+const NODES: &str = r#"
+    "n": { "kind": "noise/simplex", "params": { "size": 0.5 } }, "w": { "kind": "noise/cells", "params": { "size": 0.25 } },
+    "m": { "kind": "blend/mask", "inputs": { "above": "w", "below": "n" } },
+    "out": { "kind": "output/mask", "inputs": { "source": "m" } }"#;
+
+fn names(document: &OpenDocument) -> Vec<String> {
+    document.panel().into_iter().map(|knob| knob.name).collect()
+}
+
+fn value(document: &OpenDocument, name: &str) -> Option<Value> {
+    document
+        .panel()
+        .into_iter()
+        .find(|knob| knob.name == name)
+        .map(|knob| knob.value)
+}
+
+#[test]
+fn a_knob_is_published_and_taken_back() {
+    let mut document = opened("", NODES);
+    step(&mut document, |document| document.expose(&id("n"), "size"));
+    step(&mut document, |document| document.expose(&id("w"), "size"));
+    assert_eq!(names(&document), ["size", "size_2"]);
+    assert_eq!(
+        [value(&document, "size"), value(&document, "size_2")],
+        [number(0.5), number(0.25)]
+    );
+    assert_eq!(document.exposed_as(&id("w"), "size"), Some("size_2"));
+    let said = refused(&mut document, |document| document.expose(&id("w"), "size"));
+    assert_eq!(said, "this knob is on the panel already, as 'size_2'");
+    let said = refused(&mut document, |document| document.expose(&id("w"), "nothing"));
+    assert_eq!(said, "'Cells' has no knob 'nothing'");
+    step(&mut document, |document| document.unexpose("size"));
+    assert_eq!(names(&document), ["size_2"]);
+    let said = refused(&mut document, |document| document.unexpose("size"));
+    assert!(said.starts_with("there is no knob \"size\""), "{said}");
+}
+
+#[test]
+fn one_published_knob_turns_several_of_the_same_sort() {
+    let mut document = opened("", NODES);
+    document.expose(&id("n"), "size");
+    step(&mut document, |document| document.expose_as(&id("w"), "size", "size"));
+    step(&mut document, |document| document.turn("size", &Value::Number(0.75)));
+    assert_eq!(
+        ["n", "w"].map(|id| param(&document, id, "size")),
+        [number(0.75), number(0.75)]
+    );
+    let said = refused(&mut document, |document| document.expose_as(&id("n"), "mode", "size"));
+    assert_eq!(said, "'size' holds values of another sort than 'mode'");
+    step(&mut document, |document| document.take_off_panel(&id("n"), "size"));
+    assert_eq!(document.graph().exposed()["size"].to, [to("w.size")]);
+    step(&mut document, |document| document.take_off_panel(&id("w"), "size"));
+    assert!(document.panel().is_empty() && !document.take_off_panel(&id("w"), "size"));
+}
+
+#[test]
+fn a_published_knob_is_reset_to_what_it_held_when_the_graph_was_opened() {
+    let mut document = opened(r#""exposed": { "size": { "to": ["n.size", "w.size"] } },"#, NODES);
+    document.turn("size", &Value::Number(0.75));
+    assert_eq!(document.panel()[0].at_first, Value::Number(0.5));
+    step(&mut document, |document| document.turn_back("size"));
+    assert_eq!(
+        ["n", "w"].map(|id| param(&document, id, "size")),
+        [number(0.5), number(0.5)]
+    );
+    document.expose(&id("n"), "gain");
+    document.turn("gain", &Value::Number(0.125));
+    step(&mut document, |document| document.turn_back("gain"));
+    assert_eq!(
+        value(&document, "gain"),
+        number(0.5),
+        "that of the kind, since it was not there then"
+    );
+    let said = refused(&mut document, |document| document.turn_back("nothing"));
+    assert_eq!(said, "there is no knob 'nothing' on the panel");
+}
+
+#[test]
+fn a_seed_on_a_panel_is_not_called_as_that_of_every_instance() {
+    let mut document = opened("", NODES);
+    document.select_all();
+    document.toggle(&id("out"));
+    document.make_group();
+    let group = document.selected_one().cloned().expect("the instance");
+    document.enter(&group);
+    step(&mut document, |document| document.expose(&id("n"), "seed"));
+    assert_eq!(names(&document), ["n_seed"]);
+    let said = refused(&mut document, |document| document.rename_exposed("n_seed", "seed"));
+    assert_eq!(said, "every instance has a knob 'seed'; choose another name");
+    flat(&document);
+}
+
+#[test]
+fn a_renamed_knob_is_renamed_in_variants_instances_and_panels_around() {
+    let groups = r#""groups": {
+        "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } }, "variants": { "big": { "size": 3 } },
+          "nodes": { "n": { "kind": "noise/white" } } } },
+        "exposed": { "outer": { "to": ["i.size"] } },"#;
+    let nodes = r#""i": { "kind": "graph/group", "group": "g", "params": { "size": 2 } },
+        "j": { "kind": "graph/group", "group": "g", "params": { "variant": "big" } },
+        "out": { "kind": "output/mask", "inputs": { "source": "i" } }, "two": { "kind": "output/mask", "inputs": { "source": "j" } }"#;
+    let mut document = opened(groups, nodes);
+    let before = evaluated(&document);
+    document.enter(&id("i"));
+    step(&mut document, |document| document.rename_exposed("size", "grain size"));
+    step(&mut document, |document| document.label_exposed("grain size", "Grain"));
+    assert_eq!(evaluated(&document), before);
+    assert_eq!(document.panel()[0].knob.label, "Grain");
+    document.leave();
+    assert_eq!(document.graph().exposed()["outer"].to, [to("i.grain size")]);
+    assert_eq!(param(&document, "i", "grain size"), number(2.0));
+    let mut said = |name: &str, to: &str| refused(&mut document, |document| document.rename_exposed(name, to));
+    assert_eq!(said("lost", "x"), "there is no knob 'lost' on the panel");
+    assert_eq!(
+        said("outer", "a=b"),
+        "\"a=b\" cannot be the name of a knob; use 1 to 200 characters, without dots and equal signs"
+    );
+}
+
+#[test]
+fn knobs_stand_in_the_order_and_the_sections_that_they_are_put_in() {
+    let mut document = opened("", NODES);
+    for (node, knob) in [("n", "size"), ("n", "gain"), ("m", "opacity"), ("w", "jitter")] {
+        document.expose(&id(node), knob);
+    }
+    assert_eq!(names(&document), ["gain", "jitter", "opacity", "size"]);
+    step(&mut document, |document| document.move_exposed("size", Some("gain")));
+    assert_eq!(names(&document), ["size", "gain", "jitter", "opacity"]);
+    step(&mut document, |document| document.set_section("gain", " Noise "));
+    step(&mut document, |document| document.move_exposed("opacity", Some("gain")));
+    assert_eq!(names(&document), ["size", "jitter", "opacity", "gain"]);
+    let sections: Vec<_> = document.panel().into_iter().map(|knob| knob.exposed.section).collect();
+    let noise = Some("Noise".to_owned());
+    assert_eq!(sections, [None, None, noise.clone(), noise]);
+    step(&mut document, |document| document.move_exposed("size", None));
+    assert_eq!(names(&document), ["jitter", "opacity", "gain", "size"]);
+    refused(&mut document, |document| document.move_exposed("size", Some("size")));
+    refused(&mut document, |document| document.move_exposed("lost", None));
+    refused(&mut document, |document| document.move_exposed("size", None));
+}
+
+#[test]
+fn a_knob_with_a_default_holds_that_and_turning_the_nodes_own_turns_it_too() {
+    let mut document = opened("", NODES);
+    document.expose(&id("n"), "size");
+    step(&mut document, |document| {
+        document.set_exposed_default("size", number(0.125))
+    });
+    assert_eq!(
+        (value(&document, "size"), param(&document, "n", "size")),
+        (number(0.125), number(0.5))
+    );
+    let size = |document: &OpenDocument| {
+        flat(document)
+            .nodes
+            .iter()
+            .find(|node| node.id == "n")
+            .and_then(|node| node.params.get("size").cloned())
+    };
+    assert_eq!(size(&document), number(0.125));
+    step(&mut document, |document| document.turn("size", &Value::Number(0.25)));
+    assert_eq!(size(&document), number(0.25));
+    step(&mut document, |document| {
+        document.set_knob(&id("n"), "size", number(0.75))
+    });
+    assert_eq!(
+        (value(&document, "size"), size(&document)),
+        (number(0.75), number(0.75))
+    );
+    step(&mut document, |document| document.set_knob(&id("n"), "size", None));
+    assert_eq!(size(&document), None, "reset is reset");
+}
+
+/// A group that publishes `size` and has a variant, with an instance `i`.
+fn dust() -> OpenDocument {
+    let more = r#""groups": { "g": { "exposed": { "size": { "to": ["x.size"] } }, "variants": { "v": { "size": 0.5 } },
+        "outputs": { "mask": "x" }, "nodes": { "x": { "kind": "noise/white" } } } },"#;
+    opened(
+        more,
+        r#""i": { "kind": "graph/group", "group": "g", "label": "Dust", "params": { "size": 0.75 } }"#,
+    )
+}
+
+#[test]
+fn a_range_holds_for_everything_that_is_set() {
+    let mut document = dust();
+    document.enter(&id("i"));
+    let mut said = |range: [f64; 2]| {
+        refused(&mut document, |document| {
+            document.set_exposed_range("size", Some(range))
+        })
+    };
+    assert_eq!(
+        said([0.75, 1.0]),
+        "the variant 'v' would lie outside: 'size' takes 0.75 to 1, and this is 0.5"
+    );
+    assert_eq!(
+        said([0.0, 0.5]),
+        "the instance 'Dust' would lie outside: 'size' takes 0 to 0.5, and this is 0.75"
+    );
+    assert_eq!(
+        said([1.0, 0.0]),
+        "the variant 'v' would lie outside: 'size' takes 1 to 0, and this is 0.5"
+    );
+    step(&mut document, |document| {
+        document.set_exposed_range("size", Some([0.5, 0.75]))
+    });
+    let said = refused(&mut document, |document| {
+        document.set_exposed_default("size", number(2.0))
+    });
+    assert_eq!(said, "'size' takes 0.5 to 0.75, and this is 2");
+    let said = refused(&mut document, |document| document.turn("size", &Value::from("much")));
+    assert_eq!(said, "'size' takes numbers from 0.5 to 0.75, and this is none");
+    step(&mut document, |document| document.set_exposed_range("size", None));
+}
+
+#[test]
+fn an_instance_refuses_values_outside_of_the_range_and_names_that_its_group_lacks() {
+    let mut document = dust();
+    document.enter(&id("i"));
+    step(&mut document, |document| {
+        document.set_exposed_range("size", Some([0.5, 0.75]))
+    });
+    document.leave();
+    let mut said =
+        |knob: &str, value: Value| refused(&mut document, |document| document.set_knob(&id("i"), knob, Some(value)));
+    for (knob, value, sentence) in [
+        (
+            "size",
+            Value::Number(0.0),
+            "\"size\" of \"i\" is 0, but goes from 0.5 to 0.75; choose a value in that range",
+        ),
+        (
+            "scale",
+            Value::Number(0.0),
+            "the scale of group instance \"i\" must be a number above zero, not 0",
+        ),
+        (
+            "seed",
+            Value::Number(-1.0),
+            "the seed of group instance \"i\" must be a whole number from 0 to 4294967295, not -1",
+        ),
+    ] {
+        assert_eq!(said(knob, value), sentence);
+    }
+    assert!(said("variant", Value::from("w")).starts_with("there is no variant \"w\" of \"i\""));
+    assert!(said("lost", Value::Number(0.0)).starts_with("group instance \"i\" has no knob \"lost\""));
+    step(&mut document, |document| {
+        document.set_knob(&id("i"), "variant", Some(Value::from("v")))
+    });
+    step(&mut document, |document| {
+        document.set_knob(&id("i"), "variant", Some(Value::from("none")))
+    });
+    assert_eq!(param(&document, "i", "variant"), None);
+    flat(&document);
+}
+
+#[test]
+fn a_color_that_is_taken_and_a_file_that_is_chosen_are_for_all_selected_nodes_of_the_kind() {
+    let mut document = opened(
+        "",
+        r#""a": { "kind": "source/image" }, "b": { "kind": "source/image" }"#,
+    );
+    select(&mut document, &["a", "b"]);
+    let knob = super::super::KnobTarget::of_node(&id("a"), "file".to_owned());
+    step(&mut document, |document| {
+        document.set_at(&knob, Value::from("torn.png"))
+    });
+    assert_eq!(param(&document, "b", "file"), Some(Value::from("torn.png")));
+}

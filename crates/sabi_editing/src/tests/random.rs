@@ -1,0 +1,96 @@
+//! Whatever is done in whatever order: nothing panics, all of it can be taken back and done again, and what the document makes of a
+//! graph can be evaluated.
+
+mod actions;
+mod dice;
+
+use sabi_graph::UNDO_STEPS;
+
+use super::*;
+use actions::Hands;
+use dice::Dice;
+
+/// Random edits in all, and in how many graphs.
+const EDITS: usize = 10_000;
+const GRAPHS: usize = 25;
+
+impl Hands {
+    /// What holds at any time.
+    fn check(&mut self) {
+        let text = self.document.session.text().to_owned();
+        let read = Document::from_json(&text);
+        assert_eq!(read.as_ref(), Ok(self.document.contents()));
+        for node in self.ids() {
+            assert!(self.document.face(&node).is_some());
+        }
+        assert!(
+            self.document
+                .selection()
+                .iter()
+                .all(|node| self.document.node(node).is_some())
+        );
+        self.document.panel();
+        if let Err(error) = self.document.session.graph().flatten(&Overrides::default()) {
+            panic!("{error}\n{text}");
+        }
+    }
+
+    /// Back to the beginning, and forth again.
+    fn check_history(&mut self, empty: &str) {
+        self.check();
+        let after = self.document.session.text().to_owned();
+        let steps = self.document.session.undo_names().count();
+        assert!(steps < UNDO_STEPS, "all of it can be undone");
+        // The last step in view of the document; what nodes show need not be made for all the others.
+        for _ in 1..steps {
+            self.document.session.undo().expect("a step back");
+        }
+        self.document.undo();
+        assert_eq!(self.document.session.undo_names().count(), 0);
+        assert_eq!(self.document.session.text(), empty);
+        for _ in 1..steps {
+            self.document.session.redo().expect("a step forth");
+        }
+        self.document.redo();
+        assert_eq!(self.document.session.text(), after);
+        self.document.take_notices();
+    }
+}
+
+#[test]
+fn ten_thousand_random_edits_can_all_be_taken_back_and_done_again() {
+    let kinds: Vec<String> = kinds().1.entries().map(|entry| entry.id.clone()).collect();
+    for graph in 0..GRAPHS {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        std::fs::create_dir_all(folder.path().join("deep/er")).expect("a writable folder");
+        let session = Session::new(Some(&folder.path().join("kept")));
+        let mut actions = Hands {
+            document: document_with(session, graph as u64),
+            dice: Dice(graph as u64),
+            clipboard: String::new(),
+            kinds: kinds.clone(),
+        };
+        let empty = actions.document.session.text().to_owned();
+        for edit in 1..=EDITS / GRAPHS {
+            actions.act(folder.path());
+            if edit % 20 == 0 {
+                actions.check();
+            }
+            if edit % (EDITS / GRAPHS / 2) == 0 {
+                actions.check_history(&empty);
+            }
+        }
+        actions.document.session.close();
+    }
+}
+
+#[test]
+fn a_long_day_of_edits_takes_no_more_memory_than_a_short_one() {
+    let mut document = document();
+    let node = add(&mut document, "noise/white");
+    for edit in 0..2 * UNDO_STEPS {
+        document.set_knob(&node, "size", number(edit as f64));
+        document.take_notices();
+    }
+    assert!(document.session.undo_names().count() <= UNDO_STEPS + UNDO_STEPS / 4);
+}

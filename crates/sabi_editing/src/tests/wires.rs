@@ -1,0 +1,230 @@
+//! Connecting, cutting, inserting, merging.
+
+use super::super::MaskMerge;
+use super::*;
+
+fn two_masks() -> OpenDocument {
+    opened(
+        r#""groups": { "two": { "outputs": { "mask": "n", "other": "n.id" }, "nodes": { "n": { "kind": "noise/cells" } } } },"#,
+        r#""a": { "kind": "noise/cells" }, "b": { "kind": "noise/white" },
+           "g": { "kind": "graph/group", "group": "two" },
+           "levels": { "kind": "adjust/levels", "inputs": { "source": "a" } },
+           "base": { "kind": "source/material" },
+           "layer": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "levels" } },
+           "out": { "kind": "output/material", "inputs": { "material": "layer" } }"#,
+    )
+}
+
+#[test]
+fn a_wire_takes_the_place_of_the_one_that_was_there() {
+    let mut document = two_masks();
+    step(&mut document, |document| {
+        document.connect(&from("b"), &to("levels.source"))
+    });
+    assert_eq!(wire(&document, "levels.source"), "b");
+    step(&mut document, |document| {
+        document.cut(&[to("levels.source"), to("layer.mask"), to("layer.color_map")])
+    });
+    assert_eq!(
+        [wire(&document, "levels.source"), wire(&document, "layer.mask")],
+        ["", ""]
+    );
+}
+
+#[test]
+fn a_wire_from_the_first_result_names_the_node_alone_unless_it_is_a_group() {
+    let mut document = two_masks();
+    document.connect(&from("a.mask"), &to("levels.source"));
+    assert_eq!(wire(&document, "levels.source"), "a");
+    document.connect(&from("a.id"), &to("levels.source"));
+    assert_eq!(wire(&document, "levels.source"), "a.id");
+    for port in ["g", "g.mask"] {
+        document.connect(&from(port), &to("levels.source"));
+        // A group of two outputs is asked which one; so is one that gets a second one later.
+        assert_eq!(wire(&document, "levels.source"), "g.mask");
+    }
+    flat(&document);
+}
+
+#[test]
+fn a_wire_that_does_not_fit_is_refused_and_says_why() {
+    let mut document = two_masks();
+    let mut said = |from_: &str, to_: &str| refused(&mut document, |document| document.connect(&from(from_), &to(to_)));
+    assert_eq!(
+        said("a", "layer.base"),
+        "'Base' takes a material, and this wire carries a mask; only masks and colors turn into each other"
+    );
+    assert_eq!(said("layer", "layer.base"), "'Layer' cannot read its own result");
+    assert_eq!(said("levels", "levels.source"), "'Levels' cannot read its own result");
+    assert_eq!(said("out", "layer.base"), "'Material output' gives no result");
+    assert_eq!(said("a.nothing", "levels.source"), "'Cells' gives no result 'nothing'");
+    assert_eq!(said("a", "levels.nothing"), "'Levels' has no input 'nothing'");
+    assert_eq!(
+        said("levels", "a.position"),
+        "'Position' takes a vector, and this wire carries a mask; only masks and colors turn into each other"
+    );
+    let invert = add(&mut document, "adjust/invert");
+    document.connect(&from("levels"), &slot(&invert, "source"));
+    let said = refused(&mut document, |document| {
+        document.connect(&out(&invert), &to("levels.source"))
+    });
+    assert_eq!(said, "'Invert' is made from 'Levels'; this wire would lead in a circle");
+}
+
+#[test]
+fn a_bend_takes_what_those_take_who_read_it() {
+    let mut document = two_masks();
+    step(&mut document, |document| document.reroute(&to("layer.base"), [0.0; 2]));
+    let bend = wire(&document, "layer.base");
+    assert_eq!(wire(&document, &format!("{bend}.source")), "base");
+    let said = refused(&mut document, |document| {
+        document.connect(&from("a"), &to(&format!("{bend}.source")))
+    });
+    assert!(said.starts_with("'Base' takes a material"), "{said}");
+    // One that nobody reads takes anything, whatever comes in now.
+    document.cut(&[to("layer.base")]);
+    assert!(document.connect(&from("a"), &to(&format!("{bend}.source"))));
+    let said = refused(&mut document, |document| {
+        document.connect(&from(&bend), &to("layer.base"))
+    });
+    assert!(said.starts_with("'Base' takes a material"), "{said}");
+}
+
+#[test]
+fn a_node_is_put_into_a_wire() {
+    let mut document = two_masks();
+    let invert = add(&mut document, "adjust/invert");
+    assert!(document.may_insert(&invert, &to("layer.mask")));
+    step(&mut document, |document| document.insert(&invert, &to("layer.mask")));
+    assert_eq!(wire(&document, &format!("{invert}.source")), "levels");
+    assert_eq!(wire(&document, "layer.mask"), invert.as_str());
+}
+
+#[test]
+fn a_node_is_put_into_a_wire_by_an_input_that_is_free() {
+    let mut document = two_masks();
+    let blend = add(&mut document, "blend/mask");
+    document.connect(&from("b"), &slot(&blend, "below"));
+    step(&mut document, |document| document.insert(&blend, &to("layer.mask")));
+    assert_eq!(wire(&document, &format!("{blend}.above")), "levels");
+    assert_eq!(wire(&document, &format!("{blend}.below")), "b");
+}
+
+#[test]
+fn a_node_that_does_not_fit_is_not_put_into_a_wire() {
+    let mut document = two_masks();
+    let relief = add(&mut document, "effect/relief");
+    let why = "only a node that nobody reads yet, with a free input and a result that fit, can be put into a wire";
+    for (node, input) in [
+        (relief.clone(), "layer.mask"),
+        (id("levels"), "layer.mask"),
+        (id("layer"), "out.material"),
+        (id("out"), "layer.mask"),
+        (id("base"), "out.material"),
+        (id("lost"), "layer.mask"),
+        (relief, "layer.color_map"),
+    ] {
+        assert!(!document.may_insert(&node, &to(input)), "{node} into {input}");
+        assert_eq!(
+            refused(&mut document, |document| document.insert(&node, &to(input))),
+            why
+        );
+    }
+}
+
+#[test]
+fn a_node_made_from_a_reader_is_not_put_before_it() {
+    let mut document = opened(
+        "",
+        r#""a": { "kind": "noise/cells" }, "levels": { "kind": "adjust/levels", "inputs": { "source": "a" } },
+           "blend": { "kind": "blend/mask", "inputs": { "mask": "levels" } }"#,
+    );
+    assert!(!document.may_insert(&id("blend"), &to("levels.source")));
+    let said = refused(&mut document, |document| {
+        document.insert(&id("blend"), &to("levels.source"))
+    });
+    assert!(said.starts_with("only a node"), "{said}");
+}
+
+#[test]
+fn a_second_mask_is_blended_with_the_first_one() {
+    let mut document = two_masks();
+    assert!(document.may_merge(&from("b"), &to("layer.mask")));
+    for same in ["levels", "levels.mask"] {
+        assert!(
+            !document.may_merge(&from(same), &to("layer.mask")),
+            "it is there already"
+        );
+    }
+    assert!(
+        !document.may_merge(&from("b"), &to("layer.base")) && !document.may_merge(&from("b"), &to("layer.height_map"))
+    );
+    for (_, how) in MaskMerge::OFFERED {
+        let MaskMerge::Blend(mode) = how else { continue };
+        step(&mut document, |document| {
+            document.merge(&from("b"), &to("layer.mask"), how)
+        });
+        let blend = wire(&document, "layer.mask");
+        assert_eq!(wire(&document, &format!("{blend}.below")), "levels");
+        assert_eq!(wire(&document, &format!("{blend}.above")), "b");
+        assert_eq!(param(&document, &blend, "mode"), Some(Value::from(mode)));
+        let face = document.face(&id(&blend)).expect("a face").clone();
+        let sabi_engine::catalog::KnobRole::Choice(words) = &face.knob("mode").expect("a mode").role else {
+            panic!("a mode is a choice");
+        };
+        assert!(words.iter().any(|word| word == mode), "{mode}");
+        document.undo();
+    }
+    step(&mut document, |document| {
+        document.merge(&from("b"), &to("layer.mask"), MaskMerge::Replace)
+    });
+    assert_eq!(wire(&document, "layer.mask"), "b");
+}
+
+#[test]
+fn a_mask_is_not_merged_into_what_it_is_made_from() {
+    let mut document = two_masks();
+    let invert = add(&mut document, "adjust/invert");
+    document.connect(&from("levels"), &slot(&invert, "source"));
+    let said = refused(&mut document, |document| {
+        document.merge(&out(&invert), &to("levels.source"), MaskMerge::Blend("add"))
+    });
+    assert_eq!(said, "'Invert' is made from 'Levels'; this wire would lead in a circle");
+}
+
+#[test]
+fn swapping_takes_along_the_knob_of_an_input_that_nothing_leads_to() {
+    let mut document = opened(
+        "",
+        r#""a": { "kind": "noise/cells" },
+           "m": { "kind": "blend/mask", "inputs": { "above": "a" }, "params": { "below": 0.25 } },
+           "alone": { "kind": "blend/mask" }"#,
+    );
+    select(&mut document, &["m", "alone"]);
+    step(&mut document, OpenDocument::swap_inputs);
+    assert_eq!([wire(&document, "m.below"), wire(&document, "m.above")], ["a", ""]);
+    assert_eq!(
+        [param(&document, "m", "below"), param(&document, "m", "above")],
+        [None, number(0.25)]
+    );
+    step(&mut document, OpenDocument::swap_inputs);
+    assert_eq!([wire(&document, "m.below"), wire(&document, "m.above")], ["", "a"]);
+}
+
+#[test]
+fn swapping_takes_along_what_feeds_an_input_from_outside() {
+    let groups = r#""groups": { "G": {
+        "inputs": { "one": { "to": ["m.below", "other.below"] }, "two": { "to": [] } },
+        "outputs": { "mask": "m.mask" },
+        "nodes": { "a": { "kind": "noise/cells" }, "other": { "kind": "blend/mask" },
+                   "m": { "kind": "blend/mask", "inputs": { "above": "a" } } } } },"#;
+    let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);
+    assert!(document.enter(&id("g")));
+    select(&mut document, &["m"]);
+    step(&mut document, OpenDocument::swap_inputs);
+    assert_eq!([wire(&document, "m.below"), wire(&document, "m.above")], ["a", ""]);
+    assert_eq!(document.group_inputs()["one"].to, [to("other.below"), to("m.above")]);
+    step(&mut document, OpenDocument::swap_inputs);
+    assert_eq!(wire(&document, "m.above"), "a");
+    assert_eq!(document.group_inputs()["one"].to, [to("other.below"), to("m.below")]);
+}

@@ -1,0 +1,171 @@
+//! A folder of pictures, as texture libraries give them, becomes a material: a node for each picture, and one that combines
+//! them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use sabi_engine::catalog::readable;
+use sabi_graph::{Edit, Node, NodeId, OutputRef, Value};
+
+use super::OpenDocument;
+use super::arrangement::{NODE_WIDTH, size_of};
+use super::texture_map_names::{Map, MapName};
+
+const IMAGE: &str = "source/image";
+const COMBINE: &str = "material/combine";
+const REMAP: &str = "adjust/remap";
+/// Between nodes, canvas points.
+const GAP: f32 = 60.0;
+/// How far what is white in a height map lies above what is black, in working units: files do not say.
+const RELIEF: f64 = 0.02;
+
+/// Pictures of one set, by what they hold.
+type Set = BTreeMap<Map, PathBuf>;
+
+impl OpenDocument {
+    /// Adds the texture sets that these pictures are, by their names, as one step: for each set a material of all its maps,
+    /// which is selected.
+    pub fn add_texture_sets(&mut self, files: &[PathBuf], pos: [f32; 2]) -> bool {
+        let mut sets = sets_of(files);
+        let packed = sets.values_mut().filter_map(|set| set.remove(&Map::Packed));
+        let packed: Vec<String> = packed.map(|file| name_of(&file)).collect();
+        sets.retain(|_, set| !set.is_empty());
+        if !packed.is_empty() {
+            let names = packed.join(", ");
+            self.say(format!(
+                "{names} holds several channels in one picture and is left out; use a file for each"
+            ));
+        }
+        if sets.is_empty() {
+            let count = files.len();
+            return self.refuse(format!(
+                "none of these {count} files is named as a map of a texture set, as bricks_color.png or bricks_nor_gl.png are"
+            ));
+        }
+        let mut adding = Adding {
+            document: self,
+            edits: Vec::new(),
+            taken: BTreeSet::new(),
+        };
+        let (mut materials, mut at) = (Vec::new(), pos);
+        for (name, set) in &sets {
+            let (material, bottom) = adding.set(name, set, at);
+            materials.push(material);
+            at[1] = bottom + GAP;
+        }
+        let edits = adding.edits;
+        self.edit_and_select("Add texture set", edits, materials)
+    }
+}
+
+/// What is added so far.
+struct Adding<'d> {
+    document: &'d mut OpenDocument,
+    edits: Vec<Edit>,
+    taken: BTreeSet<NodeId>,
+}
+
+impl Adding<'_> {
+    /// Adds one set; gives its material and where it ends below.
+    fn set(&mut self, name: &str, set: &Set, [x, y]: [f32; 2]) -> (NodeId, f32) {
+        let step = NODE_WIDTH + GAP;
+        let mut below = y;
+        let mut inputs = BTreeMap::new();
+        for (map, file) in set {
+            let (input, output) = ports(*map);
+            let image = self.image(*map, file, [x, below]);
+            let mut from = OutputRef {
+                node: image,
+                port: output.map(str::to_owned),
+            };
+            if *map == Map::Height {
+                from = self.relief(from, [x + step, below]);
+            }
+            inputs.insert(input.to_owned(), from);
+            below += self.height(IMAGE) + GAP / 2.0;
+        }
+        let mut material = Node::new(COMBINE);
+        material.label = Some(readable(name)).filter(|label| !label.is_empty());
+        material.inputs = inputs;
+        let middle = ((y + below - self.height(COMBINE)) / 2.0).max(y);
+        let id = self.add("material", material, [x + 2.0 * step, middle]);
+        (id, below.max(middle + self.height(COMBINE)))
+    }
+
+    fn image(&mut self, map: Map, file: &Path, pos: [f32; 2]) -> NodeId {
+        let mut image = Node::new(IMAGE);
+        let (input, _) = ports(map);
+        image.label = Some(readable(input));
+        let path = self.document.relative(file);
+        image.params.insert("file".to_owned(), Value::Text(path));
+        if map == (Map::Normal { is_down: true }) {
+            image
+                .params
+                .insert("normal_y".to_owned(), Value::Text("down".to_owned()));
+        }
+        self.add(input, image, pos)
+    }
+
+    /// Turns what a height map holds, 0 to 1 with its middle where the model is, into heights.
+    fn relief(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
+        let mut remap = Node::new(REMAP);
+        remap.inputs.insert("source".to_owned(), from);
+        for (param, value) in [("to_low", -RELIEF / 2.0), ("to_high", RELIEF / 2.0)] {
+            remap.params.insert(param.to_owned(), Value::Number(value));
+        }
+        let node = self.add("relief", remap, pos);
+        OutputRef { node, port: None }
+    }
+
+    fn add(&mut self, stem: &str, mut node: Node, pos: [f32; 2]) -> NodeId {
+        node.pos = pos.map(f32::round);
+        let id = self.document.new_id(stem, &self.taken);
+        self.taken.insert(id.clone());
+        self.edits.push(self.document.adding(&id, node));
+        id
+    }
+
+    fn height(&self, kind: &str) -> f32 {
+        self.document
+            .catalog()
+            .entry(kind)
+            .map_or(0.0, |entry| size_of(entry)[1])
+    }
+}
+
+/// The pictures by set and map: of several for one map the first, and normal maps whose green points up before others.
+fn sets_of(files: &[PathBuf]) -> BTreeMap<String, Set> {
+    let mut sorted: Vec<&PathBuf> = files.iter().collect();
+    sorted.sort();
+    let mut sets: BTreeMap<String, Set> = BTreeMap::new();
+    for file in sorted {
+        let Some(name) = MapName::of(file) else { continue };
+        let set = sets.entry(name.set).or_default();
+        set.entry(name.map).or_insert_with(|| file.clone());
+    }
+    for set in sets.values_mut() {
+        if set.contains_key(&Map::Normal { is_down: false }) {
+            set.remove(&Map::Normal { is_down: true });
+        }
+    }
+    sets
+}
+
+/// The channel that a map goes into, and the output of a picture that it is read from, where that is not the first.
+fn ports(map: Map) -> (&'static str, Option<&'static str>) {
+    match map {
+        Map::Color => ("base_color", None),
+        Map::Roughness => ("roughness", Some("mask")),
+        Map::Metallic => ("metallic", Some("mask")),
+        Map::Occlusion => ("occlusion", Some("mask")),
+        Map::Height => ("height", Some("mask")),
+        Map::Normal { .. } => ("slope", Some("slope")),
+        Map::Alpha => ("alpha", Some("mask")),
+        // Packed ones are left out before.
+        Map::Emission | Map::Packed => ("emission", None),
+    }
+}
+
+fn name_of(file: &Path) -> String {
+    file.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
