@@ -1,6 +1,5 @@
 //! `sabi edit`: the window.
 
-use sabi_editor::{EditRequest, edit};
 use sabi_engine::nearest;
 
 use crate::arguments::{EditArguments, command_names};
@@ -8,12 +7,25 @@ use crate::exit::{Exit, Failure};
 
 pub(crate) fn run(arguments: &EditArguments) -> Result<Exit, Failure> {
     refuse_mistyped_command(arguments)?;
-    edit(&EditRequest {
+    open(arguments)
+}
+
+#[cfg(feature = "window")]
+fn open(arguments: &EditArguments) -> Result<Exit, Failure> {
+    sabi_editor::edit(&sabi_editor::EditRequest {
         graph: arguments.graph.clone(),
         mesh: arguments.mesh.clone(),
         adapter: arguments.adapter.clone(),
     })?;
     Ok(Exit::Done)
+}
+
+/// Says how to get the editor, which this build left out.
+#[cfg(not(feature = "window"))]
+fn open(_: &EditArguments) -> Result<Exit, Failure> {
+    let why = "this build of sabi has no editor, only the commands that `sabi --help` lists; build it with \
+               `cargo build --release`, without --no-default-features";
+    Err(Failure::new(Exit::Usage, why))
 }
 
 /// A command that was mistyped looks like a graph.
