@@ -7,13 +7,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, LinkedModel, ModelOptions,
-    NoProgress, Overlap, Overrides, Seams, bake,
+    BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, LinkedModel, ModelOptions, NoProgress, Overlap,
+    Overrides, Seams, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
 use sabi_image::{Pixels, decode};
 use sabi_surface::model::Model;
-use sabi_tests::{MeshFile, Quad, device, project};
+use sabi_tests::{MeshFile, Quad, adapter, device, project};
 use serde_json::Value as Json;
 
 pub(crate) const SIZE: u32 = 128;
@@ -48,7 +48,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
             model,
             overrides: Overrides::default(),
             fit: None,
-            adapter: AdapterChoice::Cpu,
+            adapter: adapter(),
             caster: CasterChoice::Auto,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         },

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{AdapterChoice, Gpu, LiveEvent, LiveOptions, ViewSubject};
-use sabi_tests::device;
+use sabi_engine::{Gpu, LiveEvent, LiveOptions, ViewSubject};
+use sabi_tests::{adapter, device};
 
 use crate::window::{COARSE, FULL, Window, bytes, graph, node, options, request};
 
@@ -223,7 +223,7 @@ fn dropping_in_the_middle_of_work_joins() {
 
 #[test]
 fn a_lost_device_is_told_and_ends_the_work() {
-    let gpu = Arc::new(Gpu::open(&AdapterChoice::Cpu).expect("an adapter, as all tests have"));
+    let gpu = Arc::new(Gpu::open(&adapter()).expect("an adapter, as all tests have"));
     let window = Window::on(gpu.clone(), options());
     window.answer(request(1, graph(&rusty(0.5))));
     gpu.device().destroy();

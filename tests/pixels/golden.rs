@@ -3,8 +3,8 @@
 //! They are made on Mesa's software driver. `cargo xtask bless KIND` writes those of a kind, `cargo xtask bless all` all.
 
 use std::fmt::Write;
-use std::fs;
 use std::path::PathBuf;
+use std::{env, fs};
 
 use sabi_export::{Cover, SetLayout, set_keys};
 use sabi_graph::PortType;
@@ -182,7 +182,7 @@ fn hold_statistics(expected: &str, got: &[(String, [f64; 4])]) -> Result<(), Str
     Ok(())
 }
 
-/// Compares samples; where they differ, writes expected, got and difference side by side below `target/golden`.
+/// Compares samples; where they differ, writes expected, got and difference side by side below the folder of pictures.
 fn hold_picture(name: &str, expected: &[u8], got: &Sheet) -> Result<(), String> {
     let picture = decode("golden.png", expected).map_err(|error| error.to_string())?;
     let sabi_image::Pixels::U8(was) = picture.pixels else {
@@ -215,12 +215,18 @@ fn hold_picture(name: &str, expected: &[u8], got: &Sheet) -> Result<(), String> 
         codes,
         ..*got
     };
-    let path = project(&format!("target/golden/{name}.png"));
-    fs::create_dir_all(path.parent().expect("a folder")).expect("target/golden");
-    fs::write(&path, contact.png()).expect("the difference");
+    let path = format!("{}/{name}.png", pictures());
+    let file = project(&path);
+    fs::create_dir_all(file.parent().expect("a folder")).expect("the folder of pictures");
+    fs::write(&file, contact.png()).expect("the difference");
     Err(format!(
-        "{outliers} samples differ; target/golden/{name}.png shows expected, got and 8 × the difference"
+        "{outliers} samples differ; {path} shows expected, got and 8 × the difference"
     ))
+}
+
+/// Folder for pictures of what differs, from the root: one for each adapter where there are several.
+fn pictures() -> String {
+    env::var("SABI_PICTURES").unwrap_or_else(|_| "target/golden".to_owned())
 }
 
 fn paths(specimen: &Specimen) -> [PathBuf; 2] {
@@ -229,12 +235,12 @@ fn paths(specimen: &Specimen) -> [PathBuf; 2] {
 
 /// The kinds that are to be written and not held.
 fn is_blessed(specimen: &Specimen) -> bool {
-    std::env::var("SABI_BLESS").is_ok_and(|kind| kind == "all" || kind == specimen.kind)
+    env::var("SABI_BLESS").is_ok_and(|kind| kind == "all" || kind == specimen.kind)
 }
 
 #[test]
 fn every_result_is_what_its_golden_shows() {
-    if let Ok(kind) = std::env::var("SABI_BLESS") {
+    if let Ok(kind) = env::var("SABI_BLESS") {
         let is_known = kind == "all" || specimens().iter().any(|specimen| specimen.kind == kind);
         assert!(is_known, "there is no node kind '{kind}' to bless");
     }

@@ -4,11 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, ModelOptions, NoProgress,
-    Overrides, Seams, bake,
+    BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, ModelOptions, NoProgress, Overrides, Seams, bake,
 };
 use serde_json::Value as Json;
 use tempfile::TempDir;
+
+use crate::device::adapter;
 
 /// What a bake wrote, for as long as this lives.
 pub struct Baked {
@@ -20,7 +21,7 @@ pub struct Baked {
 }
 
 impl Baked {
-    /// Bakes a graph of built-in kinds on a model, on the software adapter, with padding everywhere.
+    /// Bakes a graph of built-in kinds on a model, on the adapter of all tests, with padding everywhere.
     ///
     /// # Panics
     /// If it fails.
@@ -50,7 +51,7 @@ impl Baked {
                 model,
                 overrides: Overrides::default(),
                 fit: None,
-                adapter: AdapterChoice::Cpu,
+                adapter: adapter(),
                 caster: CasterChoice::Auto,
                 budget_bytes: DEFAULT_BUDGET_BYTES,
             },

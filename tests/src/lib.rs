@@ -10,10 +10,11 @@ mod places;
 mod seams;
 pub mod shapes;
 
+use std::env;
 use std::path::{Path, PathBuf};
 
 pub use baked::Baked;
-pub use device::device;
+pub use device::{adapter, device};
 pub use meshes::{MadeMesh, MadeTexture, MeshFile, Quad};
 pub use node_files::NodeFolder;
 pub use on_mesh::{Asked, Evaluated, OnMesh, flat_graph};
@@ -21,9 +22,12 @@ pub use pictured::{Pictured, even_light};
 pub use places::OnPage;
 pub use seams::Seam;
 
-/// A path from the project's root.
+/// A path from the project's root: from `SABI_PROJECT` where tests run on another machine than the one that built them.
 pub fn project(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+    let built_from = || Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    env::var_os("SABI_PROJECT")
+        .map_or_else(built_from, PathBuf::from)
+        .join(path)
 }
 
 /// Lowest and highest of some numbers.

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions,
-    NoProgress, OpenGraph, Overrides, Pictures,
+    CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
+    OpenGraph, Overrides, Pictures,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -13,7 +13,7 @@ use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Mode, Plan, Target};
 
-use crate::device::device;
+use crate::device::{adapter, device};
 
 const SUBMISSION: Duration = Duration::from_millis(200);
 
@@ -96,7 +96,7 @@ impl OnMesh {
             model,
             overrides: Overrides::default(),
             fit: None,
-            adapter: AdapterChoice::Cpu,
+            adapter: adapter(),
             caster: CasterChoice::Auto,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         };

@@ -1,10 +1,11 @@
 //! `cargo bench`: the numbers that say whether Sabi is fast. Medians of a few runs; nothing here asserts.
 //!
-//! The model is the 30 000-triangle peer model where the shared data folder is beside the project, else the figure.
+//! The model is that of [`setup::peer_model`].
 
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
 
+mod setup;
 #[path = "bake/surface.rs"]
 mod surface;
 
@@ -14,10 +15,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, LinkedModel, ModelOptions,
-    NoProgress, Overrides, Seams, bake,
+    BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, LinkedModel, ModelOptions, NoProgress,
+    Overrides, Seams, bake,
 };
 use serde_json::{Value as Json, json};
+use setup::{adapter, peer_model, root};
 
 /// Simplex noise of eight octaves, cells, levels, two blends and an effect.
 const PEER_NODES: &str = r#"
@@ -29,19 +31,6 @@ const PEER_NODES: &str = r#"
     "base": { "kind": "source/material" },
     "coat": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "all" } },
     "out": { "kind": "output/material", "inputs": { "material": "coat" } }"#;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-fn peer_model() -> PathBuf {
-    let shared = root().join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
-    if shared.is_file() {
-        shared
-    } else {
-        root().join("assets/meshes/figure.glb")
-    }
-}
 
 fn graph(folder: &Path, name: &str, nodes: &str) -> PathBuf {
     let path = folder.join(name);
@@ -62,7 +51,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
             model,
             overrides: Overrides::default(),
             fit: None,
-            adapter: AdapterChoice::Auto,
+            adapter: adapter(),
             caster: CasterChoice::Auto,
             budget_bytes: DEFAULT_BUDGET_BYTES,
         },

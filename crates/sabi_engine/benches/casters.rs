@@ -8,8 +8,8 @@
 mod bvh2;
 #[path = "casters/kernel.rs"]
 mod kernel;
+mod setup;
 
-use std::path::Path;
 use std::time::Instant;
 
 use bvh2::Bvh2;
@@ -18,6 +18,7 @@ use kernel::{Kernel, Machine};
 use rayon::prelude::*;
 use sabi_engine::{LinkedModel, ModelOptions, NoProgress};
 use sabi_surface::bvh::Bvh;
+use setup::peer_model;
 
 const SIZE: u32 = 1024;
 /// Of the model's largest side.
@@ -112,11 +113,7 @@ fn bench(machine: &Machine, linked: &LinkedModel, reach: f32) {
 }
 
 fn main() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let shared = root.join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
-    let own = root.join("assets/meshes/figure.glb");
-    let model = if shared.is_file() { shared } else { own };
-    let linked = LinkedModel::open(&ModelOptions::new(&model, SIZE), &NoProgress).unwrap();
+    let linked = LinkedModel::open(&ModelOptions::new(&peer_model(), SIZE), &NoProgress).unwrap();
     let machine = Machine::open();
     println!("{}\n\n| what | measured | aim |\n|---|---|---|", machine.name);
     for reach in REACHES {

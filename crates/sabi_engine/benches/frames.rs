@@ -4,7 +4,8 @@
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
 
-use std::path::Path;
+mod setup;
+
 use std::time::Instant;
 
 use sabi_engine::view::{
@@ -12,9 +13,10 @@ use sabi_engine::view::{
     Target, ViewModel, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, ModelLooks, ModelOptions,
-    NoProgress, OpenGraph, Overrides, evaluate_looks,
+    CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, ModelLooks, ModelOptions, NoProgress,
+    OpenGraph, Overrides, evaluate_looks,
 };
+use setup::{adapter, peer_model, root};
 
 const SIZE: [u32; 2] = [1280, 720];
 const FRAMES: usize = 15;
@@ -24,22 +26,16 @@ fn median(mut numbers: Vec<f64>) -> f64 {
     numbers[numbers.len() / 2]
 }
 
-fn evaluator(root: &Path) -> Evaluator {
-    let shared = root.join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
-    let own = root.join("assets/meshes/figure.glb");
-    let model = if shared.is_file() { shared } else { own };
+fn evaluator() -> Evaluator {
     let options = EvaluatorOptions {
-        model: ModelOptions::new(&model, 1024),
+        model: ModelOptions::new(&peer_model(), 1024),
         overrides: Overrides::default(),
         fit: None,
-        adapter: match std::env::var("SABI_ADAPTER") {
-            Ok(name) => name.parse().unwrap(),
-            Err(_) => AdapterChoice::Auto,
-        },
+        adapter: adapter(),
         caster: CasterChoice::Auto,
         budget_bytes: DEFAULT_BUDGET_BYTES,
     };
-    let path = root.join("graphs/weathered-paint.sabi");
+    let path = root().join("graphs/weathered-paint.sabi");
     let open = OpenGraph::open(&path).unwrap();
     let kinds = Kinds::beside(Some(&path));
     let graph = Evaluator::flat_graph(&open, &kinds, &options).unwrap();
@@ -75,8 +71,7 @@ fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
 
 impl Stage {
     fn new() -> Stage {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let mut evaluator = evaluator(&root);
+        let mut evaluator = evaluator();
         let shown = evaluate_looks(&mut evaluator, None, &NoProgress).unwrap();
         let gpu = &evaluator.gpu;
         let name = &gpu.summary().name;

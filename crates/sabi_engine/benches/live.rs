@@ -4,7 +4,9 @@
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
 
-use std::path::{Path, PathBuf};
+mod setup;
+
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
@@ -13,9 +15,10 @@ use sabi_engine::view::{
     Background, Camera, Environment, MaterialLook, Mode, Renderer, Scene, Shot, Target, Viewpoint,
 };
 use sabi_engine::{
-    AdapterChoice, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, ModelLooks, ModelOptions, NodeRef,
-    OpenGraph, ViewSubject, default_cache_dir, load_environment,
+    Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, ModelLooks, ModelOptions, NodeRef, OpenGraph,
+    ViewSubject, default_cache_dir, load_environment,
 };
+use setup::{adapter, peer_model};
 
 const MOVES: usize = 15;
 /// Of a window of 900 × 700 while something moves.
@@ -39,13 +42,6 @@ fn graph(folder: &Path, at: f32) -> OpenGraph {
     let path = folder.join("live.sabi");
     std::fs::write(&path, text).unwrap();
     OpenGraph::open(&path).unwrap()
-}
-
-fn peer_model() -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let shared = root.join("../shared/data/meshes/bench-suzanne30k/mesh30k.glb");
-    let own = root.join("assets/meshes/figure.glb");
-    if shared.is_file() { shared } else { own }
 }
 
 fn median(mut times: Vec<f64>) -> f64 {
@@ -241,11 +237,7 @@ fn report(moves: &[Move]) {
 }
 
 fn main() {
-    let adapter = match std::env::var("SABI_ADAPTER") {
-        Ok(name) => name.parse().unwrap(),
-        Err(_) => AdapterChoice::Auto,
-    };
-    let gpu = Arc::new(Gpu::open(&adapter).unwrap());
+    let gpu = Arc::new(Gpu::open(&adapter()).unwrap());
     println!(
         "{}\n\n| what | measured | aim on a software driver |\n|---|---|---|",
         gpu.summary().name

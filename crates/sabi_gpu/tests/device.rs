@@ -26,10 +26,18 @@ use sabi_surface::pieces::Pieces;
 
 const INSTALL: &str = "these tests need a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
 
+/// The software adapter, or the one that `SABI_ADAPTER` names.
+fn adapter() -> AdapterChoice {
+    match std::env::var("SABI_ADAPTER") {
+        Ok(name) => AdapterChoice::Named(name),
+        Err(_) => AdapterChoice::Cpu,
+    }
+}
+
 fn gpu() -> Arc<Gpu> {
     static SHARED: OnceLock<Arc<Gpu>> = OnceLock::new();
     SHARED
-        .get_or_init(|| Arc::new(Gpu::open(&AdapterChoice::Cpu).expect(INSTALL)))
+        .get_or_init(|| Arc::new(Gpu::open(&adapter()).expect(INSTALL)))
         .clone()
 }
 

@@ -1,11 +1,12 @@
 //! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
-//! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`.
+//! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask gpu`.
 
 mod assets;
 mod bless;
 mod checks;
 mod demo;
 mod display;
+mod gpu;
 mod packages;
 mod pictures;
 mod place;
@@ -25,6 +26,9 @@ cargo xtask assets    write the project's own models into assets/meshes again; w
 cargo xtask bless K   write the goldens of node kind K again, of all, or pictures of the window
 cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
 cargo xtask pictures  draw the example graphs on three models each into docs/pictures; with names only theirs
+cargo xtask gpu       run the tests and benches that use a device on every adapter of this machine, and write
+                      target/gpu/report.md; with --pack FOLDER, build them for a machine without Rust, where
+                      FOLDER/xtask gpu --packed FOLDER runs them in a copy of the project
 ";
 
 fn main() -> ExitCode {
@@ -37,6 +41,7 @@ fn main() -> ExitCode {
         Some("bless") => Place::find().and_then(|place| bless::run(&place, rest.first().map(String::as_str))),
         Some("reference") => Place::find().and_then(|place| reference::run(&place, &rest)),
         Some("pictures") => Place::find().and_then(|place| pictures::run(&place, &rest)),
+        Some("gpu") => gpu::run(&rest),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");
             Ok(())

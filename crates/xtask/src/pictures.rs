@@ -240,7 +240,10 @@ fn pixels_of(path: &Path) -> Result<Vec<[u8; 3]>, String> {
     let mut reader = png::Decoder::new(Cursor::new(bytes))
         .read_info()
         .map_err(|error| error.to_string())?;
-    let mut codes = vec![0; reader.output_buffer_size().unwrap_or_default()];
+    let size = reader
+        .output_buffer_size()
+        .ok_or("the picture does not fit into memory")?;
+    let mut codes = vec![0; size];
     reader.next_frame(&mut codes).map_err(|error| error.to_string())?;
     let (pixels, _) = codes.as_chunks::<3>();
     Ok(pixels.to_vec())

@@ -58,8 +58,11 @@ impl Place {
                     format!("`cargo metadata` could not be started: {error}. Install Rust with rustup."),
                 )
             })?;
-        let metadata: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
-        match metadata["target_directory"].as_str() {
+        let metadata: Option<Value> = serde_json::from_slice(&output.stdout).ok();
+        match metadata
+            .as_ref()
+            .and_then(|metadata| metadata["target_directory"].as_str())
+        {
             Some(target) => Ok(Place {
                 root,
                 target: target.into(),
@@ -72,6 +75,17 @@ impl Place {
                 ),
             )),
         }
+    }
+
+    /// The project in the current folder, on a machine that need not have cargo.
+    pub(crate) fn here() -> Result<Place, Stop> {
+        let root = env::current_dir().map_err(|error| Stop::new(1, format!("There is no current folder: {error}.")))?;
+        if !root.join("shaders").is_dir() {
+            let why = format!("{} is not the root of the project: run this there.", root.display());
+            return Err(Stop::new(2, why));
+        }
+        let target = root.join("target");
+        Ok(Place { root, target })
     }
 
     /// A cargo command in the root, building where this one was built.

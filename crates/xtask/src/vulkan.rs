@@ -59,8 +59,8 @@ fn missing(driver: Driver) -> Option<String> {
 }
 
 fn suits(file: &Path, driver: Driver) -> bool {
-    let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    driver == Driver::Any || name.starts_with("lvp_icd")
+    let is_lavapipe = |name: &std::ffi::OsStr| name.to_string_lossy().starts_with("lvp_icd");
+    driver == Driver::Any || file.file_name().is_some_and(is_lavapipe)
 }
 
 /// The driver manifests that the loader would read, in its order.

@@ -7,14 +7,15 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions,
-    NoProgress, OpenGraph, Overrides, Pictures,
+    CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
+    OpenGraph, Overrides, Pictures,
 };
 use sabi_gpu::StepTime;
 use sabi_graph::{Document, Fit};
 use sabi_plan::{Mode, Target};
 use sabi_surface::bvh::Bvh;
 
+use super::setup::adapter;
 use super::{bake_once, graph, row};
 
 const SIZE: u32 = 1024;
@@ -114,7 +115,7 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
         model: ModelOptions::new(model, SIZE),
         overrides: Overrides::default(),
         fit: None,
-        adapter: AdapterChoice::Auto,
+        adapter: adapter(),
         caster: CasterChoice::Auto,
         budget_bytes: DEFAULT_BUDGET_BYTES,
     };

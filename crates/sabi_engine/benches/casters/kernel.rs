@@ -2,11 +2,13 @@
 
 use std::time::Instant;
 
+use sabi_engine::choose_adapter;
 use sabi_surface::bvh::Bvh;
 use wgpu::util::DeviceExt as _;
 
 use super::Ray;
 use super::bvh2::Bvh2;
+use super::setup::adapter;
 
 /// Rows along a table's side, as `table_texel` in `shaders/lib/atlas.wgsl` has it.
 const TABLE_WIDTH: usize = 8192;
@@ -22,14 +24,11 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    /// The first adapter, a card before a software driver.
+    /// The adapter that all benches run on.
     pub(crate) fn open() -> Machine {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let options = wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            ..Default::default()
-        };
-        let adapter = pollster::block_on(instance.request_adapter(&options)).unwrap();
+        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+        let adapter = choose_adapter(&adapter(), &adapters, None).unwrap();
         let descriptor = wgpu::DeviceDescriptor {
             required_limits: adapter.limits(),
             ..Default::default()

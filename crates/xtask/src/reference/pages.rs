@@ -35,6 +35,7 @@ pub(crate) fn pictures_of(node: &Value) -> Vec<(&Value, String)> {
 }
 
 fn text(value: &Value) -> &str {
+    // Texts that are optional, such as labels and descriptions, are null.
     value.as_str().unwrap_or_default()
 }
 

@@ -43,6 +43,7 @@ pub(crate) fn specimen(node: &Value, port: &str) -> Option<Specimen> {
     for (name, node) in own["nodes"].as_object().into_iter().flatten() {
         nodes.insert(name.clone(), node.clone());
     }
+    // Most specimens set no parameter.
     let params = own["params"].as_object().cloned().unwrap_or_default();
     nodes.insert(
         "node".to_owned(),

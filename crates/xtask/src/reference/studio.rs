@@ -53,7 +53,8 @@ impl Studio<'_> {
     pub(crate) fn shoot(&mut self, nodes: &[&Value], folder: &Path) -> Result<(), Stop> {
         for node in nodes {
             for (output, name) in pictures_of(node) {
-                let Some(specimen) = specimen(node, output["name"].as_str().unwrap_or_default()) else {
+                let name_of_output = output["name"].as_str();
+                let Some(specimen) = name_of_output.and_then(|output| specimen(node, output)) else {
                     continue;
                 };
                 let path = folder.join(&name);

@@ -1,0 +1,121 @@
+//! The adapters of this machine, as `sabi doctor` lists them.
+
+use std::fmt;
+use std::process::Stdio;
+
+use serde_json::Value;
+
+use super::pack::{Pack, Role};
+use crate::place::{Place, Stop};
+
+/// An adapter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Adapter {
+    /// Name as its driver gives it.
+    pub(super) name: String,
+    /// `discrete`, `integrated` or `cpu`.
+    pub(super) kind: String,
+    /// Driver and its version.
+    pub(super) driver: String,
+    /// Interface that it is reached by, such as `vulkan`.
+    pub(super) backend: String,
+}
+
+impl fmt::Display for Adapter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Adapter {
+            name,
+            kind,
+            driver,
+            backend,
+        } = self;
+        write!(f, "{name} ({kind}, {backend}, {driver})")
+    }
+}
+
+impl Adapter {
+    /// Lists all adapters, the one that a user gets by default first.
+    pub(super) fn find_all(place: &Place, pack: &Pack) -> Result<Vec<Adapter>, Stop> {
+        let Some((_, sabi)) = pack.of(Role::Sabi).next() else {
+            return Err(Stop::new(
+                1,
+                "The pack has no sabi, which lists the adapters: pack it again.",
+            ));
+        };
+        let mut doctor = place.command(sabi)?;
+        let output = doctor
+            .args(["doctor", "--json"])
+            .stderr(Stdio::inherit())
+            .output()
+            .map_err(|error| Stop::new(1, format!("`sabi doctor` could not be started: {error}.")))?;
+        let adapters = listed(&output.stdout)?;
+        if adapters.is_empty() {
+            return Err(Stop::new(4, "This machine has no adapter: install a Vulkan driver."));
+        }
+        Ok(adapters)
+    }
+
+    /// Whether it runs on the processor.
+    pub(super) fn is_software(&self) -> bool {
+        self.kind == "cpu"
+    }
+
+    /// The name as one of a folder.
+    pub(super) fn folder_name(&self) -> String {
+        let letters = self.name.chars().map(|c| {
+            if c.is_ascii_alphanumeric() {
+                c.to_ascii_lowercase()
+            } else {
+                '-'
+            }
+        });
+        let words: String = letters.collect();
+        words
+            .split('-')
+            .filter(|word| !word.is_empty())
+            .collect::<Vec<_>>()
+            .join("-")
+    }
+}
+
+fn listed(json: &[u8]) -> Result<Vec<Adapter>, Stop> {
+    let found: Value = serde_json::from_slice(json)
+        .map_err(|error| Stop::new(1, format!("`sabi doctor --json` did not write JSON: {error}.")))?;
+    let text = |adapter: &Value, key: &str| -> Result<String, Stop> {
+        let text = adapter[key].as_str().map(str::to_owned);
+        text.ok_or_else(|| Stop::new(1, format!("`sabi doctor --json` says nothing of an adapter's {key}.")))
+    };
+    let read = |adapter: &Value| {
+        Ok(Adapter {
+            name: text(adapter, "name")?,
+            kind: text(adapter, "kind")?,
+            driver: text(adapter, "driver")?,
+            backend: text(adapter, "backend")?,
+        })
+    };
+    found["adapters"].as_array().into_iter().flatten().map(read).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn adapters_are_read_from_what_the_doctor_says() {
+        let json = br#"{ "adapters": [{ "name": "llvmpipe (LLVM 15.0.6, 256 bits)", "kind": "cpu", "driver": "llvmpipe Mesa 22",
+            "backend": "vulkan" }] }"#;
+        let adapters = listed(json).unwrap();
+        assert!(adapters[0].is_software());
+        assert_eq!(adapters[0].folder_name(), "llvmpipe-llvm-15-0-6-256-bits");
+        assert_eq!(
+            adapters[0].to_string(),
+            "llvmpipe (LLVM 15.0.6, 256 bits) (cpu, vulkan, llvmpipe Mesa 22)"
+        );
+    }
+
+    #[test]
+    fn an_adapter_without_a_kind_is_an_error() {
+        let stop = listed(br#"{ "adapters": [{ "name": "a" }] }"#).unwrap_err();
+        assert_eq!(stop.sentence, "`sabi doctor --json` says nothing of an adapter's kind.");
+    }
+}

@@ -1,0 +1,185 @@
+//! The programs that are run: tests, benches and `sabi`, built once and gathered in one folder.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+use std::{env, fs};
+
+use serde_json::Value;
+
+use super::make_folder;
+use crate::place::{Place, Stop};
+
+/// What a program is, which is also how its file name begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Role {
+    /// Tests that use a device.
+    Test,
+    /// A bench that uses a device.
+    Bench,
+    /// The command line, which lists the adapters.
+    Sabi,
+}
+
+impl Role {
+    fn prefix(self) -> &'static str {
+        match self {
+            Role::Test => "test-",
+            Role::Bench => "bench-",
+            Role::Sabi => "",
+        }
+    }
+}
+
+/// A target of cargo: its package, how cargo calls its kind, its name.
+type Target = (&'static str, &'static str, &'static str);
+
+const TESTS: [Target; 6] = [
+    ("sabi_tests", "test", "pixels"),
+    ("sabi_tests", "test", "closed_forms"),
+    ("sabi_tests", "test", "views"),
+    ("sabi_tests", "test", "live"),
+    ("sabi_tests", "test", "memory"),
+    ("sabi_gpu", "test", "device"),
+];
+const BENCHES: [Target; 4] = [
+    ("sabi_engine", "bench", "bake"),
+    ("sabi_engine", "bench", "casters"),
+    ("sabi_engine", "bench", "frames"),
+    ("sabi_engine", "bench", "live"),
+];
+
+/// A folder with programs.
+#[derive(Debug)]
+pub(super) struct Pack {
+    /// Each program by its role and its target's name.
+    pub(super) programs: BTreeMap<(Role, String), PathBuf>,
+}
+
+impl Pack {
+    /// Builds everything at full speed and copies it into a folder.
+    pub(super) fn build(place: &Place, folder: &Path) -> Result<Pack, Stop> {
+        make_folder(folder)?;
+        eprintln!("Building tests, benches and sabi at full speed; the first time takes many minutes.");
+        let mut pack = Pack {
+            programs: BTreeMap::new(),
+        };
+        for (role, (package, kind, name)) in targets() {
+            let built = build(place, package, kind, name)?;
+            pack.add(&built, folder, role, name)?;
+        }
+        let own =
+            env::current_exe().map_err(|error| Stop::new(1, format!("This program cannot be found: {error}.")))?;
+        copy(&own, &folder.join(format!("xtask{}", env::consts::EXE_SUFFIX)))?;
+        Ok(pack)
+    }
+
+    fn add(&mut self, built: &Path, folder: &Path, role: Role, name: &str) -> Result<(), Stop> {
+        let file = folder.join(file_name(role, name));
+        copy(built, &file)?;
+        self.programs.insert((role, name.to_owned()), file);
+        Ok(())
+    }
+
+    /// Opens a folder that was packed before; all programs have to be there.
+    pub(super) fn open(folder: &Path) -> Result<Pack, Stop> {
+        let folder = folder
+            .canonicalize()
+            .map_err(|error| Stop::new(1, format!("The folder {} cannot be opened: {error}.", folder.display())))?;
+        let mut programs = BTreeMap::new();
+        for (role, (_, _, name)) in targets() {
+            let file = folder.join(file_name(role, name));
+            if !file.is_file() {
+                let why = format!("{} is missing: pack the folder again.", file.display());
+                return Err(Stop::new(1, why));
+            }
+            programs.insert((role, name.to_owned()), file);
+        }
+        Ok(Pack { programs })
+    }
+
+    /// Programs of a role with their names, in order.
+    pub(super) fn of(&self, role: Role) -> impl Iterator<Item = (&str, &Path)> {
+        let of_role = self.programs.iter().filter(move |((own, _), _)| *own == role);
+        of_role.map(|((_, name), file)| (name.as_str(), file.as_path()))
+    }
+}
+
+fn targets() -> impl Iterator<Item = (Role, Target)> {
+    let tests = TESTS.map(|target| (Role::Test, target));
+    let benches = BENCHES.map(|target| (Role::Bench, target));
+    tests
+        .into_iter()
+        .chain(benches)
+        .chain([(Role::Sabi, ("sabi", "bin", "sabi"))])
+}
+
+fn file_name(role: Role, name: &str) -> String {
+    format!("{}{name}{}", role.prefix(), env::consts::EXE_SUFFIX)
+}
+
+/// Builds one target in the profile of benches and returns the program's file, which cargo names.
+fn build(place: &Place, package: &str, kind: &str, name: &str) -> Result<PathBuf, Stop> {
+    let flag = format!("--{kind}");
+    let what = format!("Building {name} of {package}");
+    let mut arguments = if kind == "bin" {
+        vec!["build", "--no-default-features"]
+    } else {
+        vec!["test", "--no-run"]
+    };
+    arguments.extend(["--profile", "bench", "--locked", "--package", package]);
+    arguments.extend([&*flag, name, "--message-format", "json-render-diagnostics"]);
+    let mut command = place.cargo(&arguments)?;
+    let output = command
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| Stop::new(1, format!("{what} could not be started: {error}.")))?;
+    if !output.status.success() {
+        return Err(Stop::new(1, format!("{what} failed; the compiler's words are above.")));
+    }
+    let told = String::from_utf8_lossy(&output.stdout);
+    program_of(&told, name).ok_or_else(|| Stop::new(1, format!("{what}: cargo did not say where the program is.")))
+}
+
+/// The program that cargo's messages name for a target.
+fn program_of(messages: &str, name: &str) -> Option<PathBuf> {
+    let messages = messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    messages
+        .filter(|message| message["target"]["name"] == name)
+        .find_map(|message| Some(PathBuf::from(message["executable"].as_str()?)))
+}
+
+fn copy(program: &Path, to: &Path) -> Result<(), Stop> {
+    fs::copy(program, to).map(drop).map_err(|error| {
+        Stop::new(
+            1,
+            format!("{} cannot be copied to {}: {error}.", program.display(), to.display()),
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_program_is_the_one_that_cargo_names_for_the_target() {
+        let messages = r#"{"reason":"compiler-artifact","target":{"name":"glam"},"executable":null}
+{"reason":"compiler-artifact","target":{"name":"pixels"},"executable":"target/release/deps/pixels-1"}
+{"reason":"build-finished","success":true}"#;
+        assert_eq!(
+            program_of(messages, "pixels"),
+            Some("target/release/deps/pixels-1".into())
+        );
+        assert_eq!(program_of(messages, "views"), None);
+    }
+
+    #[test]
+    fn a_folder_without_a_program_is_told_to_be_packed_again() {
+        let folder = env::temp_dir();
+        let stop = Pack::open(&folder).unwrap_err();
+        assert!(stop.sentence.ends_with("pack the folder again."), "{}", stop.sentence);
+    }
+}
