@@ -20,7 +20,8 @@ fn main() -> io::Result<()> {
         }
         for file in entries(&category)? {
             if let Some(name) = stem(&file) {
-                let category = category.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                let Some(category) = category.file_name() else { continue };
+                let category = category.to_string_lossy().into_owned();
                 let path = format!("shaders/nodes/{category}/{name}.wgsl");
                 let id = format!("{category}/{name}");
                 list += &format!("    ({path:?}, {id:?}, include_str!({:?})),\n", file.canonicalize()?);

@@ -4,6 +4,7 @@ mod action;
 mod app;
 mod canvas;
 mod command;
+mod desk;
 mod dock;
 mod errand;
 mod files;

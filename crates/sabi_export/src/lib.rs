@@ -3,6 +3,20 @@
 //! The way of a bake's numbers: [`set_keys`] says which texture sets a model has, [`SetLayout`] which texel feeds which
 //! pixel of one, [`PaddingMap`] what stands outside the charts, [`BakeWriter`] takes one channel after the other and
 //! puts complete files in place at the end. What was written comes back as records for the report.
+//!
+//! Invariants:
+//! * A set of files is written completely or not at all.
+//! * A pixel inside a chart is a copy of its texel, except beside seams: `docs/design/export-seams.md`.
+//! * A copy of a model keeps every byte of its file that the new maps do not replace.
+//! * Nothing here knows the graph, the device or where the numbers came from.
+//!
+//! ```
+//! use sabi_export::{Channel, NamePattern};
+//!
+//! let names = NamePattern::parse("T_{material}_{channel}", &[])?;
+//! assert_eq!(names.stem("wood", &Channel::BaseColor), "T_wood_base_color");
+//! # Ok::<(), sabi_export::ExportError>(())
+//! ```
 
 mod channel;
 mod constant;

@@ -1,4 +1,20 @@
 //! The device: choosing it, textures, pipelines, running a plan, readback.
+//!
+//! [`Gpu::open`] opens an adapter, or [`Gpu::adopt_device`] takes a window's device; [`Gpu::run`] runs a plan on a surface.
+//!
+//! Invariants:
+//! * This crate and the viewport alone create pipelines; everything before them is plain data.
+//! * A lost device and exhausted memory are errors, never panics.
+//! * What a run allocates stays within its budget in bytes, or the run fails and says so.
+//! * Nothing here knows the document, files or who asked.
+//!
+//! ```no_run
+//! use sabi_gpu::{AdapterChoice, Gpu};
+//!
+//! let gpu = Gpu::open(&AdapterChoice::Auto)?;
+//! println!("{} ({})", gpu.summary().name, gpu.summary().driver);
+//! # Ok::<(), sabi_gpu::GpuError>(())
+//! ```
 
 mod adapter;
 mod blocks;

@@ -1,7 +1,23 @@
 //! Pictures in and out: PNG, EXR, HDR, color spaces, dithering.
 //!
 //! [`decode`] turns the bytes of a picture file into a [`Picture`], and [`check_header`] tells early whether it may;
-//! [`encode_png`] and [`encode_exr`] turn numbers into the bytes of a file. Nothing here opens files, and the same numbers always give the same bytes.
+//! [`encode_png`] and [`encode_exr`] turn numbers into the bytes of a file.
+//!
+//! Invariants:
+//! * Nothing here opens files or knows what a picture is used for.
+//! * The same numbers give the same bytes, on every machine and any number of threads.
+//! * A picture's size is checked before memory is taken for it.
+//! * sRGB is decoded and encoded here and nowhere else on the processor.
+//!
+//! ```
+//! use sabi_image::{Pixels, PngData, PngOptions, decode, encode_png, srgb8_from_linear};
+//!
+//! let codes = [0.0, 0.2, 1.0].map(srgb8_from_linear);
+//! let options = PngOptions { channels: 3, bits: 8, srgb_chunk: true };
+//! let file = encode_png(1, 1, PngData::U8(&codes), options)?;
+//! assert_eq!(decode("pixel.png", &file)?.pixels, Pixels::U8(vec![0, 124, 255]));
+//! # Ok::<(), sabi_image::ImageError>(())
+//! ```
 
 mod color;
 mod decode;

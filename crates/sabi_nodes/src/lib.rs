@@ -2,6 +2,43 @@
 //!
 //! A node is one WGSL file (`shaders/nodes/<category>/<name>.wgsl`). [`read_kind`] reads one, [`Library`] holds many and
 //! keeps the last good version of each.
+//!
+//! Invariants:
+//! * Nothing about a kind is said outside of its file: ports, parameters, ranges and texts all come from there.
+//! * A kind that was read compiles in every kernel it is linked into, ends, and writes only its own results.
+//! * Every fault has a file, a line, a column and advice.
+//! * Nothing here knows wgpu, a thread or how a graph is wired.
+//!
+//! ```
+//! use sabi_nodes::{Library, SourceFile, read_kind};
+//!
+//! let library = Library::builtin();
+//! let file = SourceFile {
+//!     path: "half.wgsl".into(),
+//!     id: "adjust/half".to_owned(),
+//!     text: "\
+//! //! Half
+//! //! Scales a mask.
+//!
+//! struct Params {
+//!     /// Factor.
+//!     /// @range 0 1 @default 0.5
+//!     factor: f32,
+//! }
+//!
+//! /// The mask, scaled.
+//! /// @input source Mask to scale.
+//! fn mask(at: Surface, source: f32, params: Params) -> f32 {
+//!     return source * params.factor;
+//! }
+//! "
+//!     .to_owned(),
+//! };
+//! let kind = read_kind(&file, library.libraries()).map_err(|faults| faults[0].to_string())?;
+//! assert_eq!(kind.label, "Half");
+//! assert_eq!(kind.inputs[0].name, "source");
+//! # Ok::<(), String>(())
+//! ```
 
 mod analysis;
 mod compile;

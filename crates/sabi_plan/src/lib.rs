@@ -1,7 +1,48 @@
 //! A graph and its kinds become a list of passes: plain data that prints and compares.
 //!
 //! [`Planner::plan`] resolves the wanted part of a graph, gives every result a key that names its content, fuses
-//! connected regions of point nodes, and gives stored results slots from a pool.
+//! connected regions of point nodes, and gives stored results slots from a pool. `docs/design/planner.md` goes through the
+//! steps.
+//!
+//! Invariants:
+//! * The same inputs give the same plan; no order of a hash map, no clock and no device takes part.
+//! * A result's key changes with everything that can change the result, and with nothing else.
+//! * A step reads only slots that an earlier step wrote and that no step in between has written again.
+//! * A faulty node takes only its readers along: the rest of the graph is planned.
+//!
+//! ```
+//! use std::collections::BTreeMap;
+//!
+//! use sabi_graph::{Document, Overrides, flatten};
+//! use sabi_nodes::Library;
+//! use sabi_plan::{FileContents, Lengths, Limits, Mode, Planner, Target};
+//!
+//! let document = Document::from_json(
+//!     r#"{ "format": "sabi", "version": 1, "nodes": {
+//!          "clouds": { "kind": "noise/simplex" },
+//!          "dark": { "kind": "adjust/invert", "inputs": { "source": "clouds" } } } }"#,
+//! )?;
+//! let graph = flatten(&document, &Overrides::default(), &mut |_| Err("no group files".to_owned()))?;
+//! let planner = Planner {
+//!     graph: &graph,
+//!     library: &Library::builtin(),
+//!     sources: &BTreeMap::new(),
+//!     sinks: &BTreeMap::new(),
+//!     files: &FileContents::new(),
+//!     lengths: Lengths { working_from: &|_| 1.0, extent: &|_| [0.0, 1.0] },
+//!     levels: &[0.001],
+//!     surface_key: [0; 32],
+//!     mode: Mode::Bake { fuse: true },
+//!     most_rays: None,
+//!     limits: Limits::default(),
+//! };
+//! let node = graph.nodes.iter().position(|node| node.id == "dark").ok_or("no such node")?;
+//! let (plan, errors) = planner.plan(&[Target { node, port: None }]);
+//! assert!(errors.is_empty());
+//! // Both are point nodes: one pass, and one texture.
+//! assert_eq!((plan.steps.len(), plan.slots.len()), (1, 1));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod assign;
 mod channels;

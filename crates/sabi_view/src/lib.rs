@@ -2,6 +2,21 @@
 //!
 //! Directions and places are right-handed with +Y up. What is drawn lies in view space: the model's box is centered and its
 //! largest side is 1, so that no model is too small or too large to be seen.
+//!
+//! Invariants:
+//! * The viewport reads the textures that an evaluation stored: a normal and a color are decoded as an exported map's are.
+//! * A picture depends on its [`Scene`], its [`Shot`] and its size alone, not on the picture before.
+//! * Cameras and picking are plain values and need no device.
+//! * Nothing here knows the graph, files or windows.
+//!
+//! ```
+//! use glam::{Vec2, Vec3};
+//! use sabi_view::{Camera, Viewpoint};
+//!
+//! let camera = Camera::seen_from(Viewpoint::FRONT, [Vec3::splat(-0.5), Vec3::splat(0.5)], 1.0);
+//! let ray = camera.ray(Vec2::splat(0.5), 1.0);
+//! assert!(ray.direction.dot(camera.forward()) > 0.999);
+//! ```
 
 mod camera;
 mod dfg;
