@@ -4,7 +4,6 @@ mod action;
 mod app;
 mod canvas;
 mod command;
-mod desk;
 mod dock;
 mod errand;
 mod files;
