@@ -93,8 +93,8 @@ fn models() -> Vec<(&'static str, Vec<Quad>, &'static [&'static str])> {
 /// The graph with all lengths of its node at the far end of their range.
 fn with_far_lengths(graph: &str, kind: &Kind) -> String {
     let mut graph: Value = serde_json::from_str(graph).expect("a graph");
-    for param in kind.params.iter().filter(|param| param.role == Role::Length) {
-        if let (Some([_, most]), 1) = (param.range, param.ty.components()) {
+    for param in kind.params.iter().filter(|param| param.ty.role == Role::Length) {
+        if let (Some([_, most]), 1) = (param.ty.range, param.ty.components()) {
             graph["nodes"]["node"]["params"][&param.name] = json!(most);
         }
     }

@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::Library;
-use sabi_nodes::kind::{Kind, Param, ParamType, Role};
+use sabi_nodes::kind::{Kind, Memory, Param, Role};
 use sabi_tests::{Evaluated, OnMesh};
 use serde_json::{Value, json};
 
@@ -35,12 +35,12 @@ fn ends(kind: &Kind) -> Vec<Value> {
     let numbers = kind
         .params
         .iter()
-        .filter(|param| matches!(param.role, Role::Plain | Role::Length | Role::Angle));
+        .filter(|param| matches!(param.ty.role, Role::Plain | Role::Length | Role::Angle));
     let both = |param: &Param| {
-        param.range.unwrap_or_default().map(|end| {
-            let value = match param.ty {
-                ParamType::U32 => json!(end as u32),
-                ParamType::I32 => json!(end as i32),
+        param.ty.range.unwrap_or_default().map(|end| {
+            let value = match param.ty.memory {
+                Memory::U32 => json!(end as u32),
+                Memory::I32 => json!(end as i32),
                 _ if param.ty.components() == 1 => json!(end),
                 _ => json!(vec![end; param.ty.components()]),
             };

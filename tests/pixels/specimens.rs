@@ -109,7 +109,7 @@ fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
     let sized = kind
         .params
         .iter()
-        .filter(|param| SIZES.contains(&param.name.as_str()) && param.role == Role::Length);
+        .filter(|param| SIZES.contains(&param.name.as_str()) && param.ty.role == Role::Length);
     for param in sized {
         if let ParamValue::Floats(default) = &param.default
             && size != 1.0

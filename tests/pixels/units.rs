@@ -33,7 +33,7 @@ fn a_relief_is_the_same_whatever_unit_it_is_given_in() {
     let kinds = Kinds::builtin();
     let layer = kinds.library.kind("effect/layer").expect("the layer");
     let mode = layer.params.iter().find(|param| param.name == "height_mode");
-    let Some(Role::Choice(modes)) = mode.map(|param| &param.role) else {
+    let Some(Role::Choice(modes)) = mode.map(|param| &param.ty.role) else {
         panic!("the layer offers no modes for the height");
     };
     assert!(modes.len() > 3, "{modes:?}");

@@ -32,7 +32,8 @@ pub fn own_knobs(entry: &Entry) -> impl Iterator<Item = &Knob> {
             KnobRole::Plain | KnobRole::Length | KnobRole::Angle | KnobRole::Choice(_) | KnobRole::Toggle
         )
     };
-    let is_small = move |knob: &&Knob| knob.role == KnobRole::Color || knob.components == 1 && is_quick(&knob.role);
+    let is_small =
+        move |knob: &&Knob| knob.ty.role == KnobRole::Color || knob.ty.components() == 1 && is_quick(&knob.ty.role);
     let own = entry.knobs.iter().filter(|knob| !knob.is_of_input);
     own.filter(is_small).take(MOST_KNOBS)
 }

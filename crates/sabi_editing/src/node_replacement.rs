@@ -66,7 +66,7 @@ impl Successor<'_> {
 
 /// Whether a knob of one kind means what one of another does.
 fn are_alike(old: Option<&Knob>, new: &Knob) -> bool {
-    let like = |knob: &Knob| (knob.role.clone(), knob.components, knob.is_whole, knob.is_of_input);
+    let like = |knob: &Knob| (knob.ty.role.clone(), knob.ty.memory, knob.is_of_input);
     old.is_some_and(|old| like(old) == like(new))
 }
 
@@ -74,7 +74,7 @@ fn are_alike(old: Option<&Knob>, new: &Knob) -> bool {
 fn takes(knob: &Knob, value: &Value) -> bool {
     let one = std::slice::from_ref(value);
     let numbers = || value.as_list().unwrap_or(one).iter().filter_map(Value::as_number);
-    match (&knob.role, knob.range) {
+    match (&knob.ty.role, knob.ty.range) {
         (KnobRole::Stops | KnobRole::Curve, _) | (_, None) => true,
         (_, Some([low, high])) => numbers().all(|number| (low..=high).contains(&number)),
     }

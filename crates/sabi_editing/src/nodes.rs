@@ -27,7 +27,7 @@ impl OpenDocument {
         let seeds = entry
             .iter()
             .flat_map(|entry| &entry.knobs)
-            .filter(|knob| knob.role == KnobRole::Seed);
+            .filter(|knob| knob.ty.role == KnobRole::Seed);
         for knob in seeds {
             let seed = Value::Number(f64::from(self.names.seed()));
             node.params.insert(knob.name.clone(), seed);

@@ -32,11 +32,11 @@ impl OpenDocument {
             let inner = self.face(&first.node)?.knob(&first.name)?;
             let before = opened.and_then(|face| face.knob(name));
             Some(PanelKnob {
-                at_first: before.map_or(&inner.default, |knob| &knob.default).clone(),
+                at_first: before.map_or(&inner.ty.default, |knob| &knob.ty.default).clone(),
                 name: name.to_owned(),
                 exposed: exposed.clone(),
                 // Of a published knob, it is what it holds while nobody outside sets it.
-                value: knob.default.clone(),
+                value: knob.ty.default.clone(),
                 knob,
             })
         });
@@ -94,7 +94,7 @@ impl OpenDocument {
             .and_then(|slot| self.face(&slot.node)?.knob(&slot.name));
         let own = self.face(id).and_then(|face| face.knob(knob));
         let is_alike = first.zip(own).is_some_and(|(first, own)| {
-            let like = |knob: &Knob| (knob.role.clone(), knob.components, knob.is_whole);
+            let like = |knob: &Knob| (knob.ty.role.clone(), knob.ty.memory);
             like(first) == like(own)
         });
         if !is_alike {

@@ -152,7 +152,7 @@ impl OpenDocument {
         let opacity = face.and_then(|face| face.knob("opacity"));
         let opacity = opacity.and_then(|knob| {
             let set = node.and_then(|node| node.params.get("opacity"));
-            set.unwrap_or(&knob.default).as_number()
+            set.unwrap_or(&knob.ty.default).as_number()
         });
         let is_of_chain = |slot: &SlotRef| above.slot.as_ref() == Some(slot);
         let readers = self.graph().readers(id.as_str()).into_iter();
@@ -215,7 +215,7 @@ impl OpenDocument {
             let title = self.title(id);
             return self.refuse(format!("'{title}' has no Opacity"));
         };
-        let [low, high] = knob.range.unwrap_or([0.0, 1.0]);
+        let [low, high] = knob.ty.range.unwrap_or([0.0, 1.0]);
         if opacity.is_nan() {
             return self.refuse("an Opacity is a number");
         }

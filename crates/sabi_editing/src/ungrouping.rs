@@ -132,8 +132,8 @@ impl OpenDocument {
                 node.params.insert("scale".to_owned(), Value::Number(own * scale));
                 continue;
             }
-            for knob in face.knobs.iter().filter(|knob| knob.role == KnobRole::Length) {
-                let value = node.params.get(&knob.name).unwrap_or(&knob.default);
+            for knob in face.knobs.iter().filter(|knob| knob.ty.role == KnobRole::Length) {
+                let value = node.params.get(&knob.name).unwrap_or(&knob.ty.default);
                 let value = scaled(value, scale);
                 node.params.insert(knob.name.clone(), value);
             }

@@ -54,12 +54,12 @@ pub(crate) struct KnobRow<'a> {
 impl KnobRow<'_> {
     /// What is set, or the default.
     fn held(&self) -> &Value {
-        self.value.unwrap_or(&self.knob.default)
+        self.value.unwrap_or(&self.knob.ty.default)
     }
 
     /// Whether anything but the default holds.
     fn is_changed(&self) -> bool {
-        self.differs || *self.held() != self.knob.default
+        self.differs || *self.held() != self.knob.ty.default
     }
 }
 

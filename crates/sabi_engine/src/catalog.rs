@@ -19,8 +19,9 @@ use sabi_plan::{SourceKind, SourcePort};
 pub use faces::{Faces, ReadGroup};
 pub use knob::Knob;
 pub use picture::picture_of;
-pub use sabi_nodes::curve_points;
 pub use sabi_nodes::kind::Role as KnobRole;
+pub use sabi_nodes::kind::{Memory, ParamType, Written, WrittenStop};
+pub use sabi_nodes::{color_code, curve_points, typed_color};
 
 use crate::opening::kinds::Kinds;
 
@@ -145,7 +146,7 @@ fn entry_of_kind(kind: &Kind) -> Entry {
     let shown = kind
         .params
         .iter()
-        .filter(|param| !matches!(param.role, Role::Extent { .. }));
+        .filter(|param| !matches!(param.ty.role, Role::Extent { .. }));
     let of_inputs = kind.inputs.iter().filter_map(Knob::of_input);
     let inputs = kind.inputs.iter().map(|input| Port {
         name: input.name.clone(),

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use serde::{Serialize, Serializer};
+
 /// A JSON-like value, as parameters and unknown keys hold it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -138,6 +140,26 @@ impl Value {
     /// Canonical text on one line: `[0.5, "#804020"]`.
     pub fn to_json(&self) -> String {
         crate::layout::one_line(self)
+    }
+}
+
+impl Serialize for Value {
+    /// Numbers are written as [`canonical_number`] has them, whole ones without a point.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Value::Null => serializer.serialize_unit(),
+            Value::Bool(yes) => serializer.serialize_bool(*yes),
+            Value::Number(number) => match canonical_number(*number) {
+                Some(whole) if whole.fract() == 0.0 && whole.abs() < WHOLE_LIMIT => {
+                    serializer.serialize_i64(whole as i64)
+                }
+                Some(number) => serializer.serialize_f64(number),
+                None => serializer.serialize_unit(),
+            },
+            Value::Text(text) => serializer.serialize_str(text),
+            Value::List(items) => items.serialize(serializer),
+            Value::Object(members) => members.serialize(serializer),
+        }
     }
 }
 

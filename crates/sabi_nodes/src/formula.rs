@@ -3,7 +3,7 @@
 //! `@repeat ceil(1.2 * params.width / texel)` depends on a knob and on the model, so neither the shader nor the node's
 //! author can write the number down; the planner works it out.
 
-use crate::kind::{Param, ParamType};
+use crate::kind::{Memory, Param};
 use crate::words::{list, nearest};
 
 /// Most terms of a formula: more is no formula that a reader understands.
@@ -252,8 +252,8 @@ impl<'t> Reader<'t> {
                 advice,
             ));
         };
-        match self.params[index].ty {
-            ParamType::F32 | ParamType::U32 | ParamType::I32 => Ok(Formula::Param(index)),
+        match self.params[index].ty.memory {
+            Memory::F32 | Memory::U32 | Memory::I32 => Ok(Formula::Param(index)),
             _ => Err((
                 format!("`params.{name}` is no single number."),
                 "A formula takes parameters of the types `f32`, `u32` and `i32`.".to_owned(),

@@ -1,6 +1,9 @@
 //! What a node is, as read from its one WGSL file. Plain data: the planner, the editor and the reference all read it.
 
 mod own;
+mod param;
+mod param_type;
+mod written;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,6 +11,12 @@ use std::sync::Arc;
 use sabi_graph::PortType;
 
 use crate::formula::Formula;
+
+pub use param::{Memory, Param, ParamValue, Role};
+pub use param_type::ParamType;
+pub(crate) use param_type::exact;
+pub(crate) use written::UNUSED_STOP;
+pub use written::{Written, WrittenStop};
 
 /// A node kind: everything its file says, reflected and checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,128 +75,6 @@ pub enum Shape {
     Survey,
 }
 
-/// One member of `struct Params`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Param {
-    /// Name in WGSL and in graph files.
-    pub name: String,
-    /// Name shown to artists: `@label`, or the name with spaces and a capital.
-    pub label: String,
-    /// The doc comment without its annotations.
-    pub doc: String,
-    /// Shape in memory.
-    pub ty: ParamType,
-    /// Byte offset in `struct Params`, from naga.
-    pub offset: u32,
-    /// What an artist sees and writes.
-    pub role: Role,
-    /// Value in artist's units (degrees, sRGB for colors is already linear here).
-    pub default: ParamValue,
-    /// Values outside are refused in files and on the command line; artist's units.
-    pub range: Option<[f32; 2]>,
-    /// Ends of the slider; artist's units.
-    pub soft: Option<[f32; 2]>,
-    /// Whether a loop's bound depends on it, so that the linked kernel clamps it to `range`.
-    pub bounds_a_loop: bool,
-    /// Earlier names (`@was`).
-    pub formerly: Vec<String>,
-}
-
-/// Memory shape of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ParamType {
-    /// `f32`
-    F32,
-    /// `u32`
-    U32,
-    /// `i32`
-    I32,
-    /// `vec2f`
-    Vec2,
-    /// `vec3f`
-    Vec3,
-    /// `vec4f`
-    Vec4,
-    /// `array<vec4f, N>`: gradient stops, or with `@curve` the points of a curve.
-    Points(u32),
-    /// No memory: a text, which only kinds that are Rust can read.
-    Text,
-}
-
-impl ParamType {
-    /// Number of 32-bit components.
-    pub fn components(self) -> usize {
-        match self {
-            ParamType::F32 | ParamType::U32 | ParamType::I32 => 1,
-            ParamType::Vec2 => 2,
-            ParamType::Vec3 => 3,
-            ParamType::Vec4 => 4,
-            ParamType::Points(count) => 4 * count as usize,
-            ParamType::Text => 0,
-        }
-    }
-}
-
-/// What an artist sees and writes for a parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Role {
-    /// A number or a vector of numbers.
-    Plain,
-    /// `@toggle`: on or off; `u32` 1 or 0, `true` or `false` in files.
-    Toggle,
-    /// `@choice a b c`: the index of the word; the word in files.
-    Choice(Vec<String>),
-    /// `@color`: `vec3f` linear; `"#rrggbb"` (sRGB) in files.
-    Color,
-    /// `@length`: model units after fitting.
-    Length,
-    /// `@angle`: degrees in files, radians in WGSL.
-    Angle,
-    /// `@seed`: a whole number; WGSL receives it hashed with the seeds of the document and the groups around.
-    Seed,
-    /// Gradient stops: `[[position, "#rrggbb"], …]` in files; linear RGB with the position in `w` in WGSL, where unused
-    /// stops have position 2.
-    Stops,
-    /// `@curve`: `[[x, y], …]` in files; in WGSL x, y, slope and 1 if the point is used. See [`crate::curve_points`].
-    Curve,
-    /// A text, only in kinds that are Rust.
-    Text,
-    /// The path of a file, relative to the file in which the node was written; only in kinds that are Rust.
-    File,
-    /// `@extent low along` or `@extent high along`: not an artist's parameter; filled with the lowest or highest
-    /// `dot(vertex, normalize(along))` over the model's vertices, `along` being another parameter.
-    Extent {
-        /// Name of the parameter that holds the direction.
-        along: String,
-        /// Which end.
-        high: bool,
-    },
-}
-
-impl Role {
-    /// The numbers that a range holds: all of them, but of a curve only the coordinates.
-    pub fn ranged<'n>(&self, numbers: &'n [f32]) -> impl Iterator<Item = f32> + use<'n> {
-        let is_curve = *self == Role::Curve;
-        let points = numbers.iter().enumerate();
-        points
-            .filter(move |(at, _)| !is_curve || at % 4 < 2)
-            .map(|(_, number)| *number)
-    }
-}
-
-/// A default, as 32-bit components in artist's units (colors linear).
-#[derive(Clone, Debug, PartialEq)]
-pub enum ParamValue {
-    /// One to four floats, or `4 × N` for stops (`r g b position`, unused positions 2) and curves (`x y slope used`).
-    Floats(Vec<f32>),
-    /// A whole number: `u32`, toggle or choice index.
-    Unsigned(u32),
-    /// A signed whole number.
-    Signed(i32),
-    /// A text or a path.
-    Text(String),
-}
-
 /// One input port.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Input {
@@ -203,6 +90,25 @@ pub struct Input {
     pub reads: Reads,
     /// What stands in when nothing is connected.
     pub default: InputDefault,
+}
+
+impl Input {
+    /// Values of the knob that stands in while nothing is connected; `None` for an input that has no knob.
+    pub fn knob(&self) -> Option<ParamType> {
+        let InputDefault::Knob(numbers) = &self.default else {
+            return None;
+        };
+        let (memory, role, soft) = match self.ty {
+            // A mask is not limited, but usually lies there.
+            PortType::Mask => (Memory::F32, Role::Plain, Some([0.0, 1.0])),
+            PortType::Color => (Memory::Vec3, Role::Color, None),
+            PortType::Vector | PortType::Material => (Memory::Vec3, Role::Plain, None),
+        };
+        Some(ParamType {
+            soft,
+            ..ParamType::new(role, memory, &ParamValue::Floats(numbers.clone()))
+        })
+    }
 }
 
 /// What a function receives for an input.

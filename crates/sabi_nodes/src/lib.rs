@@ -41,6 +41,7 @@
 //! ```
 
 mod analysis;
+mod color;
 mod compile;
 mod curve;
 mod explain;
@@ -57,9 +58,9 @@ mod rules;
 mod scan;
 mod words;
 
+pub use color::{color_code, color_linear, typed_color};
 pub use compile::validate_wgsl;
 pub use curve::curve_points;
 pub use fault::Fault;
 pub use library::{Libraries, Library, SourceFile};
-pub use notes::color_linear;
 pub use reader::read_kind;

@@ -293,25 +293,6 @@ pub(crate) fn is_plain_name(name: &str) -> bool {
             .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
 }
 
-/// Linear RGB of `#rrggbb` (sRGB), `None` when the text is not of that form.
-pub fn color_linear(text: &str) -> Option<[f32; 3]> {
-    let digits = text.strip_prefix('#')?;
-    if digits.len() != 6 || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
-        return None;
-    }
-    let channel = |at: usize| {
-        let encoded = f64::from(u8::from_str_radix(digits.get(at..at + 2)?, 16).ok()?) / 255.0;
-        // IEC 61966-2-1.
-        let linear = if encoded <= 0.04045 {
-            encoded / 12.92
-        } else {
-            ((encoded + 0.055) / 1.055).powf(2.4)
-        };
-        Some(linear as f32)
-    };
-    Some([channel(0)?, channel(2)?, channel(4)?])
-}
-
 /// A finite number.
 pub(crate) fn number(word: &Word) -> Option<f32> {
     word.text.parse::<f32>().ok().filter(|number| number.is_finite())

@@ -9,7 +9,7 @@ use std::ops::Range;
 use naga::{ArraySize, Module, Scalar, ScalarKind, Type, TypeInner, VectorSize};
 
 use crate::fault::{Fault, Text};
-use crate::kind::{Param, ParamType, ParamValue, Role};
+use crate::kind::{Memory, Param, ParamType, ParamValue, Role, exact};
 use crate::notes::{Note, Notes, is_plain_name, label_of, number};
 use crate::scan::{Member, Scan};
 
@@ -27,8 +27,8 @@ const ROLES: [&str; 8] = [
 /// Most gradient stops, and most points of a curve.
 const POINTS_LIMIT: u32 = 16;
 
-/// Where the points of a curve may lie that says nothing about it.
-const CURVE_RANGE: [f32; 2] = [-1000.0, 1000.0];
+/// Range of the points of a curve without `@range`.
+const CURVE_RANGE: [f64; 2] = [-1000.0, 1000.0];
 
 /// The type `Params` of a module.
 pub(crate) fn params_type(module: &Module) -> Option<(naga::Handle<Type>, &Type)> {
@@ -114,12 +114,12 @@ impl ParamReader<'_> {
                 "Say in a `///` line above it what it changes to the eye.",
             );
         }
-        let ty = self.param_type(module, ty)?;
-        let role = self.role(ty)?;
+        let memory = self.memory(module, ty)?;
+        let role = self.role(memory)?;
         // Slopes of a curve have to stay finite.
         let widest = (role == Role::Curve).then_some(CURVE_RANGE);
-        let range = self.ends("range", ty, &role).or(widest);
-        let soft = self.ends("soft", ty, &role);
+        let range = self.ends("range", memory, &role).or(widest);
+        let soft = self.ends("soft", memory, &role);
         if let (Some(range), Some(soft), Some(note)) = (range, soft, notes.get("soft"))
             && (soft[0] < range[0] || soft[1] > range[1])
         {
@@ -129,8 +129,13 @@ impl ParamReader<'_> {
                 "Make `@soft` a part of `@range`.",
             );
         }
-        let default = self.default(ty, &role)?;
-        self.check_in_range(&default, &role, range);
+        let default = self.default(memory, &role)?;
+        let ty = ParamType {
+            range,
+            soft,
+            ..ParamType::new(role, memory, &default)
+        };
+        self.check_in_range(&default, &ty);
         let label = self.label()?;
         let formerly = notes.all("was").flat_map(|note| note.words.iter());
         Some(Param {
@@ -138,10 +143,7 @@ impl ParamReader<'_> {
             doc,
             ty,
             offset,
-            role,
             default,
-            range,
-            soft,
             bounds_a_loop: false,
             formerly: formerly.map(|word| word.text.clone()).collect(),
             name,
@@ -160,16 +162,16 @@ impl ParamReader<'_> {
         }
     }
 
-    fn param_type(&mut self, module: &Module, ty: naga::Handle<Type>) -> Option<ParamType> {
+    fn memory(&mut self, module: &Module, ty: naga::Handle<Type>) -> Option<Memory> {
         let found = match module.types.get_handle(ty).map(|ty| &ty.inner) {
             Ok(TypeInner::Scalar(scalar)) => scalar_type(*scalar),
             Ok(TypeInner::Vector {
                 size,
                 scalar: Scalar::F32,
             }) => Some(match size {
-                VectorSize::Bi => ParamType::Vec2,
-                VectorSize::Tri => ParamType::Vec3,
-                VectorSize::Quad => ParamType::Vec4,
+                VectorSize::Bi => Memory::Vec2,
+                VectorSize::Tri => Memory::Vec3,
+                VectorSize::Quad => Memory::Vec4,
             }),
             Ok(TypeInner::Array {
                 base,
@@ -183,7 +185,7 @@ impl ParamReader<'_> {
                         scalar: Scalar::F32
                     })
                 );
-                (is_vec4 && count.get() <= POINTS_LIMIT).then_some(ParamType::Points(count.get()))
+                (is_vec4 && count.get() <= POINTS_LIMIT).then_some(Memory::Points(count.get()))
             }
             _ => None,
         };
@@ -203,11 +205,11 @@ impl ParamReader<'_> {
     }
 
     /// What the parameter is to an artist, checked against its type.
-    fn role(&mut self, ty: ParamType) -> Option<Role> {
+    fn role(&mut self, memory: Memory) -> Option<Role> {
         let notes = self.notes.clone();
         let mut roles = notes.notes.iter().filter(|note| ROLES.contains(&note.name.as_str()));
         let Some(note) = roles.next() else {
-            return Some(if matches!(ty, ParamType::Points(_)) {
+            return Some(if matches!(memory, Memory::Points(_)) {
                 Role::Stops
             } else {
                 Role::Plain
@@ -218,16 +220,16 @@ impl ParamReader<'_> {
             self.at_note(other, message, "Keep the one that says what an artist sees.");
             return None;
         }
-        let is_float = matches!(ty, ParamType::F32 | ParamType::Vec2 | ParamType::Vec3 | ParamType::Vec4);
+        let is_float = matches!(memory, Memory::F32 | Memory::Vec2 | Memory::Vec3 | Memory::Vec4);
         let (role, fits, needed) = match note.name.as_str() {
-            "toggle" => (Role::Toggle, ty == ParamType::U32, "u32"),
-            "choice" => (Role::Choice(self.choices(note)?), ty == ParamType::U32, "u32"),
-            "color" => (Role::Color, ty == ParamType::Vec3, "vec3f"),
+            "toggle" => (Role::Toggle, memory == Memory::U32, "u32"),
+            "choice" => (Role::Choice(self.choices(note)?), memory == Memory::U32, "u32"),
+            "color" => (Role::Color, memory == Memory::Vec3, "vec3f"),
             "length" => (Role::Length, is_float, "f32"),
             "angle" => (Role::Angle, is_float, "f32"),
-            "extent" => (self.extent(note)?, ty == ParamType::F32, "f32"),
-            "curve" => (Role::Curve, matches!(ty, ParamType::Points(_)), "array<vec4f, 16>"),
-            _ => (Role::Seed, ty == ParamType::U32, "u32"),
+            "extent" => (self.extent(note)?, memory == Memory::F32, "f32"),
+            "curve" => (Role::Curve, matches!(memory, Memory::Points(_)), "array<vec4f, 16>"),
+            _ => (Role::Seed, memory == Memory::U32, "u32"),
         };
         if !fits {
             let message = format!("A parameter with `@{}` must be of type `{needed}`.", note.name);
@@ -303,7 +305,7 @@ impl ParamReader<'_> {
     }
 
     /// `@range a b` or `@soft a b`.
-    fn ends(&mut self, name: &str, ty: ParamType, role: &Role) -> Option<[f32; 2]> {
+    fn ends(&mut self, name: &str, memory: Memory, role: &Role) -> Option<[f64; 2]> {
         let notes = self.notes.clone();
         let note = notes.get(name)?;
         if !matches!(role, Role::Plain | Role::Length | Role::Angle | Role::Curve) {
@@ -312,7 +314,9 @@ impl ParamReader<'_> {
             return None;
         }
         let ends = match note.words.as_slice() {
-            [low, high] => number(low).zip(number(high)),
+            [low, high] => number(low)
+                .zip(number(high))
+                .map(|(low, high)| (exact(low), exact(high))),
             _ => None,
         };
         let Some((low, high)) = ends.filter(|(low, high)| low < high) else {
@@ -325,15 +329,15 @@ impl ParamReader<'_> {
             return None;
         };
         let whole = low.fract() == 0.0 && high.fract() == 0.0 && high.abs().max(low.abs()) <= 16_777_216.0;
-        let fits = match ty {
-            ParamType::U32 => whole && low >= 0.0,
-            ParamType::I32 => whole,
+        let fits = match memory {
+            Memory::U32 => whole && low >= 0.0,
+            Memory::I32 => whole,
             _ => true,
         };
         if !fits {
             let message = format!(
                 "`@{name}` of a whole number takes whole numbers{}.",
-                if ty == ParamType::U32 { " from 0 on" } else { "" }
+                if memory == Memory::U32 { " from 0 on" } else { "" }
             );
             self.at_note(note, message, "Write whole numbers, at most 16777216.");
             return None;
@@ -341,15 +345,11 @@ impl ParamReader<'_> {
         Some([low, high])
     }
 
-    fn check_in_range(&mut self, default: &ParamValue, role: &Role, range: Option<[f32; 2]>) {
-        let Some([low, high]) = range else { return };
-        let outside = match default {
-            ParamValue::Floats(values) => role.ranged(values).any(|value| !(low..=high).contains(&value)),
-            ParamValue::Unsigned(value) => !(f64::from(low)..=f64::from(high)).contains(&f64::from(*value)),
-            ParamValue::Signed(value) => !(f64::from(low)..=f64::from(high)).contains(&f64::from(*value)),
-            ParamValue::Text(_) => false,
-        };
-        if outside && let Some(note) = self.notes.get("default").cloned() {
+    fn check_in_range(&mut self, default: &ParamValue, ty: &ParamType) {
+        if let Some([low, high]) = ty.range
+            && !ty.is_in_range(default)
+            && let Some(note) = self.notes.get("default").cloned()
+        {
             self.at_note(
                 &note,
                 format!("The default lies outside of `@range {low} {high}`."),
@@ -378,11 +378,11 @@ fn words_range(note: &Note) -> Range<usize> {
     }
 }
 
-fn scalar_type(scalar: Scalar) -> Option<ParamType> {
+fn scalar_type(scalar: Scalar) -> Option<Memory> {
     match (scalar.kind, scalar.width) {
-        (ScalarKind::Float, 4) => Some(ParamType::F32),
-        (ScalarKind::Uint, 4) => Some(ParamType::U32),
-        (ScalarKind::Sint, 4) => Some(ParamType::I32),
+        (ScalarKind::Float, 4) => Some(Memory::F32),
+        (ScalarKind::Uint, 4) => Some(Memory::U32),
+        (ScalarKind::Sint, 4) => Some(Memory::I32),
         _ => None,
     }
 }

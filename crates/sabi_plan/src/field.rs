@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::formula::{Formula, Knowns};
-use sabi_nodes::kind::{Argument, Kind, Output, ParamType, Reads};
+use sabi_nodes::kind::{Argument, Kind, Memory, Output, Reads};
 use sabi_nodes::link::{Binding, Call, Convert, Plane, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft, What};
@@ -230,9 +230,9 @@ fn working_value(ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
         return 0.0;
     };
     let bytes = [bytes[0], bytes[1], bytes[2], bytes[3]];
-    match param.ty {
-        ParamType::F32 => f64::from(f32::from_le_bytes(bytes)),
-        ParamType::I32 => f64::from(i32::from_le_bytes(bytes)),
+    match param.ty.memory {
+        Memory::F32 => f64::from(f32::from_le_bytes(bytes)),
+        Memory::I32 => f64::from(i32::from_le_bytes(bytes)),
         _ => f64::from(u32::from_le_bytes(bytes)),
     }
 }

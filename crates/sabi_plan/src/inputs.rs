@@ -1,20 +1,20 @@
-//! What a node's file says for parameters and knobs, or the defaults.
+//! Values of a node's parameters and knobs: as its file has them, else the defaults.
 
-use sabi_graph::{FlatNode, PortType, Value};
-use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamType, ParamValue, Role};
+use sabi_graph::{FlatNode, Value};
+use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamType, ParamValue};
 
 use crate::error::Problem;
 use crate::request::Planner;
-use crate::values::read_param;
 
-/// Parameter values of a node, in artist's units: what the file says, else the defaults.
+/// Parameter values of a node, in artist's units. A value that is not taken is a problem, for which the node is refused.
 pub(crate) fn read_params(params: &[Param], node: &FlatNode, problems: &mut Vec<Problem>) -> Vec<ParamValue> {
-    let written = |param: &Param| {
+    let mut value = |param: &Param| {
         let former = param.formerly.iter().find_map(|old| node.params.get(old));
-        node.params.get(&param.name).or(former)
+        let written = node.params.get(&param.name).or(former);
+        let read = written.and_then(|written| read(&param.name, &param.ty, written, problems));
+        read.unwrap_or_else(|| param.default.clone()) // Not in the file, or a problem already.
     };
-    let values = params.iter().map(|param| read(param, written(param), problems));
-    values.collect()
+    params.iter().map(&mut value).collect()
 }
 
 impl Planner<'_> {
@@ -25,50 +25,30 @@ impl Planner<'_> {
     }
 }
 
-/// Values of a node's knobs by input; none where an input is no knob.
+/// Values of a node's knobs by input; `None` for an input that has no knob.
 pub(crate) fn read_knobs(kind: &Kind, node: &FlatNode, problems: &mut Vec<Problem>) -> Vec<Option<Vec<f32>>> {
-    let mut knob = |input: &Input| {
-        let InputDefault::Knob(start) = &input.default else {
+    let mut value = |input: &Input| {
+        let InputDefault::Knob(default) = &input.default else {
             return None;
         };
-        let knob = knob_param(&input.name, input.ty, start);
-        match read(&knob, node.params.get(&input.name), problems) {
-            ParamValue::Floats(numbers) => Some(numbers),
-            _ => Some(start.clone()),
+        let read = match (input.knob(), node.params.get(&input.name)) {
+            (Some(ty), Some(written)) => read(&input.name, &ty, written, problems),
+            _ => None,
+        };
+        match read {
+            Some(ParamValue::Floats(numbers)) => Some(numbers),
+            _ => Some(default.clone()), // Not in the file, or a problem already.
         }
     };
-    kind.inputs.iter().map(&mut knob).collect()
+    kind.inputs.iter().map(&mut value).collect()
 }
 
-fn read(param: &Param, value: Option<&Value>, problems: &mut Vec<Problem>) -> ParamValue {
-    let Some(value) = value else {
-        return param.default.clone();
+fn read(name: &str, ty: &ParamType, value: &Value, problems: &mut Vec<Problem>) -> Option<ParamValue> {
+    let read = ty.read(value);
+    let problem = |takes| Problem::BadValue {
+        param: name.to_owned(),
+        takes,
+        given: value.to_string(),
     };
-    read_param(param, value).unwrap_or_else(|takes| {
-        let (param, given) = (param.name.clone(), value.to_string());
-        problems.push(Problem::BadValue { param, takes, given });
-        ParamValue::Unsigned(0)
-    })
-}
-
-/// A knob read as if it were a parameter.
-fn knob_param(name: &str, ty: PortType, start: &[f32]) -> Param {
-    let (memory, role) = match ty {
-        PortType::Mask => (ParamType::F32, Role::Plain),
-        PortType::Color => (ParamType::Vec3, Role::Color),
-        PortType::Vector | PortType::Material => (ParamType::Vec3, Role::Plain),
-    };
-    Param {
-        name: name.to_owned(),
-        label: String::new(),
-        doc: String::new(),
-        ty: memory,
-        offset: 0,
-        role,
-        default: ParamValue::Floats(start.to_vec()),
-        range: None,
-        soft: None,
-        bounds_a_loop: false,
-        formerly: Vec::new(),
-    }
+    read.map_err(|takes| problems.push(problem(takes))).ok()
 }

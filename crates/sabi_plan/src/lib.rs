@@ -74,7 +74,7 @@ pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks
 pub use resolve::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;
 pub use source_values::SourceValues;
-pub use values::{pack_params, read_param};
+pub use values::pack_params;
 
 #[cfg(test)]
 mod tests;

@@ -42,7 +42,7 @@ impl Planner<'_> {
             Some(ParamValue::Floats(numbers)) => numbers.first().copied().unwrap_or(0.0),
             _ => 0.0,
         };
-        let farthest = param.soft.map_or(now, |[_, high]| high.max(now));
+        let farthest = param.ty.soft.map_or(now, |[_, high]| now.max(high as f32));
         let working = f64::from(farthest) * node.length_scale * (self.lengths.working_from)(&node.fit);
         Reach {
             offset: param.offset as usize,
@@ -59,7 +59,7 @@ impl Planner<'_> {
         for index in own.chain([&rays.count]) {
             let param = &kind.params[*index];
             let bytes = ready.params.get(param.offset as usize..).unwrap_or_default();
-            let size = 4 * param.ty.components();
+            let size = 4 * param.ty.memory.components();
             hash.update(&(*index as u64).to_le_bytes());
             hash.update(bytes.get(..size).unwrap_or(bytes));
         }

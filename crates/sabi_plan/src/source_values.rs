@@ -14,7 +14,7 @@ impl SourceValues {
     /// `values` has one entry for each of `params`, in artist's units.
     pub(crate) fn new(params: &[Param], values: &[ParamValue], packing: &Packing<'_>) -> SourceValues {
         let named = params.iter().zip(values).map(|(param, value)| {
-            let value = match (&param.role, value) {
+            let value = match (&param.ty.role, value) {
                 (Role::Seed, ParamValue::Unsigned(seed)) => {
                     ParamValue::Unsigned(crate::seeds::effective(packing.seeds, *seed))
                 }

@@ -34,9 +34,9 @@ const USUAL: [f64; 2] = [0.0, 1.0];
 pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, points: Vec<[f64; 2]>) {
     let mut curve = Curve {
         selected: ask.selected(id, points.len()),
-        room: row.knob.components,
-        usual: row.knob.soft.unwrap_or(USUAL),
-        range: row.knob.range.unwrap_or([f64::MIN, f64::MAX]),
+        room: row.knob.ty.components(),
+        usual: row.knob.ty.soft.unwrap_or(USUAL),
+        range: row.knob.ty.range.unwrap_or([f64::MIN, f64::MAX]),
         points,
     };
     let mut has_changed = curve.presets(ui, ask, row, id, rect);

@@ -29,8 +29,8 @@ const WAYS: [(&str, DVec3); 6] = [
 
 /// Whether a knob holds a direction: its name says so, since three numbers may be anything.
 pub(super) fn is_one(knob: &Knob) -> bool {
-    knob.components == 3
-        && knob.role == KnobRole::Plain
+    knob.ty.components() == 3
+        && knob.ty.role == KnobRole::Plain
         && matches!(knob.name.as_str(), "toward" | "direction" | "along" | "axis")
 }
 

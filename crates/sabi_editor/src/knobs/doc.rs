@@ -45,11 +45,12 @@ fn formatted_as(text: &str, color: egui::Color32, size: f32) -> LayoutJob {
 /// What a knob takes and holds at first.
 fn limits(knob: &Knob) -> String {
     let range = knob
+        .ty
         .range
         .map_or(String::new(), |[low, high]| format!(", {low} to {high}"));
-    let is_short = !matches!(knob.role, KnobRole::Stops | KnobRole::Curve | KnobRole::Seed);
+    let is_short = !matches!(knob.ty.role, KnobRole::Stops | KnobRole::Curve | KnobRole::Seed);
     match is_short {
-        true => format!("{range}, default {}", knob.default.to_json()),
+        true => format!("{range}, default {}", knob.ty.default.to_json()),
         false => range,
     }
 }

@@ -65,8 +65,8 @@ pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: 
 
 fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     let held = read(row.knob, row.held());
-    match (held, &row.knob.role) {
-        (Some(Held::Numbers(held)), role) if row.knob.components == 1 => {
+    match (held, &row.knob.ty.role) {
+        (Some(Held::Numbers(held)), role) if row.knob.ty.components() == 1 => {
             let whole = numbers::bar_of(ask, row, id, rect, held[0]);
             let is_seed = *role == KnobRole::Seed;
             let bar = Bar {
@@ -82,8 +82,8 @@ fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Re
             numbers::one(ui, ask, &bar);
         }
         (Some(Held::Numbers(held)), _) => {
-            let step = step_of(row.knob.slider(), row.knob.is_whole);
-            let held = held.iter().take(row.knob.components);
+            let step = step_of(row.knob.ty.slider(), row.knob.ty.is_whole());
+            let held = held.iter().take(row.knob.ty.components());
             let texts: Vec<String> = held.map(|number| text_of(*number, step)).collect();
             named(ui, ask, row, id, rect, &texts.join("  "), ask.theme.text);
         }
@@ -175,7 +175,7 @@ fn ramp(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops:
 fn line(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, points: &[[f64; 2]]) {
     let place = picture(ui, ask, row, id, rect);
     ui.painter().rect_filled(place, space::CORNER, ask.theme.canvas);
-    let usual = row.knob.soft.unwrap_or([0.0, 1.0]);
+    let usual = row.knob.ty.soft.unwrap_or([0.0, 1.0]);
     let view = View::of(place.shrink(2.0 * ask.zoom), usual, points);
     view.draw(ui.painter(), points, Stroke::new(1.5 * ask.zoom, ask.theme.text));
 }

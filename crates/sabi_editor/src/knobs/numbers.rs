@@ -25,7 +25,7 @@ const SEEDS_OF_A_WAY: f64 = 50.0;
 const DETENT: f64 = 15.0;
 
 pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, numbers: [f64; 4]) {
-    match (&row.knob.role, row.knob.components) {
+    match (&row.knob.ty.role, row.knob.ty.components()) {
         (KnobRole::Seed, _) => seed(ui, ask, row, id, rect, numbers[0]),
         (KnobRole::Angle, 1) => angle(ui, ask, row, id, rect, numbers[0]),
         (_, 1) => {
@@ -47,9 +47,9 @@ pub(super) fn bar_of<'a>(ask: &Asking<'_>, row: &'a KnobRow<'a>, row_id: Id, rec
         inside: "",
         value,
         ends: ends(row.knob),
-        range: row.knob.range,
-        is_whole: row.knob.is_whole,
-        measure: match row.knob.role {
+        range: row.knob.ty.range,
+        is_whole: row.knob.ty.is_whole(),
+        measure: match row.knob.ty.role {
             KnobRole::Angle => Measure::Degrees,
             KnobRole::Length => Measure::Length(ask.lengths),
             _ => Measure::Plain,
@@ -78,15 +78,15 @@ fn number(ui: &mut Ui, ask: &mut Asking<'_>, bar: &Bar<'_>) -> Option<f64> {
 
 /// Where bars begin and end.
 fn ends(knob: &Knob) -> [f64; 2] {
-    match (knob.soft.or(knob.range), &knob.role) {
+    match (knob.ty.soft.or(knob.ty.range), &knob.ty.role) {
         (None, KnobRole::Angle) => [-180.0, 180.0],
         (None, _) if direction::is_one(knob) => [-1.0, 1.0],
-        _ => knob.slider(),
+        _ => knob.ty.slider(),
     }
 }
 
 fn several(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, mut numbers: [f64; 4]) {
-    let count = row.knob.components.min(AXES.len());
+    let count = row.knob.ty.components().min(AXES.len());
     let mut asked = false;
     for (at, axis) in AXES.iter().enumerate().take(count) {
         let name = format!("{} {axis}", row.knob.label);
@@ -147,7 +147,7 @@ fn dial(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, face: Rect, de
     // The short way around, so that the hand can pass behind.
     let turn = turn - (turn / TAU).round() * TAU;
     let speed = if is_fine { 0.1 } else { 1.0 };
-    let [low, high] = row.knob.range.unwrap_or([f64::MIN, f64::MAX]);
+    let [low, high] = row.knob.ty.range.unwrap_or([f64::MIN, f64::MAX]);
     let exact = (drag.grip.exact[0] + turn.to_degrees() * speed).max(low).min(high);
     drag.grip.exact[0] = exact;
     let step = match (is_held_by_detents, is_fine) {

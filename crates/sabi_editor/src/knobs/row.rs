@@ -11,7 +11,7 @@ use sabi_graph::Value;
 use super::asking::Asking;
 use super::boxes::DOTS;
 use super::lettering::write;
-use super::values::{Held, fits, read, takes};
+use super::values::{Held, read};
 use super::{KnobEvent, KnobRow, choice, color, curve, doc, numbers, stops, text};
 use crate::theme::{space, type_size};
 
@@ -54,12 +54,12 @@ fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Re
         let there = shortened(&row.held().to_json());
         let told = format!(
             "This holds {there}, but takes {}: set it anew, or reset it.",
-            takes(row.knob)
+            row.knob.ty.expectation()
         );
         sentence(ui, id.with("unreadable"), rect.left(), &told, ask.theme.fault);
-        held = read(row.knob, &row.knob.default);
+        held = read(row.knob, &row.knob.ty.default);
     }
-    match (held, &row.knob.role) {
+    match (held, &row.knob.ty.role) {
         (Some(Held::Numbers(held)), _) => numbers::show(ui, ask, row, id, rect, held),
         (Some(Held::On(is_on)), _) => choice::toggle(ui, ask, row, id, rect, is_on),
         (Some(Held::Text(word)), KnobRole::Choice(words)) => choice::choice(ui, ask, row, id, rect, words, word),
@@ -247,16 +247,17 @@ fn paste(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) {
     let Some(answer) = answer else { return };
     ask.memory.pasting = None;
     let answer = answer.trim();
-    // A word or a code without quotes is meant as the text that it is.
-    let values = [Value::from_json(answer), Some(Value::Text(answer.to_owned()))];
-    match values.into_iter().flatten().find(|value| fits(row.knob, value)) {
+    let ty = &row.knob.ty;
+    // "Copy value" gives JSON; other programs give what people type.
+    let copied = Value::from_json(answer).filter(|value| ty.takes(value));
+    match copied.or_else(|| ty.parse(answer).ok()) {
         Some(value) => ask.set(row, value),
         None => {
             let there = shortened(answer);
             let told = format!(
                 "The clipboard holds \"{there}\", but {} takes {}.",
                 row.knob.label,
-                takes(row.knob)
+                ty.expectation()
             );
             ask.fault(id, told);
         }

@@ -31,7 +31,7 @@ const STEP: f64 = 0.01;
 pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: Vec<Stop>) {
     let mut gradient = Gradient {
         selected: ask.selected(id, stops.len()),
-        room: row.knob.components,
+        room: row.knob.ty.components(),
         stops,
     };
     let mut has_changed = gradient.buttons(ui, ask, row, id, rect);

@@ -186,7 +186,7 @@ fn taken(board: &mut Board) -> Vec<KnobEvent> {
 /// What the only knob on the board holds.
 fn held(board: &Board) -> Value {
     let row = &board.state().rows[0];
-    row.value.clone().unwrap_or_else(|| row.knob.default.clone())
+    row.value.clone().unwrap_or_else(|| row.knob.ty.default.clone())
 }
 
 fn number(board: &Board) -> f64 {

@@ -1,20 +1,20 @@
-//! What the values of knobs mean, as files hold them.
+//! Values of knobs as the widgets show them. What a value means, [`ParamType`](sabi_engine::catalog::ParamType) says.
 
 use egui::Color32;
-use sabi_engine::catalog::{Knob, KnobRole};
+use sabi_engine::catalog::{Knob, Written, WrittenStop, color_code, typed_color};
 use sabi_graph::{Value, canonical_number};
 
-/// A value, as its knob reads it.
+/// A knob's value, with colors as egui has them.
 #[derive(Debug, PartialEq)]
 pub(super) enum Held<'v> {
-    /// As many as the knob has components.
+    /// As many as the knob has components; the others are 0.
     Numbers([f64; 4]),
     On(bool),
     Text(&'v str),
     Color(Color32),
     /// By position.
     Stops(Vec<Stop>),
-    /// By x; two at one place are a step.
+    /// By x; two at one x are a step.
     Points(Vec<[f64; 2]>),
 }
 
@@ -26,152 +26,66 @@ pub(super) struct Stop {
     pub(super) color: Color32,
 }
 
-/// Reads a value; nothing where it is none that the knob takes, whatever its range.
+/// Reads a value; `None` where its form is not that of the knob. Ranges are not checked.
 pub(super) fn read<'v>(knob: &Knob, value: &'v Value) -> Option<Held<'v>> {
-    match &knob.role {
-        KnobRole::Toggle => value.as_bool().map(Held::On),
-        KnobRole::Choice(words) => {
-            let word = value.as_text()?;
-            words.iter().any(|known| known == word).then_some(Held::Text(word))
+    Some(match knob.ty.written(value)? {
+        Written::Numbers(numbers) => {
+            let mut held = [0.0; 4];
+            held.get_mut(..numbers.len())?.copy_from_slice(&numbers);
+            Held::Numbers(held)
         }
-        KnobRole::Text | KnobRole::File => value.as_text().map(Held::Text),
-        KnobRole::Color => color(value).map(Held::Color),
-        KnobRole::Stops => stops(value.as_list()?, knob.components).map(Held::Stops),
-        KnobRole::Curve => points(value.as_list()?, knob.components).map(Held::Points),
-        KnobRole::Plain | KnobRole::Length | KnobRole::Angle | KnobRole::Seed => numbers(knob, value),
-        KnobRole::Extent { .. } => None,
-    }
-}
-
-fn numbers(knob: &Knob, value: &Value) -> Option<Held<'static>> {
-    let mut read = [0.0; 4];
-    let given = match value {
-        Value::List(items) if knob.components > 1 => items.as_slice(),
-        single if knob.components == 1 => std::slice::from_ref(single),
-        _ => return None,
-    };
-    let places = read.get_mut(..knob.components)?;
-    if given.len() != places.len() {
-        return None;
-    }
-    for (place, item) in places.iter_mut().zip(given) {
-        *place = item.as_number()?;
-        if knob.is_whole && place.fract() != 0.0 {
-            return None;
+        Written::Toggle(is_on) => Held::On(is_on),
+        Written::Text(text) => Held::Text(text),
+        Written::Color(srgb) => Held::Color(color32(srgb)),
+        Written::Stops(stops) => {
+            let stop = |stop: &WrittenStop| Stop {
+                at: stop.position,
+                color: color32(stop.color),
+            };
+            Held::Stops(stops.iter().map(stop).collect())
         }
-    }
-    Some(Held::Numbers(read))
+        Written::Points(points) => Held::Points(points),
+    })
 }
 
-fn color(value: &Value) -> Option<Color32> {
-    let text = value.as_text()?;
-    (text.len() == 7 && text.starts_with('#'))
-        .then(|| color_of(text))
-        .flatten()
+fn color32([r, g, b]: [u8; 3]) -> Color32 {
+    Color32::from_rgb(r, g, b)
 }
 
-fn stops(items: &[Value], room: usize) -> Option<Vec<Stop>> {
-    let stop = |item: &Value| match item.as_list()? {
-        [at, code] => Some(Stop {
-            at: at.as_number().filter(|at| (0.0..=1.0).contains(at))?,
-            color: color(code)?,
-        }),
-        _ => None,
-    };
-    let mut stops: Vec<Stop> = items.iter().map(stop).collect::<Option<_>>()?;
-    stops.sort_by(|left, right| left.at.total_cmp(&right.at));
-    (1..=room).contains(&stops.len()).then_some(stops)
+fn srgb_of(color: Color32) -> [u8; 3] {
+    [color.r(), color.g(), color.b()]
 }
 
-fn points(items: &[Value], room: usize) -> Option<Vec<[f64; 2]>> {
-    let point = |item: &Value| match item.as_list()? {
-        [x, y] => Some([x.as_number()?, y.as_number()?]),
-        _ => None,
-    };
-    let mut points: Vec<[f64; 2]> = items.iter().map(point).collect::<Option<_>>()?;
-    points.sort_by(|left, right| left[0].total_cmp(&right[0]));
-    (1..=room).contains(&points.len()).then_some(points)
-}
-
-/// What a knob takes, to follow "takes".
-pub(super) fn takes(knob: &Knob) -> String {
-    match &knob.role {
-        KnobRole::Toggle => "true or false".to_owned(),
-        KnobRole::Choice(words) => format!("one of {}", words.join(", ")),
-        KnobRole::Text | KnobRole::File => "a text".to_owned(),
-        KnobRole::Color => "a color such as \"#6b3a1e\"".to_owned(),
-        KnobRole::Stops => format!("1 to {} stops such as [0.5, \"#6b3a1e\"]", knob.components),
-        KnobRole::Curve => format!("1 to {} points such as [0.5, 0.8]", knob.components),
-        KnobRole::Extent { .. } => "no value: it is measured on the model".to_owned(),
-        _ => {
-            let sort = if knob.is_whole { "whole number" } else { "number" };
-            let between = knob
-                .range
-                .map_or(String::new(), |[low, high]| format!(" from {low} to {high}"));
-            match knob.components {
-                1 => format!("a {sort}{between}"),
-                count => format!("a list of {count} {sort}s{between}"),
-            }
-        }
-    }
-}
-
-/// Whether a knob takes a value, its range included.
-pub(super) fn fits(knob: &Knob, value: &Value) -> bool {
-    let [low, high] = knob.range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-    let is_inside = |number: &f64| (low..=high).contains(number);
-    match read(knob, value) {
-        Some(Held::Numbers(numbers)) if knob.role == KnobRole::Seed => {
-            (0.0..=f64::from(u32::MAX)).contains(&numbers[0])
-        }
-        Some(Held::Numbers(numbers)) => numbers.iter().take(knob.components).all(is_inside),
-        Some(Held::Points(points)) => points.iter().flatten().all(is_inside),
-        read => read.is_some(),
-    }
-}
-
-/// A color as people write it: `#6b3a1e`, with or without the `#`, or `#fff`.
+/// A color as people type it: `#6b3a1e`, with or without the `#`, or `#fff`.
 pub(super) fn color_of(text: &str) -> Option<Color32> {
-    let digits = text.trim();
-    let digits = digits.strip_prefix('#').unwrap_or(digits);
-    if !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
-        return None;
-    }
-    let code = u32::from_str_radix(digits, 16).ok()?;
-    let [r, g, b] = match digits.len() {
-        6 => [code >> 16, code >> 8, code],
-        3 => [code >> 8, code >> 4, code].map(|nibble| (nibble & 0xf) * 0x11),
-        _ => return None,
-    }
-    .map(|byte| (byte & 0xff) as u8);
-    Some(Color32::from_rgb(r, g, b))
+    typed_color(text).map(color32)
 }
 
 /// The code of a color, as files hold it.
 pub(super) fn code_of(color: Color32) -> String {
-    format!("#{:02x}{:02x}{:02x}", color.r(), color.g(), color.b())
+    color_code(srgb_of(color))
 }
 
-/// Numbers as a file holds them: one of them plain, several as a list.
+/// Numbers as a file holds them: a single one plain, several as a list.
 pub(super) fn of_numbers(numbers: &[f64]) -> Value {
-    match numbers {
-        [one] => Value::Number(*one),
-        several => Value::List(several.iter().copied().map(Value::Number).collect()),
-    }
+    Written::Numbers(numbers.to_vec()).to_value()
 }
 
 /// A gradient as a file holds it.
 pub(super) fn of_stops(stops: &[Stop]) -> Value {
-    let stop = |stop: &Stop| Value::List(vec![Value::Number(stop.at), Value::Text(code_of(stop.color))]);
-    Value::List(stops.iter().map(stop).collect())
+    let stop = |stop: &Stop| WrittenStop {
+        position: stop.at,
+        color: srgb_of(stop.color),
+    };
+    Written::Stops(stops.iter().map(stop).collect()).to_value()
 }
 
 /// A curve as a file holds it.
 pub(super) fn of_points(points: &[[f64; 2]]) -> Value {
-    Value::List(points.iter().map(|point| of_numbers(point)).collect())
+    Written::Points(points.to_vec()).to_value()
 }
 
-/// Sorts, and says where what stood at `index` stands then.
+/// Moves the item at `index` to its place in sorted order, and returns that place.
 pub(super) fn sort_keeping<T>(items: &mut [T], mut index: usize, place: impl Fn(&T) -> f64) -> usize {
     while index > 0 && place(&items[index - 1]) > place(&items[index]) {
         items.swap(index - 1, index);
@@ -184,7 +98,7 @@ pub(super) fn sort_keeping<T>(items: &mut [T], mut index: usize, place: impl Fn(
     index
 }
 
-/// The size of a usual step between two ends, a power of ten.
+/// Usual step between two ends, a power of ten.
 pub(super) fn step_of(ends: [f64; 2], is_whole: bool) -> f64 {
     let span = (ends[1] - ends[0]).abs();
     if is_whole || !span.is_normal() {
@@ -250,24 +164,12 @@ mod tests {
     }
 
     #[test]
-    fn what_is_sorted_is_found_again() {
+    fn a_sorted_item_is_found_at_its_new_place() {
         let mut items = [2.5, 1.0, 2.0, 4.0];
         assert_eq!(sort_keeping(&mut items, 0, |item| *item), 2);
         assert_eq!(items, [1.0, 2.0, 2.5, 4.0]);
         items[3] = 1.5;
         assert_eq!(sort_keeping(&mut items, 3, |item| *item), 1);
         assert_eq!(items, [1.0, 1.5, 2.0, 2.5]);
-    }
-
-    #[test]
-    fn a_color_is_read_as_people_write_it() {
-        let rust = Some(Color32::from_rgb(0x6b, 0x3a, 0x1e));
-        for text in ["#6b3a1e", "6B3A1E", " #6b3a1e "] {
-            assert_eq!(color_of(text), rust);
-        }
-        assert_eq!(color_of("#18f"), Some(Color32::from_rgb(0x11, 0x88, 0xff)));
-        for text in ["", "#", "#12345", "#1234567", "rust", "#+12345", "ééé"] {
-            assert_eq!(color_of(text), None, "{text}");
-        }
     }
 }

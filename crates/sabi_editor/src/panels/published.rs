@@ -84,10 +84,9 @@ pub(crate) fn show(
 
 /// The knob as a row shows it: it is changed where it holds something else than when the graph was opened.
 fn shown(knob: &PanelKnob) -> sabi_engine::catalog::Knob {
-    sabi_engine::catalog::Knob {
-        default: knob.at_first.clone(),
-        ..knob.knob.clone()
-    }
+    let mut shown = knob.knob.clone();
+    shown.ty.default = knob.at_first.clone();
+    shown
 }
 
 fn sections<'p>(panel: &'p [PanelKnob], knobs: &'p [sabi_engine::catalog::Knob]) -> Vec<KnobSection<'p>> {

@@ -1,6 +1,6 @@
 //! Models, nodes and the machine described as data, for `sabi mesh`, `nodes` and `doctor`.
 
-use sabi_nodes::kind::{InputDefault, Kind, Param, ParamValue, Role, Shape};
+use sabi_nodes::kind::{InputDefault, Kind, Param, Role, Shape};
 use sabi_plan::SourceKind;
 use serde_json::{Value as Json, json};
 
@@ -111,7 +111,7 @@ fn describe_kind(kind: &Kind) -> Json {
     let shown = kind
         .params
         .iter()
-        .filter(|param| !matches!(param.role, Role::Extent { .. }));
+        .filter(|param| !matches!(param.ty.role, Role::Extent { .. }));
     json!({
         "id": kind.id,
         "version": kind.version,
@@ -142,25 +142,7 @@ fn describe_kind(kind: &Kind) -> Json {
 }
 
 fn describe_param(param: &Param) -> Json {
-    let default = match (&param.role, &param.default) {
-        (Role::Choice(words), ParamValue::Unsigned(index)) => json!(words.get(*index as usize)),
-        (Role::Toggle, ParamValue::Unsigned(on)) => json!(*on != 0),
-        (Role::Color, ParamValue::Floats(rgb)) => json!(hexadecimal(rgb)),
-        (Role::Stops, ParamValue::Floats(stops)) => {
-            let used = stops.chunks_exact(4).filter(|stop| stop[3] <= 1.0);
-            used.map(|stop| json!([short(stop[3]), hexadecimal(stop)])).collect()
-        }
-        (Role::Curve, ParamValue::Floats(points)) => {
-            let used = points.chunks_exact(4).filter(|point| point[3] > 0.0);
-            used.map(|point| json!([short(point[0]), short(point[1])])).collect()
-        }
-        (_, ParamValue::Floats(numbers)) if numbers.len() == 1 => json!(short(numbers[0])),
-        (_, ParamValue::Floats(numbers)) => numbers.iter().map(|number| short(*number)).collect(),
-        (_, ParamValue::Unsigned(number)) => json!(number),
-        (_, ParamValue::Signed(number)) => json!(number),
-        (_, ParamValue::Text(text)) => json!(text),
-    };
-    let role = match &param.role {
+    let role = match &param.ty.role {
         Role::Plain | Role::Extent { .. } => "number",
         Role::Toggle => "toggle",
         Role::Choice(_) => "choice",
@@ -174,16 +156,16 @@ fn describe_param(param: &Param) -> Json {
         Role::Curve => "curve",
     };
     let mut shown = json!({
-        "name": param.name, "label": param.label, "doc": param.doc, "takes": role, "default": default,
+        "name": param.name, "label": param.label, "doc": param.doc, "takes": role, "default": param.ty.default,
     });
-    if let Role::Choice(words) = &param.role {
+    if let Role::Choice(words) = &param.ty.role {
         shown["choices"] = json!(words);
     }
-    if let Some([low, high]) = param.range {
-        shown["range"] = json!([short(low), short(high)]);
+    if let Some([low, high]) = param.ty.range {
+        shown["range"] = json!([low, high]);
     }
-    if let Some([low, high]) = param.soft {
-        shown["soft"] = json!([short(low), short(high)]);
+    if let Some([low, high]) = param.ty.soft {
+        shown["soft"] = json!([low, high]);
     }
     shown
 }
@@ -201,11 +183,6 @@ fn describe_source(kind: &SourceKind) -> Json {
         "outputs": kind.outputs.iter().map(port).collect::<Vec<_>>(),
         "params": kind.params.iter().map(describe_param).collect::<Vec<_>>(),
     })
-}
-
-fn hexadecimal(rgb: &[f32]) -> String {
-    let code = |at: usize| sabi_image::srgb8_from_linear(rgb.get(at).copied().unwrap_or(0.0));
-    format!("#{:02x}{:02x}{:02x}", code(0), code(1), code(2))
 }
 
 /// A float as short as it can be written.

@@ -6,9 +6,8 @@ use std::sync::Arc;
 
 use sabi_graph::{
     Body, Document, Exposed, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef,
-    Value,
 };
-use sabi_nodes::kind::Role;
+use sabi_nodes::kind::{Memory, ParamType, ParamValue, Role};
 
 use super::{Catalog, Entry, Knob, Port, placeholder, readable};
 
@@ -234,46 +233,44 @@ impl Published<'_> {
         let entry = faces.of(body, slot.node.as_str())?;
         let inner = entry.knob(&slot.name)?;
         let set = self.graph.node(slot.node.as_str())?.params.get(&slot.name);
-        let default = exposed.default.as_ref().or(set).unwrap_or(&inner.default).clone();
+        let default = exposed.default.as_ref().or(set).unwrap_or(&inner.ty.default).clone();
         Some(Knob {
             name: name.to_owned(),
             label: exposed.label.clone().unwrap_or_else(|| readable(name)),
-            range: exposed.range.or(inner.range),
-            soft: exposed.range.or(inner.soft),
+            ty: ParamType {
+                range: exposed.range.or(inner.ty.range),
+                soft: exposed.range.or(inner.ty.soft),
+                default,
+                ..inner.ty.clone()
+            },
             is_of_input: false,
-            default,
             ..inner.clone()
         })
     }
 
     /// What every instance has besides.
     fn instance_knobs(&self) -> Vec<Knob> {
-        let knob = |name: &str, doc: &str, role: Role, default: Value| Knob {
+        let knob = |name: &str, doc: &str, ty: ParamType| Knob {
             name: name.to_owned(),
             label: readable(name),
             doc: doc.to_owned(),
-            is_whole: role == Role::Seed,
-            role,
-            components: 1,
-            default,
-            range: None,
-            soft: None,
+            ty,
             is_of_input: false,
         };
-        let seed = "Gives this instance patterns of its own.";
-        let scale = "Multiplies all lengths inside.";
+        let seed = ParamType::new(Role::Seed, Memory::U32, &ParamValue::Unsigned(0));
+        let scale = ParamType {
+            soft: Some([0.25, 4.0]),
+            ..ParamType::new(Role::Plain, Memory::F32, &ParamValue::Floats(vec![1.0]))
+        };
         let mut knobs = vec![
-            knob("seed", seed, Role::Seed, Value::Number(0.0)),
-            Knob {
-                soft: Some([0.25, 4.0]),
-                ..knob("scale", scale, Role::Plain, Value::Number(1.0))
-            },
+            knob("seed", "Gives this instance patterns of its own.", seed),
+            knob("scale", "Multiplies all lengths inside.", scale),
         ];
         if !self.graph.variants().is_empty() {
             let words = std::iter::once("none".to_owned()).chain(self.graph.variants().keys().cloned());
-            let doc = "Variant of the group to start from.";
-            let default = Value::Text("none".to_owned());
-            knobs.push(knob("variant", doc, Role::Choice(words.collect()), default));
+            let variants = Role::Choice(words.collect());
+            let ty = ParamType::new(variants, Memory::U32, &ParamValue::Unsigned(0));
+            knobs.push(knob("variant", "Variant of the group to start from.", ty));
         }
         // A group that exposes a knob of such a name means that one.
         knobs.retain(|knob| !self.graph.exposed().contains_key(&knob.name));

@@ -36,13 +36,16 @@ fn a_knob_holds_its_default_as_a_file_would() {
         let entry = catalog.entry(kind).expect("a built-in kind");
         entry.knob(name).expect("a documented parameter").clone()
     };
-    assert_eq!(knob("noise/simplex", "size").default, Value::Number(0.25));
-    assert_eq!(knob("noise/simplex", "size").role, KnobRole::Length);
-    assert_eq!(knob("noise/simplex", "mode").default, Value::Text("fbm".to_owned()));
-    assert_eq!(knob("effect/layer", "color_on").default, Value::Bool(true));
-    assert_eq!(knob("effect/layer", "color").default, Value::Text("#808080".to_owned()));
+    assert_eq!(knob("noise/simplex", "size").ty.default, Value::Number(0.25));
+    assert_eq!(knob("noise/simplex", "size").ty.role, KnobRole::Length);
+    assert_eq!(knob("noise/simplex", "mode").ty.default, Value::Text("fbm".to_owned()));
+    assert_eq!(knob("effect/layer", "color_on").ty.default, Value::Bool(true));
+    assert_eq!(
+        knob("effect/layer", "color").ty.default,
+        Value::Text("#808080".to_owned())
+    );
     let toward = Value::List([0.0, 1.0, 0.0].map(Value::Number).to_vec());
-    assert_eq!(knob("surface/direction", "toward").default, toward);
+    assert_eq!(knob("surface/direction", "toward").ty.default, toward);
 }
 
 #[test]
@@ -51,7 +54,7 @@ fn an_input_that_is_not_connected_is_a_knob() {
     let blend = catalog.entry("blend/mask").expect("a built-in kind");
     let below = blend.knob("below").expect("an input with a knob");
     assert!(below.is_of_input);
-    assert_eq!(below.slider(), [0.0, 1.0]);
+    assert_eq!(below.ty.slider(), [0.0, 1.0]);
 }
 
 #[test]
@@ -84,7 +87,10 @@ fn a_group_shows_what_it_publishes_and_a_reroute_what_comes_in() {
     assert_eq!(group.input("where").and_then(|port| port.ty), Some(PortType::Mask));
     assert_eq!(group.output(None).and_then(|port| port.ty), Some(PortType::Mask));
     let amount = group.knob("amount").expect("an exposed knob");
-    assert_eq!((amount.default.as_number(), amount.slider()), (Some(0.4), [0.0, 0.5]));
+    assert_eq!(
+        (amount.ty.default.as_number(), amount.ty.slider()),
+        (Some(0.4), [0.0, 0.5])
+    );
     let names: Vec<&str> = group.knobs.iter().map(|knob| knob.name.as_str()).collect();
     assert_eq!(names, ["amount", "seed", "scale", "variant"]);
     let bend = faces.of(&Body::Main, "bend").expect("a reroute");

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_nodes::kind::Role;
+use sabi_nodes::kind::{Input, ParamType};
 use sabi_nodes::{Fault, Library};
 use sabi_plan::SourceKind;
 use sabi_surface::model::Model;
@@ -75,15 +75,16 @@ impl Kinds {
         self.sources.extend(own.map(|kind| (kind.id.clone(), kind)));
     }
 
-    /// Whether a parameter of a kind is written as a text.
-    pub(crate) fn takes_text(&self, kind: &str, param: &str) -> bool {
+    /// Values that a parameter of a kind takes, or the knob of an input; `None` for a kind or a name that is not known.
+    pub(crate) fn param_type(&self, kind: &str, name: &str) -> Option<ParamType> {
         let own = self.sources.get(kind).or_else(|| self.sinks.get(kind));
-        let found = match own {
-            Some(own) => own.params.iter().find(|known| known.name == param),
-            None => self.library.kind(kind).and_then(|kind| kind.param(param)),
-        };
-        let is_text = |role: &Role| matches!(role, Role::Text | Role::File | Role::Choice(_) | Role::Color);
-        found.is_some_and(|param| is_text(&param.role))
+        if let Some(own) = own {
+            let param = own.params.iter().find(|known| known.name == name)?;
+            return Some(param.ty.clone());
+        }
+        let kind = self.library.kind(kind)?;
+        let of_input = || kind.input(name).and_then(Input::knob);
+        kind.param(name).map(|param| param.ty.clone()).or_else(of_input)
     }
 
     /// One sentence about node files that have faults, for work that does not need them.

@@ -213,7 +213,7 @@ pub(crate) fn path_of(folder: &Path, node: &FlatNode, path: &str) -> PathBuf {
 /// The parameter with which a node names a file, and the path; empty when none was chosen.
 fn named_file<'n>(node: &'n FlatNode, kinds: &'n Kinds) -> Option<(&'n str, &'n str)> {
     let params = &kinds.sources.get(&node.kind)?.params;
-    let param = params.iter().find(|param| param.role == Role::File)?;
+    let param = params.iter().find(|param| param.ty.role == Role::File)?;
     match node.params.get(&param.name) {
         Some(Value::Text(path)) => Some((param.name.as_str(), path.as_str())),
         None => Some((param.name.as_str(), "")),

@@ -1,6 +1,7 @@
-//! Values as one writes them on a command line.
+//! Values set from outside, as `NAME=VALUE` on the command line.
 
 use sabi_graph::{FlatGraph, Overrides, Value};
+use sabi_nodes::kind::ParamType;
 
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
@@ -14,50 +15,57 @@ pub fn read_setting(text: &str) -> Result<(String, Value), String> {
     Ok((name.trim().to_owned(), Value::Text(value.trim().to_owned())))
 }
 
-/// Texts among the overrides become numbers, lists and truth values, except where they reach what takes a text: a map's
-/// name may be `42`, and a variant `true`.
+/// Overrides with their texts read as what the parameters that they set take: a map's name may be `42`, and a color
+/// `111111`. Texts that nothing takes become what they look like, so that messages show them as they were meant.
 pub(crate) fn read_typed(open: &OpenGraph, kinds: &Kinds, overrides: &Overrides) -> Overrides {
     let mut read = overrides.clone();
     for (_, value) in &mut read.set {
         if let Value::Text(text) = value {
-            *value = read_value(text);
+            *value = likely_value(text);
         }
     }
     for (at, (_, typed)) in overrides.set.iter().enumerate() {
-        if read.set[at].1 == *typed {
-            continue;
-        }
-        let mut as_text = read.clone();
-        as_text.set[at].1 = typed.clone();
-        let is_text = match (open.flatten(&read), open.flatten(&as_text)) {
-            (Ok(plain), Ok(text)) => reaches_texts(&plain, &text, kinds),
-            // The name of a variant, which is read while the graph is flattened.
-            (plain, text) => plain.is_err() && text.is_ok(),
-        };
-        if is_text {
-            read = as_text;
+        if let Value::Text(text) = typed {
+            let with = |value: Value| {
+                let mut changed = read.clone();
+                changed.set[at].1 = value;
+                open.flatten(&changed)
+            };
+            // Flattening checks no values of parameters, so what differs between two probes is what the setting reaches.
+            let value = match (with(Value::Bool(false)), with(Value::Bool(true))) {
+                (Ok(off), Ok(on)) => parsed(&reached(&off, &on, kinds), text),
+                // A knob with a range or of a group instance; of these, the name of a variant is a text.
+                _ => (with(likely_value(text)).is_err() && with(typed.clone()).is_ok()).then(|| typed.clone()),
+            };
+            if let Some(value) = value {
+                read.set[at].1 = value;
+            }
         }
     }
     read
 }
 
-/// Whether all parameters in which two readings of a graph differ take texts.
-fn reaches_texts(plain: &FlatGraph, text: &FlatGraph, kinds: &Kinds) -> bool {
-    let pairs = plain.nodes.iter().zip(&text.nodes);
-    let mut reached = pairs
-        .flat_map(|(plain, text)| {
-            let names = text
-                .params
-                .iter()
-                .filter(|(name, value)| plain.params.get(*name) != Some(value));
-            names.map(|(name, _)| kinds.takes_text(&text.kind, name))
-        })
-        .peekable();
-    reached.peek().is_some() && reached.all(|takes_text| takes_text)
+/// Types of the parameters in which two flat graphs differ.
+fn reached(off: &FlatGraph, on: &FlatGraph, kinds: &Kinds) -> Vec<ParamType> {
+    let pairs = off.nodes.iter().zip(&on.nodes);
+    let types = pairs.flat_map(|(off, on)| {
+        let params = on.params.iter();
+        let set = params.filter(|(name, value)| off.params.get(*name) != Some(value));
+        set.filter_map(|(name, _)| kinds.param_type(&on.kind, name))
+    });
+    types.collect()
 }
 
-/// A value is a number, `true` or `false`, numbers separated by commas, a JSON list, or a word.
-fn read_value(text: &str) -> Value {
+/// The value that a text is for all these parameters; `None` where it is none of theirs.
+fn parsed(types: &[ParamType], text: &str) -> Option<Value> {
+    let value = types.first()?.parse(text).ok();
+    let value = value.filter(|value| types.iter().all(|ty| ty.takes(value)));
+    let are_texts = types.iter().all(ParamType::is_text);
+    value.or_else(|| are_texts.then(|| Value::from(text)))
+}
+
+/// What a text looks like: a number, `true` or `false`, numbers separated by commas, a JSON list, or a word.
+fn likely_value(text: &str) -> Value {
     match text {
         "true" | "on" => return Value::Bool(true),
         "false" | "off" => return Value::Bool(false),
@@ -68,36 +76,21 @@ fn read_value(text: &str) -> Value {
     }
     let parts: Option<Vec<f64>> = text.split(',').map(|part| finite(part.trim())).collect();
     if let Some(numbers) = parts {
-        return Value::List(numbers.into_iter().map(Value::Number).collect());
+        return numbers.into();
     }
-    if text.starts_with('[')
-        && let Ok(json) = serde_json::from_str::<serde_json::Value>(text)
-        && let Some(value) = from_json(&json)
-    {
-        return value;
-    }
-    Value::Text(text.to_owned())
+    let list = text.starts_with('[').then(|| Value::from_json(text)).flatten();
+    list.unwrap_or_else(|| Value::from(text)) // Anything else is a word.
 }
 
 fn finite(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|number| number.is_finite())
 }
 
-fn from_json(json: &serde_json::Value) -> Option<Value> {
-    Some(match json {
-        serde_json::Value::Bool(on) => Value::Bool(*on),
-        serde_json::Value::Number(number) => Value::Number(number.as_f64()?),
-        serde_json::Value::String(text) => Value::Text(text.clone()),
-        serde_json::Value::Array(items) => Value::List(items.iter().map(from_json).collect::<Option<_>>()?),
-        _ => return None,
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use sabi_graph::Value;
 
-    use super::{read_setting, read_value};
+    use super::{likely_value, read_setting};
 
     #[test]
     fn a_setting_is_split_at_its_first_sign() {
@@ -108,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_is_read_as_what_it_looks_like() {
+    fn a_value_for_something_unknown_is_read_as_what_it_looks_like() {
         let cases = [
             ("0.8", Value::Number(0.8)),
             ("true", Value::Bool(true)),
@@ -125,7 +118,7 @@ mod tests {
             ("add", Value::Text("add".into())),
         ];
         for (text, value) in cases {
-            assert_eq!(read_value(text), value, "{text}");
+            assert_eq!(likely_value(text), value, "{text}");
         }
     }
 }

@@ -59,7 +59,7 @@ impl Moving {
 
     fn files() -> BTreeMap<String, Vec<String>> {
         let files = source::kinds().into_iter().map(|(id, kind)| {
-            let files = kind.params.into_iter().filter(|param| param.role == Role::File);
+            let files = kind.params.into_iter().filter(|param| param.ty.role == Role::File);
             (id, files.map(|param| param.name).collect())
         });
         files.collect()

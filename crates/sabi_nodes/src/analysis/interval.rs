@@ -8,7 +8,7 @@ use naga::{
 };
 
 use super::walk::Store;
-use crate::kind::{Param, ParamType, Role};
+use crate::kind::{Memory, Param, Role};
 
 /// Longest way through expressions that is followed.
 const DEPTH_LIMIT: u32 = 64;
@@ -174,9 +174,9 @@ impl<'m> Reader<'m> {
 
     /// What a parameter can be: the linked kernel clamps it to its range.
     fn param(&self, index: usize) -> Option<Interval> {
-        let param = self.params.get(index)?;
-        let [low, high] = param.range?;
-        let is_number = matches!(param.ty, ParamType::U32 | ParamType::I32) && param.role == Role::Plain;
+        let ty = &self.params.get(index)?.ty;
+        let [low, high] = ty.range?;
+        let is_number = matches!(ty.memory, Memory::U32 | Memory::I32) && ty.role == Role::Plain;
         is_number.then(|| Interval {
             low: low as i64,
             high: high as i64,

@@ -81,7 +81,7 @@ pub(crate) fn analyze(
 /// All functions that a kernel calls, with how often each is called for one texel: those about a single ray as often as
 /// there are rays at most.
 fn asked(module: &Module, params: &[Param], ports: &Ports) -> Vec<loops::Asked> {
-    let most = ports.rays.as_ref().and_then(|rays| params.get(rays.count)?.range);
+    let most = ports.rays.as_ref().and_then(|rays| params.get(rays.count)?.ty.range);
     let rays = most.map_or(1, |[_, most]| most as u64);
     let functions = ports
         .outputs

@@ -1,21 +1,18 @@
-//! Parameters of kinds that are Rust, made in code as WGSL files describe theirs.
+//! Parameters of kinds implemented in Rust, which no WGSL file describes.
 
-use super::{Param, ParamType, ParamValue, Role};
+use super::{Memory, Param, ParamType, ParamValue, Role, exact};
 use crate::notes::label_of;
 
 impl Param {
-    /// A parameter of a kind that is Rust; `doc` says what it changes to the eye.
-    fn own(name: &str, doc: &str, ty: ParamType, role: Role, default: ParamValue) -> Param {
+    /// A parameter of a kind implemented in Rust; `doc` says what it changes to the eye.
+    fn own(name: &str, doc: &str, memory: Memory, role: Role, default: ParamValue) -> Param {
         Param {
             name: name.to_owned(),
             label: label_of(name),
             doc: doc.to_owned(),
-            ty,
+            ty: ParamType::new(role, memory, &default),
             offset: 0,
-            role,
             default,
-            range: None,
-            soft: None,
             bounds_a_loop: false,
             formerly: Vec::new(),
         }
@@ -24,89 +21,71 @@ impl Param {
     /// A text.
     pub fn text(name: &str, default: &str, doc: &str) -> Param {
         let default = ParamValue::Text(default.to_owned());
-        Param::own(name, doc, ParamType::Text, Role::Text, default)
+        Param::own(name, doc, Memory::Text, Role::Text, default)
     }
 
     /// The path of a file; nothing is chosen at first.
     pub fn file(name: &str, doc: &str) -> Param {
         let default = ParamValue::Text(String::new());
-        Param::own(name, doc, ParamType::Text, Role::File, default)
+        Param::own(name, doc, Memory::Text, Role::File, default)
     }
 
     /// One of these words, the first one at first.
     pub fn choice(name: &str, words: &[&str], doc: &str) -> Param {
         let role = Role::Choice(words.iter().map(|word| (*word).to_owned()).collect());
-        Param::own(name, doc, ParamType::U32, role, ParamValue::Unsigned(0))
+        Param::own(name, doc, Memory::U32, role, ParamValue::Unsigned(0))
     }
 
     /// On or off.
     pub fn toggle(name: &str, default: bool, doc: &str) -> Param {
         let default = ParamValue::Unsigned(u32::from(default));
-        Param::own(name, doc, ParamType::U32, Role::Toggle, default)
+        Param::own(name, doc, Memory::U32, Role::Toggle, default)
     }
 
     /// A number.
     pub fn number(name: &str, default: f32, doc: &str) -> Param {
-        Param::own(
-            name,
-            doc,
-            ParamType::F32,
-            Role::Plain,
-            ParamValue::Floats(vec![default]),
-        )
+        Param::own(name, doc, Memory::F32, Role::Plain, ParamValue::Floats(vec![default]))
     }
 
     /// A length in model units after fitting.
     pub fn length(name: &str, default: f32, doc: &str) -> Param {
-        Param::own(
-            name,
-            doc,
-            ParamType::F32,
-            Role::Length,
-            ParamValue::Floats(vec![default]),
-        )
+        Param::own(name, doc, Memory::F32, Role::Length, ParamValue::Floats(vec![default]))
     }
 
     /// An angle in degrees; what fills the source receives radians.
     pub fn angle(name: &str, default: f32, doc: &str) -> Param {
-        Param::own(
-            name,
-            doc,
-            ParamType::F32,
-            Role::Angle,
-            ParamValue::Floats(vec![default]),
-        )
+        Param::own(name, doc, Memory::F32, Role::Angle, ParamValue::Floats(vec![default]))
     }
 
     /// Two numbers.
     pub fn pair(name: &str, default: [f32; 2], doc: &str) -> Param {
         let default = ParamValue::Floats(default.to_vec());
-        Param::own(name, doc, ParamType::Vec2, Role::Plain, default)
+        Param::own(name, doc, Memory::Vec2, Role::Plain, default)
     }
 
     /// A direction, or three numbers without a unit.
     pub fn vector(name: &str, default: [f32; 3], doc: &str) -> Param {
         let default = ParamValue::Floats(default.to_vec());
-        Param::own(name, doc, ParamType::Vec3, Role::Plain, default)
+        Param::own(name, doc, Memory::Vec3, Role::Plain, default)
     }
 
     /// Three lengths in model units after fitting: a place, or the sides of a box.
     pub fn lengths(name: &str, default: [f32; 3], doc: &str) -> Param {
         let default = ParamValue::Floats(default.to_vec());
-        Param::own(name, doc, ParamType::Vec3, Role::Length, default)
+        Param::own(name, doc, Memory::Vec3, Role::Length, default)
     }
 
     /// Values outside are refused.
     #[must_use]
     pub fn within(mut self, low: f32, high: f32) -> Param {
-        self.range = Some([low, high]);
+        self.ty.range = Some([low, high].map(exact));
         self
     }
 
     /// Ends of the slider.
     #[must_use]
     pub fn mostly(mut self, low: f32, high: f32) -> Param {
-        self.soft = Some([low, high]);
+        self.ty.soft = Some([low, high].map(exact));
         self
     }
 }

@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 
-use crate::kind::{InputDefault, Kind, ParamType};
+use crate::kind::{InputDefault, Kind, Memory};
 
 /// Byte layout of a kernel's parameter block; WGSL's rules for the storage address space.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -89,11 +89,15 @@ fn knob_offsets(kind: &Kind, end: &mut u32) -> Vec<Option<u32>> {
 
 fn params_align(kind: &Kind) -> u32 {
     let align = |ty| match ty {
-        ParamType::F32 | ParamType::U32 | ParamType::I32 | ParamType::Text => 4,
-        ParamType::Vec2 => 8,
-        ParamType::Vec3 | ParamType::Vec4 | ParamType::Points(_) => 16,
+        Memory::F32 | Memory::U32 | Memory::I32 | Memory::Text => 4,
+        Memory::Vec2 => 8,
+        Memory::Vec3 | Memory::Vec4 | Memory::Points(_) => 16,
     };
-    kind.params.iter().map(|param| align(param.ty)).max().unwrap_or(4)
+    kind.params
+        .iter()
+        .map(|param| align(param.ty.memory))
+        .max()
+        .unwrap_or(4)
 }
 
 fn place(end: &mut u32, size: u32, align: u32) -> u32 {

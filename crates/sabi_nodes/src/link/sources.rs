@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::block::knob_members;
 use super::rename::with_prefix;
-use crate::kind::{Kind, ParamType};
+use crate::kind::{Kind, Memory};
 
 /// Names that keep kinds apart in one module.
 ///
@@ -78,8 +78,8 @@ fn write_bounded(out: &mut String, kind: &Kind, names: &Names<'_>) {
         "fn {name}(params: {prefix}Params) -> {prefix}Params {{\n    var bounded = params;"
     );
     for param in kind.params.iter().filter(|param| param.bounds_a_loop) {
-        if let Some([low, high]) = param.range {
-            let suffix = if param.ty == ParamType::U32 { "u" } else { "i" };
+        if let Some([low, high]) = param.ty.range {
+            let suffix = if param.ty.memory == Memory::U32 { "u" } else { "i" };
             let (name, low, high) = (&param.name, low as i64, high as i64);
             let _ = writeln!(
                 out,

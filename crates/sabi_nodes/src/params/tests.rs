@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use crate::kind::{Param, ParamType, ParamValue, Role};
+use crate::kind::{Memory, Param, ParamValue, Role};
 use crate::{Libraries, Library, SourceFile, read_kind};
 
 /// Reads a node with this `struct Params`, all of whose members it uses; params or the first message.
@@ -31,16 +31,16 @@ fn types_and_offsets_come_from_the_code() {
         "params.a + params.b.x + f32(params.c) + f32(params.d) + params.e.x + params.f.w",
     )
     .unwrap();
-    let found: Vec<(ParamType, u32)> = params.iter().map(|param| (param.ty, param.offset)).collect();
+    let found: Vec<(Memory, u32)> = params.iter().map(|param| (param.ty.memory, param.offset)).collect();
     assert_eq!(
         found,
         [
-            (ParamType::F32, 0),
-            (ParamType::Vec3, 16),
-            (ParamType::I32, 28),
-            (ParamType::U32, 32),
-            (ParamType::Vec2, 40),
-            (ParamType::Vec4, 48)
+            (Memory::F32, 0),
+            (Memory::Vec3, 16),
+            (Memory::I32, 28),
+            (Memory::U32, 32),
+            (Memory::Vec2, 40),
+            (Memory::Vec4, 48)
         ]
     );
     assert_eq!(params[2].default, ParamValue::Signed(-3));
@@ -52,8 +52,8 @@ fn types_and_offsets_come_from_the_code() {
 fn every_annotation_is_read() {
     let param = one("/// More.\n///\n/// Last.\n/// @length @range 0 2 @soft 0.5 1 @default 0.75 @label Big tile @was size extent\ntile_size: f32,", "params.tile_size").unwrap();
     assert_eq!(param.doc, "Doc. More.\n\nLast.");
-    assert_eq!(param.role, Role::Length);
-    assert_eq!((param.range, param.soft), (Some([0.0, 2.0]), Some([0.5, 1.0])));
+    assert_eq!(param.ty.role, Role::Length);
+    assert_eq!((param.ty.range, param.ty.soft), (Some([0.0, 2.0]), Some([0.5, 1.0])));
     assert_eq!(param.default, ParamValue::Floats(vec![0.75]));
     assert_eq!(param.label, "Big tile");
     assert_eq!(param.formerly, ["size", "extent"]);
@@ -72,7 +72,7 @@ fn a_name_becomes_a_label() {
 
 #[test]
 fn roles_are_read() {
-    let role = |member: &str, uses: &str| one(member, uses).map(|param| (param.role, param.default));
+    let role = |member: &str, uses: &str| one(member, uses).map(|param| (param.ty.role, param.default));
     assert_eq!(
         role("/// @toggle @default on\na: u32,", "params.a").unwrap(),
         (Role::Toggle, ParamValue::Unsigned(1))
@@ -111,7 +111,7 @@ fn colors_are_stored_linear() {
     let ParamValue::Floats(color) = param.default else {
         panic!("floats")
     };
-    assert_eq!((param.role, color[0], color[2]), (Role::Color, 1.0, 0.0));
+    assert_eq!((param.ty.role, color[0], color[2]), (Role::Color, 1.0, 0.0));
     assert!((color[1] - 0.215_860_53).abs() < 1e-6, "{}", color[1]);
 }
 
@@ -122,7 +122,7 @@ fn unused_stops_lie_behind_the_end() {
         "params.a[1].x",
     )
     .unwrap();
-    assert_eq!((param.ty, param.role), (ParamType::Points(3), Role::Stops));
+    assert_eq!((param.ty.memory, param.ty.role), (Memory::Points(3), Role::Stops));
     assert_eq!(
         param.default,
         ParamValue::Floats(vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.5, 0.0, 0.0, 0.0, 2.0])
@@ -136,7 +136,7 @@ fn a_curve_has_points_with_slopes() {
         "params.a[1].x",
     )
     .unwrap();
-    assert_eq!((param.ty, param.role), (ParamType::Points(3), Role::Curve));
+    assert_eq!((param.ty.memory, param.ty.role), (Memory::Points(3), Role::Curve));
     assert_eq!(
         param.default,
         ParamValue::Floats(vec![0.0, 0.0, 0.5, 1.0, 1.0, 0.5, 0.5, 1.0, 1.0, 0.5, 0.0, 0.0])
@@ -154,7 +154,7 @@ fn the_extent_of_the_model_names_a_direction() {
         along: "along".to_owned(),
         high: true,
     };
-    assert_eq!(params[1].role, role);
+    assert_eq!(params[1].ty.role, role);
 }
 
 #[test]

@@ -1,17 +1,15 @@
 //! `@default` of a parameter.
 
 use super::ParamReader;
+use crate::color::color_linear;
 use crate::curve::curve_points;
-use crate::kind::{ParamType, ParamValue, Role};
-use crate::notes::{Note, color_linear, number};
+use crate::kind::{Memory, ParamValue, Role, UNUSED_STOP};
+use crate::notes::{Note, number};
 use crate::words::{list, nearest};
-
-/// Position of a gradient stop that is not used.
-const UNUSED_STOP: f32 = 2.0;
 
 impl ParamReader<'_> {
     /// The start value. Only a seed, and what the program fills in, may do without.
-    pub(super) fn default(&mut self, ty: ParamType, role: &Role) -> Option<ParamValue> {
+    pub(super) fn default(&mut self, memory: Memory, role: &Role) -> Option<ParamValue> {
         let Some(note) = self.notes.get("default").cloned() else {
             match role {
                 Role::Seed => return Some(ParamValue::Unsigned(0)),
@@ -22,15 +20,15 @@ impl ParamReader<'_> {
             self.at_name(message, "Write `@default` with the value it starts with.");
             return None;
         };
-        match (role, ty) {
+        match (role, memory) {
             (Role::Toggle, _) => self.toggle(&note),
             (Role::Choice(words), _) => self.choice(&note, words),
             (Role::Color, _) => self.color(&note),
-            (Role::Stops, ParamType::Points(count)) => self.stops(&note, count as usize),
-            (Role::Curve, ParamType::Points(count)) => self.curve(&note, count as usize),
-            (_, ParamType::U32) => self.whole(&note, "0", ParamValue::Unsigned),
-            (_, ParamType::I32) => self.whole(&note, "0", ParamValue::Signed),
-            _ => self.floats(&note, ty.components()),
+            (Role::Stops, Memory::Points(count)) => self.stops(&note, count as usize),
+            (Role::Curve, Memory::Points(count)) => self.curve(&note, count as usize),
+            (_, Memory::U32) => self.whole(&note, "0", ParamValue::Unsigned),
+            (_, Memory::I32) => self.whole(&note, "0", ParamValue::Signed),
+            _ => self.floats(&note, memory.components()),
         }
     }
 

@@ -6,7 +6,7 @@ use super::ANNOTATIONS;
 use super::inputs::InputNotes;
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
-use crate::kind::{Finds, Param, ParamType, Role};
+use crate::kind::{Finds, Memory, Param, Role};
 use crate::notes::{Note, Notes, unknown};
 use crate::scan::Item;
 use crate::words::nearest;
@@ -163,9 +163,7 @@ fn reach(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>)
     let named = |param: &Param| written.strip_prefix("params.") == Some(param.name.as_str());
     let index = params.iter().position(named);
     match index {
-        Some(index) if params[index].role == Role::Length && params[index].ty == ParamType::F32 => {
-            Some((index, note.whole()))
-        }
+        Some(index) if is_single_length(&params[index]) => Some((index, note.whole())),
         _ => {
             faults.push(text.fault(
                 note.whole(),
@@ -176,6 +174,10 @@ fn reach(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>)
             None
         }
     }
+}
+
+fn is_single_length(param: &Param) -> bool {
+    param.ty.role == Role::Length && param.ty.memory == Memory::F32
 }
 
 /// `@finds any` or `@finds nearest`.
@@ -202,11 +204,11 @@ fn counter(annotation: &str, name: &str, params: &[Param], what: &str) -> Result
         let message = format!("`@{annotation}` names a parameter `{name}`, which does not exist.");
         return Err((message, advice));
     };
-    let param = &params[index];
-    let bounded = param
+    let ty = &params[index].ty;
+    let is_bounded = ty
         .range
-        .is_some_and(|[low, high]| low >= 1.0 && high <= REPEAT_LIMIT as f32);
-    if param.ty != ParamType::U32 || param.role != Role::Plain || !bounded {
+        .is_some_and(|[low, high]| low >= 1.0 && high <= f64::from(REPEAT_LIMIT));
+    if ty.memory != Memory::U32 || ty.role != Role::Plain || !is_bounded {
         return Err((
             format!("`params.{name}` cannot say {what}."),
             format!("Make it a `u32` with a `@range` from 1 to at most {REPEAT_LIMIT}."),

@@ -6,9 +6,10 @@ use naga::{Module, TypeInner};
 use sabi_graph::PortType;
 
 use super::{Draft, PortReader, is_field, port_type};
+use crate::color::color_linear;
 use crate::fault::{Fault, Text};
 use crate::kind::{Input, InputDefault, Reads};
-use crate::notes::{Note, color_linear, is_plain_name, label_of, number};
+use crate::notes::{Note, is_plain_name, label_of, number};
 use crate::scan::Member;
 use crate::words::nearest;
 

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use sabi_graph::{FlatGraph, PortType};
 use sabi_nodes::Library;
 use sabi_nodes::formula::{Formula, Knowns};
-use sabi_nodes::kind::{Argument, InputDefault, Kind, Output, ParamType, ParamValue, Reads, Role, Shape};
+use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, ParamValue, Reads, Role, Shape};
 use sabi_nodes::link::Convert;
 
 use super::symbols::{Given, OPEN, call_symbol, converted, from_plan, moved, source_symbol, surveyed};
@@ -45,11 +45,11 @@ fn line(id: &str, kind: &Kind, (_, picks, length): Numbers, made: &[(String, Por
     let lengths = kind
         .params
         .iter()
-        .filter(|param| param.role == Role::Length && param.ty == ParamType::F32);
+        .filter(|param| param.ty.role == Role::Length && param.ty.memory == Memory::F32);
     for (at, param) in lengths.enumerate() {
-        let [low, high] = param.range.unwrap_or([0.0, 1.0]);
+        let [low, high] = param.ty.range.unwrap_or([0.0, 1.0]);
         let value = LENGTHS[length / LENGTHS.len().pow(at as u32) % LENGTHS.len()] as f32;
-        line += &format!(" {}={}", param.name, value.clamp(low, high));
+        line += &format!(" {}={}", param.name, value.clamp(low as f32, high as f32));
     }
     Some(line)
 }

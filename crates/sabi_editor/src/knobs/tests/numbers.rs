@@ -32,7 +32,7 @@ fn shift_makes_a_drag_a_tenth() {
 fn a_drag_leaves_the_soft_range_and_stops_at_the_hard_one() {
     let mut board = board([knob("material/adjust.saturation")]);
     let at = middle(&board, "Saturation");
-    let soft = board.state().rows[0].knob.soft.expect("a soft range");
+    let soft = board.state().rows[0].knob.ty.soft.expect("a soft range");
     drag(&mut board, at, Vec2::new(500.0, 0.0));
     let left = number(&board);
     assert!(left > soft[1], "{left} is inside {soft:?}");
@@ -85,7 +85,7 @@ fn a_bad_sum_changes_nothing_and_says_why() {
 #[test]
 fn what_no_file_can_hold_is_refused_with_a_sentence() {
     let mut free = knob("adjust/levels.gamma");
-    free.knob.range = None;
+    free.knob.ty.range = None;
     let mut board = board([free]);
     type_into(&mut board, "Gamma", "1e200");
     assert_eq!(taken(&mut board), []);

@@ -178,7 +178,7 @@ fn every_knob_of_every_kind_is_shown_under_its_name() {
         let rows = entry.knobs.iter().map(shown);
         let board = board_of(rows, Shade::Light, None, Vec2::new(320.0, 4000.0));
         for knob in &entry.knobs {
-            let is_vector = matches!(knob.default, Value::List(_)) && (2..=4).contains(&knob.components);
+            let is_vector = matches!(knob.ty.default, Value::List(_)) && (2..=4).contains(&knob.ty.components());
             let name = if is_vector {
                 format!("{} X", knob.label)
             } else {

@@ -106,7 +106,7 @@ fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "From");
         let own = knob.exposed.range;
-        let [mut low, mut high] = own.unwrap_or_else(|| knob.knob.slider());
+        let [mut low, mut high] = own.unwrap_or_else(|| knob.knob.ty.slider());
         let speed = ((high - low).abs() / 200.0).max(1e-4);
         let end = |ui: &mut Ui, end: &mut f64, name: &str| {
             let response = ui.add(DragValue::new(end).speed(speed).update_while_editing(false));

@@ -6,7 +6,7 @@ use naga::{BinaryOperator, Expression, Handle, Literal, ScalarKind, UnaryOperato
 
 use super::{Frame, Reader};
 use crate::analysis::walk::conjuncts;
-use crate::kind::{Argument, Channel, ChannelWrite, ParamType, Role};
+use crate::kind::{Argument, Channel, ChannelWrite, Memory, Role};
 
 /// What must be on, or not zero, for a channel to be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -123,7 +123,7 @@ impl<'m> Reader<'m> {
 
     fn toggle_param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Need> {
         let index = self.param(frame, expression)?;
-        (self.params.get(index)?.role == Role::Toggle).then_some(Need::Param(index))
+        (self.params.get(index)?.ty.role == Role::Toggle).then_some(Need::Param(index))
     }
 
     /// The parameter that an expression is.
@@ -141,7 +141,7 @@ impl<'m> Reader<'m> {
     /// The number, parameter or input, that an expression is.
     pub(super) fn need(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Need> {
         if let Some(index) = self.param(frame, expression) {
-            let is_number = matches!(self.params.get(index)?.ty, ParamType::F32 | ParamType::Vec3);
+            let is_number = matches!(self.params.get(index)?.ty.memory, Memory::F32 | Memory::Vec3);
             return is_number.then_some(Need::Param(index));
         }
         let Expression::FunctionArgument(argument) = frame.function.expressions[expression] else {

@@ -1,0 +1,203 @@
+//! The one meaning of a parameter: which values it takes, and how they are read, written and described.
+
+#[cfg(test)]
+mod tests;
+
+use sabi_graph::{Value, canonical_number};
+
+use super::written::UNUSED_STOP;
+use super::{Memory, ParamValue, Role, Written, WrittenStop};
+use crate::color::{srgb8_from_linear, typed_color};
+
+/// Values that a parameter takes. The planner, the catalog, the command line and the editor all ask it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParamType {
+    /// Meaning to an artist.
+    pub role: Role,
+    /// Shape in memory.
+    pub memory: Memory,
+    /// Lowest and highest number taken, artist's units.
+    pub range: Option<[f64; 2]>,
+    /// Ends of the slider, artist's units.
+    pub soft: Option<[f64; 2]>,
+    /// Value until it is set, as a graph file holds it.
+    pub default: Value,
+}
+
+impl ParamType {
+    /// A type without range whose default has these components.
+    pub fn new(role: Role, memory: Memory, default: &ParamValue) -> ParamType {
+        ParamType {
+            default: write(&role, default),
+            role,
+            memory,
+            range: None,
+            soft: None,
+        }
+    }
+
+    /// Number of components; for a curve or a gradient the largest number of points.
+    pub fn components(&self) -> usize {
+        match self.memory {
+            Memory::Points(most) => most as usize,
+            memory => memory.components(),
+        }
+    }
+
+    /// Whether only whole numbers are taken.
+    pub fn is_whole(&self) -> bool {
+        matches!(self.memory, Memory::U32 | Memory::I32)
+    }
+
+    /// Whether files hold its values as texts.
+    pub fn is_text(&self) -> bool {
+        matches!(self.role, Role::Text | Role::File | Role::Choice(_) | Role::Color)
+    }
+
+    /// Ends of the slider: the soft ones, or the range, or a span that suits the default.
+    pub fn slider(&self) -> [f64; 2] {
+        self.soft.or(self.range).unwrap_or_else(|| {
+            // Only single numbers have a slider.
+            let largest = self.default.as_number().unwrap_or(1.0).abs().max(0.5);
+            [0.0, largest * 2.0]
+        })
+    }
+
+    /// A value as an artist sees it; `None` where its form is wrong. Ranges are not checked.
+    pub fn written<'v>(&self, value: &'v Value) -> Option<Written<'v>> {
+        Written::read(self, value)
+    }
+
+    /// Reads a value of a graph file. The error is [`ParamType::expectation`].
+    pub fn read(&self, value: &Value) -> Result<ParamValue, String> {
+        let read = self.written(value).and_then(|written| written.components(self));
+        read.filter(|components| self.is_in_range(components))
+            .ok_or_else(|| self.expectation())
+    }
+
+    /// Whether a value is taken, its range included.
+    pub fn takes(&self, value: &Value) -> bool {
+        self.read(value).is_ok()
+    }
+
+    /// Reads a value as people type it: `on`, `0, 1, 0`, `6b3a1e`, a word of a choice, lists as JSON. The error is
+    /// [`ParamType::expectation`].
+    pub fn parse(&self, text: &str) -> Result<Value, String> {
+        let text = text.trim();
+        let value = match self.role {
+            Role::Toggle => toggle(text).map(Value::Bool),
+            Role::Choice(_) | Role::Text | Role::File => Some(Value::Text(text.to_owned())),
+            Role::Color => typed_color(text).map(|color| Written::Color(color).to_value()),
+            Role::Plain | Role::Length | Role::Angle | Role::Seed if !text.starts_with('[') => {
+                let numbers: Option<Vec<f64>> = text.split(',').map(|part| finite(part.trim())).collect();
+                numbers.map(|numbers| Written::Numbers(numbers).to_value())
+            }
+            _ => Value::from_json(text),
+        };
+        value
+            .filter(|value| self.takes(value))
+            .ok_or_else(|| self.expectation())
+    }
+
+    /// What is taken, to follow "takes": `a number from 0 to 1`.
+    pub fn expectation(&self) -> String {
+        let between = match self.range {
+            Some([low, high]) => format!(" from {low} to {high}"),
+            None => String::new(),
+        };
+        let room = self.components();
+        match (&self.role, self.memory) {
+            (Role::Toggle, _) => "true or false".to_owned(),
+            (Role::Choice(words), _) => format!("one of {}", words.join(", ")),
+            (Role::Color, _) => "a color such as \"#6b3a1e\"".to_owned(),
+            (Role::Stops, _) => {
+                format!("a list of 1 to {room} stops such as [0.5, \"#6b3a1e\"], positions from 0 to 1")
+            }
+            (Role::Curve, _) => format!("a list of 1 to {room} points such as [0.5, 0.8], both numbers{between}"),
+            (Role::Extent { .. }, _) => "no value: it is measured on the model".to_owned(),
+            (Role::Text, _) => match &self.default {
+                Value::Text(text) if !text.is_empty() => format!("a text such as {text:?}"),
+                _ => "a text".to_owned(),
+            },
+            (Role::File, _) => "the path of a file, as a text".to_owned(),
+            (Role::Angle, Memory::F32) => format!("an angle in degrees{between}"),
+            (_, Memory::U32) if self.range.is_none() => format!("a whole number from 0 to {}", u32::MAX),
+            (_, Memory::U32 | Memory::I32) => format!("a whole number{between}"),
+            (_, Memory::F32) => format!("a number{between}"),
+            _ => format!("a list of {room} numbers{between}"),
+        }
+    }
+
+    /// Whether all numbers of a value lie in the range; of a curve only the coordinates count.
+    pub(crate) fn is_in_range(&self, value: &ParamValue) -> bool {
+        let Some([low, high]) = self.range else { return true };
+        let is_inside = |number: f64| (low..=high).contains(&number);
+        match value {
+            // Compared as floats: 0.3 of a file is the same float as the end of a range to 0.3.
+            ParamValue::Floats(numbers) => {
+                let range = low as f32..=high as f32;
+                let is_curve = self.role == Role::Curve;
+                let counted = numbers.iter().enumerate().filter(|(at, _)| !is_curve || at % 4 < 2);
+                counted.map(|(_, number)| number).all(|number| range.contains(number))
+            }
+            ParamValue::Unsigned(number) => is_inside(f64::from(*number)),
+            ParamValue::Signed(number) => is_inside(f64::from(*number)),
+            ParamValue::Text(_) => true,
+        }
+    }
+}
+
+/// A value as a graph file holds it.
+fn write(role: &Role, value: &ParamValue) -> Value {
+    match (role, value) {
+        (Role::Choice(words), ParamValue::Unsigned(index)) => match words.get(*index as usize) {
+            Some(word) => Written::Text(word).to_value(),
+            // No kind has such a default; the index itself shows it.
+            None => Value::Number(f64::from(*index)),
+        },
+        (Role::Toggle, ParamValue::Unsigned(on)) => Value::Bool(*on != 0),
+        (Role::Color, ParamValue::Floats(floats)) => match floats.as_slice() {
+            [r, g, b] => Written::Color(srgb8_from_linear([*r, *g, *b])).to_value(),
+            floats => numbers(floats).to_value(),
+        },
+        (Role::Stops, ParamValue::Floats(floats)) => {
+            let (stops, _) = floats.as_chunks::<4>();
+            let used = stops.iter().filter(|[.., position]| *position < UNUSED_STOP);
+            let stop = |[r, g, b, position]: &[f32; 4]| WrittenStop {
+                position: exact(*position),
+                color: srgb8_from_linear([*r, *g, *b]),
+            };
+            Written::Stops(used.map(stop).collect()).to_value()
+        }
+        (Role::Curve, ParamValue::Floats(floats)) => {
+            let (points, _) = floats.as_chunks::<4>();
+            let used = points.iter().filter(|[.., is_used]| *is_used > 0.0);
+            Written::Points(used.map(|[x, y, ..]| [exact(*x), exact(*y)]).collect()).to_value()
+        }
+        (_, ParamValue::Floats(floats)) => numbers(floats).to_value(),
+        (_, ParamValue::Unsigned(whole)) => Value::Number(f64::from(*whole)),
+        (_, ParamValue::Signed(whole)) => Value::Number(f64::from(*whole)),
+        (_, ParamValue::Text(text)) => Written::Text(text).to_value(),
+    }
+}
+
+fn numbers(floats: &[f32]) -> Written<'static> {
+    Written::Numbers(floats.iter().copied().map(exact).collect())
+}
+
+/// The number that a float's shortest text says, so that 0.1 is shown as 0.1.
+pub(crate) fn exact(float: f32) -> f64 {
+    canonical_number(f64::from(float)).unwrap_or(f64::from(float)) // Only infinities have no canonical form.
+}
+
+fn toggle(text: &str) -> Option<bool> {
+    match text {
+        "true" | "on" => Some(true),
+        "false" | "off" => Some(false),
+        _ => None,
+    }
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}

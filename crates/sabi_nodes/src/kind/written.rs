@@ -1,0 +1,153 @@
+//! Values of parameters as graph files hold them and artists see them.
+
+use sabi_graph::Value;
+
+use super::{Memory, ParamType, ParamValue, Role};
+use crate::color::{color_code, color_srgb8, linear_from_srgb8};
+use crate::curve::curve_points;
+
+/// Position of a gradient stop that is not used.
+pub(crate) const UNUSED_STOP: f32 = 2.0;
+
+/// A parameter's value as an artist sees it: angles in degrees, colors in sRGB.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Written<'v> {
+    /// As many as the parameter has components.
+    Numbers(Vec<f64>),
+    /// On or off.
+    Toggle(bool),
+    /// A text, a path, or the word of a choice.
+    Text(&'v str),
+    /// sRGB.
+    Color([u8; 3]),
+    /// Gradient stops in ascending order.
+    Stops(Vec<WrittenStop>),
+    /// Points of a curve by ascending x; two at one x are a step.
+    Points(Vec<[f64; 2]>),
+}
+
+/// A color at a position of a gradient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WrittenStop {
+    /// 0 to 1.
+    pub position: f64,
+    /// sRGB.
+    pub color: [u8; 3],
+}
+
+impl<'v> Written<'v> {
+    /// Reads a value for a parameter; `None` where its form is wrong. Ranges are not checked.
+    pub(super) fn read(ty: &ParamType, value: &'v Value) -> Option<Written<'v>> {
+        match &ty.role {
+            Role::Toggle => value.as_bool().map(Written::Toggle),
+            Role::Choice(words) => {
+                let word = value.as_text()?;
+                words.iter().any(|known| known == word).then_some(Written::Text(word))
+            }
+            Role::Text | Role::File => value.as_text().map(Written::Text),
+            Role::Color => color_srgb8(value.as_text()?).map(Written::Color),
+            Role::Stops => stops(value.as_list()?, ty.components()).map(Written::Stops),
+            Role::Curve => points(value.as_list()?, ty.components()).map(Written::Points),
+            Role::Plain | Role::Length | Role::Angle | Role::Seed => numbers(ty, value).map(Written::Numbers),
+            Role::Extent { .. } => None,
+        }
+    }
+
+    /// Components of this value in a parameter's memory; `None` for numbers that do not fit there.
+    pub(super) fn components(&self, ty: &ParamType) -> Option<ParamValue> {
+        Some(match (self, &ty.role, ty.memory) {
+            (Written::Toggle(on), ..) => ParamValue::Unsigned(u32::from(*on)),
+            (Written::Text(word), Role::Choice(words), _) => {
+                let index = words.iter().position(|known| known == word)?;
+                ParamValue::Unsigned(index as u32)
+            }
+            (Written::Text(text), ..) => ParamValue::Text((*text).to_owned()),
+            (Written::Color(color), ..) => ParamValue::Floats(linear_from_srgb8(*color).to_vec()),
+            (Written::Stops(stops), ..) => ParamValue::Floats(stop_components(stops, ty.components())),
+            (Written::Points(points), ..) => {
+                let points: Vec<[f32; 2]> = points.iter().map(|point| point.map(|number| number as f32)).collect();
+                ParamValue::Floats(curve_points(&points, ty.components()))
+            }
+            (Written::Numbers(numbers), _, Memory::U32) => ParamValue::Unsigned(single_whole(numbers)?),
+            (Written::Numbers(numbers), _, Memory::I32) => ParamValue::Signed(single_whole(numbers)?),
+            (Written::Numbers(numbers), ..) => {
+                let floats: Vec<f32> = numbers.iter().map(|number| *number as f32).collect();
+                let are_finite = floats.iter().all(|number| number.is_finite());
+                are_finite.then_some(ParamValue::Floats(floats))?
+            }
+        })
+    }
+
+    /// This value as a graph file holds it.
+    pub fn to_value(&self) -> Value {
+        match self {
+            Written::Numbers(numbers) => match numbers.as_slice() {
+                [number] => Value::Number(*number),
+                several => several.to_vec().into(),
+            },
+            Written::Toggle(on) => Value::Bool(*on),
+            Written::Text(text) => Value::Text((*text).to_owned()),
+            Written::Color(color) => Value::Text(color_code(*color)),
+            Written::Stops(stops) => {
+                let stop = |stop: &WrittenStop| {
+                    Value::List(vec![Value::Number(stop.position), Value::Text(color_code(stop.color))])
+                };
+                Value::List(stops.iter().map(stop).collect())
+            }
+            Written::Points(points) => points.iter().map(|point| point.to_vec()).collect::<Vec<_>>().into(),
+        }
+    }
+}
+
+fn numbers(ty: &ParamType, value: &Value) -> Option<Vec<f64>> {
+    let given = match value {
+        Value::List(items) if ty.components() > 1 => items.as_slice(),
+        single if ty.components() == 1 => std::slice::from_ref(single),
+        _ => return None,
+    };
+    let numbers: Vec<f64> = given.iter().map(Value::as_number).collect::<Option<_>>()?;
+    let are_whole = !ty.is_whole() || numbers.iter().all(|number| number.fract() == 0.0);
+    (numbers.len() == ty.components() && are_whole).then_some(numbers)
+}
+
+fn stops(items: &[Value], room: usize) -> Option<Vec<WrittenStop>> {
+    let stop = |item: &Value| match item.as_list()? {
+        [position, code] => Some(WrittenStop {
+            position: position.as_number().filter(|at| (0.0..=1.0).contains(at))?,
+            color: color_srgb8(code.as_text()?)?,
+        }),
+        _ => None,
+    };
+    let mut stops: Vec<WrittenStop> = items.iter().map(stop).collect::<Option<_>>()?;
+    stops.sort_by(|left, right| left.position.total_cmp(&right.position));
+    (1..=room).contains(&stops.len()).then_some(stops)
+}
+
+fn points(items: &[Value], room: usize) -> Option<Vec<[f64; 2]>> {
+    let point = |item: &Value| match item.as_list()? {
+        [x, y] => Some([x.as_number()?, y.as_number()?]),
+        _ => None,
+    };
+    let mut points: Vec<[f64; 2]> = items.iter().map(point).collect::<Option<_>>()?;
+    points.sort_by(|left, right| left[0].total_cmp(&right[0]));
+    (1..=room).contains(&points.len()).then_some(points)
+}
+
+fn stop_components(stops: &[WrittenStop], room: usize) -> Vec<f32> {
+    let used = stops.iter().map(|stop| {
+        let [r, g, b] = linear_from_srgb8(stop.color);
+        [r, g, b, stop.position as f32]
+    });
+    let mut components: Vec<[f32; 4]> = used.collect();
+    components.resize(room, [0.0, 0.0, 0.0, UNUSED_STOP]);
+    components.into_flattened()
+}
+
+/// The only one of these numbers, where a 32-bit whole number can hold it.
+fn single_whole<T: TryFrom<i64>>(numbers: &[f64]) -> Option<T> {
+    match numbers {
+        // Whole numbers of 32 bits are exact in an f64.
+        [number] if number.fract() == 0.0 && number.abs() <= f64::from(u32::MAX) => T::try_from(*number as i64).ok(),
+        _ => None,
+    }
+}
