@@ -2,6 +2,8 @@
 
 #[path = "tidy/functions.rs"]
 mod functions;
+#[path = "tidy/literals.rs"]
+mod literals;
 #[path = "tidy/rules.rs"]
 mod rules;
 
@@ -10,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use functions::functions_of;
+use literals::{flag_in, literals_of};
 use rules::*;
 
 fn root() -> PathBuf {
@@ -188,6 +191,25 @@ fn the_architecture_names_every_crate_and_what_it_does_not_know() {
                 "ARCHITECTURE.md says nothing of {name}: add a section \"### `{name}`\" that ends with a line \
                  \"*Does not know:* …\"."
             ));
+        }
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn no_crate_below_the_front_ends_names_a_flag() {
+    let mut faults = Vec::new();
+    for (name, ..) in MAY_NAME.iter().filter(|(name, ..)| !FRONT_ENDS.contains(name)) {
+        let sources = files_below(&format!("crates/{name}/src"));
+        for path in sources.into_iter().filter(|path| ending(path) == "rs") {
+            for (line, text) in literals_of(&text_of(&path)) {
+                if let Some(flag) = flag_in(&text) {
+                    faults.push(format!(
+                        "{path}:{line}: `{flag}` is a flag of the command line: say what is the case, and give a `Remedy` \
+                         that each front end says in its own words."
+                    ));
+                }
+            }
         }
     }
     assert_none(faults);

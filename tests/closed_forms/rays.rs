@@ -197,7 +197,7 @@ fn told(faces_out: bool, faces: usize) -> Vec<String> {
     let made = MeshFile::new(quads.collect()).write();
     let mut on_mesh = OnMesh::new(&graph("occlusion", ""), made.path(), 64);
     on_mesh.evaluate("rays");
-    on_mesh.evaluator.warnings.clone()
+    on_mesh.warnings()
 }
 
 #[test]

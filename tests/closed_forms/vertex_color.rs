@@ -64,7 +64,7 @@ fn a_model_without_colors_is_white_and_says_so() {
     let white = on_mesh.evaluate("colors.color").component("color.g");
     assert!(on_mesh.covered().all(|index| white[index] == 1.0));
     assert_eq!(
-        on_mesh.evaluator.warnings,
+        on_mesh.warnings(),
         ["node 'colors' (source/vertex_color) gives white: the model has no vertex colors; paint some in its program"]
     );
 }

@@ -234,12 +234,12 @@ fn a_pick_selects_parts_by_name_and_tells_what_is_not_there() {
             assert_eq!(mask[index], f32::from(u8::from(is_picked)), "{name}");
         }
     }
-    let told = on_mesh.evaluator.warnings.join("\n");
+    let told = on_mesh.warnings().join("\n");
     assert!(!told.contains("picks"), "{told}");
     on_mesh.set_graph(&graph("nothing like it"));
     let mask = on_mesh.evaluate("one").component("mask");
     assert!(on_mesh.owned().all(|(index, _)| mask[index] == 0.0));
-    let told = on_mesh.evaluator.warnings.join("\n");
+    let told = on_mesh.warnings().join("\n");
     assert!(
         told.contains("node 'one' picks 'nothing like it', and the model has no such part"),
         "{told}"

@@ -129,7 +129,7 @@ fn rays_and_filters_give_numbers_on_every_model_and_say_what_is_wrong_with_it() 
                 }
             }
         }
-        let told: Vec<&str> = on_mesh.evaluator.warnings.iter().map(String::as_str).collect();
+        let told = on_mesh.warnings();
         for start in [OPEN, INSIDE_OUT, UNCLEAR, FLAT] {
             let is_told = told.iter().any(|sentence| sentence.starts_with(start));
             if is_told != expected.contains(&start) {

@@ -62,12 +62,11 @@ fn a_broken_edit_keeps_the_last_good_version() {
     assert_eq!(kinds.faults.len(), 1, "{:?}", kinds.faults);
     let (on_mesh, values) = evaluated(kinds);
     assert!(selects_the_top(&on_mesh, &values, 0.0));
-    let told = on_mesh
-        .evaluator
-        .warnings
-        .iter()
-        .any(|warning| warning.contains("facing.wgsl"));
-    assert!(told, "{:?}", on_mesh.evaluator.warnings);
+    let warnings = on_mesh.warnings();
+    assert!(
+        warnings.iter().any(|warning| warning.contains("facing.wgsl")),
+        "{warnings:?}"
+    );
 }
 
 /// A folder of nodes that is watched.

@@ -74,6 +74,11 @@ fn opened(graph: &str) -> OpenGraph {
 }
 
 impl OnMesh {
+    /// Warnings of the evaluation so far, as text.
+    pub fn warnings(&self) -> Vec<String> {
+        self.evaluator.warnings.iter().map(ToString::to_string).collect()
+    }
+
     /// A graph of built-in kinds on a model, with `size` texels for one unit of UV.
     pub fn new(graph: &str, mesh: &Path, size: u32) -> OnMesh {
         OnMesh::with_kinds(graph, Kinds::builtin(), mesh, size)

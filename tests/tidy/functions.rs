@@ -42,7 +42,7 @@ fn without_texts(text: &str) -> String {
 }
 
 /// How many bytes of a comment, quoted text or quoted character begin here; 0 when it is code.
-fn skipped(rest: &str, before: Option<char>) -> usize {
+pub(crate) fn skipped(rest: &str, before: Option<char>) -> usize {
     let through = |end: Option<usize>, length: usize| end.map_or(rest.len(), |end| end + length);
     if rest.starts_with("//") {
         return through(rest.find('\n'), 0);

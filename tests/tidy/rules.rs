@@ -44,6 +44,10 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 13] = [
     ("xtask", &[], &[]),
 ];
 
+/// Crates that know their flags or buttons: the front ends, their parts, and the chores, which have a command line of their
+/// own.
+pub(crate) const FRONT_ENDS: [&str; 3] = ["sabi_editor", "sabi", "xtask"];
+
 /// What else a crate may name although another owns it: xtask writes pictures of its own, and the viewport draws with the
 /// device that kernels run on, which is the window's.
 pub(crate) const ALSO: [(&str, &str); 3] = [("xtask", "png"), ("sabi_view", "wgpu"), ("sabi_editor", "wgpu")];

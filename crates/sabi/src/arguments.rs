@@ -36,7 +36,7 @@ Examples:
   sabi doctor",
     after_help = "\
 Exit codes: 0 done, 2 wrong command line, 4 no usable adapter, 65 bad input, 66 input missing,
-70 a mistake in Sabi, 73 cannot write, 130 interrupted"
+70 a defect of Sabi, 73 cannot write, 130 interrupted"
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
@@ -87,6 +87,22 @@ pub(crate) enum Command {
     Mesh(MeshArguments),
     /// Tell whether this machine can run Sabi
     Doctor(DoctorArguments),
+}
+
+impl Command {
+    /// Name of the command on the command line.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Command::Edit(_) => "edit",
+            Command::Bake(_) => "bake",
+            Command::Preview(_) => "preview",
+            Command::Render(_) => "render",
+            Command::Check(_) => "check",
+            Command::Nodes(_) => "nodes",
+            Command::Mesh(_) => "mesh",
+            Command::Doctor(_) => "doctor",
+        }
+    }
 }
 
 /// Names of all commands.

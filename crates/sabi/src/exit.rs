@@ -1,23 +1,23 @@
 //! Exit codes, and failures on their way to them.
 
-use sabi_engine::{EngineError, ErrorKind};
+use sabi_engine::{EngineError, ErrorKind, Remedy};
 
-/// What the process ends with. 3 is kept for a verification that failed.
+/// Exit code of the process. 3 is reserved for a verification that failed, which no command makes yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub(crate) enum Exit {
-    /// Everything was done.
+    /// The command did what was asked.
     Done = 0,
-    /// The command line makes no sense.
+    /// The command line cannot be understood.
     Usage = 2,
     /// No adapter can be used.
     NoAdapter = 4,
     /// A file is damaged, or not what it should be.
     BadInput = 65,
-    /// A file is not there.
+    /// A file is missing or cannot be read.
     MissingInput = 66,
-    /// A mistake in Sabi.
-    Mistake = 70,
+    /// A defect of Sabi.
+    Defect = 70,
     /// Results cannot be written.
     CannotWrite = 73,
     /// The user stopped it.
@@ -29,22 +29,25 @@ impl From<ErrorKind> for Exit {
         match kind {
             ErrorKind::Usage => Exit::Usage,
             ErrorKind::NoAdapter => Exit::NoAdapter,
-            // What a smaller size would mend, the command line would, too.
+            // Too much for the memory there is: another size or model can be given.
             ErrorKind::BadInput | ErrorKind::OutOfMemory => Exit::BadInput,
             ErrorKind::MissingInput => Exit::MissingInput,
             ErrorKind::CannotWrite => Exit::CannotWrite,
             ErrorKind::Interrupted => Exit::Interrupted,
+            ErrorKind::Defect => Exit::Defect,
         }
     }
 }
 
-/// Why a command ended early.
+/// Reason why a command ended early.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Failure {
-    /// What the process ends with.
+    /// Exit code of the process.
     pub(crate) exit: Exit,
-    /// Sentences to the user; none where everything is said already.
+    /// Sentences for the user.
     pub(crate) messages: Vec<String>,
+    /// What helps, said after the last sentence.
+    pub(crate) remedies: Vec<Remedy>,
 }
 
 impl Failure {
@@ -52,6 +55,7 @@ impl Failure {
         Failure {
             exit,
             messages: vec![message],
+            remedies: Vec::new(),
         }
     }
 }
@@ -65,6 +69,40 @@ impl From<EngineError> for Failure {
         Failure {
             exit: error.kind.into(),
             messages,
+            remedies: error.remedies,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_engine::{EngineError, ErrorKind, Remedy};
+
+    use super::{Exit, Failure};
+
+    #[test]
+    fn each_kind_of_error_has_its_exit_code() {
+        let code = |kind: ErrorKind| match kind {
+            ErrorKind::Usage => 2,
+            ErrorKind::NoAdapter => 4,
+            ErrorKind::BadInput | ErrorKind::OutOfMemory => 65,
+            ErrorKind::MissingInput => 66,
+            ErrorKind::Defect => 70,
+            ErrorKind::CannotWrite => 73,
+            ErrorKind::Interrupted => 130,
+        };
+        for kind in ErrorKind::ALL {
+            assert_eq!(Exit::from(kind) as u8, code(kind), "{kind:?}");
+        }
+        assert_eq!(Exit::Done as u8, 0);
+    }
+
+    #[test]
+    fn a_failure_keeps_sentences_and_remedies_of_its_error() {
+        let error = EngineError::new(ErrorKind::CannotWrite, "the disk is full").with_remedies([Remedy::FreeSpace]);
+        let failure = Failure::from(error);
+        assert_eq!(failure.exit, Exit::CannotWrite);
+        assert_eq!(failure.messages, ["the disk is full"]);
+        assert_eq!(failure.remedies, [Remedy::FreeSpace]);
     }
 }

@@ -1,5 +1,6 @@
 //! The command line: reads arguments, calls the engine, and says what happened.
 
+mod advice;
 mod arguments;
 mod commands;
 mod disk;
@@ -30,7 +31,7 @@ fn start() -> Exit {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(told) => {
-            // Nobody may be listening any more, and then nothing is left to do.
+            // The standard streams may be closed, and then there is nowhere to say so.
             let _ = told.print();
             return match told.kind() {
                 ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Exit::Done,
@@ -39,20 +40,18 @@ fn start() -> Exit {
         }
     };
     let (command, global) = arguments.into_command();
-    let terminal = Terminal::new(&global);
+    let terminal = Terminal::new(&global, command.name());
     let done = start_log(global.log.as_deref()).and_then(|()| commands::run(command, &terminal));
     match done {
         Ok(exit) => exit,
         Err(failure) => {
-            for message in &failure.messages {
-                terminal.error(message);
-            }
+            terminal.failure(&failure);
             failure.exit
         }
     }
 }
 
-/// Tells what happens inside, for those who look for a mistake in Sabi.
+/// Starts the log on standard error, if a filter for it is given.
 fn start_log(filter: Option<&str>) -> Result<(), Failure> {
     let Some(filter) = filter else {
         return Ok(());

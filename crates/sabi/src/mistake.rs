@@ -1,4 +1,4 @@
-//! A panic is a mistake in Sabi; its user reads a sentence and gets an exit code.
+//! Panics, which are defects of Sabi, as a sentence and an exit code.
 
 use std::backtrace::{Backtrace, BacktraceStatus};
 use std::io::{self, Write};
@@ -6,7 +6,7 @@ use std::panic::{self, PanicHookInfo};
 
 use crate::exit::Exit;
 
-/// Runs the program; a panic anywhere becomes a sentence, and one that gets here the exit code of a mistake.
+/// Runs the program. A panic on any thread is printed as a sentence; one on this thread also gives the exit code of a defect.
 pub(crate) fn caught(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
     panic::set_hook(Box::new(|info| {
         let mut stderr = io::stderr().lock();
@@ -16,7 +16,7 @@ pub(crate) fn caught(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
             let _ = writeln!(stderr, "{backtrace}");
         }
     }));
-    panic::catch_unwind(work).unwrap_or(Exit::Mistake)
+    panic::catch_unwind(work).unwrap_or(Exit::Defect)
 }
 
 fn sentence(info: &PanicHookInfo<'_>) -> String {
@@ -39,7 +39,7 @@ mod tests {
 
     #[test]
     fn a_panic_becomes_an_exit_code() {
-        assert_eq!(caught(|| panic!("this test panics on purpose")), Exit::Mistake);
+        assert_eq!(caught(|| panic!("this test panics on purpose")), Exit::Defect);
         assert_eq!(caught(|| Exit::BadInput), Exit::BadInput);
         let _ = panic::take_hook();
     }

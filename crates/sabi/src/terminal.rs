@@ -1,64 +1,81 @@
-//! What is said: data on standard output, words for people on standard error.
+//! Output: data on standard output, words for people on standard error.
 
 use std::fmt;
 use std::io::{self, ErrorKind, Write};
 
+use sabi_engine::Warning;
 use serde_json::Value as Json;
 
+use crate::advice::with_flags;
 use crate::arguments::Global;
 use crate::disk::reason;
 use crate::exit::{Exit, Failure};
 
-/// Where words go.
+/// Output of a command.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terminal {
     quiet: bool,
     bars: bool,
+    /// Name of the command that runs, whose flags remedies are said with.
+    command: &'static str,
 }
 
 impl Terminal {
-    pub(crate) fn new(global: &Global) -> Terminal {
+    /// Output of the command with this name.
+    pub(crate) fn new(global: &Global, command: &'static str) -> Terminal {
         Terminal {
+            command,
             quiet: global.quiet,
             bars: !global.quiet && !global.no_progress,
         }
     }
 
-    /// Whether bars are wanted, on a terminal.
+    /// Whether progress bars are shown where standard error is a terminal.
     pub(crate) fn bars(&self) -> bool {
         self.bars
     }
 
-    /// Something worth knowing.
+    /// Prints a remark, unless the user wants errors only.
     pub(crate) fn note(&self, text: impl fmt::Display) {
         if !self.quiet {
             self.line(format_args!("{text}"));
         }
     }
 
-    /// Something that may not be meant.
-    pub(crate) fn warning(&self, text: impl fmt::Display) {
+    /// Prints a warning with its remedies, unless the user wants errors only.
+    pub(crate) fn warning(&self, warning: impl Into<Warning>) {
         if !self.quiet {
-            self.line(format_args!("warning: {text}"));
+            let Warning { sentence, remedies, .. } = warning.into();
+            self.line(format_args!(
+                "warning: {}",
+                with_flags(&sentence, &remedies, self.command)
+            ));
         }
     }
 
-    /// What went wrong.
-    pub(crate) fn error(&self, text: impl fmt::Display) {
-        self.line(format_args!("error: {text}"));
+    /// Prints the sentences of a failure, and its remedies after the last one.
+    pub(crate) fn failure(&self, failure: &Failure) {
+        let Some((last, others)) = failure.messages.split_last() else {
+            return;
+        };
+        for message in others {
+            self.line(format_args!("error: {message}"));
+        }
+        let last = with_flags(last, &failure.remedies, self.command);
+        self.line(format_args!("error: {last}"));
     }
 
-    /// A line for people, however quiet it should be.
+    /// Prints a line for people, even if the user wants errors only.
     pub(crate) fn line(&self, text: fmt::Arguments<'_>) {
-        // With nobody to tell it to there is nothing left to do.
+        // Standard error may be closed, and then there is nowhere to say so.
         let _ = writeln!(io::stderr().lock(), "{text}");
     }
 
-    /// Text on standard output.
+    /// Prints text on standard output.
     pub(crate) fn data(&self, text: &str) -> Result<(), Failure> {
         let mut stdout = io::stdout().lock();
         match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-            // Who reads a pipe may stop when it has enough, as `head` does.
+            // A reader of a pipe may stop when it has enough, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             Err(error) => {
                 let why = format!("cannot write to standard output: {}", reason(&error));
@@ -68,7 +85,7 @@ impl Terminal {
         }
     }
 
-    /// A JSON document on standard output.
+    /// Prints a JSON document on standard output.
     pub(crate) fn json(&self, json: &Json) -> Result<(), Failure> {
         self.data(&pretty(json))
     }

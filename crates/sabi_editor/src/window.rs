@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use sabi_engine::{
-    AdapterChoice, EngineError, ErrorKind, Gpu, Session, choose_adapter, default_cache_dir, device_descriptor,
+    AdapterChoice, EngineError, ErrorKind, Gpu, Remedy, Session, choose_adapter, default_cache_dir, device_descriptor,
 };
 
 use crate::app::{Beginning, Editor, Folders, Handover};
@@ -72,9 +72,9 @@ fn until_closed(mut open: impl FnMut() -> Result<Option<Duration>, EngineError>)
         };
         lost_soon = if lasted < SOON { lost_soon + 1 } else { 1 };
     }
-    let why = "the graphics device was lost again and again; what is not saved is offered at the next start. Update the \
-               driver, or choose --adapter cpu";
-    Err(EngineError::new(ErrorKind::NoAdapter, why))
+    let why = "the graphics device was lost again and again; what is not saved is offered at the next start";
+    let lost = EngineError::new(ErrorKind::NoAdapter, why);
+    Err(lost.with_remedies([Remedy::UpdateDriver, Remedy::SoftwareAdapter]))
 }
 
 /// Where the system has no screen, the libraries below only say so in their own words.
@@ -123,7 +123,7 @@ pub(crate) fn configuration(choice: &AdapterChoice) -> WgpuConfiguration {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = wgpu::Backends::PRIMARY;
     setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
-        choose_adapter(&choice, adapters, surface).map_err(|error| error.to_string())
+        choose_adapter(&choice, adapters, surface).map_err(|error| EngineError::from(error).to_string())
     }));
     setup.device_descriptor = Arc::new(|adapter| {
         // One that is not fit was not chosen.
@@ -163,11 +163,9 @@ fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> R
 
 fn unpacked(folder: &Path) -> Result<PathBuf, EngineError> {
     examples::first_model(folder).map_err(|error| {
-        let why = format!(
-            "{} cannot be written: {error}; name a model with --mesh",
-            folder.display()
-        );
-        EngineError::new(ErrorKind::CannotWrite, why)
+        let why = format!("{} cannot be written: {error}", folder.display());
+        let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
+        refused.with_remedies([Remedy::NameModel])
     })
 }
 

@@ -1,17 +1,29 @@
-//! What went wrong, by who can mend it.
+//! Errors by who can act on them, each with its cause and its remedies as values.
 
+use std::error::Error;
 use std::fmt;
+use std::io;
+use std::sync::Arc;
 
-/// Kinds of failure; the command line gives each its exit code.
+use sabi_export::ExportError;
+use sabi_gpu::GpuError;
+use sabi_image::ImageError;
+use sabi_surface::atlas::AtlasError;
+use sabi_surface::load::LoadError;
+use sabi_view::ViewError;
+
+use crate::remedy::{Remedy, advised};
+
+/// Kind of failure; the command line gives each its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
-    /// What was asked makes no sense: a wrong name, type or range.
+    /// The request makes no sense: a wrong name, type or range.
     Usage,
     /// No adapter can be used.
     NoAdapter,
     /// A file is damaged, or is not what it should be.
     BadInput,
-    /// A file is not there, or cannot be read.
+    /// A file is missing or cannot be read.
     MissingInput,
     /// Textures do not fit into memory, or into the budget for them; smaller ones would.
     OutOfMemory,
@@ -19,93 +31,218 @@ pub enum ErrorKind {
     CannotWrite,
     /// The user stopped it.
     Interrupted,
+    /// A defect of Sabi.
+    Defect,
 }
 
-/// One or more sentences to the person who can mend it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+impl ErrorKind {
+    /// All kinds.
+    pub const ALL: [ErrorKind; 8] = [
+        ErrorKind::Usage,
+        ErrorKind::NoAdapter,
+        ErrorKind::BadInput,
+        ErrorKind::MissingInput,
+        ErrorKind::OutOfMemory,
+        ErrorKind::CannotWrite,
+        ErrorKind::Interrupted,
+        ErrorKind::Defect,
+    ];
+}
+
+/// Failure of a request.
+///
+/// Its text is its sentences followed by its remedies, without flags and buttons. [`Error::source`] gives the error of the
+/// crate below that it comes from. Two errors are equal if a user reads the same of both.
+#[derive(Clone, Debug)]
 pub struct EngineError {
-    /// Which kind of failure.
+    /// Kind of failure.
     pub kind: ErrorKind,
-    /// The sentences.
+    /// What is the case, in one or more sentences.
     pub messages: Vec<String>,
+    /// What helps, best first.
+    pub remedies: Vec<Remedy>,
+    cause: Option<Arc<dyn Error + Send + Sync>>,
 }
 
 impl EngineError {
     /// An error of one sentence.
     pub fn new(kind: ErrorKind, message: impl fmt::Display) -> EngineError {
+        EngineError::several(kind, vec![message.to_string()])
+    }
+
+    /// An error of several sentences.
+    pub fn several(kind: ErrorKind, messages: Vec<String>) -> EngineError {
         EngineError {
             kind,
-            messages: vec![message.to_string()],
+            messages,
+            remedies: Vec::new(),
+            cause: None,
         }
     }
+
+    /// An error that says what its cause says.
+    pub fn of(kind: ErrorKind, cause: impl Error + Send + Sync + 'static) -> EngineError {
+        EngineError::new(kind, &cause).caused_by(cause)
+    }
+
+    /// The same with the error that it comes from.
+    #[must_use]
+    pub fn caused_by(mut self, cause: impl Error + Send + Sync + 'static) -> EngineError {
+        self.cause = Some(Arc::new(cause));
+        self
+    }
+
+    /// The same with what helps, best first.
+    #[must_use]
+    pub fn with_remedies(mut self, remedies: impl IntoIterator<Item = Remedy>) -> EngineError {
+        self.remedies = remedies.into_iter().collect();
+        self
+    }
+
+    /// The same with other sentences: each as `say` puts it.
+    #[must_use]
+    pub(crate) fn said(mut self, say: impl Fn(&str) -> String) -> EngineError {
+        self.messages = self.messages.iter().map(|message| say(message)).collect();
+        self
+    }
 }
+
+impl PartialEq for EngineError {
+    fn eq(&self, other: &EngineError) -> bool {
+        let read = |error: &EngineError| (error.kind, error.messages.clone(), error.remedies.clone());
+        read(self) == read(other)
+    }
+}
+
+impl Eq for EngineError {}
 
 impl fmt::Display for EngineError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.messages.join("\n"))
+        f.write_str(&advised(&self.messages.join("\n"), &self.remedies))
     }
 }
 
-impl std::error::Error for EngineError {}
-
-impl From<sabi_gpu::GpuError> for EngineError {
-    fn from(error: sabi_gpu::GpuError) -> Self {
-        use sabi_gpu::GpuError;
-        let kind = match error {
-            GpuError::Canceled => ErrorKind::Interrupted,
-            GpuError::Source(_) | GpuError::Node { .. } | GpuError::TooLarge { .. } | GpuError::TooDeep { .. } => {
-                ErrorKind::BadInput
-            }
-            GpuError::OverBudget { .. } | GpuError::OutOfMemory { .. } => ErrorKind::OutOfMemory,
-            GpuError::NoAdapter
-            | GpuError::NoSuchAdapter { .. }
-            | GpuError::Unfit { .. }
-            | GpuError::Lost(_)
-            | GpuError::Kernel { .. }
-            | GpuError::Driver(_) => ErrorKind::NoAdapter,
-        };
-        EngineError::new(kind, error)
-    }
-}
-
-impl From<sabi_view::ViewError> for EngineError {
-    fn from(error: sabi_view::ViewError) -> Self {
-        use sabi_view::ViewError;
-        match error {
-            ViewError::Gpu(error) => error.into(),
-            size @ ViewError::Size { .. } => EngineError::new(ErrorKind::Usage, size),
-            error => EngineError::new(ErrorKind::BadInput, error),
+impl Error for EngineError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match &self.cause {
+            Some(cause) => Some(cause.as_ref()),
+            None => None,
         }
     }
 }
 
-impl From<sabi_export::ExportError> for EngineError {
-    fn from(error: sabi_export::ExportError) -> Self {
-        let kind = if error.is_cannot_write() {
-            ErrorKind::CannotWrite
-        } else {
-            ErrorKind::BadInput
+impl From<GpuError> for EngineError {
+    fn from(error: GpuError) -> Self {
+        let (kind, remedies): (ErrorKind, &[Remedy]) = match &error {
+            GpuError::Canceled => (ErrorKind::Interrupted, &[]),
+            GpuError::Scene(_) | GpuError::Node { .. } => (ErrorKind::BadInput, &[]),
+            GpuError::TooLarge { .. } => (ErrorKind::BadInput, &[Remedy::ReduceTriangles, Remedy::OtherAdapter]),
+            GpuError::TooDeep { .. } => (ErrorKind::BadInput, &[Remedy::ProcessorRays]),
+            GpuError::OverBudget { .. } => (ErrorKind::OutOfMemory, &[Remedy::RaiseBudget, Remedy::SmallerSize]),
+            GpuError::OutOfMemory { .. } => (ErrorKind::OutOfMemory, &[Remedy::SmallerSize, Remedy::SoftwareAdapter]),
+            GpuError::NoAdapter => (ErrorKind::NoAdapter, &[]),
+            GpuError::NoSuchAdapter { .. } => (ErrorKind::NoAdapter, &[Remedy::OtherAdapter, Remedy::AnyAdapter]),
+            GpuError::Unfit { .. } | GpuError::Driver(_) => (ErrorKind::NoAdapter, &[Remedy::OtherAdapter]),
+            GpuError::Lost(_) => (
+                ErrorKind::NoAdapter,
+                &[Remedy::CloseOtherPrograms, Remedy::SoftwareAdapter],
+            ),
+            GpuError::Kernel { .. } => (ErrorKind::NoAdapter, &[Remedy::WithoutFusion, Remedy::OtherAdapter]),
+            GpuError::Defect(_) => (ErrorKind::Defect, &[]),
         };
-        EngineError::new(kind, error)
+        EngineError::of(kind, error).with_remedies(remedies.iter().copied())
     }
 }
 
-impl From<sabi_surface::load::LoadError> for EngineError {
-    fn from(error: sabi_surface::load::LoadError) -> Self {
+impl From<ViewError> for EngineError {
+    fn from(error: ViewError) -> Self {
+        match error {
+            ViewError::Gpu(error) => error.into(),
+            ViewError::Size { .. } => EngineError::of(ErrorKind::Usage, error),
+            ViewError::Panorama { .. } | ViewError::Prefiltered(_) => EngineError::of(ErrorKind::BadInput, error),
+        }
+    }
+}
+
+impl From<ImageError> for EngineError {
+    fn from(error: ImageError) -> Self {
+        EngineError::of(kind_of_picture(&error), error)
+    }
+}
+
+/// Kind of an error of reading or writing a picture.
+fn kind_of_picture(error: &ImageError) -> ErrorKind {
+    match error {
+        ImageError::Empty { .. }
+        | ImageError::Unsupported { .. }
+        | ImageError::Feature { .. }
+        | ImageError::Damaged { .. }
+        | ImageError::TooLarge { .. } => ErrorKind::BadInput,
+        ImageError::Encode { .. } => ErrorKind::Defect,
+    }
+}
+
+impl From<ExportError> for EngineError {
+    fn from(error: ExportError) -> Self {
+        let (kind, remedies): (ErrorKind, &[Remedy]) = match &error {
+            ExportError::Write { source, .. } if is_full(source) => {
+                (ErrorKind::CannotWrite, &[Remedy::FreeSpace, Remedy::OtherFolder])
+            }
+            ExportError::CreateFolder { .. }
+            | ExportError::Write { .. }
+            | ExportError::Input { .. }
+            | ExportError::NotAFile { .. } => (ErrorKind::CannotWrite, &[Remedy::OtherFolder]),
+            ExportError::Replace { .. } => (ErrorKind::CannotWrite, &[]),
+            ExportError::Model { .. } => (ErrorKind::BadInput, &[Remedy::TryAgain, Remedy::WithoutModelCopy]),
+            ExportError::CopyTooLarge { .. } => (ErrorKind::BadInput, &[Remedy::SmallerSize, Remedy::SaveModelAsGltf]),
+            ExportError::Names { .. } | ExportError::SameName { .. } => (ErrorKind::BadInput, &[]),
+            ExportError::Encode { source, .. } => (kind_of_picture(source), &[]),
+            ExportError::WrongSize { .. } => (ErrorKind::Defect, &[]),
+        };
+        EngineError::of(kind, error).with_remedies(remedies.iter().copied())
+    }
+}
+
+fn is_full(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+}
+
+impl From<LoadError> for EngineError {
+    fn from(error: LoadError) -> Self {
         let kind = if error.is_missing() {
             ErrorKind::MissingInput
         } else {
             ErrorKind::BadInput
         };
-        EngineError::new(kind, error)
+        EngineError::of(kind, error)
+    }
+}
+
+impl From<AtlasError> for EngineError {
+    fn from(error: AtlasError) -> Self {
+        let remedies: &[Remedy] = match &error {
+            AtlasError::UvTooFar { .. } => &[Remedy::EditUvs, Remedy::UnwrapModel],
+            AtlasError::ChartTooLarge { .. } | AtlasError::TooManyTexels { .. } => {
+                &[Remedy::SmallerSize, Remedy::EditUvs, Remedy::UnwrapModel]
+            }
+            _ => &[],
+        };
+        EngineError::of(ErrorKind::BadInput, error).with_remedies(remedies.iter().copied())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::error::Error;
+    use std::io;
+
+    use sabi_export::ExportError;
     use sabi_gpu::GpuError;
+    use sabi_surface::atlas::AtlasError;
+    use sabi_view::ViewError;
 
     use super::{EngineError, ErrorKind};
+    use crate::remedy::Remedy;
 
     #[test]
     fn what_a_smaller_bake_would_mend_is_not_the_adapters_fault() {
@@ -117,5 +254,52 @@ mod tests {
         assert_eq!(of(GpuError::OutOfMemory { what }), ErrorKind::OutOfMemory);
         assert_eq!(of(GpuError::NoAdapter), ErrorKind::NoAdapter);
         assert_eq!(of(GpuError::Canceled), ErrorKind::Interrupted);
+        assert_eq!(of(GpuError::Defect("a slot is empty".to_owned())), ErrorKind::Defect);
+    }
+
+    #[test]
+    fn an_error_says_what_its_cause_says_and_what_helps() {
+        let (needed_mib, budget_mib) = (9, 4);
+        let error = EngineError::from(GpuError::OverBudget { needed_mib, budget_mib });
+        assert_eq!(
+            error.to_string(),
+            "the textures need 9 MiB, more than the budget of 4 MiB; raise the budget, or choose a smaller size"
+        );
+        assert_eq!(error.remedies, [Remedy::RaiseBudget, Remedy::SmallerSize]);
+        let far = AtlasError::UvTooFar {
+            vertex: 3,
+            u: "1e9".to_owned(),
+            v: "0".to_owned(),
+            size: 64,
+        };
+        assert_eq!(EngineError::from(far).remedies, [Remedy::EditUvs, Remedy::UnwrapModel]);
+    }
+
+    #[test]
+    fn the_cause_of_an_error_is_kept_as_a_value() {
+        let lost = GpuError::Lost("it was unplugged".to_owned());
+        let error = EngineError::from(ViewError::Gpu(lost.clone()));
+        let cause = error.source().and_then(|cause| cause.downcast_ref::<GpuError>());
+        assert_eq!(cause, Some(&lost));
+        let copy = error.clone();
+        assert!(copy.source().is_some(), "a copy has the same cause");
+        assert_eq!(
+            EngineError::new(ErrorKind::Usage, "no such view")
+                .source()
+                .map(ToString::to_string),
+            None
+        );
+    }
+
+    #[test]
+    fn only_a_full_disk_is_helped_by_free_space() {
+        let remedies = |kind: io::ErrorKind| {
+            let (path, source) = ("out/a.png".into(), kind.into());
+            EngineError::from(ExportError::Write { path, source }).remedies
+        };
+        let full = [Remedy::FreeSpace, Remedy::OtherFolder];
+        assert_eq!(remedies(io::ErrorKind::StorageFull), full);
+        assert_eq!(remedies(io::ErrorKind::QuotaExceeded), full);
+        assert_eq!(remedies(io::ErrorKind::PermissionDenied), [Remedy::OtherFolder]);
     }
 }

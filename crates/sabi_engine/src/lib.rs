@@ -9,9 +9,11 @@ mod evaluating;
 mod live;
 mod opening;
 mod phases;
+mod remedy;
 mod rendering;
 mod session;
 mod source;
+mod warning;
 
 pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
@@ -33,7 +35,7 @@ pub use evaluating::texture_space::{PlaneKind, ResultPlane};
 pub use evaluating::thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
 pub use live::{
     BlockedNode, Faults, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, NodeFault,
-    ViewSubject, Warning,
+    ViewSubject,
 };
 pub use opening::cache_dir::default_cache_dir;
 pub use opening::document::OpenGraph;
@@ -43,10 +45,12 @@ pub use opening::linked_model::{LinkedModel, ModelOptions, Overlap, Unwrapping};
 pub use opening::pictures::Pictures;
 pub use opening::setting::read_setting;
 pub use phases::{NoProgress, Phase, PhaseTime, PhaseTimes, Progress};
+pub use remedy::{Remedy, advised};
 pub use rendering::displace::Triangles;
 pub use rendering::render::{RenderRequest, Turns, render};
 pub use session::watch::{Changes, Watched, Watcher};
 pub use session::{FileState, Recovery, Session, moved_to, recoveries, with_whole_paths};
+pub use warning::Warning;
 
 pub use sabi_export::SetKey;
 pub use sabi_gpu::{

@@ -25,7 +25,8 @@ use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
 use crate::error::{EngineError, ErrorKind};
-pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault, Warning};
+use crate::remedy::Remedy;
+pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault};
 use queue::{Dropped, WorkerQueue};
 pub use request::{LiveOptions, LiveRequest, ViewSubject};
 use worker::Worker;
@@ -45,8 +46,9 @@ impl Live {
             .name("sabi live".to_owned())
             .spawn(move || worker.work());
         if let Err(error) = &started {
-            let why = format!("the system gives no thread to evaluate the graph on ({error}); close other programs");
-            queue.send(LiveEvent::Lost(EngineError::new(ErrorKind::OutOfMemory, why)));
+            let why = format!("the system gives no thread to evaluate the graph on ({error})");
+            let lost = EngineError::new(ErrorKind::OutOfMemory, why).with_remedies([Remedy::CloseOtherPrograms]);
+            queue.send(LiveEvent::Lost(lost));
             queue.close();
         }
         Live {

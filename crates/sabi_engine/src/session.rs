@@ -23,6 +23,7 @@ pub use recovery::{Recovery, recoveries};
 use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
+use crate::remedy::Remedy;
 use crate::session::whole_file::behind_links;
 
 /// What a graph is called before it has a file.
@@ -110,7 +111,7 @@ impl Session {
         };
         let name = file.clone().unwrap_or_else(|| PathBuf::from(UNTITLED));
         let document = Document::from_json(&text)
-            .map_err(|error| EngineError::new(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
+            .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
         let saved = match &file {
             Some(file) => fs::read_to_string(file).unwrap_or_default(),
             None => Document::new("").to_json(),
@@ -264,7 +265,7 @@ impl Session {
             document: Box::new(read.document),
         };
         let taken = self.edit("Open the file anew", edit);
-        taken.map_err(|error| EngineError::new(ErrorKind::BadInput, error.to_string()))?;
+        taken.map_err(|error| EngineError::of(ErrorKind::BadInput, error))?;
         self.open.text = read.text;
         self.saved = saved;
         self.is_apart = false;
@@ -288,8 +289,8 @@ impl Session {
     /// Saves to its own file.
     pub fn save(&mut self) -> Result<(), EngineError> {
         let Some(file) = self.file.clone() else {
-            let why = "this graph has no file yet; choose one with Save as";
-            return Err(EngineError::new(ErrorKind::Usage, why));
+            let refused = EngineError::new(ErrorKind::Usage, "this graph has no file yet");
+            return Err(refused.with_remedies([Remedy::SaveUnderOtherName]));
         };
         self.save_as(&file)
     }
@@ -362,11 +363,9 @@ impl Session {
 fn write_with_backup(path: &Path, text: &str) -> Result<(), EngineError> {
     let path = &behind_links(path);
     if fs::metadata(path).is_ok_and(|known| known.permissions().readonly()) {
-        let why = format!(
-            "{} is write-protected; allow writing to it, or save under another name",
-            path.display()
-        );
-        return Err(EngineError::new(ErrorKind::CannotWrite, why));
+        let why = format!("{} is write-protected", path.display());
+        let refused = EngineError::new(ErrorKind::CannotWrite, why);
+        return Err(refused.with_remedies([Remedy::AllowWriting, Remedy::SaveUnderOtherName]));
     }
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
     let Some(name) = name.filter(|name| !name.is_empty()) else {

@@ -1,4 +1,4 @@
-//! Why a texture set could not be written, as sentences.
+//! Errors of writing a texture set.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use sabi_image::ImageError;
 use thiserror::Error;
 
-/// Why a texture set could not be written. Whatever it is, files from before are as they were, except those that
-/// [`ExportError::Replace`] says.
+/// Error of writing a texture set. Existing files are unchanged, except those that [`ExportError::Replace`] counts. Its text
+/// says what is the case; what helps follows from the variant and is said by the callers, which know what can be chosen.
 #[derive(Debug, Error)]
 pub enum ExportError {
     /// The output folder is not there and cannot be made.
-    #[error("cannot create the folder {}: {}; choose another with -o", path.display(), reason(source))]
+    #[error("cannot create the folder {}: {}", path.display(), reason(source))]
     CreateFolder {
         /// The folder.
         path: PathBuf,
@@ -19,7 +19,7 @@ pub enum ExportError {
         source: io::Error,
     },
     /// A file could not be written to its end.
-    #[error("cannot write {}: {}; nothing was changed, so free some space or choose another folder with -o", path.display(), reason(source))]
+    #[error("cannot write {}, so nothing was changed: {}", path.display(), reason(source))]
     Write {
         /// The file that was to be.
         path: PathBuf,
@@ -39,13 +39,13 @@ pub enum ExportError {
         total: usize,
     },
     /// A file that is read would be replaced.
-    #[error("{} is read by this very bake and would be replaced by its own result; choose another folder with -o", path.display())]
+    #[error("{} is read by this very bake and would be replaced by its own result", path.display())]
     Input {
         /// The file.
         path: PathBuf,
     },
     /// A device, pipe or socket stands where the file would be.
-    #[error("{} is no ordinary file; choose another name or folder with -o", path.display())]
+    #[error("{} is no ordinary file", path.display())]
     NotAFile {
         /// What stands there.
         path: PathBuf,
@@ -68,7 +68,7 @@ pub enum ExportError {
         file_name: String,
     },
     /// The model cannot be read again for its copy.
-    #[error("no copy of {} can be made: {reason}; bake again, or without --model", path.display())]
+    #[error("no copy of {} can be made: {reason}", path.display())]
     Model {
         /// The model's file.
         path: PathBuf,
@@ -77,8 +77,7 @@ pub enum ExportError {
     },
     /// The copy of the model does not fit into a GLB file.
     #[error(
-        "the copy of {} would have {bytes} bytes, and a .glb file cannot have more than {}; bake with a smaller --size, or \
-         save the model as .gltf, whose copy keeps its maps beside it", path.display(), u32::MAX
+        "the copy of {} would have {bytes} bytes, and a .glb file cannot have more than {}", path.display(), u32::MAX
     )]
     CopyTooLarge {
         /// The model's file.
@@ -107,18 +106,6 @@ pub enum ExportError {
 }
 
 impl ExportError {
-    /// Whether the disk or folder is what stands in the way (exit code 73 of the command line).
-    pub fn is_cannot_write(&self) -> bool {
-        matches!(
-            self,
-            ExportError::CreateFolder { .. }
-                | ExportError::Write { .. }
-                | ExportError::Replace { .. }
-                | ExportError::Input { .. }
-                | ExportError::NotAFile { .. }
-        )
-    }
-
     pub(crate) fn write(path: &Path, source: io::Error) -> ExportError {
         ExportError::Write {
             path: path.to_owned(),
@@ -148,21 +135,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_error_says_what_why_and_what_to_do() {
+    fn each_error_says_what_and_why() {
         let full = ExportError::write(Path::new("out/a.png"), io::ErrorKind::StorageFull.into());
         assert_eq!(
             full.to_string(),
-            "cannot write out/a.png: the disk is full; nothing was changed, so free some space or choose another folder \
-             with -o"
+            "cannot write out/a.png, so nothing was changed: the disk is full"
         );
-        assert!(full.is_cannot_write());
         let folder = ExportError::CreateFolder {
             path: "a/b".into(),
             source: io::ErrorKind::ReadOnlyFilesystem.into(),
         };
         assert_eq!(
             folder.to_string(),
-            "cannot create the folder a/b: the disk is read-only; choose another with -o"
+            "cannot create the folder a/b: the disk is read-only"
         );
         let same = ExportError::SameName {
             file_name: "a.png".into(),
@@ -172,15 +157,13 @@ mod tests {
             "two maps would be written to a.png; rename the material or the mask output that one of them belongs to, or \
              name maps with {material}"
         );
-        assert!(!same.is_cannot_write());
         let large = ExportError::CopyTooLarge {
             path: "a.glb".into(),
             bytes: 1 << 32,
         };
         assert_eq!(
             large.to_string(),
-            "the copy of a.glb would have 4294967296 bytes, and a .glb file cannot have more than 4294967295; bake with a \
-             smaller --size, or save the model as .gltf, whose copy keeps its maps beside it"
+            "the copy of a.glb would have 4294967296 bytes, and a .glb file cannot have more than 4294967295"
         );
     }
 }

@@ -190,11 +190,11 @@ mod tests {
             folder.path().join("missing.png"),
         ]);
         let error = staging.stage("bottle_normal.png", b"baked").unwrap_err();
-        assert!(error.is_cannot_write());
+        assert!(matches!(error, ExportError::Input { .. }), "{error}");
         assert_eq!(
             error.to_string(),
             format!(
-                "{} is read by this very bake and would be replaced by its own result; choose another folder with -o",
+                "{} is read by this very bake and would be replaced by its own result",
                 texture.display()
             )
         );
@@ -211,12 +211,7 @@ mod tests {
         let _listening = std::os::unix::net::UnixListener::bind(&socket).unwrap();
         let mut staging = Staging::create(folder.path()).unwrap();
         let error = staging.stage("map.png", b"baked").unwrap_err();
-        assert!(
-            error
-                .to_string()
-                .ends_with("is no ordinary file; choose another name or folder with -o"),
-            "{error}"
-        );
+        assert!(error.to_string().ends_with("is no ordinary file"), "{error}");
     }
 
     fn listing(folder: &Path) -> Vec<String> {
@@ -264,7 +259,7 @@ mod tests {
         staging.stage("one.png", b"new").unwrap();
         staging.stage("two.png", b"new").unwrap();
         let error = staging.commit().unwrap_err();
-        assert!(error.is_cannot_write());
+        assert!(matches!(error, ExportError::Replace { .. }), "{error}");
         assert!(
             error
                 .to_string()
@@ -282,7 +277,7 @@ mod tests {
         fs::write(&file, b"x").unwrap();
         for folder in [file.clone(), file.join("below")] {
             let error = Staging::create(&folder).unwrap_err();
-            assert!(error.is_cannot_write());
+            assert!(matches!(error, ExportError::CreateFolder { .. }), "{error}");
             assert!(error.to_string().starts_with("cannot create the folder "), "{error}");
         }
         assert_eq!(fs::read(&file).unwrap(), b"x");

@@ -1,98 +1,94 @@
-//! What can go wrong on a device, said to the person at it.
+//! Errors of a device, its memory and what runs on it.
 
-/// An error of the device or its memory; never a panic.
+/// Error of a device, its memory or a run on it. Its text says what is the case; what helps follows from the variant and is
+/// said by the callers, which know what can be chosen.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
-    /// There is no adapter at all.
+    /// No adapter was found.
     #[error(
         "no Vulkan, Metal or Direct3D 12 driver was found; on Debian or Ubuntu run `apt-get install mesa-vulkan-drivers \
          libvulkan1`, which works without a graphics card"
     )]
     NoAdapter,
-    /// There are adapters, but not the one asked for.
-    #[error("no adapter matches '{wanted}'; there are: {known}. Choose one with --adapter, or use --adapter auto")]
+    /// Adapters were found, but not the requested one.
+    #[error("no adapter matches '{wanted}'; there are: {known}")]
     NoSuchAdapter {
-        /// As asked.
+        /// Requested name.
         wanted: String,
-        /// Names of those there are.
+        /// Names of the adapters found.
         known: String,
     },
-    /// The adapter lacks what every kernel needs.
-    #[error("the adapter '{adapter}' cannot run Sabi: {why}. Choose another one with --adapter")]
+    /// The adapter lacks a limit or feature that every kernel needs.
+    #[error("the adapter '{adapter}' cannot run Sabi: {why}")]
     Unfit {
-        /// Its name.
+        /// Name of the adapter.
         adapter: String,
-        /// What it lacks.
+        /// Missing limit or feature.
         why: String,
     },
-    /// The device went away.
-    #[error("the graphics device was lost ({0}); close other programs that use it, or choose --adapter cpu")]
+    /// The device was lost, for the reason that the driver gives.
+    #[error("the graphics device was lost ({0})")]
     Lost(String),
-    /// Textures would take more than the budget.
-    #[error(
-        "the textures need {needed_mib} MiB, more than the budget of {budget_mib} MiB; raise it with --budget, or bake \
-         at a smaller size"
-    )]
+    /// The textures of a run exceed the budget.
+    #[error("the textures need {needed_mib} MiB, more than the budget of {budget_mib} MiB")]
     OverBudget {
-        /// Needed at once.
+        /// Peak size of all textures, MiB.
         needed_mib: u64,
-        /// Allowed.
+        /// Budget, MiB.
         budget_mib: u64,
     },
-    /// The driver refused memory.
-    #[error("the device is out of memory while making {what}; bake at a smaller size, or choose --adapter cpu")]
+    /// The driver refused to allocate memory.
+    #[error("the device is out of memory while making {what}")]
     OutOfMemory {
-        /// What was to be made.
+        /// Resource that was being created.
         what: String,
     },
     /// The model has more data than one buffer of this adapter holds.
-    #[error(
-        "the model is too large for the adapter: {what} takes {needed_mib} MiB and it can bind {limit_mib} MiB; reduce \
-         the model's triangles, or choose another --adapter"
-    )]
+    #[error("the model is too large for the adapter: {what} takes {needed_mib} MiB and it can bind {limit_mib} MiB")]
     TooLarge {
-        /// Which data.
+        /// Data that is too large.
         what: &'static str,
-        /// Needed.
+        /// Size of the data, MiB.
         needed_mib: u64,
-        /// The adapter's limit.
+        /// Limit of the adapter, MiB.
         limit_mib: u64,
     },
-    /// The hierarchy of the model's triangles has too many levels for the kernel that follows rays.
+    /// The ray hierarchy of the model has more levels than the traversal kernel's stack.
     #[error(
-        "rays cannot be followed on the device: the model's hierarchy has {depth} levels and the kernel takes 24; choose \
-         --caster cpu"
+        "rays cannot be followed on the device: the model's hierarchy has {depth} levels and the kernel takes {limit}"
     )]
     TooDeep {
-        /// Its levels.
+        /// Levels of the hierarchy.
         depth: usize,
+        /// Levels that the kernel takes.
+        limit: usize,
     },
-    /// A kernel could not be made: a mistake in a node's text, in Sabi or in the driver.
-    #[error(
-        "the kernel of {nodes} cannot be compiled: {why}. If one of these nodes is your own, look there first; otherwise \
-         bake with --no-fuse, or choose another --adapter"
-    )]
+    /// A kernel could not be compiled: a defect of a node's text, of Sabi or of the driver.
+    #[error("the kernel of {nodes} cannot be compiled: {why}. If one of these nodes is your own, look there first")]
     Kernel {
-        /// The nodes in it.
+        /// Ids of the nodes fused into it.
         nodes: String,
-        /// What was said against it, by Sabi or the driver.
+        /// Message of the linker or the driver.
         why: String,
     },
-    /// Anything else the driver said.
-    #[error("the graphics driver reported: {0}. Choose another --adapter if this stays")]
+    /// Any other error that the driver reported.
+    #[error("the graphics driver reported: {0}")]
     Driver(String),
-    /// The user stopped it.
+    /// The user canceled the run.
     #[error("stopped")]
     Canceled,
-    /// The result of a node that is no kernel could not be made.
+    /// A source node could not give its result.
     #[error("{why}")]
     Node {
-        /// Its id.
+        /// Id of the node.
         node: String,
-        /// Why, as a sentence that names it.
+        /// Sentence that names the node.
         why: String,
     },
-    /// A source could not be filled.
+    /// The scene that rays are cast into could not be made.
     #[error("{0}")]
-    Source(String),
+    Scene(String),
+    /// Something that the callers of this crate must not ask for.
+    #[error("{0}; this is a defect of Sabi")]
+    Defect(String),
 }

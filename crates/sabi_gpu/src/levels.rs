@@ -95,11 +95,7 @@ impl<'s> Surfaces<'s> {
     }
 
     fn coarse(&self, level: u32) -> Result<&'s CoarseSurface, GpuError> {
-        let missing = || {
-            GpuError::Source(format!(
-                "level {level} of the surface is not there; this is a mistake in Sabi"
-            ))
-        };
+        let missing = || GpuError::Defect(format!("level {level} of the surface was not uploaded"));
         self.coarser.get(&level).ok_or_else(missing)
     }
 }

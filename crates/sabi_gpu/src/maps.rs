@@ -107,8 +107,7 @@ impl Run {
     /// The texture of a result that the plan kept, as an array of pages.
     pub fn texture(&self, slot: SlotRef) -> Result<wgpu::Texture, GpuError> {
         let found = self.textures.get(slot).and_then(Option::as_ref);
-        let missing =
-            || GpuError::Source("a result was asked for that the plan did not keep; this is a mistake in Sabi".into());
+        let missing = || GpuError::Defect("a result was requested that the plan did not keep".into());
         found.cloned().ok_or_else(missing)
     }
 }

@@ -117,12 +117,7 @@ pub(crate) fn format_of(texture: &wgpu::Texture) -> Result<Format, GpuError> {
     let found = known
         .into_iter()
         .find(|format| wgpu_format(*format) == texture.format());
-    found.ok_or_else(|| {
-        GpuError::Driver(format!(
-            "no result is stored as {:?}; this is a mistake in Sabi",
-            texture.format()
-        ))
-    })
+    found.ok_or_else(|| GpuError::Defect(format!("no result is stored as {:?}", texture.format())))
 }
 
 /// A texture that kernels read and write.

@@ -147,8 +147,8 @@ impl Gpu {
     /// The texels of a texture that holds one 32-bit float each, page by page and row by row.
     pub fn read_numbers(&self, texture: &wgpu::Texture) -> Result<Vec<f32>, GpuError> {
         if texture.format() != wgpu::TextureFormat::R32Float {
-            let why = "numbers were to be read from a texture of another format; this is a mistake in Sabi";
-            return Err(GpuError::Source(why.into()));
+            let why = "numbers were to be read from a texture of another format";
+            return Err(GpuError::Defect(why.into()));
         }
         let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
         let plane = self.read_texture(texture, extent, Format::R32Float)?;

@@ -225,12 +225,7 @@ fn a_budget_that_is_too_small_is_a_sentence() {
     };
     let error = bench.run(&plan, &small, None).err().unwrap();
     assert!(matches!(error, GpuError::OverBudget { .. }));
-    assert!(
-        error
-            .to_string()
-            .ends_with("raise it with --budget, or bake at a smaller size"),
-        "{error}"
-    );
+    assert!(error.to_string().ends_with("more than the budget of 0 MiB"), "{error}");
 }
 
 #[test]
@@ -260,8 +255,7 @@ fn a_kernel_that_cannot_be_compiled_blames_no_one_alone() {
     };
     assert_eq!(
         error.to_string(),
-        "the kernel of rust, own cannot be compiled: expected ';'. If one of these nodes is your own, look there first; \
-         otherwise bake with --no-fuse, or choose another --adapter"
+        "the kernel of rust, own cannot be compiled: expected ';'. If one of these nodes is your own, look there first"
     );
 }
 

@@ -5,7 +5,7 @@ use crate::problem::{Problem, shown};
 /// Longest such name, in characters.
 const NAME_LIMIT: usize = 200;
 
-/// Characters that no knob's name may have, since `--set NAME=VALUE` and `node.param` are told apart by them.
+/// Characters that no knob's name may have, since overrides `NAME=VALUE` and `node.param` are told apart by them.
 pub(crate) const NOT_IN_KNOBS: &str = ".=";
 
 /// Checks a name: 1 to 200 characters, no control characters and none of `without`.

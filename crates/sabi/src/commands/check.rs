@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_engine::{CheckReport, EngineError, ErrorKind, check};
+use sabi_engine::{CheckReport, EngineError, check};
 use serde_json::{Value as Json, json};
 
 use crate::arguments::CheckArguments;
@@ -34,10 +34,7 @@ pub(crate) fn run(arguments: &CheckArguments, terminal: &Terminal) -> Result<Exi
 
 /// A graph that could not even be opened.
 fn of_error(error: EngineError) -> (CheckReport, Exit) {
-    let exit = match error.kind {
-        ErrorKind::MissingInput => Exit::MissingInput,
-        _ => Exit::BadInput,
-    };
+    let exit = error.kind.into();
     let report = CheckReport {
         errors: error.messages,
         ..CheckReport::default()

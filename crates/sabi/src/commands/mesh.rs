@@ -14,8 +14,8 @@ pub(crate) fn run(arguments: MeshArguments, terminal: &Terminal) -> Result<Exit,
     let linked = LinkedModel::open(&options, &bars)?;
     drop(bars);
     let description = describe_mesh(&linked);
-    for warning in description["warnings"].as_array().into_iter().flatten() {
-        terminal.warning(warning.as_str().unwrap_or_default());
+    for warning in linked.warnings() {
+        terminal.warning(warning);
     }
     if arguments.json {
         terminal.json(&description)?;

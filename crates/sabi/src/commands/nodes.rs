@@ -12,7 +12,7 @@ use crate::terminal::{Terminal, plain};
 pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let kinds = Kinds::beside(arguments.graph.as_deref());
     for fault in &kinds.faults {
-        terminal.warning(fault);
+        terminal.warning(fault.to_string());
     }
     let nodes = describe_nodes(&kinds);
     match &arguments.id {

@@ -9,7 +9,7 @@ use crate::place::{Place, done};
 fn a_folder_that_cannot_be_made_is_found_before_the_work() {
     let place = Place::new();
     place.write("file", "mine");
-    let advice = "choose another with -o";
+    let advice = "choose another folder with -o";
     place.refuses(
         "clouds.sabi",
         "cube.glb",
@@ -37,7 +37,8 @@ fn somebody_elses_folder_is_refused_unless_forced() {
         "cube.glb",
         &["-o", "photos"],
         73,
-        "the folder photos has files but no earlier maps; choose another with -o, or bake into it with --force",
+        "the folder photos has files but no earlier maps; choose another folder with -o, or write into this folder anyway with \
+         --force",
     );
     assert_eq!(place.listing("photos"), ["holiday.png"]);
     place
@@ -102,7 +103,7 @@ fn a_disk_that_fills_up_leaves_the_earlier_maps_as_they_were() {
         run.stderr
     );
     assert!(
-        run.stderr.contains("; nothing was changed, so free some space"),
+        run.stderr.contains(", so nothing was changed: ") && run.stderr.ends_with("; choose another folder with -o\n"),
         "{}",
         run.stderr
     );

@@ -51,8 +51,8 @@ fn udim_tiles_cannot_be_one_picture_of_a_copy() {
         "tiles.obj",
         &["--model"],
         65,
-        "--model cannot be done: 'wood' lies in the UDIM tiles 1001, 1002, and a material of glTF has one picture for \
-         each map; bake without --model, or move its UVs into one tile",
+        "no copy of the model can be made: 'wood' lies in the UDIM tiles 1001, 1002, and a material of glTF has one picture \
+         for each map; do without the copy of the model by leaving out --model, or change the UVs in a modeling program",
     );
 }
 

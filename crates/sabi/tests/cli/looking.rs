@@ -168,7 +168,7 @@ fn any_result_can_be_looked_at() {
             "clouds",
             "clouds.sabi/a.png",
             73,
-            "cannot create the folder clouds.sabi: a file of that name is in the way; choose another with -o",
+            "cannot create the folder clouds.sabi: a file of that name is in the way; choose another folder with -o",
         ),
     ];
     for (node, file, code, words) in cases {

@@ -139,7 +139,7 @@ fn a_preview_says_which_of_several_sets_it_shows() {
     };
     assert_eq!(
         preview("clouds", &[]).good().stderr,
-        "warning: this shows 'wood', the first of 2 texture sets; choose another with --material\n"
+        "warning: this shows 'wood', the first of 2 texture sets; choose another material with --material\n"
     );
     assert_eq!(preview("clouds", &["--material", "steel"]).good().stderr, "");
     assert_eq!(

@@ -153,8 +153,8 @@ fn a_model_that_nothing_raises_is_drawn_as_it_is_and_the_artist_told_why() {
     let run = render(&place, &["-o", "mask.png", "--view", "node:clouds", "--displace"]).good();
     assert_eq!(
         run.stderr,
-        "warning: --displace changes nothing: what is shown has no height; the material view of a graph whose layers have one \
-         does\n"
+        "warning: displacing the model changes nothing: what is shown has no height; the material view of a graph whose layers \
+         have one does\n"
     );
 }
 

@@ -141,7 +141,8 @@ fn charts_that_share_a_place_get_the_first_result_their_mean_or_places_of_their_
     assert!(
         told.contains(
             "UV charts overlap on 100.0 % of the surface (1 stacked), most of all in 'stacked': maps hold the first one's \
-             result there; --overlap merge takes the mean of all, --overlap unwrap gives each a place of its own"
+             result there; have the mean of shared places taken with --overlap merge, or have the model unwrapped with \
+             --overlap unwrap"
         ),
         "{told}"
     );

@@ -118,7 +118,7 @@ impl Export {
         self.running = None;
         let told = |report: BakeReport| Told {
             files: report.files,
-            warnings: report.warnings,
+            warnings: report.warnings.iter().map(ToString::to_string).collect(),
         };
         self.told = Some(done.map(told));
         true

@@ -27,7 +27,9 @@ use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{refuse_faults, targets};
 use crate::opening::overlap::Sharing;
 use crate::phases::{PhaseTime, PhaseTimes, Progress};
+use crate::remedy::Remedy;
 use crate::source::{OUTPUT_MASK, mask_name};
+use crate::warning::Warning;
 
 /// How long one submission of a bake may take: long enough to cost nothing, short enough to be stopped.
 const SUBMISSION: Duration = Duration::from_millis(200);
@@ -100,7 +102,7 @@ fn bake_open(
     encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let committed = encode.time(|| writer.commit())?;
     let told = evaluator.warnings.iter().chain(&written.warnings);
-    let warnings: Vec<String> = told.cloned().chain(left_over(&committed)).collect();
+    let warnings: Vec<Warning> = told.cloned().chain(left_over(&committed)).collect();
     let times = PhaseTimes {
         encode,
         ..evaluator.times
@@ -119,10 +121,10 @@ fn file_names(committed: &Committed) -> Vec<String> {
     names.map(|name| name.to_string_lossy().into_owned()).collect()
 }
 
-/// A sentence for each file that an earlier bake left.
-fn left_over(committed: &Committed) -> impl Iterator<Item = String> {
+/// A warning for each file that an earlier bake left.
+fn left_over(committed: &Committed) -> impl Iterator<Item = Warning> {
     let paths = committed.left_over.iter().map(|path| path.display());
-    paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now"))
+    paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now").into())
 }
 
 /// The graph's outputs, by id; refuses a graph that has none, or in which something that they need is at fault.
@@ -141,10 +143,7 @@ fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<V
     if messages.is_empty() {
         return Ok(found);
     }
-    Err(EngineError {
-        kind: ErrorKind::BadInput,
-        messages,
-    })
+    Err(EngineError::several(ErrorKind::BadInput, messages))
 }
 
 /// Whether a bake would be refused because its folder has files but no earlier maps, and `force` would let it be made.
@@ -152,7 +151,8 @@ pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
     let graph = open.flatten(&request.evaluator.overrides);
     // What is wrong with either, the bake says.
     graph.is_ok_and(|graph| {
-        refuse_foreign_folder(request, &graph).is_err_and(|error| error.kind == ErrorKind::CannotWrite)
+        refuse_foreign_folder(request, &graph)
+            .is_err_and(|error| error.remedies.contains(&Remedy::IntoThisFolderAnyway))
     })
 }
 
@@ -161,11 +161,9 @@ fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(),
     if request.force || !is_foreign_folder(&request.output, graph, &names(request)?) {
         return Ok(());
     }
-    let why = format!(
-        "the folder {} has files but no earlier maps; choose another with -o, or bake into it with --force",
-        request.output.display()
-    );
-    Err(EngineError::new(ErrorKind::CannotWrite, why))
+    let why = format!("the folder {} has files but no earlier maps", request.output.display());
+    let refused = EngineError::new(ErrorKind::CannotWrite, why);
+    Err(refused.with_remedies([Remedy::OtherFolder, Remedy::IntoThisFolderAnyway]))
 }
 
 /// What is to be evaluated: outputs that serve a set, and masks.
@@ -226,7 +224,7 @@ fn report(
     run: &Run,
     written: &WrittenMaps,
     times: &PhaseTimes,
-    warnings: &[String],
+    warnings: &[Warning],
 ) -> Json {
     let adapter = evaluator.gpu.summary();
     let atlas = &evaluator.linked.atlas;
@@ -264,7 +262,7 @@ fn report(
         "nodes_ms": nodes_ms,
         "outputs": written.outputs.iter().map(sabi_export::OutputRecord::to_json).collect::<Vec<_>>(),
         "constants": written.constants.iter().map(sabi_export::ConstantRecord::to_json).collect::<Vec<_>>(),
-        "warnings": warnings,
+        "warnings": warnings.iter().map(Warning::to_string).collect::<Vec<_>>(),
     });
     if let Some(copy) = &written.copy {
         json["model"] = copy.clone();

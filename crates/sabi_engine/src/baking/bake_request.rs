@@ -73,7 +73,7 @@ pub(crate) fn names(request: &BakeRequest) -> Result<NamePattern, EngineError> {
     let graph = request.graph.file_stem().unwrap_or_default().to_string_lossy();
     let size = request.evaluator.model.size.to_string();
     let parsed = NamePattern::parse(pattern, &[("graph", &graph), ("size", &size)]);
-    parsed.map_err(|error| EngineError::new(ErrorKind::Usage, error.to_string()))
+    parsed.map_err(|error| EngineError::of(ErrorKind::Usage, error))
 }
 
 /// Why maps cannot be called so; none where they can.

@@ -20,6 +20,7 @@ use crate::evaluating::evaluator::{Evaluator, stop_if_canceled};
 use crate::evaluating::looks::slot_of;
 use crate::opening::linked_model::{LinkedModel, Overlap};
 use crate::phases::{Phase, Progress};
+use crate::warning::Warning;
 
 /// One texture set: which results go into it.
 pub(crate) struct SetWork<'p> {
@@ -38,7 +39,7 @@ pub(crate) struct SetWork<'p> {
 pub(crate) struct WrittenMaps {
     pub(crate) outputs: Vec<OutputRecord>,
     pub(crate) constants: Vec<ConstantRecord>,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
     /// The report's entry for the copy of the model.
     pub(crate) copy: Option<serde_json::Value>,
     /// Kernels that only exports need.
@@ -284,12 +285,13 @@ impl Maps<'_> {
         let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
         let done = writer.channel(channel, pixels)?;
         if done.not_finite > 0 {
-            self.written.warnings.push(format!(
+            let sentence = format!(
                 "{} values of {} in '{}' were no numbers and were replaced; look for a division by zero in the graph",
                 done.not_finite,
                 channel.name(),
                 set.work.name
-            ));
+            );
+            self.written.warnings.push(sentence.into());
         }
         self.written.outputs.extend(done.outputs);
         self.written.constants.extend(done.constant);

@@ -11,6 +11,8 @@ use crate::baking::maps::WrittenMaps;
 use crate::baking::sets::{Serving, TextureSet};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::linked_model::LinkedModel;
+use crate::remedy::Remedy;
+use crate::warning::Warning;
 
 /// Begins the copy where one is asked for; what an artist should know of it is added to the warnings of `serving`.
 pub(crate) fn open_copy(
@@ -45,7 +47,7 @@ pub(crate) fn open_copy(
         serving.warnings.push(
             "the model has vertex colors, and programs that show its copy multiply base color by them; remove them \
              from the model where they are not meant as paint"
-                .to_owned(),
+                .into(),
         );
     }
     Ok(Some(copy))
@@ -62,12 +64,13 @@ fn refuse_tiles(served: &[&TextureSet]) -> Result<(), EngineError> {
         .map(|udim| udim.to_string())
         .collect();
     let why = format!(
-        "--model cannot be done: '{}' lies in the UDIM tiles {}, and a material of glTF has one picture for each map; \
-         bake without --model, or move its UVs into one tile",
+        "no copy of the model can be made: '{}' lies in the UDIM tiles {}, and a material of glTF has one picture for each \
+         map",
         set.name,
         tiles.join(", ")
     );
-    Err(EngineError::new(ErrorKind::BadInput, why))
+    let refused = EngineError::new(ErrorKind::BadInput, why);
+    Err(refused.with_remedies([Remedy::WithoutModelCopy, Remedy::EditUvs]))
 }
 
 /// Whether any vertex of a baked material is colored other than white.
@@ -89,7 +92,9 @@ pub(crate) fn write_copy(
     let Some(copy) = copy else { return Ok(()) };
     let maps = writer.take_model_maps();
     let finished = copy.finish(maps, writer.names())?;
-    written.warnings.extend(finished.warnings);
+    written
+        .warnings
+        .extend(finished.warnings.into_iter().map(Warning::from));
     let mut stage = |file: &CopiedFile| -> Result<Json, EngineError> {
         writer.extra_file(&file.name, &file.bytes)?;
         Ok(json!({ "path": file.name, "blake3": blake3::hash(&file.bytes).to_hex().to_string() }))

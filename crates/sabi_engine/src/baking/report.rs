@@ -3,6 +3,7 @@
 use serde_json::Value as Json;
 
 use crate::phases::PhaseTimes;
+use crate::warning::Warning;
 
 /// Result of a bake; [`BakeReport::json`] is the report file.
 #[derive(Clone, Debug)]
@@ -11,8 +12,8 @@ pub struct BakeReport {
     pub times: PhaseTimes,
     /// Names of the written files.
     pub files: Vec<String>,
-    /// Warnings for the artist.
-    pub warnings: Vec<String>,
+    /// What is probably not intended.
+    pub warnings: Vec<Warning>,
     /// Report file.
     pub json: Json,
 }

@@ -10,6 +10,8 @@ use sabi_surface::model::{Model, ModelMaterial};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::outputs::{idle, masks, materials, outputs, quoted, served};
 use crate::opening::document::OpenGraph;
+use crate::remedy::Remedy;
+use crate::warning::Warning;
 
 /// One texture set of a model.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,18 +91,23 @@ fn used_materials(atlas: &Atlas) -> Vec<u32> {
     used.into_iter().collect()
 }
 
-/// A sentence for each material that gets no maps, because none of its surface reaches a texel.
-pub(crate) fn bare_materials(model: &Model, atlas: &Atlas) -> Vec<String> {
+/// A warning for each material that gets no maps, because none of its surface reaches a texel.
+pub(crate) fn bare_materials(model: &Model, atlas: &Atlas) -> Vec<Warning> {
     let stems = set_names(model);
     let mut bare = used_materials(atlas);
     let covering = atlas.charts.iter().filter(|chart| chart.texels > 0);
     let covered: BTreeSet<u32> = covering.map(|chart| chart.material).collect();
     bare.retain(|material| !covered.contains(material));
-    let sentence = |material: u32| {
+    let warning = |material: u32| {
         let [name, _] = names_of(model, &stems, material);
-        format!("the material '{name}' gets no maps: its UVs cover no texel; unwrap it, or bake at a larger size")
+        let sentence = format!("the material '{name}' gets no maps: its UVs cover no texel");
+        let remedies: &[Remedy] = match model.mesh.is_one_sheet {
+            true => &[Remedy::LargerSize],
+            false => &[Remedy::UnwrapModel, Remedy::LargerSize],
+        };
+        Warning::new(sentence, remedies.iter().copied())
     };
-    bare.into_iter().map(sentence).collect()
+    bare.into_iter().map(warning).collect()
 }
 
 /// A material's own name, or where it has none the stem of its files; and that stem.
@@ -111,8 +118,8 @@ fn names_of<'m>(model: &'m Model, stems: &'m [String], material: u32) -> [&'m st
     [if own.is_empty() { stem } else { own }, stem]
 }
 
-/// Which of several sets a preview shows, in a sentence; nothing where there is no choice.
-pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<String> {
+/// A warning that says which of several sets a preview shows; none where there is no choice.
+pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<Warning> {
     let first = sets.first().filter(|_| sets.len() > 1)?;
     let tile = first
         .key
@@ -120,12 +127,11 @@ pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<String> {
         .map_or(String::new(), |number| format!("tile {number} of "));
     let name = &first.name;
     Some(if sets.iter().all(|set| set.key.material == first.key.material) {
-        format!("this shows {tile}'{name}', the first of its {} tiles", sets.len())
+        let sentence = format!("this shows {tile}'{name}', the first of its {} tiles", sets.len());
+        Warning::from(sentence)
     } else {
-        format!(
-            "this shows {tile}'{name}', the first of {} texture sets; choose another with --material",
-            sets.len()
-        )
+        let sentence = format!("this shows {tile}'{name}', the first of {} texture sets", sets.len());
+        Warning::new(sentence, [Remedy::OtherMaterial])
     })
 }
 
@@ -145,8 +151,8 @@ pub(crate) struct Serving {
     pub(crate) nodes: Vec<BTreeMap<u32, usize>>,
     /// A node that the graph does not have yet, at its end, where a part of a sheet is to show the model's own looks.
     pub(crate) model: Option<usize>,
-    /// What is probably not meant.
-    pub(crate) warnings: Vec<String>,
+    /// What is probably not intended.
+    pub(crate) warnings: Vec<Warning>,
 }
 
 /// Finds the outputs that serve the sets; `outputs` are those of the graph. On a sheet, materials that no output serves
@@ -189,10 +195,11 @@ pub(crate) fn serve(
         );
         return Err(EngineError::new(ErrorKind::BadInput, open.said(why)));
     }
-    let mut warnings = idle(graph, outputs, &names);
+    let mut sentences = idle(graph, outputs, &names);
     if !materials(graph, outputs).is_empty() {
-        warnings.extend(left.iter().map(name).map(untouched));
+        sentences.extend(left.iter().map(name).map(untouched));
     }
+    let warnings = sentences.into_iter().map(Warning::from).collect();
     Ok(Serving {
         nodes,
         model: own,
@@ -238,11 +245,12 @@ mod tests {
             ),
             (
                 [wood.to_vec(), vec![set(1, "steel", None)]].concat(),
-                Some("this shows tile 1001 of 'wood', the first of 3 texture sets; choose another with --material"),
+                Some("this shows tile 1001 of 'wood', the first of 3 texture sets; choose another material"),
             ),
         ];
         for (sets, words) in cases {
-            assert_eq!(which_is_shown(&sets).as_deref(), words);
+            let warning = which_is_shown(&sets).map(|warning| warning.to_string());
+            assert_eq!(warning.as_deref(), words);
         }
     }
 }

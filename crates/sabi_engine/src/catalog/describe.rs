@@ -7,14 +7,14 @@ use serde_json::{Value as Json, json};
 use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::LinkedModel;
 use crate::opening::overlap::Sharing;
+use crate::warning::Warning;
 
 /// A model and its atlas.
 pub fn describe_mesh(linked: &LinkedModel) -> Json {
     let (mesh, report) = (&linked.model.mesh, &linked.atlas.report);
     let [width, height] = linked.atlas.page_size;
     let sharing = Sharing::of(linked);
-    let told = linked.model.warnings.iter().chain(&report.warnings).cloned();
-    let warnings: Vec<String> = told.chain(sharing.warning(linked)).collect();
+    let warnings: Vec<String> = linked.warnings().iter().map(Warning::to_string).collect();
     json!({
         "triangles": mesh.triangles.len(),
         "vertices": mesh.positions.len(),

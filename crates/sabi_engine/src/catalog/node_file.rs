@@ -85,7 +85,7 @@ pub fn read_node(folder: &Path, id: &str) -> Result<String, EngineError> {
     let file = file_of(folder, id);
     fs::read_to_string(&file).map_err(|error| {
         let why = format!("{} cannot be read: {error}; begin a new node from it", file.display());
-        EngineError::new(ErrorKind::BadInput, why)
+        EngineError::new(ErrorKind::BadInput, why).caused_by(error)
     })
 }
 
@@ -109,7 +109,7 @@ impl NodeDraft {
             Ok(()) => Ok(file),
             Err(error) => {
                 let why = format!("{} cannot be written: {error}", file.display());
-                Err(EngineError::new(ErrorKind::CannotWrite, why))
+                Err(EngineError::new(ErrorKind::CannotWrite, why).caused_by(error))
             }
         }
     }

@@ -21,13 +21,13 @@ use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::levels::AtlasLevels;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
-use crate::opening::overlap::Sharing;
 use crate::opening::overridden::refuse_bad_values;
 use crate::opening::pictures::{Pictures, files};
 use crate::opening::setting::read_typed;
 use crate::opening::solidity;
 use crate::phases::{Phase, PhaseTimes, Progress};
 use crate::source::{Files, SourceSurface, Sources};
+use crate::warning::Warning;
 
 /// How a graph and a model are brought together.
 pub struct EvaluatorOptions {
@@ -71,8 +71,8 @@ pub struct Evaluator {
     pub times_ghosts: bool,
     /// Time spent so far.
     pub times: PhaseTimes,
-    /// What the artist should know.
-    pub warnings: Vec<String>,
+    /// What is probably not intended.
+    pub warnings: Vec<Warning>,
     pictures: Pictures,
     tables: SurfaceTables,
     bvh_on_device: OnceLock<DeviceHierarchy>,
@@ -80,8 +80,8 @@ pub struct Evaluator {
     /// Texels that share a place on the maps; none where each has its own.
     pub(crate) shares: OnceLock<Option<Shares>>,
     ray_cache: RayCache,
-    /// What is to be known of the model itself.
-    of_model: Vec<String>,
+    /// Warnings on the model itself, which stay when the graph changes.
+    of_model: Vec<Warning>,
     /// What takes the place of the document's own.
     chosen: (Option<Fit>, Option<u32>),
     seed: u32,
@@ -156,8 +156,9 @@ impl Evaluator {
             .load
             .time(|| GpuSurface::upload(&gpu, &linked.atlas, &tables, levels.of(0)))?;
         kinds.adapt_to(&linked.model);
-        let of_model = warnings_of(&linked);
-        let warnings = of_model.iter().cloned().chain(kinds.left_out()).collect();
+        let of_model = linked.warnings();
+        let left_out = kinds.left_out().map(Warning::from);
+        let warnings = of_model.iter().cloned().chain(left_out).collect();
         let surface_key = surface_key(&linked, &tables);
         let budget_bytes = options.budget_bytes;
         Ok(Evaluator {
@@ -194,22 +195,20 @@ impl Evaluator {
         let (warnings, errors): (Vec<PlanError>, Vec<PlanError>) = errors.into_iter().partition(PlanError::is_warning);
         let path = self.path.display().to_string();
         let said = |error: &PlanError| format!("{path}: {error}");
+        let messages: Vec<String> = errors.iter().map(said).collect();
         self.warn(warnings.iter().map(said));
         self.warn(solidity::warnings(&plan, &self.linked));
-        if errors.is_empty() {
-            return Ok(plan);
+        match errors.into_iter().next() {
+            None => Ok(plan),
+            Some(first) => Err(EngineError::several(ErrorKind::BadInput, messages).caused_by(first)),
         }
-        Err(EngineError {
-            kind: ErrorKind::BadInput,
-            messages: errors.iter().map(said).collect(),
-        })
     }
 
-    /// Keeps sentences for the artist, each once however often it comes.
-    pub(crate) fn warn(&mut self, sentences: impl IntoIterator<Item = String>) {
-        for sentence in sentences {
-            if !self.warnings.contains(&sentence) {
-                self.warnings.push(sentence);
+    /// Adds warnings, each once however often it is given.
+    pub(crate) fn warn(&mut self, warnings: impl IntoIterator<Item = impl Into<Warning>>) {
+        for warning in warnings.into_iter().map(Into::into) {
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
             }
         }
     }
@@ -343,14 +342,6 @@ pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineErro
         return Err(EngineError::new(ErrorKind::Interrupted, "stopped; nothing was written"));
     }
     Ok(())
-}
-
-/// What is to be known of a model before anything is evaluated on it.
-fn warnings_of(linked: &LinkedModel) -> Vec<String> {
-    let mut warnings = linked.model.warnings.clone();
-    warnings.extend(linked.atlas.report.warnings.iter().cloned());
-    warnings.extend(Sharing::of(linked).warning(linked));
-    warnings
 }
 
 /// Names the surface: the atlas by what it is made of, and where every triangle lies in space. The program itself need not be

@@ -17,6 +17,7 @@ use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::refuse_faults;
 use crate::phases::Progress;
+use crate::warning::Warning;
 
 /// Request for a preview.
 pub struct PreviewRequest {
@@ -33,7 +34,7 @@ pub struct PreviewRequest {
 }
 
 /// Writes a preview and returns warnings.
-pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<String>, EngineError> {
+pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<Warning>, EngineError> {
     let is_exact = match request.output.extension().and_then(|ending| ending.to_str()) {
         Some("png") => false,
         Some("exr") => true,
@@ -109,7 +110,7 @@ fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {
         .iter()
         .map(|(name, values)| (name.as_str(), values.as_slice()))
         .collect();
-    encode_exr(size, size, &channels).map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
+    Ok(encode_exr(size, size, &channels)?)
 }
 
 /// Encodes a PNG: masks as gray, colors in sRGB, vectors with −1..1 mapped to 0..1.
@@ -127,6 +128,5 @@ fn picture(size: u32, ty: PortType, plane: &ResultPlane) -> Result<Vec<u8>, Engi
         bits: 8,
         srgb_chunk: matches!(ty, PortType::Color | PortType::Material),
     };
-    encode_png(size, size, PngData::U8(&codes), options)
-        .map_err(|error| EngineError::new(ErrorKind::CannotWrite, error))
+    Ok(encode_png(size, size, PngData::U8(&codes), options)?)
 }

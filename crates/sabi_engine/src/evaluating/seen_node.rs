@@ -30,7 +30,7 @@ pub(crate) fn graph_and_target(
         .into_iter()
         .next()
         .transpose()
-        .map_err(|error| refused(error.to_string()))?;
+        .map_err(|error| refused(error.to_string()).caused_by(error))?;
     if let Some(from) = found.flatten() {
         let target = Target {
             node: from.node,

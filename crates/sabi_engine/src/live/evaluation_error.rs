@@ -3,6 +3,7 @@
 use sabi_gpu::{Gpu, GpuError};
 
 use crate::error::{EngineError, ErrorKind};
+use crate::remedy::Remedy;
 
 /// Error that ends an evaluation.
 pub(super) enum EvaluationError {
@@ -35,13 +36,18 @@ impl EvaluationError {
             return EvaluationError::of(gpu, error);
         }
         let room = format!("what is shown of the graph does not fit into memory at a size of {size}");
-        EvaluationError::of(gpu, out_of_memory(&room))
+        EvaluationError::of(gpu, out_of_memory(&room).caused_by(error))
     }
 
     /// Classifies an error of a run at a size in texels per UV unit.
     pub(super) fn of_run(gpu: &Gpu, size: u32, error: GpuError) -> EvaluationError {
-        let room = match error {
-            GpuError::Node { node, why } => return EvaluationError::Node { node, why },
+        let room = match &error {
+            GpuError::Node { node, why } => {
+                return EvaluationError::Node {
+                    node: node.clone(),
+                    why: why.clone(),
+                };
+            }
             GpuError::OverBudget { needed_mib, budget_mib } => format!(
                 "the graph's results need {needed_mib} MiB of textures at a size of {size}, more than the budget of \
                  {budget_mib} MiB"
@@ -49,14 +55,13 @@ impl EvaluationError {
             GpuError::OutOfMemory { what } => {
                 format!("the device is out of memory while making {what} at a size of {size}")
             }
-            other => return EvaluationError::of(gpu, other),
+            _ => return EvaluationError::of(gpu, error),
         };
-        EvaluationError::of(gpu, out_of_memory(&room))
+        EvaluationError::of(gpu, out_of_memory(&room).caused_by(error))
     }
 }
 
-/// Error for results that do not fit into memory, with advice.
+/// Error for results that do not fit into memory, with what helps in a window.
 fn out_of_memory(what: &str) -> EngineError {
-    let advice = "work at a smaller size, or close other programs that use the graphics card";
-    EngineError::new(ErrorKind::OutOfMemory, format!("{what}; {advice}"))
+    EngineError::new(ErrorKind::OutOfMemory, what).with_remedies([Remedy::SmallerSize, Remedy::CloseOtherPrograms])
 }

@@ -15,6 +15,7 @@ use crate::error::EngineError;
 use crate::evaluating::looks::ModelLooks;
 use crate::evaluating::texture_space::ResultPlane;
 use crate::opening::linked_model::LinkedModel;
+use crate::warning::Warning;
 
 /// Event for a window. What it holds never changes afterwards.
 pub enum LiveEvent {
@@ -159,15 +160,6 @@ pub struct Faults {
     pub other: Vec<String>,
     /// Warnings for the artist.
     pub warnings: Vec<Warning>,
-}
-
-/// Warning for the artist.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Warning {
-    /// Node it is about, if any; inside groups `instance/inner`.
-    pub node: Option<String>,
-    /// Sentence to show.
-    pub sentence: String,
 }
 
 /// Fault of a node.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use sabi_graph::{FlatGraph, NodeRef, Value};
 use sabi_plan::{FileContents, PlanError, Target};
 
-use super::event::{BlockedNode, Faults, LiveEvent, NodeFault, Warning};
+use super::event::{BlockedNode, Faults, LiveEvent, NodeFault};
 use super::groups::{Ungrouped, open_groups};
 use super::model::LoadedModel;
 use super::request::ViewSubject;
@@ -14,6 +14,7 @@ use super::worker::{Job, Worker};
 use crate::evaluating::outputs::clashes;
 use crate::opening::modelless::{all_nodes, planner};
 use crate::opening::pictures;
+use crate::warning::Warning;
 
 /// Request with its flat graph and the targets in it.
 pub(super) struct FlattenedRequest {
@@ -124,12 +125,9 @@ impl Worker {
             faults.blocked.extend(blocked);
         }
         if let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) {
-            for sentence in sized.warnings() {
-                if faults.warnings.iter().all(|known| known.sentence != *sentence) {
-                    faults.warnings.push(Warning {
-                        node: None,
-                        sentence: sentence.clone(),
-                    });
+            for warning in sized.warnings() {
+                if faults.warnings.iter().all(|known| known.sentence != warning.sentence) {
+                    faults.warnings.push(warning);
                 }
             }
         }
@@ -259,7 +257,7 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
             .iter()
             .map(|error| Warning {
                 node: Some(error.node.clone()),
-                sentence: error.to_string(),
+                ..Warning::from(error.to_string())
             })
             .collect(),
         faults,

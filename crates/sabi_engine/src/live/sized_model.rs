@@ -22,6 +22,7 @@ use crate::evaluating::texture_space::TextureSpace;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
 use crate::phases::Progress;
+use crate::warning::Warning;
 
 /// Rays per texel of a coarse picture while a knob is dragged.
 const FEW_RAYS: u32 = 8;
@@ -38,7 +39,7 @@ pub(super) struct SizedModel {
     /// Warnings about outputs that serve no material.
     idle_outputs: Vec<String>,
     /// Warnings by the sources of the run that gave them: sources with cached results do not warn again.
-    source_warnings: Vec<(BTreeSet<[u8; 32]>, String)>,
+    source_warnings: Vec<(BTreeSet<[u8; 32]>, Warning)>,
     /// Sources that the current request needs.
     sources: BTreeSet<[u8; 32]>,
     /// Whether the current request traces rays.
@@ -185,14 +186,15 @@ impl SizedModel {
     }
 
     /// Lists the warnings about nodes and sources that the current request needs.
-    pub(super) fn warnings(&self) -> impl Iterator<Item = &String> {
+    pub(super) fn warnings(&self) -> impl Iterator<Item = Warning> {
         let is_of_now = |of: &BTreeSet<[u8; 32]>| of.is_empty() || !of.is_disjoint(&self.sources);
         let source_warnings = self.source_warnings.iter().filter(move |(of, _)| is_of_now(of));
         let of_model = self.shoots.then(|| self.model.linked.solidity.get()).flatten();
-        let evaluator = self.evaluator.warnings.iter().chain(&self.idle_outputs);
-        evaluator
-            .chain(source_warnings.map(|(_, sentence)| sentence))
-            .chain(of_model.into_iter().flatten())
+        let sentences = self.idle_outputs.iter().chain(of_model.into_iter().flatten());
+        let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
+        let source_warnings = source_warnings.map(|(_, warning)| warning);
+        let evaluator = self.evaluator.warnings.iter();
+        evaluator.chain(source_warnings).cloned().chain(sentences)
     }
 
     /// Checks the model for what rays cannot rely on, if the current request traces any.
@@ -224,9 +226,9 @@ impl SizedModel {
         let known = self.evaluator.warnings.len();
         let cache = Some(&mut self.cache);
         let run = self.evaluator.run_on_levels(plan, self.submission, progress, cache);
-        for sentence in self.evaluator.warnings.drain(known..) {
-            self.source_warnings.retain(|(_, other)| *other != sentence);
-            self.source_warnings.push((sources_of(plan).collect(), sentence));
+        for warning in self.evaluator.warnings.drain(known..) {
+            self.source_warnings.retain(|(_, other)| *other != warning);
+            self.source_warnings.push((sources_of(plan).collect(), warning));
         }
         let run = run.map_err(|error| EvaluationError::of_run(&gpu, size, error))?;
         totals.add(plan, &run.report);

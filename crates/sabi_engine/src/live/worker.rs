@@ -122,7 +122,7 @@ impl Worker {
         self.full_duration = None;
         let why = "the evaluation of the graph broke off, which is a mistake in Sabi; take back what was done last, or go on \
                    with something else";
-        self.fail(revision, EngineError::new(ErrorKind::BadInput, why));
+        self.fail(revision, EngineError::new(ErrorKind::Defect, why));
     }
 
     pub(super) fn send(&self, event: LiveEvent) {
@@ -249,7 +249,7 @@ impl Drop for PanicGuard {
         if std::thread::panicking() {
             let why = "the evaluation of the graph broke off; this is a mistake in Sabi";
             self.0.queue.close();
-            self.0.send(LiveEvent::Lost(EngineError::new(ErrorKind::BadInput, why)));
+            self.0.send(LiveEvent::Lost(EngineError::new(ErrorKind::Defect, why)));
         }
     }
 }

@@ -32,10 +32,9 @@ pub struct OpenGraph {
 impl OpenGraph {
     /// Reads a graph file.
     pub fn open(path: &Path) -> Result<OpenGraph, EngineError> {
-        let text =
-            read_text(path).map_err(|error| EngineError::new(error.kind, format!("{}: {error}", path.display())))?;
+        let text = read_text(path).map_err(|error| error.said(|why| format!("{}: {why}", path.display())))?;
         let document = Document::from_json(&text)
-            .map_err(|error| EngineError::new(ErrorKind::BadInput, error.with_name(path.display().to_string())))?;
+            .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(path.display().to_string())))?;
         Ok(OpenGraph {
             path: path.to_owned(),
             document,
@@ -105,7 +104,7 @@ impl OpenGraph {
             } else {
                 of_file
             };
-            EngineError::new(kind, self.said(error))
+            EngineError::new(kind, self.said(&error)).caused_by(error)
         })
     }
 
@@ -165,9 +164,7 @@ fn read_text(path: &Path) -> Result<String, EngineError> {
     })?;
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        EngineError::new(
-            ErrorKind::BadInput,
-            format!("the file is not text: byte {at} is not UTF-8; graphs are JSON"),
-        )
+        let why = format!("the file is not text: byte {at} is not UTF-8; graphs are JSON");
+        EngineError::new(ErrorKind::BadInput, why).caused_by(error)
     })
 }

@@ -155,7 +155,7 @@ fn unreadable(path: &Path, unread: Unread) -> EngineError {
 
 /// The light in the bytes of a picture file; `name` stands in messages.
 fn decoded(name: &str, bytes: &[u8]) -> Result<(Panorama, Vec<String>), EngineError> {
-    let picture = sabi_image::decode(name, bytes).map_err(|error| EngineError::new(ErrorKind::BadInput, error))?;
+    let picture = sabi_image::decode(name, bytes)?;
     let is_light = matches!(picture.pixels, Pixels::F32(_));
     let is_linear = is_light || picture.color_space == Declared::Linear;
     let linear = picture.linear_rgba(!is_linear);

@@ -6,7 +6,7 @@ use sabi_gpu::{CoarseSurface, Gpu, Measures};
 use sabi_graph::Fit;
 use sabi_plan::{Plan, Step};
 
-use crate::error::{EngineError, ErrorKind};
+use crate::error::EngineError;
 use crate::opening::linked_model::LinkedModel;
 
 /// The levels of one surface that were made so far.
@@ -62,8 +62,7 @@ impl AtlasLevels {
             if level == 0 || self.coarser.contains_key(&level) {
                 continue;
             }
-            let made = linked.atlas.level(&linked.model.mesh, level);
-            let made = made.map_err(|error| EngineError::new(ErrorKind::BadInput, error.to_string()))?;
+            let made = linked.atlas.level(&linked.model.mesh, level)?;
             let tables = linked.tables_of(&made.atlas, fit, seed);
             let surface = CoarseSurface::upload(gpu, &made, &tables, self.of(level))?;
             self.coarser.insert(level, surface);

@@ -10,7 +10,7 @@ use sabi_surface::bvh::Bvh;
 use sabi_surface::load::{LoadOptions, Up, load};
 use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
-use sabi_surface::unwrap::{UnwrapReport, unwrap_cached};
+use sabi_surface::unwrap::{UnwrapError, UnwrapReport, unwrap_cached};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::stop_if_canceled;
@@ -123,7 +123,7 @@ impl LinkedModel {
     /// Only loads the model.
     pub fn load_model(options: &ModelOptions) -> Result<Model, EngineError> {
         if !(options.scale.is_finite() && options.scale > 0.0) {
-            let why = format!("--scale takes a number above 0, not {}", options.scale);
+            let why = format!("the scale of a model is a number above 0, not {}", options.scale);
             return Err(EngineError::new(ErrorKind::Usage, why));
         }
         let load_options = LoadOptions {
@@ -137,10 +137,13 @@ impl LinkedModel {
     /// Builds or finds the atlas of a loaded model, which is unwrapped first where it has to be.
     pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         progress.advance(Phase::Atlas, 0, 1);
-        let refused = |error: String| refused(options, &error);
+        let unwrapped_anew = |model: &mut Model| {
+            let made = unwrap_model(model, options);
+            made.map_err(|error| refused(options, EngineError::of(ErrorKind::BadInput, error)))
+        };
         let mut unwrapped = None;
         if options.overlap == Overlap::Unwrap || needs_unwrapping(&mut model) {
-            unwrapped = Some(unwrap_model(&mut model, options).map_err(refused)?);
+            unwrapped = Some(unwrapped_anew(&mut model)?);
             stop_if_canceled(progress)?;
         }
         let cache_dir = options.cache_folder();
@@ -149,10 +152,10 @@ impl LinkedModel {
         if unwrapped.is_none() && matches!(built, Err(AtlasError::NoArea { .. })) {
             let sentence = "The model's UVs have no area, so it was unwrapped anew onto one sheet.";
             model.warnings.push(sentence.to_owned());
-            unwrapped = Some(unwrap_model(&mut model, options).map_err(refused)?);
+            unwrapped = Some(unwrapped_anew(&mut model)?);
             built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
         }
-        let (atlas, atlas_was_cached) = built.map_err(|error| refused(with_advice(&error)))?;
+        let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, error.into()))?;
         progress.advance(Phase::Atlas, 1, 1);
         let (largest_side, farthest) = extents(&model);
         // After the atlas, which has refused meshes that are not whole.
@@ -179,7 +182,7 @@ impl LinkedModel {
         progress.advance(Phase::Atlas, 0, 1);
         let cache_dir = options.cache_folder();
         let built = cached(cache_dir.as_deref(), &self.model.mesh, &AtlasOptions::new(options.size));
-        let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, &with_advice(&error)))?;
+        let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, error.into()))?;
         progress.advance(Phase::Atlas, 1, 1);
         Ok(LinkedModel {
             model: self.model.clone(),
@@ -286,16 +289,15 @@ fn first_of(names: &[String]) -> String {
     }
 }
 
-/// A model that cannot be worked on.
-fn refused(options: &ModelOptions, error: &str) -> EngineError {
-    EngineError::new(ErrorKind::BadInput, format!("{}: {error}", options.path.display()))
+/// The same error with the path of the model before its sentences.
+fn refused(options: &ModelOptions, error: EngineError) -> EngineError {
+    error.said(|sentence| format!("{}: {sentence}", options.path.display()))
 }
 
 /// Puts the unwrapped mesh in the place of the model's own.
-fn unwrap_model(model: &mut Model, options: &ModelOptions) -> Result<Unwrapping, String> {
+fn unwrap_model(model: &mut Model, options: &ModelOptions) -> Result<Unwrapping, UnwrapError> {
     let folder = options.cache_folder();
-    let found = unwrap_cached(folder.as_deref(), &model.mesh);
-    let (unwrapped, was_cached) = found.map_err(|error| error.to_string())?;
+    let (unwrapped, was_cached) = unwrap_cached(folder.as_deref(), &model.mesh)?;
     model.mesh = unwrapped.mesh;
     model.warnings.extend(unwrapped.report.warnings.iter().cloned());
     let last = model.mesh.texture_uvs.last();
@@ -305,16 +307,6 @@ fn unwrap_model(model: &mut Model, options: &ModelOptions) -> Result<Unwrapping,
         report: unwrapped.report,
         was_cached,
     })
-}
-
-/// Why there is no atlas, with the way out that unwrapping is.
-fn with_advice(error: &AtlasError) -> String {
-    match error {
-        AtlasError::UvTooFar { .. } | AtlasError::ChartTooLarge { .. } | AtlasError::TooManyTexels { .. } => {
-            format!("{error}; or have the model unwrapped anew with --overlap unwrap")
-        }
-        _ => error.to_string(),
-    }
 }
 
 /// The largest side of the box around all triangles, and their largest coordinate; 1 for a model without extent.

@@ -85,8 +85,6 @@ pub(crate) fn refuse_faults(
     if errors.is_empty() {
         return Ok(plan);
     }
-    Err(EngineError {
-        kind: kind_of(&errors),
-        messages: errors.iter().flat_map(|error| explained(open, kinds, error)).collect(),
-    })
+    let messages = errors.iter().flat_map(|error| explained(open, kinds, error)).collect();
+    Err(EngineError::several(kind_of(&errors), messages).caused_by(errors.swap_remove(0)))
 }

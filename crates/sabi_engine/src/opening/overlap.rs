@@ -7,6 +7,8 @@ use sabi_surface::atlas::{Chart, PAIRS_LIMIT};
 use serde_json::{Value as Json, json};
 
 use crate::opening::linked_model::{LinkedModel, Overlap};
+use crate::remedy::Remedy;
+use crate::warning::Warning;
 
 /// Materials that are named in a report; more would tell nobody more.
 const MATERIALS: usize = 10;
@@ -132,7 +134,7 @@ impl Sharing {
     }
 
     /// What maps hold where charts share a place, and which way of taking them would suit this model better.
-    pub(crate) fn warning(&self, linked: &LinkedModel) -> Option<String> {
+    pub(crate) fn warning(&self, linked: &LinkedModel) -> Option<Warning> {
         let (material, _) = *self.worst().first()?;
         let total = self.total();
         let kinds = [
@@ -155,32 +157,35 @@ impl Sharing {
             share => format!("UV charts overlap on {:.1} % of the surface", 100.0 * share),
         };
         let copies = total.tiling == 0 && total.partial == 0;
-        let (hold, advice) = advice(linked.overlap, linked.unwrapped.is_some(), copies);
-        Some(format!(
-            "{share} ({least}{}), most of all in '{name}': maps hold {hold} there; {advice}",
+        let hold = match linked.overlap {
+            Overlap::Merge => "the mean of all results",
+            Overlap::First | Overlap::Unwrap => "the first one's result",
+        };
+        let sentence = format!(
+            "{share} ({least}{}), most of all in '{name}': maps hold {hold} there",
             kinds.join(", ")
-        ))
+        );
+        let remedies = remedies(linked.overlap, linked.unwrapped.is_some(), copies);
+        Some(Warning::new(sentence, remedies.iter().copied()))
     }
 }
 
-/// What maps hold where charts share a place, and what to do about it.
-fn advice(overlap: Overlap, was_unwrapped: bool, copies: bool) -> (&'static str, &'static str) {
-    let hold = match overlap {
-        Overlap::Merge => "the mean of all results",
-        Overlap::First | Overlap::Unwrap => "the first one's result",
-    };
-    let advice = match overlap {
-        _ if was_unwrapped => {
-            "the model was unwrapped already, so a larger --size helps, or UVs that are made in a modeling program"
-        }
-        Overlap::Merge if copies => "--overlap unwrap gives each a place of its own",
-        Overlap::Merge => "--overlap unwrap suits it better: each gets a place of its own",
-        Overlap::First | Overlap::Unwrap if copies => {
-            "--overlap merge takes the mean of all, --overlap unwrap gives each a place of its own"
-        }
-        Overlap::First | Overlap::Unwrap => "--overlap unwrap gives each a place of its own",
-    };
-    (hold, advice)
+impl LinkedModel {
+    /// Warnings on the model and its atlas, whatever is evaluated on them.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let sentences = self.model.warnings.iter().chain(&self.atlas.report.warnings);
+        let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
+        sentences.chain(Sharing::of(self).warning(self)).collect()
+    }
+}
+
+/// Other ways to treat charts that share a place, best first. Exact copies look right with their mean; other overlaps do not.
+fn remedies(overlap: Overlap, was_unwrapped: bool, copies: bool) -> &'static [Remedy] {
+    match overlap {
+        _ if was_unwrapped => &[Remedy::LargerSize, Remedy::EditUvs],
+        Overlap::First | Overlap::Unwrap if copies => &[Remedy::MergeOverlaps, Remedy::UnwrapModel],
+        Overlap::First | Overlap::Merge | Overlap::Unwrap => &[Remedy::UnwrapModel],
+    }
 }
 
 #[cfg(test)]
@@ -191,10 +196,9 @@ mod tests {
     fn only_a_model_with_uvs_of_its_own_is_advised_to_be_unwrapped() {
         for overlap in [Overlap::First, Overlap::Merge, Overlap::Unwrap] {
             for copies in [false, true] {
-                let told = |was_unwrapped| advice(overlap, was_unwrapped, copies).1;
-                assert!(told(false).contains("--overlap unwrap"), "{overlap:?}");
-                assert!(!told(true).contains("--overlap"), "{overlap:?}");
-                assert!(told(true).contains("a larger --size"), "{overlap:?}");
+                let told = |was_unwrapped| remedies(overlap, was_unwrapped, copies);
+                assert!(told(false).contains(&Remedy::UnwrapModel), "{overlap:?}");
+                assert_eq!(told(true), [Remedy::LargerSize, Remedy::EditUvs], "{overlap:?}");
             }
         }
     }

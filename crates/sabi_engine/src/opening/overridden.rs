@@ -31,10 +31,7 @@ pub(crate) fn refuse_bad_values(
     if messages.is_empty() {
         return Ok(());
     }
-    Err(EngineError {
-        kind: ErrorKind::Usage,
-        messages,
-    })
+    Err(EngineError::several(ErrorKind::Usage, messages))
 }
 
 fn problems(graph: &FlatGraph, kinds: &Kinds) -> Vec<PlanError> {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::UVec2;
-use sabi_image::{ImageError, PngData, PngOptions, encode_exr, encode_png};
+use sabi_image::{PngData, PngOptions, encode_exr, encode_png};
 use sabi_view::{
     Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
     ViewModel, ViewTransform, Viewpoint, aspect_of,
@@ -21,6 +21,7 @@ use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{refuse_faults, targets};
 use crate::phases::{Phase, Progress};
 use crate::rendering::displace::{Triangles, displaced_model};
+use crate::warning::Warning;
 
 /// The view in which there is light.
 const LIT: &str = "material";
@@ -84,8 +85,8 @@ pub enum Turns {
 pub struct Rendered {
     /// The pictures.
     pub files: Vec<PathBuf>,
-    /// What the artist should know.
-    pub warnings: Vec<String>,
+    /// What is probably not intended.
+    pub warnings: Vec<Warning>,
 }
 
 /// Draws; nothing is replaced before every picture is complete.
@@ -157,7 +158,7 @@ fn file_names(request: &RenderRequest) -> Result<Vec<PathBuf>, EngineError> {
     };
     if !(1..=MOST_FRAMES).contains(&frames) {
         return Err(refused(format!(
-            "--turntable takes 1 to {MOST_FRAMES} frames, not {frames}"
+            "a turntable has 1 to {MOST_FRAMES} frames, not {frames}"
         )));
     }
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
@@ -272,18 +273,15 @@ fn encode(picture: &Pixels, with_alpha: bool) -> Result<Vec<u8>, EngineError> {
         rgb = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
         &rgb
     };
-    encode_png(width, height, PngData::U8(codes), options).map_err(cannot_write)
+    Ok(encode_png(width, height, PngData::U8(codes), options)?)
 }
 
 /// An OpenEXR file of light, alpha premultiplied.
 fn encode_light([width, height]: [u32; 2], light: &[[f32; 4]]) -> Result<Vec<u8>, EngineError> {
     let channel = |at: usize| -> Vec<f32> { light.iter().map(|pixel| pixel[at]).collect() };
     let [r, g, b, a] = [0, 1, 2, 3].map(channel);
-    encode_exr(width, height, &[("R", &r), ("G", &g), ("B", &b), ("A", &a)]).map_err(cannot_write)
-}
-
-fn cannot_write(error: ImageError) -> EngineError {
-    EngineError::new(ErrorKind::CannotWrite, error)
+    let channels: [(&str, &[f32]); 4] = [("R", &r), ("G", &g), ("B", &b), ("A", &a)];
+    Ok(encode_exr(width, height, &channels)?)
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use serde_json::{Value as Json, json};
 
 use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
+use crate::remedy::Remedy;
 use crate::session::whole_file::{rooted, write_whole};
 
 /// Tells two sessions of one process apart.
@@ -167,8 +168,9 @@ impl Recovery {
         let bytes = json!({ "file": file, "graph": graph, "drafts": written }).to_string();
         let folder = self.path.parent().unwrap_or(Path::new("."));
         let refused = |error: io::Error| {
-            let why = format!("{} cannot be written: {error}; free some space there", folder.display());
-            EngineError::new(ErrorKind::CannotWrite, why)
+            let why = format!("{} cannot be written: {error}", folder.display());
+            let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
+            refused.with_remedies([Remedy::FreeSpace])
         };
         // Whole or not at all for whoever reads it after a crash of the program. The disk is not waited for, since a window is
         // at work meanwhile.

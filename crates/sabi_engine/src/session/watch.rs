@@ -108,7 +108,7 @@ impl Watcher {
                 "the system gives no thread to watch files on ({error}); files that change are not seen until they are \
                  opened again"
             );
-            EngineError::new(ErrorKind::OutOfMemory, why)
+            EngineError::new(ErrorKind::OutOfMemory, why).caused_by(error)
         })?;
         Ok(Watcher { inbox, shared })
     }

@@ -375,7 +375,7 @@ fn a_model_that_changed_meanwhile_is_a_sentence() {
     assert_eq!(
         error.to_string(),
         format!(
-            "no copy of {} can be made: it was changed while it was read; bake again, or without --model",
+            "no copy of {} can be made: it was changed while it was read",
             path.display()
         )
     );

@@ -71,7 +71,7 @@ pub(crate) fn caster<'s>(
     choice: CasterChoice,
     sources: &'s mut dyn SourceFill,
 ) -> Result<Caster<'s>, GpuError> {
-    let scene = sources.scene().map_err(GpuError::Source)?;
+    let scene = sources.scene().map_err(GpuError::Scene)?;
     let on_processor = || Caster::OnProcessor(OnProcessor::new(scene));
     let on_device = || Ok(Caster::OnDevice(OnDevice::new(gpu, scene)?));
     if !follows_on_device(gpu, choice) {

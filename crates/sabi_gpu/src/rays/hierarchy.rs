@@ -36,7 +36,7 @@ impl DeviceHierarchy {
     pub(super) fn upload(gpu: &Gpu, bvh: &Bvh) -> Result<DeviceHierarchy, GpuError> {
         let depth = bvh.depth();
         if depth > DEEPEST {
-            return Err(GpuError::TooDeep { depth });
+            return Err(GpuError::TooDeep { depth, limit: DEEPEST });
         }
         let triangles = bvh.scaled_triangle_rows();
         let (center, scale) = bvh.scaled_from_model();

@@ -24,10 +24,10 @@ impl Runner<'_> {
                 if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
                     let given = bytes.len();
                     let message = format!(
-                        "node '{}' gave {given} bytes for '{output}', too few or too many; this is a mistake in Sabi",
+                        "node '{}' gave {given} bytes for '{output}', too few or too many",
                         step.id
                     );
-                    return Err(GpuError::Source(message));
+                    return Err(GpuError::Defect(message));
                 }
                 self.upload(&texture, format, &bytes);
                 drop(bytes);

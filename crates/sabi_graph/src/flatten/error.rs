@@ -15,7 +15,7 @@ pub enum FlattenError {
         /// All of them, quoted.
         known: String,
     },
-    /// `--set` names nothing.
+    /// The name of an override names neither a published knob nor a parameter.
     #[error("nothing is called {name}{hint}; set an exposed knob ({known}) or a node's parameter as node.param")]
     NoSuchKnob {
         /// The name, quoted.

@@ -42,7 +42,7 @@ pub enum AtlasError {
     /// UVs too far away to count texels.
     #[error(
         "the texture coordinate ({u}, {v}) of vertex {vertex} lies too far from the unit square to be placed at \
-         {size} texels; move the UVs back into 0 to 1"
+         {size} texels"
     )]
     UvTooFar {
         /// Vertex number.
@@ -57,7 +57,7 @@ pub enum AtlasError {
     /// A chart does not fit on a page.
     #[error(
         "a UV chart (the one with triangle {triangle}) is {width} × {height} texels large at size {size}, but a page \
-         holds {limit} × {limit}; choose a smaller size, or split the chart in your modeling program"
+         holds {limit} × {limit}"
     )]
     ChartTooLarge {
         /// One of its triangles.
@@ -72,10 +72,7 @@ pub enum AtlasError {
         limit: u32,
     },
     /// More texels than can be held.
-    #[error(
-        "at size {size} the model's {charts} UV charts need {needed}, but at most {limit} can be held; choose a smaller \
-         size, or let charts share less of the unit square"
-    )]
+    #[error("at size {size} the model's {charts} UV charts need {needed}, but at most {limit} can be held")]
     TooManyTexels {
         /// Texels for the unit square.
         size: u32,

@@ -10,6 +10,7 @@ use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::levels::AtlasLevels;
+use crate::warning::Warning;
 
 impl Evaluator {
     /// Takes another graph, or the same one after an edit; `graph` is `open` without its groups. Nothing is loaded again: only
@@ -42,6 +43,7 @@ impl Evaluator {
 
     /// Forgets what was said of the last graph.
     fn begin_warnings(&mut self) {
-        self.warnings = self.of_model.iter().cloned().chain(self.kinds.left_out()).collect();
+        let left_out = self.kinds.left_out().map(Warning::from);
+        self.warnings = self.of_model.iter().cloned().chain(left_out).collect();
     }
 }

@@ -1,0 +1,104 @@
+//! Remedies in words of the command line: each with the flag that applies it.
+
+use clap::CommandFactory;
+use sabi_engine::{Remedy, advised};
+
+use crate::arguments::Arguments;
+
+/// A sentence with its remedies, as far as `command` can apply them or the user can without a flag.
+pub(crate) fn with_flags(sentence: &str, remedies: &[Remedy], command: &str) -> String {
+    advised(sentence, remedies.iter().filter_map(|remedy| said(*remedy, command)))
+}
+
+/// A remedy with the flag of `command` that applies it; none where the command has no such flag.
+fn said(remedy: Remedy, command: &str) -> Option<String> {
+    let phrases = phrases(remedy);
+    if phrases.is_empty() {
+        return Some(remedy.to_string());
+    }
+    let phrase = phrases.iter().find(|phrase| takes(command, phrase))?;
+    Some(format!("{remedy} {phrase}"))
+}
+
+/// Phrases that name the flag which applies a remedy, the first that a command takes being the right one; none where no
+/// command has such a flag.
+fn phrases(remedy: Remedy) -> &'static [&'static str] {
+    match remedy {
+        Remedy::OtherAdapter => &["with --adapter"],
+        Remedy::AnyAdapter => &["with --adapter auto"],
+        Remedy::SoftwareAdapter => &["with --adapter cpu"],
+        Remedy::RaiseBudget => &["with --budget"],
+        // `render` calls the size of the picture --size.
+        Remedy::SmallerSize | Remedy::LargerSize => &["with --texels", "with --size"],
+        Remedy::WithoutFusion => &["with --no-fuse"],
+        Remedy::ProcessorRays => &["with --caster cpu"],
+        Remedy::OtherFolder => &["with -o"],
+        Remedy::IntoThisFolderAnyway => &["with --force"],
+        Remedy::UnwrapModel => &["with --overlap unwrap"],
+        Remedy::MergeOverlaps => &["with --overlap merge"],
+        Remedy::WithoutModelCopy => &["by leaving out --model"],
+        Remedy::OtherMaterial => &["with --material"],
+        Remedy::NameModel => &["with --mesh"],
+        Remedy::CloseOtherPrograms
+        | Remedy::UpdateDriver
+        | Remedy::ReduceTriangles
+        | Remedy::FreeSpace
+        | Remedy::TryAgain
+        | Remedy::AllowWriting
+        | Remedy::SaveUnderOtherName
+        | Remedy::EditUvs
+        | Remedy::SaveModelAsGltf => &[],
+    }
+}
+
+/// Whether a command takes the flag that a phrase names.
+fn takes(command: &str, phrase: &str) -> bool {
+    let Some(flag) = phrase.split(' ').find(|word| word.starts_with('-')) else {
+        return false;
+    };
+    let arguments = Arguments::command();
+    arguments.find_subcommand(command).is_some_and(|found| {
+        found.get_arguments().any(|argument| match flag.strip_prefix("--") {
+            Some(long) => argument.get_long() == Some(long),
+            None => argument.get_short() == flag.chars().nth(1),
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{phrases, said, takes, with_flags};
+    use crate::arguments::command_names;
+    use sabi_engine::Remedy;
+
+    #[test]
+    fn a_remedy_names_a_flag_that_its_command_takes() {
+        let size = [Remedy::SmallerSize];
+        let told = |command: &str| with_flags("it is too large", &size, command);
+        assert_eq!(told("bake"), "it is too large; choose a smaller size with --size");
+        assert_eq!(told("render"), "it is too large; choose a smaller size with --texels");
+        assert_eq!(told("edit"), "it is too large", "the size is chosen in the window");
+        let remedies = [
+            Remedy::CloseOtherPrograms,
+            Remedy::WithoutFusion,
+            Remedy::SoftwareAdapter,
+        ];
+        assert_eq!(
+            with_flags("the device was lost", &remedies, "preview"),
+            "the device was lost; close other programs that use the graphics card, or choose the software adapter with \
+             --adapter cpu"
+        );
+    }
+
+    #[test]
+    fn every_flag_of_a_remedy_is_one_of_some_command() {
+        for remedy in Remedy::ALL {
+            for phrase in phrases(remedy) {
+                let is_known = command_names().iter().any(|command| takes(command, phrase));
+                assert!(is_known, "{remedy:?}: {phrase}");
+            }
+            let is_said = command_names().iter().any(|command| said(remedy, command).is_some());
+            assert!(is_said, "{remedy:?}");
+        }
+    }
+}

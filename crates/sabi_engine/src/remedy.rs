@@ -1,0 +1,158 @@
+//! Remedies: changes to a request, as values that a front end says with its flag or offers as a button.
+
+use std::fmt;
+
+/// Change to a request, a file or the machine after which what failed can succeed, or a warning no longer applies.
+///
+/// Its text is plain English without flags and buttons, such as `choose a smaller size`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Remedy {
+    /// Another adapter in place of the chosen one.
+    OtherAdapter,
+    /// The adapter that Sabi prefers, in place of a named one.
+    AnyAdapter,
+    /// The software adapter.
+    SoftwareAdapter,
+    /// Fewer programs that use the graphics card at the same time.
+    CloseOtherPrograms,
+    /// A newer graphics driver.
+    UpdateDriver,
+    /// More memory for textures.
+    RaiseBudget,
+    /// Fewer texels along a side of the maps.
+    SmallerSize,
+    /// More texels along a side of the maps.
+    LargerSize,
+    /// A kernel for each node, so that one that does not compile takes no others with it.
+    WithoutFusion,
+    /// Rays cast by the processor.
+    ProcessorRays,
+    /// A model with fewer triangles.
+    ReduceTriangles,
+    /// Another folder for the results.
+    OtherFolder,
+    /// The chosen folder, although it holds files of another origin.
+    IntoThisFolderAnyway,
+    /// Free space on the disk.
+    FreeSpace,
+    /// The same request once more.
+    TryAgain,
+    /// Permission to write to the file that is to be replaced.
+    AllowWriting,
+    /// Another file for the graph.
+    SaveUnderOtherName,
+    /// The model with a UV layout made by Sabi, in which no charts overlap.
+    UnwrapModel,
+    /// The mean of all charts that share a place on the maps.
+    MergeOverlaps,
+    /// Other UVs, made in a modeling program.
+    EditUvs,
+    /// Maps without a copy of the model.
+    WithoutModelCopy,
+    /// The model saved as `.gltf`, whose copy refers to its maps as files of their own.
+    SaveModelAsGltf,
+    /// Another material of the model.
+    OtherMaterial,
+    /// A model named by the user, in place of one that comes with Sabi.
+    NameModel,
+}
+
+impl Remedy {
+    /// All remedies.
+    pub const ALL: [Remedy; 24] = [
+        Remedy::OtherAdapter,
+        Remedy::AnyAdapter,
+        Remedy::SoftwareAdapter,
+        Remedy::CloseOtherPrograms,
+        Remedy::UpdateDriver,
+        Remedy::RaiseBudget,
+        Remedy::SmallerSize,
+        Remedy::LargerSize,
+        Remedy::WithoutFusion,
+        Remedy::ProcessorRays,
+        Remedy::ReduceTriangles,
+        Remedy::OtherFolder,
+        Remedy::IntoThisFolderAnyway,
+        Remedy::FreeSpace,
+        Remedy::TryAgain,
+        Remedy::AllowWriting,
+        Remedy::SaveUnderOtherName,
+        Remedy::UnwrapModel,
+        Remedy::MergeOverlaps,
+        Remedy::EditUvs,
+        Remedy::WithoutModelCopy,
+        Remedy::SaveModelAsGltf,
+        Remedy::OtherMaterial,
+        Remedy::NameModel,
+    ];
+}
+
+impl fmt::Display for Remedy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Remedy::OtherAdapter => "choose another adapter",
+            Remedy::AnyAdapter => "let Sabi choose the adapter",
+            Remedy::SoftwareAdapter => "choose the software adapter",
+            Remedy::CloseOtherPrograms => "close other programs that use the graphics card",
+            Remedy::UpdateDriver => "update the graphics driver",
+            Remedy::RaiseBudget => "raise the budget",
+            Remedy::SmallerSize => "choose a smaller size",
+            Remedy::LargerSize => "choose a larger size",
+            Remedy::WithoutFusion => "run every node in a pass of its own",
+            Remedy::ProcessorRays => "have rays followed by the processor",
+            Remedy::ReduceTriangles => "reduce the model's triangles",
+            Remedy::OtherFolder => "choose another folder",
+            Remedy::IntoThisFolderAnyway => "write into this folder anyway",
+            Remedy::FreeSpace => "free some space on the disk",
+            Remedy::TryAgain => "try again",
+            Remedy::AllowWriting => "allow writing to it",
+            Remedy::SaveUnderOtherName => "save under another name",
+            Remedy::UnwrapModel => "have the model unwrapped",
+            Remedy::MergeOverlaps => "have the mean of shared places taken",
+            Remedy::EditUvs => "change the UVs in a modeling program",
+            Remedy::WithoutModelCopy => "do without the copy of the model",
+            Remedy::SaveModelAsGltf => "save the model as .gltf, whose copy keeps its maps beside it",
+            Remedy::OtherMaterial => "choose another material",
+            Remedy::NameModel => "name a model",
+        })
+    }
+}
+
+/// A sentence with its remedies, each in the words of a front end: `the disk is full; free some space, or try again`.
+pub fn advised(sentence: &str, remedies: impl IntoIterator<Item = impl fmt::Display>) -> String {
+    let words: Vec<String> = remedies.into_iter().map(|remedy| remedy.to_string()).collect();
+    match words.as_slice() {
+        [] => sentence.to_owned(),
+        [only] => format!("{sentence}; {only}"),
+        [others @ .., last] => format!("{sentence}; {}, or {last}", others.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::{Remedy, advised};
+
+    #[test]
+    fn remedies_follow_their_sentence_as_a_list() {
+        let said = |remedies: &[Remedy]| advised("the disk is full", remedies);
+        assert_eq!(said(&[]), "the disk is full");
+        assert_eq!(said(&[Remedy::TryAgain]), "the disk is full; try again");
+        assert_eq!(
+            said(&[Remedy::SmallerSize, Remedy::OtherFolder]),
+            "the disk is full; choose a smaller size, or choose another folder"
+        );
+        assert_eq!(
+            said(&[Remedy::TryAgain, Remedy::SmallerSize, Remedy::OtherFolder]),
+            "the disk is full; try again, choose a smaller size, or choose another folder"
+        );
+    }
+
+    #[test]
+    fn each_remedy_is_listed_once_and_has_words_of_its_own() {
+        let listed: BTreeSet<Remedy> = Remedy::ALL.into_iter().collect();
+        let words: BTreeSet<String> = Remedy::ALL.iter().map(ToString::to_string).collect();
+        assert_eq!((listed.len(), words.len()), (Remedy::ALL.len(), Remedy::ALL.len()));
+    }
+}

@@ -1,0 +1,53 @@
+//! Warnings: what is probably not intended, with what helps.
+
+use std::fmt;
+
+use crate::remedy::{Remedy, advised};
+
+/// Sentence on something that is probably not intended and stops nothing, with its remedies.
+///
+/// Its text is the sentence followed by the remedies, without flags and buttons.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Node it is about, if it is about one; inside groups `instance/inner`.
+    pub node: Option<String>,
+    /// What is the case.
+    pub sentence: String,
+    /// What helps, best first.
+    pub remedies: Vec<Remedy>,
+}
+
+impl Warning {
+    /// A warning with remedies.
+    pub fn new(sentence: impl Into<String>, remedies: impl IntoIterator<Item = Remedy>) -> Warning {
+        Warning {
+            node: None,
+            sentence: sentence.into(),
+            remedies: remedies.into_iter().collect(),
+        }
+    }
+}
+
+impl From<String> for Warning {
+    fn from(sentence: String) -> Warning {
+        Warning::new(sentence, [])
+    }
+}
+
+impl From<&str> for Warning {
+    fn from(sentence: &str) -> Warning {
+        Warning::new(sentence, [])
+    }
+}
+
+impl From<&Warning> for Warning {
+    fn from(warning: &Warning) -> Warning {
+        warning.clone()
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&advised(&self.sentence, &self.remedies))
+    }
+}
