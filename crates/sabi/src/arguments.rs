@@ -1,4 +1,4 @@
-//! What can be said on the command line.
+//! Arguments of the command line.
 
 mod bake;
 mod edit;
@@ -48,30 +48,31 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// What is to be done: without a command, the editor is opened.
+    /// Command to run; the editor without one.
     pub(crate) fn into_command(self) -> (Command, Global) {
+        // Without a command, the editor opens.
         (self.command.unwrap_or(Command::Edit(self.edit)), self.global)
     }
 }
 
-/// What every command takes.
+/// Arguments of every command.
 #[derive(Debug, Args)]
 pub(crate) struct Global {
-    /// Say nothing but errors
+    /// Print nothing but errors
     #[arg(short, long, global = true, help_heading = "Everywhere")]
     pub(crate) quiet: bool,
     /// Show no progress bars
     #[arg(long, global = true, help_heading = "Everywhere")]
     pub(crate) no_progress: bool,
-    /// Tell what happens inside, as in 'info' or 'sabi=debug'
+    /// Log to standard error with a filter such as 'info' or 'sabi=debug'
     #[arg(long, global = true, value_name = "FILTER", help_heading = "Everywhere")]
     pub(crate) log: Option<String>,
 }
 
-/// The commands.
+/// Command of the command line.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Open the editor; without a command, too
+    /// Open the editor, as without a command
     Edit(EditArguments),
     /// Bake a graph on a model into a PBR texture set
     Bake(BakeArguments),
@@ -121,7 +122,7 @@ mod tests {
     use super::Arguments;
 
     #[test]
-    fn the_command_line_contradicts_itself_nowhere() {
+    fn the_definition_of_the_command_line_is_consistent() {
         Arguments::command().debug_assert();
     }
 }

@@ -13,7 +13,7 @@ use crate::arguments::Command;
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
-/// Does what was asked.
+/// Runs a command.
 pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure> {
     match command {
         Command::Edit(arguments) => edit::run(&arguments),

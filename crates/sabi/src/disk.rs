@@ -1,8 +1,8 @@
-//! What the disk says, in words.
+//! Errors of the file system in words.
 
 use std::io;
 
-/// Why a file cannot be written, without the system's error numbers.
+/// Reason why a file cannot be written, without the system's error numbers where it is a common one.
 pub(crate) fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotADirectory => "a part of its path is a file, not a folder".to_owned(),

@@ -1,4 +1,4 @@
-//! The command line: reads arguments, calls the engine, and says what happened.
+//! The command line: reads arguments, calls the engine, and prints results.
 
 mod advice;
 mod arguments;

@@ -28,8 +28,7 @@ fn sentence(info: &PanicHookInfo<'_>) -> String {
     };
     let place = info
         .location()
-        .map(|at| format!(" ({}, line {})", at.file(), at.line()))
-        .unwrap_or_default();
+        .map_or(String::new(), |at| format!(" ({}, line {})", at.file(), at.line()));
     format!("Sabi made a mistake: {what}{place}; please report it with the command you ran")
 }
 

@@ -1,4 +1,4 @@
-//! Bars on a terminal, and Ctrl-C.
+//! Progress bars, and cancellation by Ctrl-C.
 
 use std::process;
 use std::sync::Mutex;
@@ -13,17 +13,17 @@ use crate::terminal::Terminal;
 /// Whether Ctrl-C was pressed.
 static CANCELED: AtomicBool = AtomicBool::new(false);
 
-/// One bar that shows the stage at hand.
+/// Progress bar of the current phase.
 pub(crate) struct Bars {
     bar: ProgressBar,
     phase: Mutex<Option<Phase>>,
 }
 
 impl Bars {
-    /// Starts to listen for Ctrl-C, and shows a bar where standard error is a terminal.
+    /// Installs the handler of Ctrl-C, and shows a bar where standard error is a terminal.
     pub(crate) fn new(terminal: &Terminal) -> Bars {
         listen_for_ctrl_c(*terminal);
-        // Hides by itself where standard error is not a terminal.
+        // `indicatif` hides the bar where standard error is not a terminal.
         let target = if terminal.bars() {
             ProgressDrawTarget::stderr()
         } else {
@@ -31,6 +31,7 @@ impl Bars {
         };
         let bar = ProgressBar::with_draw_target(Some(1), target);
         let style = ProgressStyle::with_template("{msg:18} {bar:32} {pos}/{len}");
+        // A template that `indicatif` refuses costs the look of the bar only.
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         Bars {
             bar,
@@ -38,7 +39,7 @@ impl Bars {
         }
     }
 
-    /// Takes the bar away, so that words can follow.
+    /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
@@ -53,6 +54,7 @@ impl Drop for Bars {
 impl Progress for Bars {
     fn advance(&self, phase: Phase, done: usize, of: usize) {
         tracing::debug!(phase = phase.label(), done, of);
+        // A phase that a panic left locked is still a phase.
         let mut shown = self.phase.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if *shown != Some(phase) {
             *shown = Some(phase);
@@ -67,7 +69,8 @@ impl Progress for Bars {
     }
 }
 
-/// The first Ctrl-C asks the work to stop, which takes its unfinished files along; the second one does not ask.
+/// Installs the handler of Ctrl-C: the first one cancels the work, which removes its unfinished files; the second one ends
+/// the process.
 fn listen_for_ctrl_c(terminal: Terminal) {
     let listening = ctrlc::set_handler(move || {
         if CANCELED.swap(true, Ordering::Relaxed) {
@@ -76,7 +79,7 @@ fn listen_for_ctrl_c(terminal: Terminal) {
         terminal.note("stopping; press Ctrl-C again to quit at once");
     });
     if let Err(error) = listening {
-        // The system's own way of stopping stays; unfinished files are hidden and never take a map's place.
+        // Ctrl-C then ends the process at once; unfinished files are hidden and replace no map.
         tracing::warn!("Ctrl-C cannot be listened for: {error}");
     }
 }

@@ -1,10 +1,9 @@
-//! Keeps a driver from printing an error that is none.
+//! Suppression of an error message of a driver that is no error.
 //!
-//! Where no desktop runs, Mesa's layer for choosing a device looks for one all the same and prints "error:
-//! XDG_RUNTIME_DIR is invalid or not set". The variable that tells it not to look has to be there when the process
-//! starts, so the process starts once more.
+//! Without a desktop, Mesa's layer for device selection prints "error: XDG_RUNTIME_DIR is invalid or not set". The variable
+//! that switches the layer off has to be set when the process starts, so the process starts itself again with it.
 
-/// Starts the process again with the layer switched off, where it would complain; else does nothing.
+/// Starts the process again with the layer switched off where it would print the message; otherwise does nothing.
 pub(crate) fn start_again_if_needed() {
     #[cfg(unix)]
     {
@@ -18,7 +17,7 @@ pub(crate) fn start_again_if_needed() {
             && env::var_os(SWITCH).is_none()
             && let Ok(own) = env::current_exe()
         {
-            // Comes back only when it failed, and then the message is the smaller evil.
+            // `exec` returns only if it fails, and then the message is printed.
             let _ = Command::new(own).args(env::args_os().skip(1)).env(SWITCH, "1").exec();
         }
     }

@@ -1,11 +1,11 @@
-//! Adapters: which there are, which of them can run Sabi, and what a device of one is asked for.
+//! Adapters: enumeration, choice, and the limits that a device is requested with.
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::error::GpuError;
 
-/// Which adapter to use; of several that are meant, the first that can run Sabi.
+/// Adapter to run on; of several that match, the first that can run Sabi.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum AdapterChoice {
     /// A discrete card before an integrated one before a software driver.
@@ -15,7 +15,7 @@ pub enum AdapterChoice {
     Cpu,
     /// A graphics card.
     Gpu,
-    /// One whose name contains this, case aside.
+    /// An adapter whose name contains this text, without regard to case.
     Named(String),
 }
 
@@ -44,7 +44,7 @@ impl fmt::Display for AdapterChoice {
 }
 
 impl AdapterChoice {
-    fn means(&self, summary: &AdapterSummary) -> bool {
+    fn matches(&self, summary: &AdapterSummary) -> bool {
         match self {
             AdapterChoice::Auto => true,
             AdapterChoice::Cpu => summary.kind == AdapterKind::Cpu,
@@ -54,7 +54,7 @@ impl AdapterChoice {
     }
 }
 
-/// What kind of adapter it is.
+/// Kind of an adapter, best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AdapterKind {
     /// A graphics card of its own.
@@ -75,16 +75,16 @@ impl fmt::Display for AdapterKind {
     }
 }
 
-/// What is shown of an adapter.
+/// Description of an adapter for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterSummary {
     /// Name as the driver gives it.
     pub name: String,
-    /// What kind it is.
+    /// Kind of adapter.
     pub kind: AdapterKind,
-    /// Driver and its version.
+    /// Driver and its version, as the driver reports them.
     pub driver: String,
-    /// Interface it is reached by, such as `vulkan`.
+    /// Graphics API that it is reached through, such as `vulkan`.
     pub backend: String,
 }
 
@@ -106,13 +106,13 @@ impl AdapterSummary {
     }
 }
 
-/// All adapters, the one that `auto` takes first.
+/// Summaries of all adapters, in the order in which [`AdapterChoice::Auto`] tries them.
 pub fn adapters() -> Vec<AdapterSummary> {
     let found = found();
     in_order(&found).into_iter().map(|(summary, _)| summary).collect()
 }
 
-/// All adapters, as the system lists them.
+/// All adapters in the order of the system.
 pub(crate) fn found() -> Vec<wgpu::Adapter> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::PRIMARY;
@@ -127,8 +127,8 @@ fn in_order(adapters: &[wgpu::Adapter]) -> Vec<(AdapterSummary, &wgpu::Adapter)>
     found
 }
 
-/// The adapter of choice among those that somebody else found, such as the ones of a window; one that cannot run Sabi makes
-/// way for the next. With a surface, only adapters count that can draw on it.
+/// Chooses among adapters that a caller enumerated, such as a window's. Adapters that cannot run Sabi are skipped, and with a
+/// surface those that cannot draw on it.
 pub fn choose_adapter(
     choice: &AdapterChoice,
     adapters: &[wgpu::Adapter],
@@ -141,7 +141,7 @@ pub fn choose_adapter(
     })
 }
 
-/// The first adapter of choice that opens, or why the last one does not.
+/// First adapter that matches a choice and opens; otherwise the error of the last one tried.
 pub(crate) fn first_of_choice<T>(
     choice: &AdapterChoice,
     adapters: &[wgpu::Adapter],
@@ -152,8 +152,8 @@ pub(crate) fn first_of_choice<T>(
         return Err(GpuError::NoAdapter);
     }
     let names = || found.iter().map(|(summary, _)| summary.name.as_str());
-    let meant = found.iter().filter(|(summary, _)| choice.means(summary));
-    let opened = first_that_opens(meant, |(_, adapter)| open(adapter));
+    let matching = found.iter().filter(|(summary, _)| choice.matches(summary));
+    let opened = first_that_opens(matching, |(_, adapter)| open(adapter));
     opened.unwrap_or_else(|| {
         Err(GpuError::NoSuchAdapter {
             wanted: choice.to_string(),
@@ -162,7 +162,7 @@ pub(crate) fn first_of_choice<T>(
     })
 }
 
-/// What a device must be asked for so that [`crate::Gpu::adopt_device`] takes it; why not, where the adapter cannot run Sabi.
+/// Descriptor of a device that [`crate::Gpu::adopt_device`] accepts; an error where the adapter cannot run Sabi.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescriptor<'static>, GpuError> {
     let available = adapter.limits();
     match shortage(&available) {
@@ -175,7 +175,7 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescript
     }
 }
 
-/// An adapter cannot be used.
+/// Error of an adapter that cannot run Sabi.
 pub(crate) fn unfit(adapter: &wgpu::Adapter, why: String) -> GpuError {
     GpuError::Unfit {
         adapter: adapter.get_info().name,
@@ -183,7 +183,7 @@ pub(crate) fn unfit(adapter: &wgpu::Adapter, why: String) -> GpuError {
     }
 }
 
-/// The first candidate that opens, or why the last one does not; nothing without candidates.
+/// First candidate that opens, otherwise the error of the last one; none without candidates.
 fn first_that_opens<C, T>(
     candidates: impl Iterator<Item = C>,
     open: impl Fn(C) -> Result<T, GpuError>,
@@ -198,7 +198,7 @@ fn first_that_opens<C, T>(
     last
 }
 
-/// What an adapter has too little of, as a sentence without its end.
+/// Limit of an adapter that is too low for Sabi, as a clause; none where all suffice.
 pub(crate) fn shortage(limits: &wgpu::Limits) -> Option<String> {
     let needs = [
         // A page of the atlas has up to 8192 texels a side.
@@ -229,7 +229,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_unfit_adapter_makes_way_for_the_next() {
+    fn an_adapter_that_cannot_run_sabi_is_skipped() {
         let unfit = |name: &str| GpuError::Unfit {
             adapter: name.to_owned(),
             why: "it is too small".to_owned(),
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn an_adapter_is_told_what_it_lacks() {
+    fn a_limit_that_is_too_low_is_named() {
         let enough = wgpu::Limits {
             max_storage_textures_per_shader_stage: 5,
             ..wgpu::Limits::default()
@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn a_choice_means_adapters_by_kind_or_by_a_part_of_the_name() {
+    fn a_choice_matches_adapters_by_kind_or_by_a_part_of_the_name() {
         let summary = |name: &str, kind: AdapterKind| AdapterSummary {
             name: name.to_owned(),
             kind,
@@ -278,14 +278,14 @@ mod tests {
             summary("Iris", AdapterKind::Integrated),
             summary("llvmpipe", AdapterKind::Cpu),
         ];
-        let meant = |choice: &str| -> Vec<&str> {
+        let matched = |choice: &str| -> Vec<&str> {
             let Ok(choice) = choice.parse::<AdapterChoice>();
-            let meant = all.iter().filter(|summary| choice.means(summary));
-            meant.map(|summary| summary.name.as_str()).collect()
+            let matched = all.iter().filter(|summary| choice.matches(summary));
+            matched.map(|summary| summary.name.as_str()).collect()
         };
-        assert_eq!(meant("auto"), ["GeForce", "Iris", "llvmpipe"]);
-        assert_eq!(meant("gpu"), ["GeForce", "Iris"]);
-        assert_eq!(meant("cpu"), ["llvmpipe"]);
-        assert_eq!(meant("force"), ["GeForce"]);
+        assert_eq!(matched("auto"), ["GeForce", "Iris", "llvmpipe"]);
+        assert_eq!(matched("gpu"), ["GeForce", "Iris"]);
+        assert_eq!(matched("cpu"), ["llvmpipe"]);
+        assert_eq!(matched("force"), ["GeForce"]);
     }
 }

@@ -1,11 +1,11 @@
-//! Parameters on their way to a kernel.
+//! Parameter blocks of kernels.
 
 use sabi_plan::{KernelStep, Reach};
 
 use crate::device::Gpu;
 use crate::pipelines::CompiledKernel;
 
-/// The parameter block of a step, laid out as the kernel reads it; with a reach, for rays as long as they come.
+/// Parameter block of a step in the layout of its kernel. With a reach, the parameter at its offset holds the longest reach.
 pub(crate) fn block_buffer(
     gpu: &Gpu,
     compiled: &CompiledKernel,

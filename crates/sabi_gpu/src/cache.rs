@@ -1,4 +1,4 @@
-//! Results kept by what they are, the least recently used ones dropped when the budget is full.
+//! Cache of results by content key; least recently used results are dropped when the budget is full.
 
 use std::collections::BTreeMap;
 
@@ -7,12 +7,12 @@ use sabi_plan::{Plan, SlotRef};
 
 use crate::rays::HitMemory;
 
-/// Names the content of one texture.
+/// Key of the content of one texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ResultKey {
     /// Hash of everything that can change the result.
     pub content: [u8; 32],
-    /// Which plane of it.
+    /// Plane of the result.
     pub plane: Plane,
 }
 
@@ -22,18 +22,18 @@ struct Kept {
     last_used: u64,
 }
 
-/// Results of earlier runs on one surface.
+/// Cached results of earlier runs on one surface.
 pub struct ResultCache {
     budget_bytes: u64,
     bytes: u64,
     runs: u64,
     kept: BTreeMap<ResultKey, Kept>,
-    /// What rays hit, within a quarter of the budget.
+    /// Cached ray hits, within a quarter of the budget.
     pub(crate) hits: HitMemory,
 }
 
 impl ResultCache {
-    /// An empty cache for so many bytes.
+    /// An empty cache with a budget.
     pub fn new(budget_bytes: u64) -> ResultCache {
         ResultCache {
             budget_bytes,
@@ -44,29 +44,29 @@ impl ResultCache {
         }
     }
 
-    /// Bytes held, and allowed.
+    /// Bytes held, and the budget.
     pub fn bytes(&self) -> (u64, u64) {
         (self.bytes + self.hits.bytes(), self.budget_bytes)
     }
 
-    /// Whether all of a result is kept, or some of its planes: `content` is a key that a plan gives.
+    /// Whether any plane of a result is cached; `content` is a key of the plan.
     pub fn knows(&self, content: &[u8; 32]) -> bool {
         self.kept.keys().any(|key| key.content == *content)
     }
 
-    /// Lets go of everything.
+    /// Drops all results.
     pub fn clear(&mut self) {
         *self = ResultCache::new(self.budget_bytes);
     }
 
-    /// Textures of the slots whose content is known.
+    /// Cached textures by slot.
     pub(crate) fn known(&self, keys: &BTreeMap<SlotRef, ResultKey>) -> BTreeMap<SlotRef, wgpu::Texture> {
         keys.iter()
             .filter_map(|(slot, key)| Some((*slot, self.kept.get(key)?.texture.clone())))
             .collect()
     }
 
-    /// Keeps what a run made and marks what it used; drops the least recently used results over the budget.
+    /// Stores the results of a run, marks those that it used, and drops the least recently used ones over the budget.
     pub(crate) fn keep(
         &mut self,
         keys: &BTreeMap<SlotRef, ResultKey>,

@@ -1,4 +1,4 @@
-//! The device, and what it says when something goes wrong.
+//! The device with its queue and pipelines, and errors that the driver reports.
 
 use std::sync::{Arc, Mutex};
 
@@ -7,7 +7,7 @@ use crate::error::GpuError;
 use crate::pipelines::Pipelines;
 use crate::surface::SURFACE_TEXTURES;
 
-/// What the driver said outside of any call.
+/// First error that the driver reported outside of a call.
 #[derive(Debug, Default)]
 pub(crate) struct Complaints {
     first: Mutex<Option<GpuError>>,
@@ -16,14 +16,14 @@ pub(crate) struct Complaints {
 impl Complaints {
     fn put(&self, error: GpuError) {
         if let Ok(mut first) = self.first.lock() {
-            // A loss is the cause of what else is said.
+            // A loss is the cause of the errors that follow it.
             if first.is_none() || matches!(error, GpuError::Lost(_)) {
                 *first = Some(error);
             }
         }
     }
 
-    /// The first complaint since the last call; a loss is told at every call, since nothing heals it.
+    /// Takes the first error since the last call. A loss is returned by every call, since a lost device stays lost.
     fn take(&self) -> Result<(), GpuError> {
         let Ok(mut first) = self.first.lock() else {
             return Ok(());
@@ -47,7 +47,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the adapter of choice.
+    /// Opens the chosen adapter.
     pub fn open(choice: &AdapterChoice) -> Result<Gpu, GpuError> {
         first_of_choice(choice, &found(), |adapter| {
             let opened = pollster::block_on(adapter.request_device(&device_descriptor(adapter)?));
@@ -56,8 +56,8 @@ impl Gpu {
         })
     }
 
-    /// Takes a device that somebody else draws with too, such as a window's. It must have been asked for by
-    /// [`crate::device_descriptor`]; what it says when it is lost or complains outside of any call is heard here from now on.
+    /// Shares a device that was opened elsewhere, such as a window's, with [`crate::device_descriptor`]. Its callbacks for
+    /// device loss and uncaptured errors are replaced.
     pub fn adopt_device(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Result<Gpu, GpuError> {
         let available = device.limits();
         if let Some(why) = shortage(&available) {
@@ -71,7 +71,7 @@ impl Gpu {
             uncaptured.put(driver_error(error, "a result"))
         }));
         let limits = sabi_plan::Limits {
-            // The surface takes some for itself.
+            // Every kernel binds the textures of the surface.
             sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64) - SURFACE_TEXTURES,
             storage_textures: (available.max_storage_textures_per_shader_stage as usize).min(16),
             ..sabi_plan::Limits::default()
@@ -86,10 +86,10 @@ impl Gpu {
         })
     }
 
-    /// Why the device is gone, if it is; nothing brings it back.
+    /// Error of a lost device; none while it works.
     pub fn loss(&self) -> Option<GpuError> {
         self.heard_loss().or_else(|| {
-            // A loss is told to those who ask what is done.
+            // The loss callback runs when the device is polled.
             let _ = self.device.poll(wgpu::PollType::Poll);
             self.heard_loss()
         })
@@ -100,7 +100,7 @@ impl Gpu {
         first.clone().filter(|error| matches!(error, GpuError::Lost(_)))
     }
 
-    /// The device, for those that draw with it too.
+    /// The device.
     pub fn device(&self) -> &wgpu::Device {
         &self.device
     }
@@ -110,17 +110,17 @@ impl Gpu {
         &self.queue
     }
 
-    /// The adapter in use.
+    /// Description of the adapter.
     pub fn summary(&self) -> &AdapterSummary {
         &self.summary
     }
 
-    /// What a pass may bind here.
+    /// Limits of what one pass may bind.
     pub fn limits(&self) -> sabi_plan::Limits {
         self.limits
     }
 
-    /// Waits until all submitted work is done; reports what the driver complained about meanwhile.
+    /// Waits until all submitted work is done; returns an error that the driver reported in the meantime.
     pub fn wait(&self) -> Result<(), GpuError> {
         self.polled(wgpu::PollType::wait_indefinitely())
     }
@@ -134,8 +134,8 @@ impl Gpu {
     }
 
     fn polled(&self, until: wgpu::PollType) -> Result<(), GpuError> {
-        // wgpu 29 gives all resources of a lost device free when it is polled, under locks that a thread which is just
-        // uploading takes the other way round: the two would wait for each other.
+        // Polling a lost device makes wgpu 29 free all its resources, under locks that an uploading thread takes in the
+        // opposite order: a deadlock.
         if let Some(loss) = self.heard_loss() {
             return Err(loss);
         }
@@ -144,7 +144,7 @@ impl Gpu {
         polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))
     }
 
-    /// Runs `make` and turns what the driver says about it into an error that names `what` was made.
+    /// Runs `make` in error scopes and turns an error of the driver into one that names `what`.
     pub fn guarded<T>(&self, what: &str, make: impl FnOnce(&wgpu::Device) -> T) -> Result<T, GpuError> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -153,7 +153,7 @@ impl Gpu {
         if let Some(error) = errors.into_iter().flatten().next() {
             return Err(driver_error(error, what));
         }
-        // A device that is lost takes everything without a word; only its own report tells.
+        // Calls on a lost device succeed; only the loss callback reports it.
         self.complaints.take()?;
         Ok(made)
     }
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_device_that_somebody_else_opened_is_taken_and_its_loss_is_heard() {
+    fn a_device_that_was_opened_elsewhere_is_adopted_and_its_loss_is_reported() {
         let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
         let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &found(), None).expect(install);
         let asked_for = device_descriptor(&adapter).expect("an adapter that was chosen is fit");
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_device_that_was_asked_for_too_little_is_refused() {
+    fn a_device_that_was_requested_with_limits_too_low_is_refused() {
         let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
         let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &found(), None).expect(install);
         let opened = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));

@@ -10,12 +10,12 @@ use crate::run::RunOptions;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
-/// What one component of a result holds on the texels that lie on the model, ghosts aside.
+/// Range of one component of a result over the texels of the model, without ghosts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueExtent {
-    /// Lowest and highest number; none where no texel holds one.
+    /// Lowest and highest number; none where no texel holds a number.
     pub range: Option<[f32; 2]>,
-    /// Texels that hold no number.
+    /// Number of texels that are not a number.
     pub not_numbers: u32,
 }
 
@@ -28,7 +28,7 @@ struct Asked {
     pad: [u32; 2],
 }
 
-/// Numbers for each extent: lowest key, highest key, texels without a number.
+/// Words of each extent: lowest key, highest key, texels that are not a number.
 const PLACES: usize = 3;
 
 impl Gpu {
@@ -77,13 +77,12 @@ impl Gpu {
         self.finish_mapping(mapping, &readback, |bytes| {
             let (words, _) = bytes.as_chunks::<4>();
             let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
-            words.chunks_exact(PLACES).map(extent).collect()
+            words.as_chunks::<PLACES>().0.iter().map(extent).collect()
         })
     }
 }
 
-fn extent(found: &[u32]) -> ValueExtent {
-    let [low, high, not_numbers] = [0, 1, 2].map(|at| found.get(at).copied().unwrap_or_default());
+fn extent(&[low, high, not_numbers]: &[u32; PLACES]) -> ValueExtent {
     ValueExtent {
         range: (low <= high).then(|| [low, high].map(value_of)),
         not_numbers,
@@ -94,7 +93,7 @@ fn extent(found: &[u32]) -> ValueExtent {
 fn value_of(key: u32) -> f32 {
     let sign = 1 << 31;
     let value = f32::from_bits(if key & sign == 0 { !key } else { key ^ sign });
-    // There is but one zero to whoever asks.
+    // Turns −0 into 0.
     value + 0.0
 }
 
@@ -103,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_key_stands_for_its_value_and_sorts_like_it() {
+    fn keys_decode_to_their_values_and_sort_like_them() {
         let key = |value: f32| {
             let bits = value.to_bits();
             if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }

@@ -1,4 +1,4 @@
-//! Kernels that turn a material into what is exported.
+//! Kernels that turn height and slope into tangent-space normals.
 
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
@@ -22,8 +22,8 @@ struct Relief {
 }
 
 impl Gpu {
-    /// Tangent-space normals of a run's height and slope, in memory: unit vectors, Y up, in the model's MikkTSpace frame. Those
-    /// of ghosts are in the frame of the chart they belong to.
+    /// Tangent-space normals of a run's height and slope, read back: unit vectors, Y up, in the model's MikkTSpace frame. Those
+    /// of ghosts are in the frame of their own chart.
     pub fn normals(
         &self,
         surface: &GpuSurface,
@@ -39,7 +39,7 @@ impl Gpu {
         Ok(data)
     }
 
-    /// The same, on the device.
+    /// The same as a texture.
     pub(crate) fn normal_texture(
         &self,
         surface: &GpuSurface,
@@ -64,6 +64,7 @@ impl Gpu {
         let open = texture(self, [1, 1, 1], Format::R32Float)?;
         let bound = |slot: Option<SlotRef>| {
             let stored = slot.and_then(|slot| run.textures[slot].as_ref());
+            // The kernel does not read the texture of an input that is not there.
             array_view(stored.unwrap_or(&open))
         };
         let (heights, slopes) = (bound(height), bound(slope));
@@ -89,7 +90,7 @@ impl Gpu {
         Ok(normals)
     }
 
-    /// Where slopes are taken on a surface; found when they are first asked for.
+    /// Map of the texels that slopes are taken from on a surface; made at its first use.
     fn stencils(
         &self,
         surface: &GpuSurface,

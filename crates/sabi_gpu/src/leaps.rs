@@ -1,15 +1,15 @@
-//! How far one may step from a texel, and whether a plane lies under it.
+//! Leap map: how far a filter may step from each texel without meeting a seam, and whether the surface is flat there.
 
 use rayon::prelude::*;
 use sabi_surface::atlas::{Atlas, GHOST_BIT};
 
 use crate::tables::{SurfaceTables, texel_across};
 
-/// The longest step that six bits hold.
+/// Longest step that six bits hold.
 const FARTHEST: u8 = 63;
-/// Cosine of the angle between two triangles from which on they are one plane.
+/// Cosine of the angle between two triangles above which they count as one plane.
 const ONE_PLANE: f32 = 0.999_999;
-/// Steps around a texel by eighths of a turn, to the first one again.
+/// Steps to the eight neighbors of a texel in order around it; the first one again at the end.
 const AROUND: [[i32; 2]; 9] = [
     [-1, 0],
     [-1, -1],
@@ -22,7 +22,7 @@ const AROUND: [[i32; 2]; 9] = [
     [-1, 0],
 ];
 
-/// A byte for each texel, as `leaps` in `shaders/lib/atlas.wgsl` is read.
+/// Byte for each texel in the layout that `leaps` of `shaders/lib/atlas.wgsl` has.
 pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
     let faces: Vec<[f32; 3]> = tables.geometry.as_chunks::<6>().0.iter().map(face).collect();
     let [width, height] = atlas.page_size.map(|side| side as usize);
@@ -44,8 +44,8 @@ pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
                     || other & GHOST_BIT == 0 && dot(faces[other as usize], faces[owner as usize]) > ONE_PLANE
             })
         };
-        // A quarter is a plane if its three neighbors are of it; places in it and in the one across it have the middle as
-        // their mean.
+        // A quadrant is flat if its three neighbors are in the texel's plane. Points of two opposite flat quadrants have the
+        // center as their mean.
         let same = AROUND.map(is_plane);
         let corner = |first: usize| same[first..first + 3].iter().all(|same| *same);
         leap | u8::from(corner(0) && corner(4)) << 6 | u8::from(corner(2) && corner(6)) << 7
@@ -53,7 +53,7 @@ pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
     (0..atlas.owners.len()).into_par_iter().map(byte).collect()
 }
 
-/// The direction that a triangle faces; to the other side on mirrored charts, which no two texels of a chart differ in.
+/// Unit normal of a triangle; reversed on mirrored charts, which is the same for all texels of a chart.
 fn face(rows: &[[f32; 4]; 6]) -> [f32; 3] {
     let across = texel_across(rows);
     let length = across.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);

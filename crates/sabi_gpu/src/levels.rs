@@ -1,4 +1,4 @@
-//! Coarser levels of the surface, and the way of a plane between levels.
+//! Coarser levels of the surface, and kernels that move a plane between levels.
 
 use std::collections::BTreeMap;
 
@@ -20,18 +20,18 @@ use crate::uploads::texel_texture;
 /// A coarser level on the device.
 pub struct CoarseSurface {
     pub(crate) surface: GpuSurface,
-    /// Finer texels along a side of a coarser one.
+    /// Texels of the finest level along a side of one of this level.
     factor: u32,
-    /// The chart that each texel belongs to, or whose ring it is in.
+    /// Chart of each texel, ghosts included.
     charts: wgpu::TextureView,
-    /// Coarser texels that cover no finer one.
+    /// Texels of this level that cover no texel of the finest.
     coarse_orphans: Links,
-    /// Finer texels with no coarser one near.
+    /// Texels of the finest level with no texel of this one near.
     fine_orphans: Links,
 }
 
 impl CoarseSurface {
-    /// Uploads a level; its tables are those of the coarser atlas.
+    /// Uploads a level with the tables of its own atlas.
     pub fn upload(
         gpu: &Gpu,
         level: &AtlasLevel,
@@ -60,7 +60,7 @@ impl CoarseSurface {
     }
 }
 
-/// The chart that each texel of an atlas belongs to, or whose ring it is in; [`EMPTY`] where there is none.
+/// Chart of each texel of an atlas, ghosts included; [`EMPTY`] where there is none.
 fn charts(atlas: &Atlas) -> Vec<u32> {
     let chart = |owner: &u32| match *owner {
         EMPTY => EMPTY,
@@ -70,12 +70,12 @@ fn charts(atlas: &Atlas) -> Vec<u32> {
     atlas.owners.iter().map(chart).collect()
 }
 
-/// All levels of a surface that a run may use.
+/// Levels of a surface that a run may use.
 #[derive(Clone, Copy)]
 pub struct Surfaces<'s> {
-    /// The finest, level 0.
+    /// Finest level, number 0.
     pub finest: &'s GpuSurface,
-    /// Others by their number.
+    /// Coarser levels by number.
     pub coarser: &'s BTreeMap<u32, CoarseSurface>,
 }
 
@@ -108,7 +108,7 @@ struct Scale {
 }
 
 impl Gpu {
-    /// Brings a plane from one level to another, one of which is the finest, and fills what is linked.
+    /// Moves a plane between the finest level and another, and fills the linked texels of the target.
     pub(crate) fn move_plane(
         &self,
         surfaces: Surfaces<'_>,
@@ -123,7 +123,7 @@ impl Gpu {
             include_str!("../../../shaders/surface/prolong.wgsl"),
         );
         let fine = surfaces.finest;
-        // Both kernels ask, for each texel of the level that is read, whose it is, and where its triangle's chart lies.
+        // Both kernels look up owners or charts on the level that is read, and the place of a triangle's chart.
         let (name, text, ground, orphans, whose, frames) = if to > from {
             let coarse_orphans = &coarse.coarse_orphans;
             (

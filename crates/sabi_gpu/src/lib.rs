@@ -1,4 +1,4 @@
-//! The device: choosing it, textures, pipelines, running a plan, readback.
+//! The device: adapter choice, textures, pipelines, running a plan, readback.
 //!
 //! [`Gpu::open`] opens an adapter, or [`Gpu::adopt_device`] takes a window's device; [`Gpu::run`] runs a plan on a surface.
 //!
@@ -6,7 +6,7 @@
 //! * This crate and the viewport alone create pipelines; everything before them is plain data.
 //! * A lost device and exhausted memory are errors, never panics.
 //! * What a run allocates stays within its budget in bytes, or the run fails and says so.
-//! * Nothing here knows the document, files or who asked.
+//! * Nothing here knows the document, files or the caller.
 //!
 //! ```no_run
 //! use sabi_gpu::{AdapterChoice, Gpu};

@@ -1,4 +1,4 @@
-//! Texels that hold what other texels hold: ghosts over seams, and those without a counterpart on another level.
+//! Linked texels, which take their values from other texels: ghosts, and texels without a counterpart on another level.
 
 mod kernels;
 mod rows;
@@ -17,31 +17,30 @@ use crate::uploads::{storage_buffer, table_texture};
 use kernels::Part;
 use rows::{LinkRow, coupled_slots, fill_rows, orphan_rows};
 
-/// Links a workgroup.
+/// Links per workgroup.
 const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch.
 const ROW: u32 = 32_768;
 
-/// Which texels a link takes its value from.
+/// One round of filling linked texels: the texels that values are taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LinkRound {
-    /// The four owned texels around a plain ghost's point.
+    /// The four owned texels around the point of a plain ghost.
     Plain,
     /// Owned texels only.
     Owned,
-    /// Ghosts, too, that an earlier round has filled.
+    /// Owned texels and ghosts that an earlier round filled.
     WithGhosts,
-    /// The same once more, right after a round of that.
+    /// The same again, directly after a [`LinkRound::WithGhosts`].
     Settled,
-    /// As before, along cubics instead of straight lines: where a slope is taken over a seam, straight lines would flatten
-    /// crests there.
+    /// The same with cubic instead of linear interpolation, which would flatten crests where a slope is taken over a seam.
     Cubic,
 }
 
-/// All rounds that fill ghosts. The first one reads owned texels alone, along straight lines where not all are owned that
-/// would be read, so that nothing old is handed on. Where the texels of two charts meet halfway, a ghost lies between an
-/// owned texel and a ghost of the other side, whose value depends on it in turn: each further round takes away most of
-/// what is left of that. The cubic ones are for results: slopes are taken of them.
+/// All rounds that fill ghosts. The first one reads owned texels only, so that no value of an earlier pass is carried on.
+/// Where the texels of two charts meet halfway, a ghost lies between an owned texel and a ghost of the other chart, whose
+/// value depends on it in turn: each further round removes most of the error that is left. Cubic rounds are for results,
+/// of which slopes are taken.
 const ALL_ROUNDS: [LinkRound; 6] = [
     LinkRound::Owned,
     LinkRound::WithGhosts,
@@ -52,24 +51,24 @@ const ALL_ROUNDS: [LinkRound; 6] = [
 ];
 
 impl LinkRound {
-    /// The rounds for ghosts that may hold something old, or, as those of a repeated pass two repetitions later, nearly
-    /// what they will; and for results or what is only passed on.
+    /// Rounds for ghosts that hold old values, or, as in a repeated pass from the third repetition on, nearly the right
+    /// ones; and for results or intermediate textures.
     pub(crate) fn of(holds_nearly: bool, is_result: bool) -> &'static [LinkRound] {
         &ALL_ROUNDS[usize::from(holds_nearly)..if is_result { 6 } else { 3 }]
     }
 }
 
-/// The links of a surface's ghosts: all of them for kernels, and in two parts to fill them.
+/// Links of the ghosts of a surface: all of them for kernels that read links, and in two parts for filling.
 pub(crate) struct GhostLinks {
     pub(crate) all: Links,
-    /// Those between four owned texels, which are known at once.
+    /// Ghosts between four owned texels, which one round fills.
     plain: Links,
-    /// The others, which hang on ghosts or lack texels.
+    /// All others: they depend on ghosts, or some of the four texels are empty.
     coupled: Links,
 }
 
 impl GhostLinks {
-    /// Those of an atlas' ghosts.
+    /// Uploads the links of the ghosts of an atlas.
     pub(crate) fn of(gpu: &Gpu, atlas: &Atlas) -> Result<GhostLinks, GpuError> {
         let rows: Vec<LinkRow> = atlas
             .ghosts
@@ -100,19 +99,19 @@ impl GhostLinks {
 
 /// Links on the device.
 pub(crate) struct Links {
-    /// As `ghosts` in `shaders/lib/atlas.wgsl`.
+    /// Rows in the layout that `ghosts` of `shaders/lib/atlas.wgsl` has.
     pub(crate) rows: wgpu::TextureView,
     count: u32,
-    /// For rounds over owned texels only, and with ghosts.
+    /// Constants of rounds over owned texels only, and of rounds with ghosts.
     constants: [wgpu::Buffer; 2],
-    /// The surface with these as its ghosts, once they are filled.
+    /// Surface bind group with these links; made at its first use.
     surface: OnceLock<wgpu::BindGroup>,
-    /// Room for one value a link, on its way from where it is gathered to where it is written.
+    /// One value per link, between gathering and scattering.
     values: wgpu::Buffer,
 }
 
 impl Links {
-    /// Those of texels without a counterpart.
+    /// Uploads the links of texels without a counterpart on another level.
     pub(crate) fn of_orphans(gpu: &Gpu, orphans: &[Orphan]) -> Result<Links, GpuError> {
         let rows: Vec<[[u32; 4]; 2]> = orphans.iter().map(orphan_rows).collect();
         Links::upload(gpu, &rows, 2)
@@ -149,7 +148,7 @@ struct Constants {
 }
 
 impl Gpu {
-    /// Refreshes the ghosts of one texture: plain ones once, what hangs on them round by round, and with cubics all again.
+    /// Fills the ghosts of one texture: plain ones once, coupled ones round by round, then all of them in the cubic rounds.
     pub(crate) fn fill_ghosts(
         &self,
         surface: &GpuSurface,
@@ -158,6 +157,7 @@ impl Gpu {
     ) -> Result<(), GpuError> {
         let GhostLinks { all, plain, coupled } = &surface.ghosts;
         let cubic = rounds.iter().position(|round| *round == LinkRound::Cubic);
+        // Without a cubic round, all are linear.
         let (straight, cubic) = rounds.split_at(cubic.unwrap_or(rounds.len()));
         let parts = [(plain, &[LinkRound::Plain][..]), (coupled, straight), (all, cubic)];
         self.in_one_pass(|pass| {
@@ -169,7 +169,7 @@ impl Gpu {
         })
     }
 
-    /// Refreshes the linked texels of one texture; `surface_group` binds the surface with the links as its ghosts.
+    /// Fills the linked texels of one texture; `surface_group` binds the surface with these links.
     pub(crate) fn fill_links(
         &self,
         links: &Links,
@@ -180,7 +180,7 @@ impl Gpu {
         self.in_one_pass(|pass| self.encode_links(pass, links, surface_group, texture, rounds))
     }
 
-    /// Submits what is encoded: one pass, since each costs software drivers something.
+    /// Encodes and submits one pass; passes are costly on software drivers.
     pub(crate) fn in_one_pass(
         &self,
         encode: impl FnOnce(&mut wgpu::ComputePass<'_>) -> Result<(), GpuError>,
@@ -213,7 +213,7 @@ impl Gpu {
                 let kernel = self.link_kernel(*round, *part, format)?;
                 let constants = links.constants[with_ghosts].as_entire_binding();
                 let view = wgpu::BindingResource::TextureView(&view);
-                // All rounds of all fields take turns with the values: what one submission gathers, the same one writes.
+                // All textures share the buffer of values: one submission gathers and scatters.
                 let values = (*part != Part::InPlace).then(|| links.values.as_entire_binding());
                 let group = self.bind(&kernel.layout, [constants, view].into_iter().chain(values));
                 pass.set_pipeline(&kernel.pipeline);
@@ -224,7 +224,7 @@ impl Gpu {
         Ok(())
     }
 
-    /// A small buffer of constants.
+    /// Uniform buffer with these bytes.
     pub(crate) fn uniform(&self, bytes: &[u8]) -> wgpu::Buffer {
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
@@ -236,7 +236,7 @@ impl Gpu {
         buffer
     }
 
-    /// A bind group with these resources at 0, 1, 2, …
+    /// Bind group with these resources at bindings 0, 1, 2, …
     pub(crate) fn bind<'r>(
         &self,
         layout: &wgpu::BindGroupLayout,

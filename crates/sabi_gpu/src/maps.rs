@@ -1,4 +1,4 @@
-//! What a result looks like, still on the device, for those that draw it.
+//! Maps of a material as textures, for drawing.
 
 use sabi_nodes::link::Format;
 use sabi_plan::SlotRef;
@@ -9,7 +9,7 @@ use crate::run::{Run, RunOptions};
 use crate::shares::{Mean, Shares};
 use crate::surface::GpuSurface;
 
-/// Where a run has the planes of a material.
+/// Slots of the planes of a material in a run; none for channels that the material does not set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MaterialSlots {
     /// Linear base color and alpha.
@@ -24,7 +24,7 @@ pub struct MaterialSlots {
     pub emission: Option<SlotRef>,
 }
 
-/// The maps of a material on the linked atlas, as arrays of pages; none where a channel is what it is without being set.
+/// Maps of a material on the linked atlas, as arrays of pages; none for channels that the material does not set.
 #[derive(Clone, Debug, Default)]
 pub struct DeviceMaps {
     /// Linear base color and alpha.
@@ -35,13 +35,13 @@ pub struct DeviceMaps {
     pub emission: Option<wgpu::Texture>,
     /// Height, working units.
     pub height: Option<wgpu::Texture>,
-    /// Tangent-space normal, Y up, in the model's MikkTSpace frame: what the exported map is made of.
+    /// Tangent-space normal, Y up, in the model's MikkTSpace frame, from which the exported map is made.
     pub normal: Option<wgpu::Texture>,
 }
 
 impl Gpu {
-    /// The maps of a material that a run has made. Where charts share a place, they hold what the exported ones do; without
-    /// `shares`, each chart's own result. They stay what they are when the run is dropped.
+    /// Maps of a material of a run. Where charts share a place they hold the exported values, or without `shares` the result
+    /// of each chart. They outlive the run.
     pub fn device_maps(
         &self,
         surface: &GpuSurface,
@@ -69,7 +69,7 @@ impl Gpu {
         })
     }
 
-    /// The texture of a result that the plan kept; with `shares` a copy with what is exported where charts share a place.
+    /// Texture of a result that the plan kept; with `shares` a copy with the exported values where charts share a place.
     pub fn shown_texture(
         &self,
         surface: &GpuSurface,
@@ -84,7 +84,7 @@ impl Gpu {
         }
     }
 
-    /// The same of the normals that height and slope make.
+    /// Normals of height and slope, with `shares` as in [`Gpu::shown_texture`].
     fn shown_normals(
         &self,
         surface: &GpuSurface,
@@ -104,7 +104,7 @@ impl Gpu {
 }
 
 impl Run {
-    /// The texture of a result that the plan kept, as an array of pages.
+    /// Texture of a result that the plan kept, an array of pages.
     pub fn texture(&self, slot: SlotRef) -> Result<wgpu::Texture, GpuError> {
         let found = self.textures.get(slot).and_then(Option::as_ref);
         let missing = || GpuError::Defect("a result was requested that the plan did not keep".into());

@@ -1,4 +1,4 @@
-//! Which steps of a plan have to run, and how long their results are needed.
+//! Steps of a plan that have to run, and the last uses of their results.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use sabi_plan::{Plan, SlotRef, Step};
 
 use crate::cache::ResultKey;
 
-/// Names the content of every slot of a plan in which no slot is used twice.
+/// Content key of every slot of a plan in which no slot is reused.
 pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
     let mut keys = BTreeMap::new();
     for step in &plan.steps {
@@ -24,7 +24,7 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
                     keys.extend(planes.iter().map(named));
                 }
             }
-            // Only results have keys, and none of them is on its way to another level.
+            // Only results have keys, and a moved plane or a survey is none.
             Step::Move(_) | Step::Survey(_) => {}
             Step::Kernel(kernel) => {
                 let planes = kernel
@@ -76,7 +76,7 @@ fn writes(step: &Step) -> Vec<SlotRef> {
     }
 }
 
-/// Steps that lead to a result that is not known yet.
+/// Steps that lead to a result that is not cached.
 pub(crate) fn needed_steps(plan: &Plan, known: &BTreeMap<SlotRef, wgpu::Texture>) -> Vec<usize> {
     let mut wanted: BTreeSet<SlotRef> = plan.results.iter().flat_map(|result| &result.slots).copied().collect();
     let mut steps = Vec::new();
@@ -91,12 +91,12 @@ pub(crate) fn needed_steps(plan: &Plan, known: &BTreeMap<SlotRef, wgpu::Texture>
     steps
 }
 
-/// Slots that some steps of a plan write.
+/// Slots that these steps of a plan write.
 pub(crate) fn written_by(plan: &Plan, steps: &[usize]) -> BTreeSet<SlotRef> {
     steps.iter().flat_map(|at| writes(&plan.steps[*at])).collect()
 }
 
-/// For each slot the steps after which nobody reads what it holds at that time.
+/// Last step that uses each slot; `usize::MAX` for results.
 pub(crate) fn last_uses(plan: &Plan) -> BTreeMap<SlotRef, usize> {
     let mut last = BTreeMap::new();
     for (at, step) in plan.steps.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Textures by format, handed out again, within a budget of bytes.
+//! Pool of textures that are reused by format and extent, within a budget of bytes.
 
 use std::collections::BTreeMap;
 
@@ -7,19 +7,19 @@ use sabi_nodes::link::Format;
 use crate::device::Gpu;
 use crate::error::GpuError;
 
-/// Bytes of textures that may be held unless told otherwise, those of the surface included.
+/// Default budget for textures, those of the surface included.
 pub const DEFAULT_BUDGET_BYTES: u64 = 4 << 30;
 
-/// Width, height, pages.
+/// Width, height and pages of a texture.
 pub(crate) type Extent = [u32; 3];
 
-/// What a run holds and held in textures: its own, and the owner map of the surface. What a cache keeps from earlier
-/// runs is not among it and has a budget of its own.
+/// Texture memory of a run: its own textures and those of the surface. Cached results of earlier runs are not counted; the
+/// cache has its own budget.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PoolReport {
-    /// Bytes of textures now.
+    /// Bytes held now.
     pub bytes: u64,
-    /// The most there ever were.
+    /// Highest number of bytes held.
     pub peak_bytes: u64,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct TexturePool {
 }
 
 impl TexturePool {
-    /// An empty pool for so many bytes, of which some are in use already.
+    /// An empty pool with a budget, some bytes of which are in use already.
     pub(crate) fn new(budget_bytes: u64, used_bytes: u64) -> TexturePool {
         TexturePool {
             budget_bytes,
@@ -48,14 +48,14 @@ impl TexturePool {
         self.report
     }
 
-    /// A texture of that format and extent; its content is undefined.
+    /// Takes a texture with undefined content.
     pub(crate) fn take(&mut self, gpu: &Gpu, format: Format, extent: Extent) -> Result<wgpu::Texture, GpuError> {
         if let Some(texture) = self.free.get_mut(&(format, extent)).and_then(Vec::pop) {
             return Ok(texture);
         }
         let bytes = bytes_of(format, extent);
         if self.report.bytes + bytes > self.budget_bytes {
-            // Textures of other formats that nobody uses make room first.
+            // Free textures of other formats make room.
             self.drop_free();
         }
         let needed = self.within_budget(bytes)?;
@@ -65,14 +65,14 @@ impl TexturePool {
         Ok(texture)
     }
 
-    /// Counts bytes of a texture that somebody else holds from now on.
+    /// Counts bytes of a texture that is held outside of the pool.
     pub(crate) fn count(&mut self, bytes: u64) -> Result<(), GpuError> {
         self.report.bytes = self.within_budget(bytes)?;
         self.report.peak_bytes = self.report.peak_bytes.max(self.report.bytes);
         Ok(())
     }
 
-    /// Bytes held with so many more.
+    /// Bytes held after `bytes` more; an error over the budget.
     fn within_budget(&self, bytes: u64) -> Result<u64, GpuError> {
         let needed = self.report.bytes + bytes;
         if needed > self.budget_bytes {
@@ -84,7 +84,7 @@ impl TexturePool {
         Ok(needed)
     }
 
-    /// Gives a texture back.
+    /// Returns a texture to the pool.
     pub(crate) fn release(&mut self, format: Format, texture: wgpu::Texture) {
         let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
         self.free.entry((format, extent)).or_default().push(texture);
@@ -102,7 +102,7 @@ fn bytes_of(format: Format, extent: Extent) -> u64 {
     extent.iter().map(|side| u64::from(*side)).product::<u64>() * format.texel_bytes()
 }
 
-/// The driver's name of a format.
+/// Texture format of a storage format.
 pub(crate) fn wgpu_format(format: Format) -> wgpu::TextureFormat {
     match format {
         Format::R32Float => wgpu::TextureFormat::R32Float,
@@ -111,7 +111,7 @@ pub(crate) fn wgpu_format(format: Format) -> wgpu::TextureFormat {
     }
 }
 
-/// The format of a texture that kernels read and write.
+/// Storage format of a texture that kernels read and write.
 pub(crate) fn format_of(texture: &wgpu::Texture) -> Result<Format, GpuError> {
     let known = [Format::R32Float, Format::Rgba16Float, Format::Rgba32Float];
     let found = known

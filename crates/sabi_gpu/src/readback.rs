@@ -1,4 +1,4 @@
-//! From the device back into memory.
+//! Readback of textures and buffers.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
@@ -13,10 +13,10 @@ use crate::pool::Extent;
 use crate::run::Run;
 use crate::surface::GpuSurface;
 
-/// The device is done by then, and only its answer is on its way: what takes longer never comes.
+/// Time that a mapping callback may take after the device is done.
 const ANSWER_LIMIT: Duration = Duration::from_secs(30);
 
-/// Texels of one plane as they were stored, page by page and row by row.
+/// Texels of one plane in their storage format, page by page and row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaneData {
     format: Format,
@@ -34,7 +34,7 @@ impl PlaneData {
         self.bytes.is_empty()
     }
 
-    /// The stored bytes: equal bytes mean equal results.
+    /// Stored bytes.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
     }
@@ -44,7 +44,7 @@ impl PlaneData {
     pub fn texel(&self, index: usize) -> [f32; 4] {
         let size = self.format.texel_bytes() as usize;
         let bytes = &self.bytes[index * size..][..size];
-        // Without asking each time what the processor can do.
+        // The constant version does not detect processor features at each call.
         let half = |at: usize| f16::from_le_bytes([bytes[2 * at], bytes[2 * at + 1]]).to_f32_const();
         let full =
             |at: usize| f32::from_le_bytes([bytes[4 * at], bytes[4 * at + 1], bytes[4 * at + 2], bytes[4 * at + 3]]);
@@ -56,17 +56,17 @@ impl PlaneData {
     }
 }
 
-/// Bytes on their way into memory.
+/// Pending mapping of a buffer.
 pub(crate) struct Mapping {
     submitted: wgpu::SubmissionIndex,
     bytes: u64,
     answer: Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
-/// Asks for the first bytes of a buffer, to be there when a submission is done.
+/// Requests the mapping of the first bytes of a buffer after a submission.
 fn mapping_of(submitted: wgpu::SubmissionIndex, buffer: &wgpu::Buffer, bytes: u64) -> Mapping {
     let (sender, answer) = channel();
-    // The receiver is gone only if the wait has failed already.
+    // The receiver is dropped only if waiting failed before.
     buffer.map_async(wgpu::MapMode::Read, ..bytes, move |mapped| drop(sender.send(mapped)));
     Mapping {
         submitted,
@@ -75,7 +75,7 @@ fn mapping_of(submitted: wgpu::SubmissionIndex, buffer: &wgpu::Buffer, bytes: u6
     }
 }
 
-/// What became of a request to map a buffer, once the device is done.
+/// Outcome of a mapping once the device is done.
 fn mapped(answer: Result<Result<(), wgpu::BufferAsyncError>, RecvTimeoutError>) -> Result<(), GpuError> {
     match answer {
         Ok(Ok(())) => Ok(()),
@@ -92,7 +92,7 @@ impl Gpu {
         self.read_texture(&run.texture(slot)?, surface.extent, plan.slots[slot].format)
     }
 
-    /// Has the first bytes of a buffer brought into another one, which can be mapped; nobody waits yet.
+    /// Submits a copy of the first bytes of a buffer into a mappable one, and requests its mapping without waiting.
     pub(crate) fn start_mapping(&self, source: &wgpu::Buffer, by_way_of: &wgpu::Buffer, bytes: u64) -> Mapping {
         let mut encoder = self
             .device
@@ -101,7 +101,7 @@ impl Gpu {
         mapping_of(self.queue.submit([encoder.finish()]), by_way_of, bytes)
     }
 
-    /// Waits until these bytes are there, but for nothing that was submitted later, and shows them.
+    /// Waits for a mapping, but for no later submission, and calls `look` with its bytes.
     pub(crate) fn finish_mapping<T>(
         &self,
         mapping: Mapping,
@@ -109,7 +109,7 @@ impl Gpu {
         look: impl FnOnce(&[u8]) -> T,
     ) -> Result<T, GpuError> {
         self.wait_for(mapping.submitted)?;
-        // Where several threads wait for one device, another one of them may be about to pass on the answer.
+        // Where several threads wait for one device, another one may be running the callback now.
         mapped(mapping.answer.recv_timeout(ANSWER_LIMIT))?;
         let view = by_way_of.get_mapped_range(..mapping.bytes);
         let seen = look(&view);
@@ -118,7 +118,7 @@ impl Gpu {
         Ok(seen)
     }
 
-    /// A buffer that can be mapped to be read.
+    /// Buffer that can be mapped for reading.
     pub(crate) fn readback_buffer(&self, bytes: u64) -> Result<wgpu::Buffer, GpuError> {
         self.guarded("a readback buffer", |device| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -144,7 +144,7 @@ impl Gpu {
         Ok(PlaneData { format, bytes })
     }
 
-    /// The texels of a texture that holds one 32-bit float each, page by page and row by row.
+    /// Texels of an R32 float texture, page by page and row by row.
     pub fn read_numbers(&self, texture: &wgpu::Texture) -> Result<Vec<f32>, GpuError> {
         if texture.format() != wgpu::TextureFormat::R32Float {
             let why = "numbers were to be read from a texture of another format";
@@ -164,7 +164,9 @@ impl Gpu {
         level: u32,
         bytes: &mut Vec<u8>,
     ) -> Result<(), GpuError> {
-        let texel_bytes = texture.format().block_copy_size(None).unwrap_or(4);
+        let format = texture.format();
+        let no_size = || GpuError::Defect(format!("texels of {format:?} have no single size"));
+        let texel_bytes = format.block_copy_size(None).ok_or_else(no_size)?;
         let (width, height) = (texture.width() >> level, texture.height() >> level);
         let (width, height) = (width.max(1), height.max(1));
         let row = u64::from(width * texel_bytes);

@@ -1,4 +1,4 @@
-//! Runs a plan: step by step, in submissions of a size that can be interrupted.
+//! Running a plan step by step, in submissions short enough to be interrupted.
 
 mod dispatch;
 mod rays;
@@ -22,26 +22,26 @@ use crate::pool::{PoolReport, TexturePool, texture};
 use crate::rays::{CasterChoice, HitMemory, Hits, RayScene};
 use crate::survey::SURVEY_EXTENT;
 
-/// How a plan is run.
+/// Options of a run.
 pub struct RunOptions<'a> {
-    /// How long one submission may take: about 25 ms where a window shares the queue, more in a bake.
+    /// Longest time of one submission: about 25 ms where a window shares the queue, more in a bake.
     pub submission: Duration,
-    /// Asked between submissions; `true` stops the run.
+    /// Called between submissions; `true` cancels the run.
     pub is_canceled: &'a dyn Fn() -> bool,
-    /// Told after each step: steps done, steps in all.
+    /// Called after each step with the number of steps done and of all steps.
     pub progress: &'a dyn Fn(usize, usize),
-    /// Bytes of textures that may be held, the surface's owner map included; a cache has its own.
+    /// Budget for textures, bytes, those of the surface included; a cache has its own.
     pub budget_bytes: u64,
-    /// Who follows rays.
+    /// Ray caster to use.
     pub caster: CasterChoice,
-    /// Whether all rays are shot, or what is known of longer ones will do.
+    /// Origin of ray hits.
     pub hits: Hits,
-    /// Whether the time that ghosts take is measured, which takes a little time itself.
+    /// Whether the time of filling ghosts is measured, which costs a little time itself.
     pub times_ghosts: bool,
 }
 
 impl RunOptions<'_> {
-    /// A run that nobody stops or watches, with rays shot by whoever is quicker.
+    /// Options without cancellation and progress, with rays cast by [`CasterChoice::Auto`].
     pub fn new(submission: Duration, budget_bytes: u64) -> Self {
         RunOptions {
             submission,
@@ -55,87 +55,87 @@ impl RunOptions<'_> {
     }
 }
 
-/// Makes the results that no kernel makes.
+/// Provider of the results of source nodes, and of the scene for rays.
 pub trait SourceFill {
-    /// One plane of the result `output` of a step, ghosts included: texels in the plane's storage format, page by page
-    /// and row by row without padding. Asked for one plane after the other, each dropped before the next.
+    /// Texels of one plane of the result `output` of a step, ghosts included, in the plane's storage format, page by page and
+    /// row by row without padding. Planes are requested one after the other, each dropped before the next.
     fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String>;
 
-    /// What rays are followed through.
+    /// Scene that rays are cast into.
     fn scene(&mut self) -> Result<RayScene<'_>, String>;
 
-    /// Whether results of rays are kept from run to run.
+    /// Whether results of ray steps are cached on disk.
     fn caches_rays(&self) -> bool {
         false
     }
 
-    /// Results that were kept under a key.
+    /// Cached results of a key.
     fn cached_rays(&mut self, _key: &[u8; 32]) -> Option<Vec<u8>> {
         None
     }
 
-    /// Keeps results under a key.
+    /// Caches results under a key.
     fn cache_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
 }
 
-/// How long a step took.
+/// Time of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepTime {
-    /// Nodes in it, each with its share of the cost.
+    /// Nodes in it, each with its share of the estimated cost.
     pub nodes: Vec<(String, f32)>,
-    /// From its start until the device is done with it, without compiling.
+    /// Time from its start until the device is done with it, without compiling.
     pub run: Duration,
 }
 
-/// What a run did.
+/// Report of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunReport {
-    /// The nodes' kernels linked and their pipelines made, and the first dispatch of each, which is when software drivers
-    /// compile. The few kernels of Sabi's own are not counted here.
+    /// Time for linking the kernels of nodes, making their pipelines and their first dispatch, when software drivers
+    /// compile. The fixed kernels of this crate are not counted.
     pub compile: Duration,
-    /// Everything else.
+    /// Time of everything else.
     pub run: Duration,
-    /// Steps that ran; those whose results were cached are not among them.
+    /// Steps that ran, without those whose results were cached.
     pub steps: Vec<StepTime>,
-    /// The part of `run` in which ghosts were filled, if that was measured.
+    /// Part of `run` in which ghosts were filled, if that was measured.
     pub ghosts: Duration,
-    /// Whether some follow from what longer rays were remembered to hit, and so may differ from others by rounding.
+    /// Whether some results follow from cached hits of longer rays, and so may differ by rounding.
     pub is_remembered: bool,
-    /// Nodes whose rays were not shot, since their results were kept from an earlier run.
+    /// Nodes whose rays were not cast, since their results were on disk.
     pub found_on_disk: Vec<String>,
-    /// Bytes of textures held, the surface's included.
+    /// Texture memory, that of the surface included.
     pub pool: PoolReport,
 }
 
-/// One repetition of a kernel.
+/// Repetition of a kernel.
 #[derive(Clone, Copy)]
 struct Round {
     index: u32,
     count: u32,
-    /// Tiles of a slice by what the last repetition took.
+    /// Tiles of a slice, as measured by the last repetition.
     length: Option<u32>,
 }
 
 impl Round {
-    /// How ghosts are filled: a slot is written in every second repetition, so from the third on they hold something.
+    /// Rounds that fill ghosts. A slot is written in every second repetition, so from the third on its ghosts hold values.
     ///
-    /// Only results are filled along cubics: what a filter hands on between its own passes may be distances that must not
-    /// be shorter than a way there is.
+    /// Only results are interpolated cubically: textures between the passes of a filter may hold distances, which must not
+    /// become shorter than a path on the surface.
     fn of_ghosts(self, is_result: bool) -> &'static [LinkRound] {
         LinkRound::of(self.index >= 2, is_result && self.index + 1 == self.count)
     }
 }
 
-/// The results of a plan, still on the device.
+/// Results of a plan on the device.
 pub struct Run {
     pub(crate) textures: Vec<Option<wgpu::Texture>>,
-    /// What happened.
+    /// Times and memory.
     pub report: RunReport,
     pub(crate) pool: TexturePool,
 }
 
 impl Gpu {
-    /// Runs a plan; with a cache, steps whose results are known are left out and new results are kept.
+    /// Runs a plan. With a cache, steps whose results are cached are skipped and new results are cached.
     pub fn run(
         &self,
         surfaces: Surfaces<'_>,
@@ -164,7 +164,7 @@ impl Gpu {
             found_on_disk: Vec::new(),
         };
         let steps = needed_steps(plan, &known);
-        // What is known may be in somebody's picture by now: who makes it again makes it elsewhere.
+        // A cached texture may be on screen, so a step that runs again writes to another one.
         let made_again = written_by(plan, &steps);
         for (slot, texture) in known {
             runner.textures[slot] = (!made_again.contains(&slot)).then_some(texture);
@@ -184,7 +184,7 @@ impl Gpu {
             && !report.is_remembered
             && !matches!(ended, Err(GpuError::Lost(_)))
         {
-            // Every step that ended is worth keeping, even where a later one failed or was stopped.
+            // Results of finished steps are cached even where a later step failed or was canceled.
             let unfinished = written_by(plan, &steps[report.steps.len()..]);
             let finished = keys.into_iter().filter(|(slot, _)| !unfinished.contains(slot));
             cache.keep(&finished.collect(), &textures, plan, surfaces.finest.texels());
@@ -202,16 +202,16 @@ struct Runner<'a> {
     textures: Vec<Option<wgpu::Texture>>,
     pool: TexturePool,
     report: RunReport,
-    /// One-texel textures for planes that an interactive kernel binds and nobody has: those that are written apart from
-    /// those that are read, since no texture may be both in one dispatch.
+    /// One-texel textures for unused planes of interactive kernels, by format and whether they are written: a texture must
+    /// not be read and written in one dispatch.
     open_planes: BTreeMap<(Format, bool), wgpu::Texture>,
-    /// What long rays hit, where that will do.
+    /// Cached ray hits, where they may be used.
     memory: Option<&'a mut HitMemory>,
     found_on_disk: Vec<String>,
 }
 
 impl Runner<'_> {
-    /// Runs steps in order, and lets go of what no later one reads.
+    /// Runs steps in order; with `releases`, textures return to the pool after their last use.
     fn run(&mut self, steps: &[usize], sources: &mut dyn SourceFill, releases: bool) -> Result<(), GpuError> {
         let last_use = last_uses(self.plan);
         for (done, at) in steps.iter().enumerate() {
@@ -254,7 +254,7 @@ impl Runner<'_> {
                     .collect()
             }
         };
-        // Ghosts are still being filled; their time is this step's.
+        // The filling of ghosts belongs to the time of this step.
         self.gpu.wait()?;
         let run = started.elapsed().saturating_sub(self.report.compile - compile_before);
         self.report.steps.push(StepTime { nodes, run });
@@ -310,7 +310,7 @@ impl Runner<'_> {
                 if let Some(last) = last {
                     reads[feedback.read] = Some(last);
                 }
-                // Taking turns so that the last round writes the result's own slot.
+                // Slots alternate so that the last repetition writes the slot of the result.
                 if !(times - 1 - round).is_multiple_of(2) {
                     writes[0] = Some(feedback.scratch);
                 }

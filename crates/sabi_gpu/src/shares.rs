@@ -1,4 +1,4 @@
-//! Texels that show what the maps have at their place, where several charts share it.
+//! Charts that share a place on the maps: texels that are set to the value that the maps have there.
 
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
@@ -11,32 +11,31 @@ use crate::run::Run;
 use crate::surface::GpuSurface;
 use crate::uploads::storage_buffer;
 
-/// Groups a workgroup.
+/// Groups per workgroup.
 const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch.
 const ROW: u32 = 32_768;
-/// Numbers of a part's texels at most, but for a single group with more: 16 MiB, a fraction of a second's work for software
-/// drivers.
+/// Most numbers of a part's texels, unless a single group has more: 16 MiB, a fraction of a second on software drivers.
 const PART: usize = 4 << 20;
 
-/// What a texture's values are, where their mean is taken.
+/// Kind of values whose mean is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mean {
     /// Numbers.
     Plain,
-    /// Unit vectors: so is their mean.
+    /// Unit vectors, whose mean is normalized.
     Unit,
 }
 
-/// Groups of texels of an atlas on the device: in each the targets show the mean of the sources.
+/// Groups of texels of an atlas on the device; in each the targets are set to the mean of the sources.
 pub struct Shares {
     parts: Vec<Part>,
 }
 
-/// Groups that are worked on together.
+/// Groups that one dispatch processes.
 struct Part {
     count: u32,
-    /// As `share.wgsl` reads them.
+    /// First index in `texels` of each group, as `share.wgsl` reads it.
     starts: wgpu::Buffer,
     texels: wgpu::Buffer,
 }
@@ -51,7 +50,8 @@ struct Constants {
 }
 
 impl Shares {
-    /// Uploads the sources and the targets of each group, texels page by page and row by row. No texel is a target twice.
+    /// Uploads the sources and targets of each group as texel indices, page by page and row by row. A texel may be a target
+    /// only once.
     pub fn upload<'t>(gpu: &Gpu, groups: impl IntoIterator<Item = [&'t [u32]; 2]>) -> Result<Shares, GpuError> {
         let mut parts = Vec::new();
         let (mut starts, mut texels) = (vec![0], Vec::new());
@@ -90,7 +90,7 @@ impl Part {
 }
 
 impl Gpu {
-    /// A copy of a texture on the atlas with all targets set. The texture itself may be cached, and stays as it is.
+    /// Copy of a texture on the atlas with all targets set. The texture itself may be cached and is not changed.
     pub fn shared(
         &self,
         surface: &GpuSurface,

@@ -16,19 +16,19 @@ use crate::uploads::{storage_buffer, table_texture, texel_texture};
 /// Textures that every kernel binds for the surface: owners, leaps and three tables.
 pub(crate) const SURFACE_TEXTURES: usize = 5;
 
-/// How wide texels are and how far the model reaches, working units.
+/// Texel widths and extent of a surface, working units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
-    /// Width of a texel of the level at hand.
+    /// Width of a texel of this level.
     pub texel: f64,
     /// Width of a texel of the finest level.
     pub finest: f64,
-    /// The largest coordinate of the model: bounds what rounding does to a place.
+    /// Largest coordinate of the model, which bounds the rounding of positions.
     pub farthest: f64,
 }
 
 impl Measures {
-    /// Of a surface that has one level only, and reaches no further than 1.
+    /// Measures of a surface with a single level and coordinates up to 1.
     pub fn even(texel: f64) -> Measures {
         Measures {
             texel,
@@ -38,7 +38,7 @@ impl Measures {
     }
 }
 
-/// One level of the surface on a device.
+/// Level of the surface on a device.
 pub struct GpuSurface {
     pub(crate) extent: Extent,
     pub(crate) tiles: wgpu::Buffer,
@@ -48,14 +48,14 @@ pub struct GpuSurface {
     pub(crate) geometry: wgpu::TextureView,
     pub(crate) frames: wgpu::TextureView,
     pub(crate) pieces: wgpu::Buffer,
-    /// Where ghosts lead.
+    /// Links of the ghosts.
     pub(crate) ghosts: GhostLinks,
-    /// Where slopes are taken, as `stencil_marks.wgsl` says; made when they first are.
+    /// Map of the texels that slopes are taken from, as `stencil_marks.wgsl` says; made at its first use.
     pub(crate) stencils: OnceLock<wgpu::TextureView>,
     /// Texels for one unit of UV.
     pub(crate) size: u32,
     pub(crate) measures: Measures,
-    /// What all owned texels cover, square working units.
+    /// Area of all owned texels, square working units.
     pub(crate) area: f64,
     bytes: u64,
 }
@@ -71,7 +71,7 @@ impl GpuSurface {
         let [width, height] = atlas.page_size;
         debug_assert!(width.is_multiple_of(TILE) && height.is_multiple_of(TILE));
         let extent = [width, height, atlas.pages];
-        // Eleven bits a coordinate and ten for the page, as `texel_of` unpacks them.
+        // Eleven bits for each coordinate and ten for the page, as `texel_of` unpacks them.
         let tiles: Vec<u32> = atlas
             .tiles
             .iter()
@@ -112,7 +112,7 @@ impl GpuSurface {
         Ok(surface)
     }
 
-    /// Bytes of textures that the surface itself takes; every run counts them in its budget and its peak.
+    /// Bytes of the textures of the surface; every run counts them in its budget and its peak.
     pub fn texture_bytes(&self) -> u64 {
         self.bytes + self.stencils.get().map_or(0, |_| self.stencil_bytes())
     }
@@ -127,13 +127,13 @@ impl GpuSurface {
         self.extent.iter().map(|side| u64::from(*side)).product()
     }
 
-    /// Number of 8 × 8 tiles with something on them.
+    /// Number of 8 × 8 tiles that are not empty.
     pub fn tile_count(&self) -> u32 {
         self.tile_count
     }
 }
 
-/// What all owned texels cover, square working units: the same sum on every machine.
+/// Area of all owned texels, square working units, summed in an order that does not depend on threads.
 fn covered_area(atlas: &Atlas, tables: &SurfaceTables) -> f64 {
     let texel_area = |rows: &[[f32; 4]; 6]| texel_across(rows).iter().map(|value| value * value).sum::<f64>().sqrt();
     let (triangles, _) = tables.geometry.as_chunks::<6>();

@@ -1,4 +1,4 @@
-//! Surveys: how much of the surface has which value of a mask.
+//! Surveys: histograms of a mask by surface area.
 
 use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
@@ -11,11 +11,11 @@ use crate::run::RunOptions;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
-/// Even steps from the lowest to the highest value, as in `lib/survey.wgsl`.
+/// Bins between the lowest and the highest value, as in `lib/survey.wgsl`.
 const BINS: u32 = 1024;
-/// The table: a texel a step.
+/// Extent of a survey's table: one texel per bin.
 pub(crate) const SURVEY_EXTENT: Extent = [BINS, 1, 1];
-/// Count of the whole surface: half of what a count can hold, since each texel's share is rounded.
+/// Count of the whole surface: half of the highest count, since the share of each texel is rounded.
 const WHOLE: f64 = (1_u32 << 31) as f64;
 
 #[repr(C)]
@@ -26,7 +26,7 @@ struct Constants {
 }
 
 impl Gpu {
-    /// Writes the table of a mask.
+    /// Writes the survey of a mask to a table.
     pub(crate) fn survey(
         &self,
         surface: &GpuSurface,

@@ -1,4 +1,4 @@
-//! What kernels know of every triangle and piece, in working units.
+//! Tables of triangles and pieces that kernels read, in working units.
 
 use rayon::prelude::*;
 use sabi_surface::atlas::Atlas;
@@ -8,20 +8,20 @@ use sabi_surface::pieces::Pieces;
 /// Rows of four floats for each triangle; see `shaders/surface/place.wgsl`, which reads them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceTables {
-    /// Six rows a triangle: origin, its two steps a texel, and the same of the normal. The fourth column holds the
+    /// Six rows per triangle: origin, its change per texel along u and v, and the same of the normal. The fourth column holds the
     /// reference texel (x, y), the texel's width (negative on mirrored charts), the part's number, the piece's seed, and the
     /// material's number; numbers and seed are bit patterns.
     pub geometry: Vec<[f32; 4]>,
-    /// Four rows a triangle: tangent and its two steps a texel, then the chart's place and, as a bit pattern, its number.
+    /// Four rows per triangle: tangent, its change per texel along u and v, then the chart's place and, as a bit pattern, its number.
     /// The fourth column of the first row holds the sign of the bitangent, that of the second the chart's page, that of the
     /// last the piece's number.
     pub frames: Vec<[f32; 4]>,
-    /// Three rows a piece: the axes of its box, longest side first, and in the fourth column the box's middle.
+    /// Three rows per piece: the axes of its box, longest side first, and in the fourth column the center of the box.
     pub pieces: Vec<[f32; 4]>,
 }
 
 impl SurfaceTables {
-    /// The tables for a mesh and its pieces, scaled by `working_from_model`.
+    /// Tables of a mesh and its pieces, scaled by `working_from_model`.
     pub fn new(mesh: &Mesh, pieces: &Pieces, atlas: &Atlas, working_from_model: f64, seed: u32) -> SurfaceTables {
         let rows: Vec<TriangleRows> = (0..mesh.triangles.len())
             .into_par_iter()
@@ -51,7 +51,7 @@ impl SurfaceTables {
     }
 }
 
-/// What a texel of a triangle covers, by its geometry: a vector along its normal, turned around on mirrored charts.
+/// Area vector of a texel of a triangle, along its normal; reversed on mirrored charts.
 pub(crate) fn texel_across(rows: &[[f32; 4]; 6]) -> [f64; 3] {
     let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]].map(|row| row.map(f64::from));
     [b * f - c * e, c * d - a * f, a * e - b * d]
@@ -60,7 +60,7 @@ pub(crate) fn texel_across(rows: &[[f32; 4]; 6]) -> [f64; 3] {
 /// Rows of one triangle: geometry and frames.
 type TriangleRows = ([[f32; 4]; 6], [[f32; 4]; 4]);
 
-/// A quantity that is linear over a triangle: its value at the first corner, and its change a texel along u and v.
+/// Quantity that is linear over a triangle: its value at the first corner and its change per texel along u and v.
 fn affine(corners: [[f64; 3]; 3], inverse: [[f64; 2]; 2]) -> [[f64; 3]; 3] {
     let mut rows = [corners[0], [0.0; 3], [0.0; 3]];
     for axis in 0..3 {
@@ -80,7 +80,7 @@ fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
     if determinant.abs() < 1e-12 {
         return [[0.0; 2]; 2];
     }
-    // Columns are the weights of the first and second edge for a step along u and along v.
+    // Columns: weights of the first and the second edge for a step along u and along v.
     [[d / determinant, -c / determinant], [-b / determinant, a / determinant]]
 }
 

@@ -1,4 +1,4 @@
-//! Kernels run over the covered tiles only, in slices that take about as long as asked.
+//! Kernels over the covered tiles only, in slices of about a given time.
 
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -12,10 +12,10 @@ use crate::surface::GpuSurface;
 
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
 const ROW: u32 = 32_768;
-/// Tiles of the first slice of a kernel whose speed is not known yet.
+/// Tiles of the first slice of a kernel, while its speed is unknown.
 pub(crate) const FIRST_SLICE: u32 = 512;
 
-/// Repetitions of a quick kernel that are waited for together.
+/// Repetitions of a quick kernel between waits for the device.
 const UNWATCHED: u32 = 8;
 
 /// As `Pass` in `shaders/lib/atlas.wgsl`.
@@ -34,14 +34,14 @@ struct PassConstants {
     pad: [u32; 3],
 }
 
-/// One kernel's way over the tiles.
+/// Tiles of a surface in slices, for the dispatches of a kernel.
 pub(crate) struct Slices<'a> {
     gpu: &'a Gpu,
     surface: &'a GpuSurface,
     target: Duration,
     constants: wgpu::Buffer,
     group: wgpu::BindGroup,
-    /// Which repetition this is, and how many there are.
+    /// Index of this repetition and number of repetitions.
     round: [u32; 2],
     /// Tiles of the next slice.
     length: Cell<u32>,
@@ -52,7 +52,7 @@ impl<'a> Slices<'a> {
         Slices::with_links(gpu, surface, &surface.ghosts.all, target)
     }
 
-    /// The surface with other links in the place of its ghosts'.
+    /// Slices with other links in place of those of the ghosts.
     pub(crate) fn with_links(gpu: &'a Gpu, surface: &'a GpuSurface, links: &Links, target: Duration) -> Slices<'a> {
         let constants = gpu.uniform(&[0; size_of::<PassConstants>()]);
         let group = gpu.surface_group_with(surface, links, &constants);
@@ -67,19 +67,20 @@ impl<'a> Slices<'a> {
         }
     }
 
-    /// For one of several repetitions, which starts with slices as long as the last one ended with.
+    /// The same for one of several repetitions; `length` is that of the last repetition's slices.
     pub(crate) fn in_round(mut self, round: u32, rounds: u32, length: Option<u32>) -> Slices<'a> {
         self.round = [round, rounds];
+        // Without an earlier repetition, the speed is unknown.
         self.length.set(length.unwrap_or(FIRST_SLICE));
         self
     }
 
-    /// Tiles that a slice may have by what was seen so far.
+    /// Tiles of the next slice, by the times measured so far.
     pub(crate) fn length(&self) -> u32 {
         self.length.get()
     }
 
-    /// How long a slice is to take.
+    /// Target time of a slice.
     pub(crate) fn target(&self) -> Duration {
         self.target
     }
@@ -89,18 +90,18 @@ impl<'a> Slices<'a> {
         self.surface.tile_count
     }
 
-    /// The bind group of the surface.
+    /// Bind group of the surface.
     pub(crate) fn surface_group(&self) -> &wgpu::BindGroup {
         &self.group
     }
 
-    /// One workgroup over no tile: compiles the kernel where the driver does so at its first use.
+    /// Runs one workgroup over no tile, for drivers that compile a kernel at its first use.
     pub(crate) fn warm(&self, pipeline: &wgpu::ComputePipeline, group: &wgpu::BindGroup) -> Result<(), GpuError> {
         self.submit(pipeline, group, 0, 0);
         self.gpu.wait()
     }
 
-    /// The kernel over all tiles.
+    /// Runs a kernel over all tiles.
     pub(crate) fn run(
         &self,
         pipeline: &wgpu::ComputePipeline,
@@ -113,7 +114,7 @@ impl<'a> Slices<'a> {
                 return Err(GpuError::Canceled);
             }
             if self.length.get() / UNWATCHED >= self.surface.tile_count && !self.round[0].is_multiple_of(UNWATCHED) {
-                // A small part of what it may take, as the last repetition showed: several of them are one piece of work.
+                // The last repetition took a small part of the target time, so several run between two waits.
                 self.submit(pipeline, group, 0, self.surface.tile_count);
                 return Ok(());
             }
@@ -122,7 +123,7 @@ impl<'a> Slices<'a> {
             self.submit(pipeline, group, first, end);
             self.gpu.wait()?;
             let taken = started.elapsed().max(Duration::from_micros(10));
-            // At most eight times as long as the last one, so that one quick slice does not lead to a long one.
+            // At most eight times the last slice, so that one quick slice does not lead to a very long one.
             let scale = (self.target.as_secs_f64() / taken.as_secs_f64()).clamp(0.125, 8.0);
             self.length.set(((f64::from(end - first) * scale) as u32).max(1));
             first = end;
@@ -130,7 +131,7 @@ impl<'a> Slices<'a> {
         Ok(())
     }
 
-    /// The kernel over some tiles, as one submission that is not waited for.
+    /// Submits a kernel over a range of tiles without waiting.
     pub(crate) fn submit(
         &self,
         pipeline: &wgpu::ComputePipeline,
@@ -158,7 +159,7 @@ impl<'a> Slices<'a> {
         self.dispatch(pipeline, group, [row_length, tiles.div_ceil(ROW)]);
     }
 
-    /// Workgroups with the surface bound, as one submission that is not waited for.
+    /// Submits workgroups with the surface bound, without waiting.
     pub(crate) fn dispatch(&self, pipeline: &wgpu::ComputePipeline, group: &wgpu::BindGroup, [x, y]: [u32; 2]) {
         let mut encoder = self
             .gpu
@@ -176,17 +177,17 @@ impl<'a> Slices<'a> {
 }
 
 impl Gpu {
-    /// A surface with some links as its ghosts, for kernels that run over links and not over tiles.
-    /// How a surface is bound in every kernel, for those that draw on it; see `shaders/lib/atlas.wgsl`.
+    /// Bind group layout of a surface, the same in every kernel; see `shaders/lib/atlas.wgsl`.
     pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
         &self.pipelines.surface_layout
     }
 
-    /// A surface with all of its ghosts' links, bound that way.
+    /// Bind group of a surface with the links of all its ghosts.
     pub fn surface_bindings(&self, surface: &GpuSurface) -> wgpu::BindGroup {
         self.surface_group(surface, &surface.ghosts.all)
     }
 
+    /// Bind group of a surface with some links in place of those of all ghosts, for kernels over links.
     pub(crate) fn surface_group(&self, surface: &GpuSurface, links: &Links) -> wgpu::BindGroup {
         let constants = self.uniform(&[0; size_of::<PassConstants>()]);
         self.surface_group_with(surface, links, &constants)

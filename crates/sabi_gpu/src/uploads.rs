@@ -1,10 +1,10 @@
-//! The atlas and its tables as textures and buffers.
+//! Uploads of the atlas and its tables.
 
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pool::{Extent, array_view};
 
-/// Rows of a table along its texture's side; every adapter allows as many.
+/// Rows of a table along one line of its texture; every adapter allows as many.
 const TABLE_WIDTH: usize = 8192;
 const TABLE_ROW_BYTES: usize = 16;
 
@@ -27,7 +27,7 @@ pub(crate) fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u
     })
 }
 
-/// The texture that holds a table, if adapters of `highest` texels a side have one.
+/// Extent of the texture of a table; an error where it needs more than `highest` lines.
 fn table_extent(what: &'static str, rows: usize, highest: u32) -> Result<wgpu::Extent3d, GpuError> {
     let lines = rows.div_ceil(TABLE_WIDTH).max(1);
     if lines > highest as usize {
@@ -45,7 +45,7 @@ fn table_extent(what: &'static str, rows: usize, highest: u32) -> Result<wgpu::E
     })
 }
 
-/// A table of rows of four numbers as a texture of bit patterns, see `shaders/lib/atlas.wgsl`.
+/// Uploads a table of rows of four numbers as a texture of bit patterns; see `shaders/lib/atlas.wgsl`.
 pub(crate) fn table_texture(gpu: &Gpu, what: &'static str, bytes: &[u8]) -> Result<wgpu::TextureView, GpuError> {
     let rows = bytes.len() / TABLE_ROW_BYTES;
     let size = table_extent(what, rows, gpu.device.limits().max_texture_dimension_2d)?;
@@ -84,7 +84,7 @@ pub(crate) fn table_texture(gpu: &Gpu, what: &'static str, bytes: &[u8]) -> Resu
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }
 
-/// A whole number for each texel of the atlas, page by page and row by row, in as many bytes as the format has.
+/// Uploads an integer for each texel of the atlas, page by page and row by row, in as many bytes as the format has.
 pub(crate) fn texel_texture(
     gpu: &Gpu,
     what: &'static str,
@@ -97,6 +97,8 @@ pub(crate) fn texel_texture(
         height,
         depth_or_array_layers: pages,
     };
+    let no_size = || GpuError::Defect(format!("texels of {format:?} have no single size"));
+    let texel_bytes = format.block_copy_size(None).ok_or_else(no_size)?;
     let texture = gpu.guarded(what, |device| {
         device.create_texture(&wgpu::TextureDescriptor {
             label: Some(what),
@@ -114,7 +116,7 @@ pub(crate) fn texel_texture(
         bytes,
         wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(format.block_copy_size(None).unwrap_or(4) * width),
+            bytes_per_row: Some(texel_bytes * width),
             rows_per_image: Some(height),
         },
         size,

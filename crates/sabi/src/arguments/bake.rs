@@ -1,4 +1,4 @@
-//! `sabi bake`.
+//! Arguments of `sabi bake`.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use sabi_engine::{Seams, default_padding};
 
 use super::{MapArguments, WorkpieceArguments};
 
-/// What `bake` takes.
+/// Arguments of `sabi bake`.
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -36,19 +36,19 @@ pub(crate) struct BakeArguments {
     /// Only maps of this channel, or 'masks' for all outputs of masks; may be repeated
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) channel: Vec<String>,
-    /// How maps are called: text with {channel}, {material}, {graph} and {size} in it [default: {material}_{channel}]
+    /// Names of maps: text with {channel}, {material}, {graph} and {size} in it [default: {material}_{channel}]
     #[arg(long, value_name = "PATTERN", help_heading = "Maps")]
     pub(crate) names: Option<String>,
-    /// Write maps of channels that are the same all over too, not only their value in the report
+    /// Write maps of constant channels, too, and not only their value in the report
     #[arg(long, help_heading = "Maps")]
     pub(crate) all_maps: bool,
-    /// Write a glTF copy of the model that uses the maps, too: as .glb or .gltf like the model, .glb for others
+    /// Also write a glTF copy of the model that uses the maps: as .glb or .gltf like the model, else as .glb
     #[arg(long = "model", help_heading = "Maps")]
     pub(crate) copies_model: bool,
-    /// How far maps reach over the edges of charts, texels, or 'infinite' [default: 16 at size 2048]
+    /// Padding around charts, texels, or 'infinite' [default: 16 at size 2048]
     #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
     pub(crate) padding: Option<Padding>,
-    /// What heights and normals differ by on both sides of a seam: erased, by changing the texels beside it, or kept
+    /// Differences of heights and normals between the two sides of a seam: erased, by changing the texels beside it, or kept
     #[arg(long, value_enum, default_value_t = AtSeams::Erase, help_heading = "Maps")]
     pub(crate) seams: AtSeams,
     /// Bake into a folder that has files but no earlier maps
@@ -66,7 +66,7 @@ pub(crate) struct BakeArguments {
 }
 
 impl BakeArguments {
-    /// Texels beyond the charts; none for all of the map.
+    /// Padding around charts, texels; none for padding without limit.
     pub(crate) fn padding_texels(&self) -> Option<u32> {
         match self.padding {
             Some(Padding::Infinite) => None,
@@ -76,7 +76,7 @@ impl BakeArguments {
     }
 }
 
-/// What becomes of differences at seams.
+/// Treatment of differences at seams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AtSeams {
     Erase,
@@ -92,7 +92,7 @@ impl From<AtSeams> for Seams {
     }
 }
 
-/// How far maps reach out of charts.
+/// Padding around charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Padding {
     Infinite,

@@ -1,11 +1,11 @@
-//! `sabi edit`.
+//! Arguments of `sabi edit`.
 
 use std::path::PathBuf;
 
 use clap::Args;
 use sabi_engine::AdapterChoice;
 
-/// What `edit` takes.
+/// Arguments of `sabi edit`.
 #[derive(Debug, Args)]
 #[command(before_help = "\
 Examples:
@@ -13,13 +13,13 @@ Examples:
   sabi edit graph.sabi
   sabi edit graph.sabi --mesh model.glb")]
 pub(crate) struct EditArguments {
-    /// The graph; an empty one if none
+    /// Graph file (.sabi); without one, an empty graph
     #[arg(value_name = "GRAPH")]
     pub(crate) graph: Option<PathBuf>,
-    /// The model, in place of the one that the graph names: .glb, .gltf or .obj
+    /// Model file (.glb, .gltf, .obj), in place of the one that the graph names
     #[arg(long, value_name = "FILE")]
     pub(crate) mesh: Option<PathBuf>,
-    /// Which adapter: auto, cpu, gpu, or a part of its name
+    /// Adapter to run on: auto, cpu, gpu, or a part of its name
     #[arg(long, value_name = "NAME", default_value = "auto")]
     pub(crate) adapter: AdapterChoice,
 }

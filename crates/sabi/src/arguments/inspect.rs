@@ -1,4 +1,4 @@
-//! The commands that only look: `check`, `nodes`, `mesh`, `doctor`.
+//! Arguments of the commands that write no file: `check`, `nodes`, `mesh`, `doctor`.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{MapArguments, ModelArguments};
 
-/// What `check` takes.
+/// Arguments of `sabi check`.
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -25,7 +25,7 @@ pub(crate) struct CheckArguments {
     pub(crate) json: bool,
 }
 
-/// What `nodes` takes.
+/// Arguments of `sabi nodes`.
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -47,7 +47,7 @@ pub(crate) struct NodesArguments {
     pub(crate) json: bool,
 }
 
-/// What `mesh` takes.
+/// Arguments of `sabi mesh`.
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -69,7 +69,7 @@ pub(crate) struct MeshArguments {
     pub(crate) json: bool,
 }
 
-/// What `doctor` takes.
+/// Arguments of `sabi doctor`.
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,

@@ -1,4 +1,4 @@
-//! `sabi preview`.
+//! Arguments of `sabi preview`.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{MapArguments, WorkpieceArguments};
 
-/// What `preview` takes.
+/// Arguments of `sabi preview`.
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,

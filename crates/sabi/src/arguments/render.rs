@@ -1,4 +1,4 @@
-//! `sabi render`.
+//! Arguments of `sabi render`.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use sabi_engine::view::{Background, Light, LightPlace, Lines, ViewTransform, Vie
 
 use super::WorkpieceArguments;
 
-/// What `render` takes.
+/// Arguments of `sabi render`.
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -39,17 +39,17 @@ pub(crate) struct RenderArguments {
     /// Turn the environment, degrees
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
     pub(crate) rotate: f32,
-    /// A far light besides it: where it stands in degrees, and how strong; up to four
+    /// Distant light besides the environment: its direction in degrees and its strength; up to four
     #[arg(long, value_name = "YAW,PITCH[,STRENGTH]", value_parser = light, allow_hyphen_values = true,
           help_heading = "Light")]
     pub(crate) light: Vec<Light>,
-    /// Stops by which all light is made stronger
+    /// Exposure, stops
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
     pub(crate) exposure: f32,
-    /// From light to what a display shows
+    /// Transform from light to display colors
     #[arg(long, value_enum, default_value_t = Transform::Agx, help_heading = "Light")]
     pub(crate) transform: Transform,
-    /// Where the eye is: front, three-quarter, left, right, back, top, bottom, or degrees and a multiple of the distance
+    /// Place of the camera: front, three-quarter, left, right, back, top, bottom, or degrees and a multiple of the distance
     #[arg(
         long,
         allow_hyphen_values = true,
@@ -80,26 +80,26 @@ pub(crate) struct RenderArguments {
     /// Lines over the model, lifted with it where it is displaced; may be repeated
     #[arg(long, value_enum, help_heading = "Picture")]
     pub(crate) lines: Vec<LinesOver>,
-    /// What is behind the model
+    /// Background
     #[arg(long, value_enum, default_value_t = Behind::Blurred, help_heading = "Picture")]
     pub(crate) background: Behind,
-    /// Leave the background clear
+    /// Leave the background transparent
     #[arg(long, help_heading = "Picture")]
     pub(crate) transparent: bool,
     /// Samples a pixel: more make edges cleaner
     #[arg(long, value_name = "N", default_value_t = 16,
           value_parser = clap::value_parser!(u32).range(1..=4096), help_heading = "Picture")]
     pub(crate) samples: u32,
-    /// Write so many frames from all around
+    /// Write this many frames around the model
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(1..=9999), help_heading = "Picture")]
     pub(crate) turntable: Option<u32>,
-    /// What goes around in them
+    /// What turns in the frames of a turntable
     #[arg(long, value_enum, default_value_t = Turn::Camera, help_heading = "Picture")]
     pub(crate) turn: Turn,
 }
 
 impl RenderArguments {
-    /// What is behind the model, for the engine.
+    /// Background as the engine takes it.
     pub(crate) fn background(&self) -> Background {
         match self.background {
             _ if self.transparent => Background::Clear,
@@ -111,7 +111,7 @@ impl RenderArguments {
     }
 }
 
-/// From light to what a display shows.
+/// Transform from light to display colors.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Transform {
     Agx,
@@ -129,7 +129,7 @@ impl From<Transform> for ViewTransform {
     }
 }
 
-/// What goes around on a turntable.
+/// What turns on a turntable.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Turn {
     Camera,
@@ -145,7 +145,7 @@ impl From<Turn> for Turns {
     }
 }
 
-/// What is behind the model.
+/// Background of a picture.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Behind {
     Environment,
@@ -186,10 +186,9 @@ fn finite(text: &str) -> Result<f32, String> {
 
 fn light(text: &str) -> Result<Light, String> {
     let numbers: Result<Vec<f32>, String> = text.split(',').map(finite).collect();
-    let numbers = numbers.unwrap_or_default();
-    let (yaw, pitch, strength) = match numbers[..] {
-        [yaw, pitch] => (yaw, pitch, 2.0),
-        [yaw, pitch, strength] if strength >= 0.0 => (yaw, pitch, strength),
+    let (yaw, pitch, strength) = match numbers.as_deref() {
+        Ok(&[yaw, pitch]) => (yaw, pitch, 2.0),
+        Ok(&[yaw, pitch, strength]) if strength >= 0.0 => (yaw, pitch, strength),
         _ => return Err("it takes two angles in degrees and a strength from 0, as in 40,30,2.5".to_owned()),
     };
     Ok(Light {
@@ -212,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn a_light_stands_where_its_angles_say() {
+    fn a_light_has_the_direction_of_its_angles() {
         let place = |text: &str| match light(text).unwrap().place {
             LightPlace::Far(towards) | LightPlace::Near(towards) => towards.map(|part| (part * 1e4).round() / 1e4),
         };

@@ -1,4 +1,4 @@
-//! A graph on a model, as commands that evaluate take it.
+//! Arguments of a graph on a model, shared by the commands that evaluate.
 
 use std::convert::Infallible;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use sabi_engine::{
 
 use crate::exit::{Exit, Failure};
 
-/// How large maps are.
+/// Size of maps.
 #[derive(Debug, Args)]
 pub(crate) struct MapArguments {
     /// Texels along a side of the maps, 16 to 8192
@@ -20,7 +20,7 @@ pub(crate) struct MapArguments {
     pub(crate) size: u32,
 }
 
-/// How a model is taken.
+/// How a model is read.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArguments {
     /// Axis of the file that points up
@@ -32,16 +32,16 @@ pub(crate) struct ModelArguments {
     /// UV set of the file
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Model")]
     pub(crate) uv: u32,
-    /// What mirrored or stacked UVs get: the first chart's result, their mean, or a second UV set for the whole model
+    /// Result for mirrored or stacked UVs: that of the first chart, the mean, or a second UV set for the whole model
     #[arg(long, value_enum, default_value_t = Sharing::First, help_heading = "Model")]
     pub(crate) overlap: Sharing,
-    /// Build the atlas anew instead of taking it from the disk cache
+    /// Build the atlas without the disk cache
     #[arg(long, help_heading = "Model")]
     pub(crate) no_cache: bool,
 }
 
 impl ModelArguments {
-    /// The same for the engine, with maps of so many texels along a side.
+    /// Options of the engine, with maps of `size` texels along a side.
     pub(crate) fn options(&self, path: PathBuf, size: u32) -> ModelOptions {
         ModelOptions {
             uv: self.uv,
@@ -88,20 +88,20 @@ pub(crate) struct WorkpieceArguments {
     /// Only the maps of this material of the model
     #[arg(long, value_name = "NAME", help_heading = "Model")]
     pub(crate) material: Option<String>,
-    /// Where to run: auto, cpu, gpu, or a part of an adapter's name
+    /// Adapter to run on: auto, cpu, gpu, or a part of its name
     #[arg(long, value_name = "ADAPTER", default_value = "auto", value_parser = adapter, help_heading = "Machine")]
     adapter: AdapterChoice,
-    /// Who follows rays: the graphics card (gpu), the processor's cores (cpu), or whichever is faster
+    /// Caster of rays: the graphics card (gpu), the processor (cpu), or the faster of the two (auto)
     #[arg(long, value_name = "auto|gpu|cpu", default_value = "auto", help_heading = "Machine")]
     caster: CasterChoice,
-    /// Most memory that textures may take, MiB
+    /// Budget for textures, MiB
     #[arg(long, value_name = "MIB", default_value_t = DEFAULT_BUDGET_BYTES >> 20,
           value_parser = clap::value_parser!(u64).range(16..=1 << 20), help_heading = "Machine")]
     budget: u64,
 }
 
 impl WorkpieceArguments {
-    /// The same for the engine, with maps of so many texels along a side.
+    /// Options of the engine, with maps of `size` texels along a side.
     pub(crate) fn options(&self, size: u32) -> Result<EvaluatorOptions, Failure> {
         let set: Result<_, String> = self.set.iter().map(|text| read_setting(text)).collect();
         Ok(EvaluatorOptions {
@@ -120,7 +120,7 @@ impl WorkpieceArguments {
     }
 }
 
-/// An axis.
+/// Axis of a model file.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Axis {
     Y,
@@ -128,7 +128,7 @@ pub(crate) enum Axis {
     X,
 }
 
-/// What charts that share a place on the maps get.
+/// Result for charts that share a place on the maps.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Sharing {
     First,

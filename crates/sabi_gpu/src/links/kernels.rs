@@ -1,4 +1,4 @@
-//! The kernels that fill linked texels: what a round computes, and where that is read and written.
+//! Kernels that fill linked texels.
 
 use std::sync::Arc;
 
@@ -16,18 +16,18 @@ use crate::pipelines::{
 pub(super) enum Part {
     /// Computes values into the buffer.
     Gather,
-    /// Writes them from there.
+    /// Writes the values of the buffer to the texture.
     Scatter,
-    /// Computes them where they belong.
+    /// Computes values and writes them to the texture.
     InPlace,
-    /// The same, with coupled ones read from the buffer.
+    /// The same, with values of coupled ghosts read from the buffer.
     Settle,
 }
 
 impl Part {
-    /// Those of a round over textures of a format. The only one that can be read and written at once on every adapter
-    /// needs no detour: rounds that read only what none of them writes go in place, and of two rounds over what they
-    /// write themselves the first needs not leave the buffer.
+    /// Dispatches of a round over textures of a format. R32 float is the only format that every adapter can read and write
+    /// in one dispatch, which saves the buffer for rounds that read no texel they write; of two rounds that do, the first
+    /// stays in the buffer.
     pub(super) fn of(round: LinkRound, format: Format) -> &'static [Part] {
         match (format, round) {
             (Format::R32Float, LinkRound::Plain | LinkRound::Owned) => &[Part::InPlace],
@@ -37,7 +37,7 @@ impl Part {
         }
     }
 
-    /// What is bound besides the surface.
+    /// Bindings besides the surface.
     fn entries(self, format: Format) -> Vec<wgpu::BindGroupLayoutEntry> {
         let rest = match self {
             Part::Gather => vec![texture_entry(1), write_entry(2)],
@@ -59,7 +59,7 @@ const REFINE: &str = include_str!("../../../../shaders/surface/refine_ghosts.wgs
 const SCATTER_ALL: &str = include_str!("../../../../shaders/surface/scatter_ghosts.wgsl");
 
 impl Gpu {
-    /// The kernel of a part of a round over textures of a format.
+    /// Kernel of one dispatch of a round over textures of a format.
     pub(super) fn link_kernel(
         &self,
         round: LinkRound,

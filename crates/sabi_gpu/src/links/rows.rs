@@ -1,4 +1,4 @@
-//! Links as kernels read them, row by row.
+//! Rows of links in the layout that kernels read.
 
 use bytemuck::{Pod, Zeroable};
 use sabi_surface::atlas::{Atlas, Ghost, Orphan, Owner};
@@ -6,7 +6,7 @@ use sabi_surface::atlas::{Atlas, Ghost, Orphan, Owner};
 /// `EMPTY` in `shaders/lib/atlas.wgsl`.
 const NO_SLOT: u32 = u32::MAX;
 
-/// Four rows, as `ghost_link` and `ghost_read` in `shaders/lib/atlas.wgsl` read them.
+/// Four rows in the layout of `ghost_link` and `ghost_read` in `shaders/lib/atlas.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct LinkRow {
@@ -48,7 +48,7 @@ fn packed_step([x, y]: [i32; 2]) -> u32 {
     (x + 2) as u32 | ((y + 2) as u32) << 3
 }
 
-/// The step from a ghost to the nearest owned texel of its own chart.
+/// Step from a ghost to the nearest owned texel of its chart.
 fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
     let steps = (0..25).map(|index| [index % 5 - 2, index / 5 - 2]);
     let is_owned = |[x, y]: &[i32; 2]| {
@@ -60,6 +60,7 @@ fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
         })
     };
     let nearest = steps.filter(is_owned).min_by_key(|[x, y]| x * x + y * y);
+    // A chart too thin to own a texel near its ghost: the ghost keeps its own value.
     packed_step(nearest.unwrap_or([0, 0]))
 }
 

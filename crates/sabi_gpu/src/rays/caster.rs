@@ -1,4 +1,4 @@
-//! Who follows rays: the processor on all its cores, or a kernel on the device. Each is the other's check.
+//! Ray casters: the processor on all its cores, or a kernel on the device. Tests hold each against the other.
 
 use std::fmt;
 use std::str::FromStr;
@@ -14,16 +14,16 @@ use crate::error::GpuError;
 use crate::run::SourceFill;
 use crate::tiles::Slices;
 
-/// Who is to follow rays.
+/// Ray caster to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CasterChoice {
-    /// A graphics card itself; the processor's cores where the adapter is a software driver, which runs on them anyway and
-    /// is slower at it, and for a model that is too large for the card's textures.
+    /// The kernel on a graphics card. The processor on a software adapter, whose kernels run on the same cores and are
+    /// slower, and for a hierarchy that does not fit the device.
     #[default]
     Auto,
-    /// The device.
+    /// A kernel on the device.
     Gpu,
-    /// The processor.
+    /// The processor on all its cores.
     Cpu,
 }
 
@@ -50,13 +50,13 @@ impl fmt::Display for CasterChoice {
     }
 }
 
-/// Follows the rays of one slice after the other.
+/// Caster of the rays of a step, slice by slice.
 pub(crate) enum Caster<'a> {
     OnProcessor(OnProcessor<'a>),
     OnDevice(OnDevice<'a>),
 }
 
-/// Whether a choice means the device, as far as one can tell before the scene is known.
+/// Whether a choice means the device; [`CasterChoice::Auto`] may still fall back to the processor for a large scene.
 pub(crate) fn follows_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
     match choice {
         CasterChoice::Cpu => false,
@@ -65,7 +65,7 @@ pub(crate) fn follows_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
     }
 }
 
-/// The caster of choice for the scene.
+/// Makes the chosen caster for the scene of `sources`.
 pub(crate) fn caster<'s>(
     gpu: &Gpu,
     choice: CasterChoice,
@@ -84,7 +84,7 @@ pub(crate) fn caster<'s>(
 }
 
 impl Caster<'_> {
-    /// Starts on rays that were shot into a room.
+    /// Begins to cast the rays in a buffer.
     pub(super) fn begin(
         &mut self,
         gpu: &Gpu,
@@ -99,16 +99,16 @@ impl Caster<'_> {
         }
     }
 
-    /// Sees to it that the hits are in the room for whatever is submitted next.
+    /// Makes the hits available to later submissions.
     pub(super) fn finish(&mut self, gpu: &Gpu, room: &RayRoom, rays: usize, finds: Finds) -> Result<(), GpuError> {
         match self {
             Caster::OnProcessor(caster) => caster.finish(gpu, room, rays, finds),
-            // Work on the device is done in the order in which it was submitted.
+            // Submissions run in order.
             Caster::OnDevice(_) => Ok(()),
         }
     }
 
-    /// Whether slices are only submitted, and nobody has waited for them.
+    /// Whether slices are submitted without waiting for them.
     pub(super) fn is_on_device(&self) -> bool {
         matches!(self, Caster::OnDevice(_))
     }

@@ -1,4 +1,4 @@
-//! Rays on the device, by a kernel.
+//! Ray caster that is a kernel on the device.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::error::GpuError;
 use crate::pipelines::{FixedKernel, read_entry, table_entry, uniform_entry, write_entry};
 use crate::tiles::Slices;
 
-/// Rays of a workgroup, as in `shaders/surface/cast.wgsl`.
+/// Rays per workgroup, as in `shaders/surface/cast.wgsl`.
 const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
 const ROW: u32 = 32_768;
@@ -29,7 +29,7 @@ struct CastConstants {
     pad: u32,
 }
 
-/// Follows rays by a kernel.
+/// Ray caster that is a kernel on the device.
 pub(crate) struct OnDevice<'a> {
     hierarchy: &'a DeviceHierarchy,
     working_from_model: f64,
@@ -62,7 +62,7 @@ impl<'a> OnDevice<'a> {
         })
     }
 
-    /// Submits the kernel over the rays of a room.
+    /// Submits the kernel over the rays in a buffer.
     pub(super) fn begin(
         &mut self,
         gpu: &Gpu,

@@ -1,4 +1,4 @@
-//! What rays are followed through, in memory and on the device.
+//! Ray hierarchy in memory and on the device.
 
 use std::sync::OnceLock;
 
@@ -8,31 +8,31 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::uploads::table_texture;
 
-/// What rays are followed through.
+/// Scene that rays are cast into.
 #[derive(Clone, Copy)]
 pub struct RayScene<'a> {
-    /// The hierarchy, in the model's own units.
+    /// Hierarchy in model units.
     pub bvh: &'a Bvh,
-    /// Factor from them to working units.
+    /// Factor from model units to working units.
     pub working_from_model: f64,
-    /// The same on the device, once a caster there was asked for.
+    /// Hierarchy on the device, uploaded when a caster there is first used.
     pub on_device: &'a OnceLock<DeviceHierarchy>,
 }
 
-/// The hierarchy on the device.
+/// Hierarchy on the device.
 pub struct DeviceHierarchy {
     pub(super) nodes: wgpu::TextureView,
     pub(super) triangles: wgpu::TextureView,
-    /// What turns model units into the hierarchy's own: `(point − center) × scale`.
+    /// Transform from model units to those of the hierarchy: `(point − center) × scale`.
     pub(super) center: [f32; 3],
     pub(super) scale: f32,
 }
 
-/// As `STACK` in `shaders/surface/cast.wgsl`: a node a level may wait.
+/// Levels of the deepest hierarchy: `STACK` in `shaders/surface/cast.wgsl` holds one node per level.
 const DEEPEST: usize = 24;
 
 impl DeviceHierarchy {
-    /// Uploads it, five rows a node and three a triangle.
+    /// Uploads a hierarchy, five rows per node and three per triangle.
     pub(super) fn upload(gpu: &Gpu, bvh: &Bvh) -> Result<DeviceHierarchy, GpuError> {
         let depth = bvh.depth();
         if depth > DEEPEST {

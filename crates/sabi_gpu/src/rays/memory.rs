@@ -1,4 +1,4 @@
-//! What long rays hit, kept so that sliders which only make them shorter shoot none.
+//! Cached hits of the longest rays that a knob allows: shorter rays of the same origin and direction need no casting.
 
 use std::collections::BTreeMap;
 
@@ -6,19 +6,19 @@ use super::{HitRow, TILE_TEXELS};
 use crate::device::Gpu;
 use crate::error::GpuError;
 
-/// Who says what rays hit.
+/// Origin of ray hits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hits {
-    /// Rays that are shot now, as they are asked for.
+    /// Rays cast in this run, as long as the parameters say.
     #[default]
     Shot,
-    /// While a knob is moved: rays as long as it allows, shot once and kept in the result cache. What is within a shorter
-    /// one's reach follows from that, so results differ from those of shot rays by rounding only; they are kept as
-    /// nobody's results all the same. Without a cache, or where it has no room, rays are shot.
+    /// While a knob is moved: hits of rays as long as the knob allows, cast once and kept in the result cache, from which
+    /// hits of shorter rays follow. Results differ from those of [`Hits::Shot`] by rounding, so they are not cached. Without
+    /// a cache, or where it has no room, rays are cast.
     Remembered,
 }
 
-/// The hits of some tiles.
+/// Hits of a range of tiles.
 pub(crate) struct KeptHits {
     pub(crate) first: usize,
     pub(crate) end: usize,
@@ -31,7 +31,7 @@ struct Memory {
     last_used: u64,
 }
 
-/// Hits by the key of their rays, the least recently used ones dropped first.
+/// Cached hits by the key of their rays; the least recently used are dropped first.
 pub(crate) struct HitMemory {
     budget_bytes: u64,
     uses: u64,
@@ -52,17 +52,17 @@ impl HitMemory {
         self.kept.values().map(|memory| memory.bytes).sum()
     }
 
-    /// Whether the hits of so many rays for each texel of so many tiles may be kept.
+    /// Whether the hits of `rays` rays for each texel of `tiles` tiles fit the budget.
     pub(crate) fn has_room(&self, tiles: usize, rays: u32) -> bool {
         bytes_of(tiles, rays) <= self.budget_bytes
     }
 
-    /// Whether there are hits under a key.
+    /// Whether hits of a key are cached.
     pub(crate) fn knows(&self, key: &[u8; 32]) -> bool {
         self.kept.contains_key(key)
     }
 
-    /// The hits under a key, none if there are none.
+    /// Cached hits of a key; empty where there are none.
     pub(crate) fn recall(&mut self, key: &[u8; 32]) -> &[KeptHits] {
         self.uses += 1;
         match self.kept.get_mut(key) {
@@ -74,7 +74,7 @@ impl HitMemory {
         }
     }
 
-    /// Keeps hits; makes room for them first.
+    /// Caches hits and drops the least recently used ones over the budget.
     pub(crate) fn keep(&mut self, key: [u8; 32], slices: Vec<KeptHits>) {
         let bytes = slices.iter().map(|slice| slice.hits.size()).sum();
         while self.bytes() + bytes > self.budget_bytes {
@@ -95,12 +95,12 @@ impl HitMemory {
     }
 }
 
-/// Bytes of the hits of some tiles.
+/// Bytes of the hits of `rays` rays for each texel of `tiles` tiles.
 pub(super) fn bytes_of(tiles: usize, rays: u32) -> u64 {
     (tiles * TILE_TEXELS * size_of::<HitRow>()) as u64 * u64::from(rays)
 }
 
-/// Copies hits that are in a room to a buffer of their own.
+/// Copies hits of a range of tiles to a buffer of their own.
 pub(super) fn kept(gpu: &Gpu, [first, end]: [usize; 2], rays: u32, room: &wgpu::Buffer) -> Result<KeptHits, GpuError> {
     let bytes = bytes_of(end - first, rays);
     let hits = gpu.guarded("what rays hit", |device| {
@@ -115,7 +115,7 @@ pub(super) fn kept(gpu: &Gpu, [first, end]: [usize; 2], rays: u32, room: &wgpu::
     Ok(KeptHits { first, end, hits })
 }
 
-/// Copies the first bytes of a buffer to another one.
+/// Copies the first bytes of a buffer to another.
 pub(super) fn copy(gpu: &Gpu, from: &wgpu::Buffer, to: &wgpu::Buffer, bytes: u64) {
     let mut encoder = gpu
         .device

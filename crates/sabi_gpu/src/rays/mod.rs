@@ -1,4 +1,4 @@
-//! Rays between two kernels: one shoots them, a caster follows them, and the other asks what they hit.
+//! Ray passes of a node: a kernel that writes rays, a caster that finds their hits, and a kernel that reads the hits.
 
 mod caster;
 mod device;
@@ -26,46 +26,46 @@ pub(crate) use memory::{HitMemory, KeptHits};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct RayRow {
-    /// Where it starts, working units.
+    /// Origin, working units.
     pub origin: [f32; 3],
-    /// How far it goes; 0 hits nothing.
+    /// Length, working units; 0 hits nothing.
     pub reach: f32,
-    /// Its direction.
+    /// Unit direction.
     pub direction: [f32; 3],
-    /// Not used.
+    /// Padding.
     pub pad: f32,
 }
 
-/// What a ray hit, as `RayHit` in `shaders/lib/rays.wgsl`.
+/// Hit of a ray, as `RayHit` in `shaders/lib/rays.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct HitRow {
-    /// How far away, working units; below 0 where nothing is hit.
+    /// Distance, working units; below 0 where nothing is hit.
     pub distance: f32,
-    /// Which triangle.
+    /// Number of the triangle.
     pub triangle: u32,
 }
 
 impl HitRow {
-    /// Nothing is hit.
+    /// No hit.
     pub(crate) const MISS: HitRow = HitRow {
         distance: -1.0,
         triangle: u32::MAX,
     };
 }
 
-/// Rays of one slice: bounds what rays take, and how long one slice takes.
+/// Most rays of one slice, which bounds its memory and its time.
 const MOST_RAYS: usize = 1 << 18;
-/// Rays of the first slice, while it is not known how fast they are followed.
+/// Rays of the first slice, while the speed of the caster is unknown.
 const FIRST_RAYS: usize = 1 << 16;
 /// Texels of a tile.
 const TILE_TEXELS: usize = 64;
 
-/// Room for the rays of a slice of tiles, and for what they hit.
+/// Buffers for the rays of a slice of tiles and their hits.
 pub(crate) struct RayRoom {
     pub(crate) shot: wgpu::Buffer,
     pub(crate) hits: wgpu::Buffer,
-    /// By which rays come into memory.
+    /// Mappable buffer through which rays are read back.
     mapped: wgpu::Buffer,
 }
 
@@ -74,23 +74,23 @@ pub(crate) struct RayRoom {
 struct Slice {
     first: usize,
     end: usize,
-    /// The room that its rays are in.
+    /// Index of the buffers that hold its rays.
     room: usize,
 }
 
-/// Two rooms that take turns, so that the next slice is shot while the last one is followed.
+/// Two sets of buffers in alternation: the rays of one slice are written while those of the slice before are cast.
 pub(crate) struct RayBuffers<'a> {
     gpu: &'a Gpu,
     rays: StepRays,
-    /// Tiles that fit into a room.
+    /// Tiles whose rays fit into one set of buffers.
     tiles: usize,
     rooms: [RayRoom; 2],
 }
 
-/// The bind group of a kernel for each room.
+/// Bind groups of a kernel, one for each set of buffers.
 pub(crate) type RoomGroups = [wgpu::BindGroup; 2];
 
-/// A step's way over its tiles.
+/// Kernels and bind groups of a ray step.
 pub(crate) struct RayPass<'a> {
     pub(crate) slices: &'a Slices<'a>,
     pub(crate) shoot: &'a wgpu::ComputePipeline,
@@ -140,13 +140,13 @@ impl<'a> RayBuffers<'a> {
         })
     }
 
-    /// What is bound for a room.
+    /// Bindings of one set of buffers.
     pub(crate) fn bindings(&self, room: usize) -> [wgpu::BindingResource<'_>; 2] {
         let room = &self.rooms[room];
         [room.shot.as_entire_binding(), room.hits.as_entire_binding()]
     }
 
-    /// Shoots, follows and asks, slice by slice. Each texel's rays are in one slice, so its mean is summed in one order.
+    /// Writes, casts and evaluates rays slice by slice. All rays of a texel are in one slice, so its sum has a fixed order.
     pub(crate) fn run(&self, pass: &RayPass<'_>, caster: &mut Caster<'_>) -> Result<(), GpuError> {
         self.follow(pass, &pass.groups, self.rays.finds, caster, |slice, _| {
             pass.ask(slice);
@@ -154,7 +154,7 @@ impl<'a> RayBuffers<'a> {
         })
     }
 
-    /// Shoots by other parameters, which make rays as long as they come, and keeps what is nearest.
+    /// Casts rays of the longest reach, whose parameters `longest` binds, and returns their nearest hits.
     pub(crate) fn remember(
         &self,
         pass: &RayPass<'_>,
@@ -170,7 +170,7 @@ impl<'a> RayBuffers<'a> {
         Ok(slices)
     }
 
-    /// Shoots, and asks what is remembered of longer rays.
+    /// Evaluates rays by cached hits of longer rays.
     pub(crate) fn recall(&self, pass: &RayPass<'_>, kept: &[KeptHits]) -> Result<(), GpuError> {
         for (at, known) in kept.iter().enumerate() {
             if (pass.is_canceled)() {
@@ -189,8 +189,7 @@ impl<'a> RayBuffers<'a> {
         Ok(())
     }
 
-    /// Shoots and follows slice by slice; `then` is told when the hits of one are in its room, or will be for what is
-    /// submitted next.
+    /// Writes and casts rays slice by slice; `then` is called once later submissions can read the hits of a slice.
     fn follow(
         &self,
         pass: &RayPass<'_>,
@@ -209,7 +208,7 @@ impl<'a> RayBuffers<'a> {
             }
             Ok::<_, GpuError>((first < end).then_some(slice))
         };
-        // Never longer than the first slice of any kernel: how long the node takes for a ray is not known.
+        // At most the first slice of any kernel: the cost of the node per ray is unknown.
         let mut length = (FIRST_RAYS / self.of_tile()).clamp(1, self.tiles.min(FIRST_SLICE as usize));
         let mut ahead = begin(caster, [0, 0], length)?;
         while let Some(slice) = ahead {
@@ -222,7 +221,7 @@ impl<'a> RayBuffers<'a> {
             caster.finish(self.gpu, room, self.rows(slice), finds)?;
             then(slice, room)?;
             if caster.is_on_device() {
-                // Or slices pile up on a queue that a window may share.
+                // Slices must not pile up on a queue that a window shares.
                 self.gpu.wait()?;
             }
             length = self.length_after(slice, started.elapsed(), pass.slices.target());
@@ -244,7 +243,7 @@ impl<'a> RayBuffers<'a> {
     fn length_after(&self, slice: Slice, taken: Duration, target: Duration) -> usize {
         let tiles = (slice.end - slice.first) as f64;
         let scale = target.as_secs_f64() / taken.as_secs_f64().max(1e-5);
-        // At most twice as long as the last one, since two are under way at a time.
+        // At most twice the last one, since two slices are in flight.
         ((tiles * scale.min(2.0)) as usize).clamp(1, self.tiles)
     }
 }

@@ -1,4 +1,4 @@
-//! Rays on the processor, on all its cores.
+//! Ray caster on all cores of the processor.
 
 use std::collections::VecDeque;
 
@@ -11,13 +11,13 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::readback::Mapping;
 
-/// Rays that a thread follows at a time.
+/// Rays that a thread casts at a time.
 const PART: usize = 1024;
 
-/// Follows rays where they are mapped: there are hundreds of megabytes of them.
+/// Ray caster on the processor. It reads rays in the mapped buffer, since copies of hundreds of megabytes would take time.
 pub(crate) struct OnProcessor<'a> {
     scene: RayScene<'a>,
-    /// Slices on their way into memory, oldest first.
+    /// Pending mappings of slices, oldest first.
     coming: VecDeque<Mapping>,
     hits: Vec<HitRow>,
 }
@@ -31,7 +31,7 @@ impl<'a> OnProcessor<'a> {
         }
     }
 
-    /// Has the rays brought into memory.
+    /// Requests the readback of rays.
     pub(super) fn begin(&mut self, gpu: &Gpu, room: &RayRoom, rays: usize) -> Result<(), GpuError> {
         let bytes = (rays * size_of::<RayRow>()) as u64;
         self.coming
@@ -39,7 +39,7 @@ impl<'a> OnProcessor<'a> {
         Ok(())
     }
 
-    /// Follows the oldest rays and writes what they hit.
+    /// Casts the rays of the oldest slice and uploads their hits.
     pub(super) fn finish(&mut self, gpu: &Gpu, room: &RayRoom, rays: usize, finds: Finds) -> Result<(), GpuError> {
         let Some(mapping) = self.coming.pop_front() else {
             return Ok(());
@@ -54,7 +54,7 @@ impl<'a> OnProcessor<'a> {
     }
 }
 
-/// What each ray hits. Rays and hits are in working units, the hierarchy is in the model's own.
+/// Casts rays. Rays and hits are in working units, the hierarchy is in model units.
 fn follow(scene: &RayScene<'_>, rays: &[RayRow], finds: Finds, hits: &mut [HitRow]) {
     let (bvh, scale) = (scene.bvh, scene.working_from_model as f32);
     let follow = |(ray, hit): (&RayRow, &mut HitRow)| {

@@ -1,4 +1,4 @@
-//! One kernel over the tiles of its level.
+//! Dispatch of one kernel over the tiles of its level.
 
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -12,15 +12,15 @@ use crate::pipelines::CompiledKernel;
 use crate::pool::array_view;
 use crate::tiles::Slices;
 
-/// What a kernel reads and writes.
+/// Textures that a kernel reads and writes.
 pub(super) struct Bound {
     views: Vec<wgpu::TextureView>,
-    /// Textures of results that are kept.
+    /// Written textures with a slot of the plan.
     pub(super) written: Vec<(wgpu::Texture, Format)>,
 }
 
 impl Bound {
-    /// What is bound besides buffers.
+    /// Texture bindings.
     pub(super) fn resources(&self) -> impl Iterator<Item = wgpu::BindingResource<'_>> {
         self.views.iter().map(wgpu::BindingResource::TextureView)
     }
@@ -65,7 +65,7 @@ impl Runner<'_> {
         Ok(slices.length())
     }
 
-    /// The time when the device is done with everything; none where nobody measures.
+    /// Time at which the device is done with all work; none where times are not measured.
     fn watched(&self) -> Result<Option<Instant>, GpuError> {
         if !self.options.times_ghosts {
             return Ok(None);
@@ -74,7 +74,7 @@ impl Runner<'_> {
         Ok(Some(Instant::now()))
     }
 
-    /// The textures of a kernel's slots, with open ones where there is nothing.
+    /// Textures of the slots of a kernel, with one-texel textures for unused ones.
     fn bound(
         &mut self,
         compiled: &CompiledKernel,
@@ -104,7 +104,7 @@ impl Runner<'_> {
         Ok(bound)
     }
 
-    /// Has the driver compile a kernel that never ran.
+    /// Runs a kernel over no tile if it never ran, so that the driver compiles it.
     pub(super) fn warm(
         &mut self,
         compiled: &CompiledKernel,

@@ -1,4 +1,4 @@
-//! A kernel that is a mean over rays: found on disk, asked of what is remembered, or shot.
+//! Ray steps: results from disk, from cached hits, or by casting rays.
 
 use sabi_plan::{KernelStep, StepRays};
 
@@ -65,7 +65,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Names the results of a step over runs: what they are, the very kernel, and what may round differently.
+    /// Key of the results of a step on disk: their content keys, the kernel text, and everything that may round differently.
     fn disk_key(&self, step: &KernelStep, compiled: &CompiledKernel, bound: &Bound) -> [u8; 32] {
         let mut hash = blake3::Hasher::new_derive_key("sabi results of rays");
         let mut part = |bytes: &[u8]| {
@@ -85,7 +85,7 @@ impl Runner<'_> {
         *hash.finalize().as_bytes()
     }
 
-    /// Writes kept results where a kernel would have; not if they are of another size.
+    /// Uploads results from disk; `false` if their size is another.
     fn put_back(&self, bound: &Bound, found: &[u8]) -> bool {
         let texels = self.surfaces.finest.texels();
         let sizes = bound.written.iter().map(|(_, format)| texels * format.texel_bytes());
@@ -101,7 +101,7 @@ impl Runner<'_> {
         true
     }
 
-    /// The results of a kernel, to be kept.
+    /// Results of a kernel, read back to be kept on disk.
     fn taken_down(&self, bound: &Bound) -> Result<Vec<u8>, GpuError> {
         let mut bytes = Vec::new();
         for (texture, format) in &bound.written {

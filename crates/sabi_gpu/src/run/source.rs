@@ -1,4 +1,4 @@
-//! Results that are no kernel's, brought onto the device.
+//! Upload of the results of source nodes.
 
 use sabi_nodes::link::Format;
 use sabi_plan::SourceStep;
@@ -31,7 +31,7 @@ impl Runner<'_> {
                 }
                 self.upload(&texture, format, &bytes);
                 drop(bytes);
-                // The driver holds a copy until it is on the device: let it go before the next plane is made.
+                // The driver holds a copy until the upload is done, which must end before the next plane is made.
                 self.gpu.queue.submit([]);
                 self.gpu.wait()?;
             }
