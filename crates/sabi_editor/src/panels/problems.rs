@@ -39,7 +39,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
             ui.add(egui::Label::new(RichText::new(sentence).color(theme.fault)).wrap());
         }
         for warning in &faults.warnings {
-            let text = RichText::new(&warning.sentence).color(theme.warning);
+            let text = RichText::new(warning.to_string()).color(theme.warning);
             match &warning.node {
                 Some(node) => at_node(ui, text, node),
                 None => drop(ui.add(egui::Label::new(text).wrap())),
