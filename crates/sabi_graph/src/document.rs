@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{FileError, Graph, NodeId, OutputRef, PortType, SlotRef, Value};
+use crate::{Graph, NodeId, OutputRef, PortType, SlotRef, Value};
 
 /// A graph file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,14 +47,6 @@ impl Document {
         }
     }
 
-    /// Reads a graph file of this or an earlier version.
-    ///
-    /// # Errors
-    /// The first thing that is wrong with it, with its line and column.
-    pub fn from_json(text: &str) -> Result<Document, FileError> {
-        crate::read::document(text)
-    }
-
     /// This document without what only its picture on a canvas needs: where nodes stand, and frames. Two that are equal then
     /// give the same results.
     pub fn without_places(&self) -> Document {
@@ -67,11 +59,6 @@ impl Document {
             }
         }
         bare
-    }
-
-    /// The canonical text: the same document gives the same bytes, and reading them gives this document.
-    pub fn to_json(&self) -> String {
-        crate::save::document(self)
     }
 }
 
@@ -124,38 +111,6 @@ pub struct GroupInput {
     pub ty: Option<PortType>,
     /// Name shown to artists.
     pub label: Option<String>,
-    /// Keys that this version does not know.
-    pub extra: BTreeMap<String, Value>,
-}
-
-/// A knob on a graph's control panel.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Exposed {
-    /// The parameters it sets, written `node.param`.
-    pub to: Vec<SlotRef>,
-    /// Name shown to artists.
-    pub label: Option<String>,
-    /// Title of the part of the panel that it stands in.
-    pub section: Option<String>,
-    /// Place on the panel; knobs without one come last, by name.
-    pub order: Option<u32>,
-    /// Numbers outside are refused.
-    pub range: Option<[f64; 2]>,
-    /// Its value while neither a variant nor the user sets it; without it the nodes keep their own.
-    pub default: Option<Value>,
-    /// Keys that this version does not know.
-    pub extra: BTreeMap<String, Value>,
-}
-
-/// A titled box around nodes.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Frame {
-    /// The title.
-    pub title: Option<String>,
-    /// Its color, `#rrggbb`.
-    pub color: Option<String>,
-    /// The nodes in it; ids of nodes that are gone do no harm.
-    pub nodes: Vec<NodeId>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
 }

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
+use crate::document::{Fit, GroupDef, GroupInput, Preview};
+use crate::graph::{Exposed, Frame};
 use crate::problem::Problem;
 use crate::{Document, Node, NodeId, OutputRef, Value};
 

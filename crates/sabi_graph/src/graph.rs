@@ -7,9 +7,40 @@ use petgraph::Direction;
 use petgraph::stable_graph::{NodeIndex, StableDiGraph};
 use petgraph::visit::EdgeRef;
 
-use crate::document::{Exposed, Frame};
 use crate::problem::{Problem, hint, shown};
 use crate::{NodeId, OutputRef, SlotRef, Value};
+
+/// A knob on a graph's control panel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Exposed {
+    /// The parameters it sets, written `node.param`.
+    pub to: Vec<SlotRef>,
+    /// Name shown to artists.
+    pub label: Option<String>,
+    /// Title of the part of the panel that it stands in.
+    pub section: Option<String>,
+    /// Place on the panel; knobs without one come last, by name.
+    pub order: Option<u32>,
+    /// Numbers outside are refused.
+    pub range: Option<[f64; 2]>,
+    /// Its value while neither a variant nor the user sets it; without it the nodes keep their own.
+    pub default: Option<Value>,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
+}
+
+/// A titled box around nodes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// The title.
+    pub title: Option<String>,
+    /// Its color, `#rrggbb`.
+    pub color: Option<String>,
+    /// The nodes in it; ids of nodes that are gone do no harm.
+    pub nodes: Vec<NodeId>,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
+}
 
 /// One node as the file has it.
 #[derive(Clone, Debug, Default, PartialEq)]

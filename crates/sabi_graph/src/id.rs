@@ -2,33 +2,15 @@
 
 use std::borrow::Borrow;
 use std::fmt;
-use std::str::FromStr;
-
-use crate::problem::{Problem, shown};
-
-/// Longest node id and port name, in characters.
-const NAME_LIMIT: usize = 64;
 
 /// A node's stable id: 1 to 64 of `a-z 0-9 _`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct NodeId(String);
+pub struct NodeId(pub(crate) String);
 
 impl NodeId {
     /// The id as text.
     pub fn as_str(&self) -> &str {
         &self.0
-    }
-}
-
-impl FromStr for NodeId {
-    type Err = Problem;
-
-    fn from_str(text: &str) -> Result<Self, Problem> {
-        let fits = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
-        if text.is_empty() || text.len() > NAME_LIMIT || !text.bytes().all(fits) {
-            return Err(Problem::BadId { id: shown(text) });
-        }
-        Ok(NodeId(text.to_owned()))
     }
 }
 
@@ -44,15 +26,6 @@ impl Borrow<str> for NodeId {
     }
 }
 
-/// Checks the name of an input or output port: 1 to 64 characters, none of them a dot, a slash or a control character.
-pub(crate) fn check_port_name(name: &str) -> Result<(), Problem> {
-    let bad = |c: char| c == '.' || c == '/' || c.is_control();
-    if name.is_empty() || name.chars().count() > NAME_LIMIT || name.contains(bad) {
-        return Err(Problem::BadPortName { name: shown(name) });
-    }
-    Ok(())
-}
-
 /// One result of a node: `node`, its first output, or `node.port`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct OutputRef {
@@ -60,24 +33,6 @@ pub struct OutputRef {
     pub node: NodeId,
     /// The output port; `None` means the node's first.
     pub port: Option<String>,
-}
-
-impl FromStr for OutputRef {
-    type Err = Problem;
-
-    fn from_str(text: &str) -> Result<Self, Problem> {
-        let (node, port) = match text.split_once('.') {
-            None => (text, None),
-            Some((node, port)) => {
-                check_port_name(port)?;
-                (node, Some(port.to_owned()))
-            }
-        };
-        Ok(OutputRef {
-            node: node.parse()?,
-            port,
-        })
-    }
 }
 
 impl fmt::Display for OutputRef {
@@ -96,20 +51,6 @@ pub struct SlotRef {
     pub node: NodeId,
     /// The parameter's or input's name.
     pub name: String,
-}
-
-impl FromStr for SlotRef {
-    type Err = Problem;
-
-    fn from_str(text: &str) -> Result<Self, Problem> {
-        match text.split_once('.') {
-            Some((node, name)) if !name.is_empty() => Ok(SlotRef {
-                node: node.parse()?,
-                name: name.to_owned(),
-            }),
-            _ => Err(Problem::BadSlot { text: shown(text) }),
-        }
-    }
 }
 
 impl fmt::Display for SlotRef {

@@ -21,6 +21,7 @@ mod flatten;
 mod graph;
 mod history;
 mod id;
+mod id_text;
 mod json;
 mod layout;
 mod locate;
@@ -37,14 +38,15 @@ mod save;
 mod tests;
 mod validate;
 mod value;
+mod value_text;
 
-pub use document::{Document, Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
+pub use document::{Document, Fit, GroupDef, GroupInput, Preview};
 pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
 pub use flatten::{
     FlatGraph, FlatNode, FlatRef, FlattenError, Found, INSTANCE_KNOBS, NodeRef, Overrides, flatten, flatten_and_find,
 };
-pub use graph::{Graph, Node};
+pub use graph::{Exposed, Frame, Graph, Node};
 pub use history::{History, UNDO_STEPS};
 pub use id::{NodeId, OutputRef, SlotRef};
 pub use locate::locate;

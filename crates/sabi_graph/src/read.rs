@@ -14,8 +14,14 @@ use crate::json::{Json, Tree};
 use crate::name::check_name;
 use crate::{Document, FileError};
 
-pub(crate) fn document(text: &str) -> Result<Document, FileError> {
-    read(text).map_err(|fail| fail.in_text(text))
+impl Document {
+    /// Reads a graph file of this or an earlier version.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with it, with its line and column.
+    pub fn from_json(text: &str) -> Result<Document, FileError> {
+        read(text).map_err(|fail| fail.in_text(text))
+    }
 }
 
 fn read(text: &str) -> Result<Document, Fail> {

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::document::{Exposed, GroupDef, Preview};
+use crate::document::{GroupDef, Preview};
+use crate::graph::Exposed;
 use crate::validate::is_group_file;
 use crate::{Body, Document, Edit, GROUP_KIND, Graph, Node, SlotRef, Value};
 

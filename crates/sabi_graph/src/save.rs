@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Document, Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
+use crate::document::{Document, Fit, GroupDef, GroupInput, Preview};
+use crate::graph::{Exposed, Frame};
 use crate::layout::{Item, Keys};
 use crate::migrate::NEWEST;
 use crate::{Graph, Node, NodeId, OutputRef, SlotRef, Value};
@@ -19,22 +20,25 @@ const GROUP_KEYS: [&str; 8] = [
 /// Keys of a node, in order.
 const NODE_KEYS: [&str; 7] = ["kind", "group", "label", "inputs", "params", "pos", "muted"];
 
-pub(crate) fn document(document: &Document) -> String {
-    let mut keys = Keys::default();
-    keys.put("format", "sabi");
-    keys.put("version", NEWEST);
-    keys.put_some("name", Some(document.name.as_str()).filter(|name| !name.is_empty()));
-    if let Some(preview) = &document.preview {
-        keys.push("preview".to_owned(), preview_item(preview));
+impl Document {
+    /// The canonical text: the same document gives the same bytes, and reading them gives this document.
+    pub fn to_json(&self) -> String {
+        let mut keys = Keys::default();
+        keys.put("format", "sabi");
+        keys.put("version", NEWEST);
+        keys.put_some("name", Some(self.name.as_str()).filter(|name| !name.is_empty()));
+        if let Some(preview) = &self.preview {
+            keys.push("preview".to_owned(), preview_item(preview));
+        }
+        keys.put_some("fit", Some(self.fit).filter(|fit| *fit != Fit::Unit).map(fit_value));
+        keys.put_some("seed", Some(self.seed).filter(|seed| *seed != 0));
+        put_panel(&mut keys, &self.graph);
+        keys.put_map("groups", &self.groups, group_item);
+        put_ports(&mut keys, &self.inputs, &self.outputs);
+        put_nodes(&mut keys, &self.graph);
+        keys.put_extra(&self.extra, &DOCUMENT_KEYS);
+        keys.into_text()
     }
-    keys.put_some("fit", Some(document.fit).filter(|fit| *fit != Fit::Unit).map(fit_value));
-    keys.put_some("seed", Some(document.seed).filter(|seed| *seed != 0));
-    put_panel(&mut keys, &document.graph);
-    keys.put_map("groups", &document.groups, group_item);
-    put_ports(&mut keys, &document.inputs, &document.outputs);
-    put_nodes(&mut keys, &document.graph);
-    keys.put_extra(&document.extra, &DOCUMENT_KEYS);
-    keys.into_text()
 }
 
 fn group_item(group: &GroupDef) -> Item {

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Exposed, Fit, GroupDef, GroupInput};
-use crate::id::check_port_name;
+use crate::document::{Fit, GroupDef, GroupInput};
+use crate::graph::Exposed;
+use crate::id_text::check_port_name;
 use crate::name::{NOT_IN_KNOBS, check_name};
 use crate::problem::{Problem, hint, shown};
 use crate::{GROUP_KIND, Graph, Node, SlotRef};

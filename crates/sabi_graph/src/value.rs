@@ -130,17 +130,6 @@ impl Value {
             Value::Object(_) => "an object",
         }
     }
-
-    /// Reads one JSON value, as on a command line; `None` when the text is not JSON or cannot be kept (see
-    /// [`Value::canonical`]).
-    pub fn from_json(text: &str) -> Option<Value> {
-        crate::json::parse(text).ok()?.into_value().canonical()
-    }
-
-    /// Canonical text on one line: `[0.5, "#804020"]`.
-    pub fn to_json(&self) -> String {
-        crate::layout::one_line(self)
-    }
 }
 
 impl Serialize for Value {

@@ -6,12 +6,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
 use crate::decode_exr::{check_exr, decode_exr};
+use crate::error::damaged;
+use crate::size_limits::{MAX_DECODED_BYTES, check_size};
 use crate::{Declared, ImageError, Picture, Pixels};
 
-/// Longest side that is read, pixels.
-pub const MAX_SIDE: u32 = 16384;
-/// Most bytes that a picture may take once decoded.
-pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 /// Deflate makes no file smaller than this fraction (RFC 1951: 258 bytes from 2 bits).
 const DEFLATE_BEST_RATIO: u64 = 1032;
 /// A JPEG has at least a bit for each 8 × 8 block of pixels (ITU-T T.81: no Huffman code is shorter).
@@ -69,26 +67,6 @@ impl Format {
     }
 }
 
-pub(crate) fn damaged(name: &str, format: &'static str, detail: impl ToString) -> ImageError {
-    let mut detail = detail.to_string().trim_end_matches('.').to_owned();
-    // The PNG decoder prints a chunk as a Rust value; its name is enough.
-    const BEFORE_NAME: &str = "ChunkType { type: ";
-    while let Some(start) = detail.find(BEFORE_NAME) {
-        let Some(length) = detail[start..].find('}') else { break };
-        let chunk = detail[start + BEFORE_NAME.len()..]
-            .split(',')
-            .next()
-            .unwrap_or_default()
-            .to_owned();
-        detail.replace_range(start..=start + length, &chunk);
-    }
-    ImageError::Damaged {
-        name: name.into(),
-        format,
-        detail,
-    }
-}
-
 /// Marks of common files that are not read, so that the message can name them.
 const FOREIGN: [(&[u8], &str); 10] = [
     (b"GIF8", "a GIF picture"),
@@ -131,25 +109,6 @@ fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
         }
     };
     Ok(format)
-}
-
-/// Refuses sizes that are not read, before anything is allocated for them.
-pub(crate) fn check_size(name: &str, width: u64, height: u64, pixel_bytes: u64) -> Result<(), ImageError> {
-    let bytes = width
-        .checked_mul(height)
-        .and_then(|pixels| pixels.checked_mul(pixel_bytes));
-    let fits = width <= u64::from(MAX_SIDE)
-        && height <= u64::from(MAX_SIDE)
-        && bytes.is_some_and(|bytes| bytes <= MAX_DECODED_BYTES);
-    if fits {
-        Ok(())
-    } else {
-        Err(ImageError::TooLarge {
-            name: name.into(),
-            width,
-            height,
-        })
-    }
 }
 
 /// A PNG before its pixels.

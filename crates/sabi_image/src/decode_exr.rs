@@ -8,7 +8,8 @@ use exr::meta::attribute::IntegerBounds;
 use exr::meta::header::Header;
 use exr::prelude::{AnyChannels, ReadChannels as _, ReadLayers as _};
 
-use crate::decode::{MAX_DECODED_BYTES, check_size, damaged};
+use crate::error::damaged;
+use crate::size_limits::{MAX_DECODED_BYTES, check_size};
 use crate::{Declared, ImageError, Picture, Pixels};
 
 const FORMAT: &str = "OpenEXR";

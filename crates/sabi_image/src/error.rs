@@ -64,3 +64,21 @@ pub enum ImageError {
         reason: String,
     },
 }
+
+/// The error of a damaged file, with the words of its decoder.
+pub(crate) fn damaged(name: &str, format: &'static str, detail: impl ToString) -> ImageError {
+    let mut detail = detail.to_string().trim_end_matches('.').to_owned();
+    // The PNG decoder prints a chunk as a Rust value; its name is enough.
+    const BEFORE_NAME: &str = "ChunkType { type: ";
+    while let Some(start) = detail.find(BEFORE_NAME) {
+        let Some(length) = detail[start..].find('}') else { break };
+        let chunk = detail[start + BEFORE_NAME.len()..].split(',').next().map(str::to_owned);
+        let Some(chunk) = chunk else { break };
+        detail.replace_range(start..=start + length, &chunk);
+    }
+    ImageError::Damaged {
+        name: name.into(),
+        format,
+        detail,
+    }
+}

@@ -27,11 +27,13 @@ mod encode_png;
 mod error;
 mod picture;
 mod quantize;
+mod size_limits;
 
 pub use color::{linear_from_srgb, srgb_from_linear, srgb8_from_linear};
-pub use decode::{MAX_DECODED_BYTES, MAX_SIDE, check_header, decode};
+pub use decode::{check_header, decode};
 pub use encode_exr::encode_exr;
 pub use encode_png::{PngData, PngOptions, encode_png};
 pub use error::ImageError;
 pub use picture::{Declared, LinearPicture, Picture, Pixels};
 pub use quantize::{Dither, dither_threshold, quantize_u8, quantize_u16};
+pub use size_limits::{MAX_DECODED_BYTES, MAX_SIDE};

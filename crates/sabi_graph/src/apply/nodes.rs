@@ -1,7 +1,7 @@
 //! Edits of nodes and links.
 
 use super::{keep, keep_all};
-use crate::id::check_port_name;
+use crate::id_text::check_port_name;
 use crate::problem::Problem;
 use crate::validate;
 use crate::{Body, Document, Edit, EditError, Node, NodeId, OutputRef, Value};

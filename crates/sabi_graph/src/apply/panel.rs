@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use super::nodes::check_output;
 use super::{keep, keep_all, missing};
-use crate::document::{Exposed, Frame, GroupInput};
-use crate::id::check_port_name;
+use crate::document::GroupInput;
+use crate::graph::{Exposed, Frame};
+use crate::id_text::check_port_name;
 use crate::name::check_name;
 use crate::problem::{Problem, shown};
 use crate::validate;

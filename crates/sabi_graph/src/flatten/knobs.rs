@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{FlattenError, Overrides};
-use crate::document::Exposed;
+use crate::graph::Exposed;
 use crate::problem::{Problem, hint, listed, shown};
 use crate::value::number_text;
 use crate::{Graph, SlotRef, Value};

@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fields::{Fields, text, value};
-use crate::document::{Exposed, Frame, GroupInput};
+use crate::document::GroupInput;
 use crate::file_error::Fail;
-use crate::id::check_port_name;
+use crate::graph::{Exposed, Frame};
+use crate::id_text::check_port_name;
 use crate::json::{Json, Member};
 use crate::name::{NOT_IN_KNOBS, check_name};
 use crate::problem::Problem;

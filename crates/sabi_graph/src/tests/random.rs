@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use proptest::prelude::*;
 
-use crate::document::{Exposed, Fit, Frame, GroupDef, GroupInput, Preview};
+use crate::document::{Fit, GroupDef, GroupInput, Preview};
+use crate::graph::{Exposed, Frame};
 use crate::{Body, Document, Edit, GROUP_KIND, Node, NodeId, OutputRef, PortType, SlotRef, Value};
 
 /// Few enough names that edits often meet.
