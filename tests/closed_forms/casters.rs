@@ -100,13 +100,13 @@ fn what_longer_rays_hit_says_what_shorter_ones_would() {
         for (setting, length_now) in settings.into_iter().zip([0.02, 0.05]) {
             on_mesh.set_graph(&graph(kind, &format!(r#""{length}": {length_now}, {setting}"#)));
             let shot = on_mesh.evaluate("rays").components();
-            on_mesh.evaluator.hits = Hits::Remembered;
+            on_mesh.evaluator.hits = Hits::Cached;
             let asked = Asked {
                 mode: Mode::Interactive,
                 cache: Some(&mut cache),
             };
             let remembered = on_mesh.evaluate_as("rays", asked).components();
-            on_mesh.evaluator.hits = Hits::Shot;
+            on_mesh.evaluator.hits = Hits::Cast;
             for ((name, shot), (_, remembered)) in shot.iter().zip(&remembered) {
                 let apart = owned.iter().filter(|&&at| (shot[at] - remembered[at]).abs() > 1e-3);
                 let share = apart.count() as f64 / owned.len() as f64;
@@ -120,7 +120,7 @@ fn what_longer_rays_hit_says_what_shorter_ones_would() {
 fn a_slider_that_only_makes_rays_shorter_shoots_none() {
     let path = project("assets/meshes/figure.glb");
     let mut on_mesh = OnMesh::new(&graph("edges", ""), &path, 128);
-    on_mesh.evaluator.hits = Hits::Remembered;
+    on_mesh.evaluator.hits = Hits::Cached;
     let mut cache = ResultCache::new(1 << 30);
     let mut held = |params: &str| {
         on_mesh.set_graph(&graph("edges", params));

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, SlotRef};
 
-use crate::rays::HitMemory;
+use crate::rays::HitCache;
 
 /// Key of the content of one texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,7 +16,7 @@ pub struct ResultKey {
     pub plane: Plane,
 }
 
-struct Kept {
+struct CachedTexture {
     texture: wgpu::Texture,
     bytes: u64,
     last_used: u64,
@@ -27,9 +27,9 @@ pub struct ResultCache {
     budget_bytes: u64,
     bytes: u64,
     runs: u64,
-    kept: BTreeMap<ResultKey, Kept>,
+    textures: BTreeMap<ResultKey, CachedTexture>,
     /// Cached ray hits, within a quarter of the budget.
-    pub(crate) hits: HitMemory,
+    pub(crate) hits: HitCache,
 }
 
 impl ResultCache {
@@ -39,8 +39,8 @@ impl ResultCache {
             budget_bytes,
             bytes: 0,
             runs: 0,
-            kept: BTreeMap::new(),
-            hits: HitMemory::new(budget_bytes / 4),
+            textures: BTreeMap::new(),
+            hits: HitCache::new(budget_bytes / 4),
         }
     }
 
@@ -50,8 +50,8 @@ impl ResultCache {
     }
 
     /// Whether any plane of a result is cached; `content` is a key of the plan.
-    pub fn knows(&self, content: &[u8; 32]) -> bool {
-        self.kept.keys().any(|key| key.content == *content)
+    pub fn contains(&self, content: &[u8; 32]) -> bool {
+        self.textures.keys().any(|key| key.content == *content)
     }
 
     /// Drops all results.
@@ -60,41 +60,41 @@ impl ResultCache {
     }
 
     /// Cached textures by slot.
-    pub(crate) fn known(&self, keys: &BTreeMap<SlotRef, ResultKey>) -> BTreeMap<SlotRef, wgpu::Texture> {
+    pub(crate) fn find(&self, keys: &BTreeMap<SlotRef, ResultKey>) -> BTreeMap<SlotRef, wgpu::Texture> {
         keys.iter()
-            .filter_map(|(slot, key)| Some((*slot, self.kept.get(key)?.texture.clone())))
+            .filter_map(|(slot, key)| Some((*slot, self.textures.get(key)?.texture.clone())))
             .collect()
     }
 
     /// Stores the results of a run, marks those that it used, and drops the least recently used ones over the budget.
-    pub(crate) fn keep(
+    pub(crate) fn insert(
         &mut self,
         keys: &BTreeMap<SlotRef, ResultKey>,
-        textures: &[Option<wgpu::Texture>],
+        made: &[Option<wgpu::Texture>],
         plan: &Plan,
         texels: u64,
     ) {
         self.runs += 1;
         for (slot, key) in keys {
-            let Some(texture) = &textures[*slot] else { continue };
+            let Some(texture) = &made[*slot] else { continue };
             let bytes = plan.slots[*slot].format.texel_bytes() * texels;
-            let kept = Kept {
+            let cached = CachedTexture {
                 texture: texture.clone(),
                 bytes,
                 last_used: self.runs,
             };
             self.bytes += bytes;
-            if let Some(before) = self.kept.insert(*key, kept) {
+            if let Some(before) = self.textures.insert(*key, cached) {
                 self.bytes -= before.bytes;
             }
         }
         while self.bytes + self.hits.bytes() > self.budget_bytes {
             let oldest = self
-                .kept
+                .textures
                 .iter()
-                .min_by_key(|(_, kept)| kept.last_used)
+                .min_by_key(|(_, cached)| cached.last_used)
                 .map(|(key, _)| *key);
-            let Some(dropped) = oldest.and_then(|key| self.kept.remove(&key)) else {
+            let Some(dropped) = oldest.and_then(|key| self.textures.remove(&key)) else {
                 break;
             };
             self.bytes -= dropped.bytes;

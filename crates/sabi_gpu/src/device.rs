@@ -9,12 +9,12 @@ use crate::surface::SURFACE_TEXTURES;
 
 /// First error that the driver reported outside of a call.
 #[derive(Debug, Default)]
-pub(crate) struct Complaints {
+pub(crate) struct DriverErrors {
     first: Mutex<Option<GpuError>>,
 }
 
-impl Complaints {
-    fn put(&self, error: GpuError) {
+impl DriverErrors {
+    fn record(&self, error: GpuError) {
         if let Ok(mut first) = self.first.lock() {
             // A loss is the cause of the errors that follow it.
             if first.is_none() || matches!(error, GpuError::Lost(_)) {
@@ -41,7 +41,7 @@ pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     pub(crate) pipelines: Pipelines,
-    pub(crate) complaints: Arc<Complaints>,
+    pub(crate) driver_errors: Arc<DriverErrors>,
     summary: AdapterSummary,
     limits: sabi_plan::Limits,
 }
@@ -63,12 +63,12 @@ impl Gpu {
         if let Some(why) = shortage(&available) {
             return Err(unfit(adapter, why));
         }
-        let complaints = Arc::new(Complaints::default());
-        let lost = complaints.clone();
-        device.set_device_lost_callback(move |_, message| lost.put(GpuError::Lost(message)));
-        let uncaptured = complaints.clone();
+        let driver_errors = Arc::new(DriverErrors::default());
+        let lost = driver_errors.clone();
+        device.set_device_lost_callback(move |_, message| lost.record(GpuError::Lost(message)));
+        let uncaptured = driver_errors.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            uncaptured.put(driver_error(error, "a result"))
+            uncaptured.record(driver_error(error, "a result"))
         }));
         let limits = sabi_plan::Limits {
             // Every kernel binds the textures of the surface.
@@ -80,7 +80,7 @@ impl Gpu {
             pipelines: Pipelines::new(&device),
             device,
             queue,
-            complaints,
+            driver_errors,
             summary: AdapterSummary::of(&adapter.get_info()),
             limits,
         })
@@ -88,15 +88,15 @@ impl Gpu {
 
     /// Error of a lost device; none while it works.
     pub fn loss(&self) -> Option<GpuError> {
-        self.heard_loss().or_else(|| {
+        self.recorded_loss().or_else(|| {
             // The loss callback runs when the device is polled.
             let _ = self.device.poll(wgpu::PollType::Poll);
-            self.heard_loss()
+            self.recorded_loss()
         })
     }
 
-    fn heard_loss(&self) -> Option<GpuError> {
-        let first = self.complaints.first.lock().ok()?;
+    fn recorded_loss(&self) -> Option<GpuError> {
+        let first = self.driver_errors.first.lock().ok()?;
         first.clone().filter(|error| matches!(error, GpuError::Lost(_)))
     }
 
@@ -122,25 +122,25 @@ impl Gpu {
 
     /// Waits until all submitted work is done; returns an error that the driver reported in the meantime.
     pub fn wait(&self) -> Result<(), GpuError> {
-        self.polled(wgpu::PollType::wait_indefinitely())
+        self.poll(wgpu::PollType::wait_indefinitely())
     }
 
     /// Waits until one submission and all before it are done.
     pub(crate) fn wait_for(&self, submission: wgpu::SubmissionIndex) -> Result<(), GpuError> {
-        self.polled(wgpu::PollType::Wait {
+        self.poll(wgpu::PollType::Wait {
             submission_index: Some(submission),
             timeout: None,
         })
     }
 
-    fn polled(&self, until: wgpu::PollType) -> Result<(), GpuError> {
+    fn poll(&self, until: wgpu::PollType) -> Result<(), GpuError> {
         // Polling a lost device makes wgpu 29 free all its resources, under locks that an uploading thread takes in the
         // opposite order: a deadlock.
-        if let Some(loss) = self.heard_loss() {
+        if let Some(loss) = self.recorded_loss() {
             return Err(loss);
         }
         let polled = self.device.poll(until);
-        self.complaints.take()?;
+        self.driver_errors.take()?;
         polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))
     }
 
@@ -154,7 +154,7 @@ impl Gpu {
             return Err(driver_error(error, what));
         }
         // Calls on a lost device succeed; only the loss callback reports it.
-        self.complaints.take()?;
+        self.driver_errors.take()?;
         Ok(made)
     }
 }

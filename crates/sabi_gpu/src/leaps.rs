@@ -10,7 +10,7 @@ const FARTHEST: u8 = 63;
 /// Cosine of the angle between two triangles above which they count as one plane.
 const ONE_PLANE: f32 = 0.999_999;
 /// Steps to the eight neighbors of a texel in order around it; the first one again at the end.
-const AROUND: [[i32; 2]; 9] = [
+const NEIGHBORS: [[i32; 2]; 9] = [
     [-1, 0],
     [-1, -1],
     [0, -1],
@@ -46,7 +46,7 @@ pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
         };
         // A quadrant is flat if its three neighbors are in the texel's plane. Points of two opposite flat quadrants have the
         // center as their mean.
-        let same = AROUND.map(is_plane);
+        let same = NEIGHBORS.map(is_plane);
         let corner = |first: usize| same[first..first + 3].iter().all(|same| *same);
         leap | u8::from(corner(0) && corner(4)) << 6 | u8::from(corner(2) && corner(6)) << 7
     };

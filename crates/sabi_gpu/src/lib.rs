@@ -27,7 +27,7 @@ mod leaps;
 mod levels;
 mod links;
 mod maps;
-mod needs;
+mod needed_steps;
 mod pipelines;
 mod pool;
 mod rays;

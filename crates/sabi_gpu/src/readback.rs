@@ -93,28 +93,28 @@ impl Gpu {
     }
 
     /// Submits a copy of the first bytes of a buffer into a mappable one, and requests its mapping without waiting.
-    pub(crate) fn start_mapping(&self, source: &wgpu::Buffer, by_way_of: &wgpu::Buffer, bytes: u64) -> Mapping {
+    pub(crate) fn start_mapping(&self, source: &wgpu::Buffer, staging: &wgpu::Buffer, bytes: u64) -> Mapping {
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(source, 0, by_way_of, 0, bytes);
-        mapping_of(self.queue.submit([encoder.finish()]), by_way_of, bytes)
+        encoder.copy_buffer_to_buffer(source, 0, staging, 0, bytes);
+        mapping_of(self.queue.submit([encoder.finish()]), staging, bytes)
     }
 
     /// Waits for a mapping, but for no later submission, and calls `look` with its bytes.
     pub(crate) fn finish_mapping<T>(
         &self,
         mapping: Mapping,
-        by_way_of: &wgpu::Buffer,
+        staging: &wgpu::Buffer,
         look: impl FnOnce(&[u8]) -> T,
     ) -> Result<T, GpuError> {
         self.wait_for(mapping.submitted)?;
         // Where several threads wait for one device, another one may be running the callback now.
         mapped(mapping.answer.recv_timeout(ANSWER_LIMIT))?;
-        let view = by_way_of.get_mapped_range(..mapping.bytes);
+        let view = staging.get_mapped_range(..mapping.bytes);
         let seen = look(&view);
         drop(view);
-        by_way_of.unmap();
+        staging.unmap();
         Ok(seen)
     }
 

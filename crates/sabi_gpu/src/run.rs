@@ -17,9 +17,9 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::levels::Surfaces;
 use crate::links::LinkRound;
-use crate::needs::{last_uses, needed_steps, slot_keys, written_by};
+use crate::needed_steps::{last_uses, needed_steps, slot_keys, written_by};
 use crate::pool::{PoolReport, TexturePool, texture};
-use crate::rays::{CasterChoice, HitMemory, Hits, RayScene};
+use crate::rays::{CasterChoice, HitCache, Hits, RayScene};
 use crate::survey::SURVEY_EXTENT;
 
 /// Options of a run.
@@ -49,7 +49,7 @@ impl RunOptions<'_> {
             progress: &|_, _| {},
             budget_bytes,
             caster: CasterChoice::Auto,
-            hits: Hits::Shot,
+            hits: Hits::Cast,
             times_ghosts: false,
         }
     }
@@ -100,7 +100,7 @@ pub struct RunReport {
     /// Part of `run` in which ghosts were filled, if that was measured.
     pub ghosts: Duration,
     /// Whether some results follow from cached hits of longer rays, and so may differ by rounding.
-    pub is_remembered: bool,
+    pub has_cached_hits: bool,
     /// Nodes whose rays were not cast, since their results were on disk.
     pub found_on_disk: Vec<String>,
     /// Texture memory, that of the surface included.
@@ -147,9 +147,9 @@ impl Gpu {
     ) -> Result<Run, GpuError> {
         let started = Instant::now();
         let keys = slot_keys(plan);
-        let known = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.known(&keys));
+        let known = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
         let keeps_all = cache.is_some();
-        let memory = cache.as_deref_mut().map(|cache| &mut cache.hits);
+        let hit_cache = cache.as_deref_mut().map(|cache| &mut cache.hits);
         let mut runner = Runner {
             gpu: self,
             surfaces,
@@ -159,8 +159,8 @@ impl Gpu {
             textures: plan.slots.iter().map(|_| None).collect(),
             pool: TexturePool::new(options.budget_bytes, surfaces.finest.texture_bytes()),
             report: RunReport::default(),
-            open_planes: BTreeMap::new(),
-            memory: memory.filter(|_| options.hits == Hits::Remembered),
+            unused_planes: BTreeMap::new(),
+            hit_cache: hit_cache.filter(|_| options.hits == Hits::Cached),
             found_on_disk: Vec::new(),
         };
         let steps = needed_steps(plan, &known);
@@ -181,13 +181,13 @@ impl Gpu {
         report.pool = pool.report();
         report.run = started.elapsed().saturating_sub(report.compile);
         if let Some(cache) = cache
-            && !report.is_remembered
+            && !report.has_cached_hits
             && !matches!(ended, Err(GpuError::Lost(_)))
         {
             // Results of finished steps are cached even where a later step failed or was canceled.
             let unfinished = written_by(plan, &steps[report.steps.len()..]);
             let finished = keys.into_iter().filter(|(slot, _)| !unfinished.contains(slot));
-            cache.keep(&finished.collect(), &textures, plan, surfaces.finest.texels());
+            cache.insert(&finished.collect(), &textures, plan, surfaces.finest.texels());
         }
         ended.map(|()| Run { textures, report, pool })
     }
@@ -204,9 +204,9 @@ struct Runner<'a> {
     report: RunReport,
     /// One-texel textures for unused planes of interactive kernels, by format and whether they are written: a texture must
     /// not be read and written in one dispatch.
-    open_planes: BTreeMap<(Format, bool), wgpu::Texture>,
+    unused_planes: BTreeMap<(Format, bool), wgpu::Texture>,
     /// Cached ray hits, where they may be used.
-    memory: Option<&'a mut HitMemory>,
+    hit_cache: Option<&'a mut HitCache>,
     found_on_disk: Vec<String>,
 }
 
@@ -236,7 +236,7 @@ impl Runner<'_> {
                 vec![(source.id.clone(), 1.0)]
             }
             Step::Move(step) => {
-                self.bring(step)?;
+                self.move_plane(step)?;
                 vec![(step.node.clone(), 1.0)]
             }
             Step::Survey(step) => {
@@ -286,12 +286,12 @@ impl Runner<'_> {
         }
     }
 
-    fn open_plane(&mut self, format: Format, is_written: bool) -> Result<wgpu::Texture, GpuError> {
-        if let Some(texture) = self.open_planes.get(&(format, is_written)) {
+    fn unused_plane(&mut self, format: Format, is_written: bool) -> Result<wgpu::Texture, GpuError> {
+        if let Some(texture) = self.unused_planes.get(&(format, is_written)) {
             return Ok(texture.clone());
         }
         let made = texture(self.gpu, [1, 1, 1], format)?;
-        self.open_planes.insert((format, is_written), made.clone());
+        self.unused_planes.insert((format, is_written), made.clone());
         Ok(made)
     }
 
@@ -327,7 +327,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    fn bring(&mut self, step: &MoveStep) -> Result<(), GpuError> {
+    fn move_plane(&mut self, step: &MoveStep) -> Result<(), GpuError> {
         let [from, to] = [self.texture(step.from)?, self.texture(step.to)?];
         let (gpu, surfaces) = (self.gpu, self.surfaces);
         gpu.move_plane(surfaces, step.levels, [&from, &to], step.format, self.options)

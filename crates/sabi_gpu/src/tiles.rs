@@ -16,7 +16,7 @@ const ROW: u32 = 32_768;
 pub(crate) const FIRST_SLICE: u32 = 512;
 
 /// Repetitions of a quick kernel between waits for the device.
-const UNWATCHED: u32 = 8;
+const REPETITIONS_PER_WAIT: u32 = 8;
 
 /// As `Pass` in `shaders/lib/atlas.wgsl`.
 #[repr(C)]
@@ -113,7 +113,9 @@ impl<'a> Slices<'a> {
             if is_canceled() {
                 return Err(GpuError::Canceled);
             }
-            if self.length.get() / UNWATCHED >= self.surface.tile_count && !self.round[0].is_multiple_of(UNWATCHED) {
+            if self.length.get() / REPETITIONS_PER_WAIT >= self.surface.tile_count
+                && !self.round[0].is_multiple_of(REPETITIONS_PER_WAIT)
+            {
                 // The last repetition took a small part of the target time, so several run between two waits.
                 self.submit(pipeline, group, 0, self.surface.tile_count);
                 return Ok(());

@@ -181,7 +181,7 @@ impl Evaluator {
             seed,
             surface_key,
             caster: options.caster,
-            hits: Hits::Shot,
+            hits: Hits::Cast,
             most_rays: None,
             times_ghosts: false,
             ray_cache: RayCache::new(options.model.cache_dir.as_deref()),

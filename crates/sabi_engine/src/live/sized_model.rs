@@ -133,11 +133,7 @@ impl SizedModel {
         self.idle_outputs = idle_outputs;
         self.sources.clear();
         self.shoots = false;
-        self.evaluator.hits = if request.is_moving {
-            Hits::Remembered
-        } else {
-            Hits::Shot
-        };
+        self.evaluator.hits = if request.is_moving { Hits::Cached } else { Hits::Cast };
         let is_another = self.evaluator.fit != self.model.fit;
         if is_another {
             self.model = live_model(&self.evaluator, self.model.model_revision)?;
@@ -167,7 +163,7 @@ impl SizedModel {
     pub(super) fn plan(&mut self, targets: &[Target]) -> Plan {
         self.evaluator.most_rays = None;
         let mut plan = self.try_plan(targets);
-        let is_new = |keys: &[[u8; 32]]| keys.iter().any(|key| !self.cache.knows(key));
+        let is_new = |keys: &[[u8; 32]]| keys.iter().any(|key| !self.cache.contains(key));
         let shoots =
             |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some() && is_new(&kernel.keys));
         if self.is_coarse && self.is_moving() && plan.steps.iter().any(shoots) {
@@ -205,7 +201,7 @@ impl SizedModel {
     }
 
     fn is_moving(&self) -> bool {
-        self.evaluator.hits == Hits::Remembered
+        self.evaluator.hits == Hits::Cached
     }
 
     /// Whether results of a plan may differ, by rounding or noise, from those after the knob is released.

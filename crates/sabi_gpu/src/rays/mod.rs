@@ -3,7 +3,7 @@
 mod caster;
 mod device;
 mod hierarchy;
-mod memory;
+mod hit_cache;
 mod processor;
 
 use std::time::{Duration, Instant};
@@ -19,8 +19,8 @@ use crate::tiles::{FIRST_SLICE, Slices};
 pub use caster::CasterChoice;
 pub(crate) use caster::{Caster, caster, follows_on_device};
 pub use hierarchy::{DeviceHierarchy, RayScene};
-pub use memory::Hits;
-pub(crate) use memory::{HitMemory, KeptHits};
+pub use hit_cache::Hits;
+pub(crate) use hit_cache::{CachedHits, HitCache};
 
 /// A ray, as `Ray` in `shaders/lib/rays.wgsl`.
 #[repr(C)]
@@ -160,18 +160,18 @@ impl<'a> RayBuffers<'a> {
         pass: &RayPass<'_>,
         longest: &RoomGroups,
         caster: &mut Caster<'_>,
-    ) -> Result<Vec<KeptHits>, GpuError> {
+    ) -> Result<Vec<CachedHits>, GpuError> {
         let mut slices = Vec::new();
         self.follow(pass, longest, Finds::Nearest, caster, |slice, room| {
             let tiles = [slice.first, slice.end];
-            slices.push(memory::kept(self.gpu, tiles, self.rays.count, &room.hits)?);
+            slices.push(hit_cache::copied(self.gpu, tiles, self.rays.count, &room.hits)?);
             Ok(())
         })?;
         Ok(slices)
     }
 
     /// Evaluates rays by cached hits of longer rays.
-    pub(crate) fn recall(&self, pass: &RayPass<'_>, kept: &[KeptHits]) -> Result<(), GpuError> {
+    pub(crate) fn recall(&self, pass: &RayPass<'_>, kept: &[CachedHits]) -> Result<(), GpuError> {
         for (at, known) in kept.iter().enumerate() {
             if (pass.is_canceled)() {
                 return Err(GpuError::Canceled);
@@ -182,7 +182,7 @@ impl<'a> RayBuffers<'a> {
                 room: at % 2,
             };
             pass.shoot(&pass.groups, slice);
-            memory::copy(self.gpu, &known.hits, &self.rooms[slice.room].hits, known.hits.size());
+            hit_cache::copy(self.gpu, &known.hits, &self.rooms[slice.room].hits, known.hits.size());
             pass.ask(slice);
             self.gpu.wait()?;
         }

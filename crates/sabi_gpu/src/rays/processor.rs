@@ -18,7 +18,7 @@ const PART: usize = 1024;
 pub(crate) struct OnProcessor<'a> {
     scene: RayScene<'a>,
     /// Pending mappings of slices, oldest first.
-    coming: VecDeque<Mapping>,
+    pending: VecDeque<Mapping>,
     hits: Vec<HitRow>,
 }
 
@@ -26,7 +26,7 @@ impl<'a> OnProcessor<'a> {
     pub(super) fn new(scene: RayScene<'a>) -> OnProcessor<'a> {
         OnProcessor {
             scene,
-            coming: VecDeque::new(),
+            pending: VecDeque::new(),
             hits: Vec::new(),
         }
     }
@@ -34,14 +34,14 @@ impl<'a> OnProcessor<'a> {
     /// Requests the readback of rays.
     pub(super) fn begin(&mut self, gpu: &Gpu, room: &RayRoom, rays: usize) -> Result<(), GpuError> {
         let bytes = (rays * size_of::<RayRow>()) as u64;
-        self.coming
+        self.pending
             .push_back(gpu.start_mapping(&room.shot, &room.mapped, bytes));
         Ok(())
     }
 
     /// Casts the rays of the oldest slice and uploads their hits.
     pub(super) fn finish(&mut self, gpu: &Gpu, room: &RayRoom, rays: usize, finds: Finds) -> Result<(), GpuError> {
-        let Some(mapping) = self.coming.pop_front() else {
+        let Some(mapping) = self.pending.pop_front() else {
             return Ok(());
         };
         self.hits.resize(rays, HitRow::MISS);

@@ -87,14 +87,14 @@ impl Runner<'_> {
         for slot in reads {
             let texture = match slot {
                 Some(slot) => self.texture(*slot)?,
-                None => self.open_plane(Format::Rgba16Float, false)?,
+                None => self.unused_plane(Format::Rgba16Float, false)?,
             };
             bound.views.push(array_view(&texture));
         }
         for (slot, format) in writes.iter().zip(&compiled.kernel.writes) {
             let texture = match slot {
                 Some(slot) => self.texture(*slot)?,
-                None => self.open_plane(*format, true)?,
+                None => self.unused_plane(*format, true)?,
             };
             bound.views.push(array_view(&texture));
             if slot.is_some() {

@@ -22,10 +22,10 @@ impl Runner<'_> {
         slices: &Slices<'_>,
         sources: &mut dyn SourceFill,
     ) -> Result<(), GpuError> {
-        let is_kept = self.options.hits == Hits::Shot && sources.caches_rays();
+        let is_kept = self.options.hits == Hits::Cast && sources.caches_rays();
         let key = is_kept.then(|| self.disk_key(step, compiled, bound));
         if let Some(found) = key.and_then(|key| sources.cached_rays(&key))
-            && self.put_back(bound, &found)
+            && self.upload_results(bound, &found)
         {
             self.found_on_disk.extend(step.nodes.iter().cloned());
             return Ok(());
@@ -48,19 +48,19 @@ impl Runner<'_> {
         };
         self.warm(compiled, slices, &pass.groups[0])?;
         let (gpu, choice) = (self.gpu, self.options.caster);
-        match self.memory.as_deref_mut().zip(rays.key) {
-            Some((memory, key)) if memory.has_room(slices.tile_count() as usize, rays.count) => {
-                if !memory.knows(&key) {
+        match self.hit_cache.as_deref_mut().zip(rays.key) {
+            Some((hit_cache, key)) if hit_cache.fits(slices.tile_count() as usize, rays.count) => {
+                if !hit_cache.contains(&key) {
                     let mut caster = caster(gpu, choice, sources)?;
-                    memory.keep(key, buffers.remember(&pass, &groups(rays.reach), &mut caster)?);
+                    hit_cache.insert(key, buffers.remember(&pass, &groups(rays.reach), &mut caster)?);
                 }
-                buffers.recall(&pass, memory.recall(&key))?;
-                self.report.is_remembered = true;
+                buffers.recall(&pass, hit_cache.get(&key))?;
+                self.report.has_cached_hits = true;
             }
             _ => buffers.run(&pass, &mut caster(gpu, choice, sources)?)?,
         }
         if let Some(key) = key {
-            sources.cache_rays(&key, &self.taken_down(bound)?);
+            sources.cache_rays(&key, &self.read_results(bound)?);
         }
         Ok(())
     }
@@ -86,7 +86,7 @@ impl Runner<'_> {
     }
 
     /// Uploads results from disk; `false` if their size is another.
-    fn put_back(&self, bound: &Bound, found: &[u8]) -> bool {
+    fn upload_results(&self, bound: &Bound, found: &[u8]) -> bool {
         let texels = self.surfaces.finest.texels();
         let sizes = bound.written.iter().map(|(_, format)| texels * format.texel_bytes());
         if sizes.clone().sum::<u64>() != found.len() as u64 {
@@ -102,7 +102,7 @@ impl Runner<'_> {
     }
 
     /// Results of a kernel, read back to be kept on disk.
-    fn taken_down(&self, bound: &Bound) -> Result<Vec<u8>, GpuError> {
+    fn read_results(&self, bound: &Bound) -> Result<Vec<u8>, GpuError> {
         let mut bytes = Vec::new();
         for (texture, format) in &bound.written {
             let plane = self.gpu.read_texture(texture, self.surfaces.finest.extent, *format)?;

@@ -11,87 +11,87 @@ use crate::error::GpuError;
 pub enum Hits {
     /// Rays cast in this run, as long as the parameters say.
     #[default]
-    Shot,
+    Cast,
     /// While a knob is moved: hits of rays as long as the knob allows, cast once and kept in the result cache, from which
-    /// hits of shorter rays follow. Results differ from those of [`Hits::Shot`] by rounding, so they are not cached. Without
+    /// hits of shorter rays follow. Results differ from those of [`Hits::Cast`] by rounding, so they are not cached. Without
     /// a cache, or where it has no room, rays are cast.
-    Remembered,
+    Cached,
 }
 
 /// Hits of a range of tiles.
-pub(crate) struct KeptHits {
+pub(crate) struct CachedHits {
     pub(crate) first: usize,
     pub(crate) end: usize,
     pub(crate) hits: wgpu::Buffer,
 }
 
-struct Memory {
-    slices: Vec<KeptHits>,
+struct CachedRays {
+    slices: Vec<CachedHits>,
     bytes: u64,
     last_used: u64,
 }
 
 /// Cached hits by the key of their rays; the least recently used are dropped first.
-pub(crate) struct HitMemory {
+pub(crate) struct HitCache {
     budget_bytes: u64,
     uses: u64,
-    kept: BTreeMap<[u8; 32], Memory>,
+    rays: BTreeMap<[u8; 32], CachedRays>,
 }
 
-impl HitMemory {
-    pub(crate) fn new(budget_bytes: u64) -> HitMemory {
-        HitMemory {
+impl HitCache {
+    pub(crate) fn new(budget_bytes: u64) -> HitCache {
+        HitCache {
             budget_bytes,
             uses: 0,
-            kept: BTreeMap::new(),
+            rays: BTreeMap::new(),
         }
     }
 
     /// Bytes held.
     pub(crate) fn bytes(&self) -> u64 {
-        self.kept.values().map(|memory| memory.bytes).sum()
+        self.rays.values().map(|rays| rays.bytes).sum()
     }
 
     /// Whether the hits of `rays` rays for each texel of `tiles` tiles fit the budget.
-    pub(crate) fn has_room(&self, tiles: usize, rays: u32) -> bool {
+    pub(crate) fn fits(&self, tiles: usize, rays: u32) -> bool {
         bytes_of(tiles, rays) <= self.budget_bytes
     }
 
     /// Whether hits of a key are cached.
-    pub(crate) fn knows(&self, key: &[u8; 32]) -> bool {
-        self.kept.contains_key(key)
+    pub(crate) fn contains(&self, key: &[u8; 32]) -> bool {
+        self.rays.contains_key(key)
     }
 
     /// Cached hits of a key; empty where there are none.
-    pub(crate) fn recall(&mut self, key: &[u8; 32]) -> &[KeptHits] {
+    pub(crate) fn get(&mut self, key: &[u8; 32]) -> &[CachedHits] {
         self.uses += 1;
-        match self.kept.get_mut(key) {
-            Some(memory) => {
-                memory.last_used = self.uses;
-                &memory.slices
+        match self.rays.get_mut(key) {
+            Some(rays) => {
+                rays.last_used = self.uses;
+                &rays.slices
             }
             None => &[],
         }
     }
 
     /// Caches hits and drops the least recently used ones over the budget.
-    pub(crate) fn keep(&mut self, key: [u8; 32], slices: Vec<KeptHits>) {
+    pub(crate) fn insert(&mut self, key: [u8; 32], slices: Vec<CachedHits>) {
         let bytes = slices.iter().map(|slice| slice.hits.size()).sum();
         while self.bytes() + bytes > self.budget_bytes {
-            let oldest = self.kept.iter().min_by_key(|(_, memory)| memory.last_used);
+            let oldest = self.rays.iter().min_by_key(|(_, rays)| rays.last_used);
             let Some(oldest) = oldest.map(|(key, _)| *key) else {
                 break;
             };
-            self.kept.remove(&oldest);
+            self.rays.remove(&oldest);
         }
         self.uses += 1;
         let last_used = self.uses;
-        let memory = Memory {
+        let rays = CachedRays {
             slices,
             bytes,
             last_used,
         };
-        self.kept.insert(key, memory);
+        self.rays.insert(key, rays);
     }
 }
 
@@ -101,18 +101,23 @@ pub(super) fn bytes_of(tiles: usize, rays: u32) -> u64 {
 }
 
 /// Copies hits of a range of tiles to a buffer of their own.
-pub(super) fn kept(gpu: &Gpu, [first, end]: [usize; 2], rays: u32, room: &wgpu::Buffer) -> Result<KeptHits, GpuError> {
+pub(super) fn copied(
+    gpu: &Gpu,
+    [first, end]: [usize; 2],
+    rays: u32,
+    from: &wgpu::Buffer,
+) -> Result<CachedHits, GpuError> {
     let bytes = bytes_of(end - first, rays);
     let hits = gpu.guarded("what rays hit", |device| {
         device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("kept hits"),
+            label: Some("cached hits"),
             size: bytes,
             usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })
     })?;
-    copy(gpu, room, &hits, bytes);
-    Ok(KeptHits { first, end, hits })
+    copy(gpu, from, &hits, bytes);
+    Ok(CachedHits { first, end, hits })
 }
 
 /// Copies the first bytes of a buffer to another.
