@@ -1,4 +1,4 @@
-//! Lists the node and library files of `shaders/`, so that adding a node is adding a file.
+//! Lists the files of `shaders/`, so that adding a node or a shared file is adding a file.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -32,6 +32,15 @@ fn main() -> io::Result<()> {
     for file in entries(&shaders.join("lib"))? {
         if let Some(name) = stem(&file) {
             list += &format!("    ({name:?}, include_str!({:?})),\n", file.canonicalize()?);
+        }
+    }
+    list += "];\n\n/// Files of Sabi's own kernels and pictures: name, text.\npub(super) const SHADERS: &[(&str, &str)] = &[\n";
+    for folder in ["surface", "view"] {
+        for file in entries(&shaders.join(folder))? {
+            if let Some(name) = stem(&file) {
+                let name = format!("{folder}/{name}");
+                list += &format!("    ({name:?}, include_str!({:?})),\n", file.canonicalize()?);
+            }
         }
     }
     list += "];\n";

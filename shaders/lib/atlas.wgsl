@@ -1,6 +1,7 @@
 //! The linked atlas as kernels read it: which triangle is under a texel, where ghosts lead, and the triangles' tables.
 //!
 //! Linked to every kernel. Nodes go through `lib/surface`.
+//! @given SURFACE_GROUP
 
 const EMPTY: u32 = 0xffffffffu;
 const GHOST_BIT: u32 = 0x80000000u;
@@ -54,17 +55,17 @@ struct GhostRead {
     anchor: u32,
 }
 
-@group(0) @binding(0) var<uniform> dispatch: Pass;
-@group(0) @binding(1) var<storage, read> tiles: array<u32>;
-@group(0) @binding(2) var owners: texture_2d_array<u32>;
+@group(SURFACE_GROUP) @binding(0) var<uniform> dispatch: Pass;
+@group(SURFACE_GROUP) @binding(1) var<storage, read> tiles: array<u32>;
+@group(SURFACE_GROUP) @binding(2) var owners: texture_2d_array<u32>;
 // Tables are textures of bit patterns, row after row of the table: each texel reads a place of its own, which processors
 // do faster from a texture than from a buffer.
-@group(0) @binding(3) var geometry: texture_2d<u32>;
-@group(0) @binding(4) var frames: texture_2d<u32>;
-@group(0) @binding(5) var ghosts: texture_2d<u32>;
-@group(0) @binding(6) var<storage, read> pieces: array<vec4f>;
+@group(SURFACE_GROUP) @binding(3) var geometry: texture_2d<u32>;
+@group(SURFACE_GROUP) @binding(4) var frames: texture_2d<u32>;
+@group(SURFACE_GROUP) @binding(5) var ghosts: texture_2d<u32>;
+@group(SURFACE_GROUP) @binding(6) var<storage, read> pieces: array<vec4f>;
 // For each texel how far a straight step may go, in texels, in six bits, and in two bits what planes lie under it.
-@group(0) @binding(7) var leaps: texture_2d_array<u32>;
+@group(SURFACE_GROUP) @binding(7) var leaps: texture_2d_array<u32>;
 
 // Where a row of a table is in its texture, which is 8192 wide.
 fn table_texel(row: u32) -> vec2u {

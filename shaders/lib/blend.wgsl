@@ -2,6 +2,7 @@
 //!
 //! The modes, in the order in which every node offers them: normal, add, subtract, multiply, screen, overlay,
 //! soft_light, hard_light, min, max, difference, divide.
+//! @use core
 
 /// What a mode makes of the value below and the value above, before any mask weighs it.
 fn blend_mode(below: f32, above: f32, mode: u32) -> f32 {

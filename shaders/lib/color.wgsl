@@ -1,4 +1,5 @@
 //! Colors as a whole: hue, saturation and luminance, in linear light.
+//! @use core
 
 fn least_component(color: vec3f) -> f32 {
     return min(color.x, min(color.y, color.z));

@@ -7,7 +7,7 @@
 //! Sweeps cost as many passes as the way has texels, so only the first few are as fine as the maps (`distance_start`, then
 //! `distance_sweep` for at least three texels of the coarser level): they find the thinnest line. From their
 //! mean the coarser level goes on (`distance_sweep` again), and `distance_known` has the best of both.
-//! @use surface
+//! @use core surface
 
 /// No crossing.
 const DISTANCE_NONE: f32 = 1e9;

@@ -5,7 +5,7 @@
 //! diagonals, limited so that no weight is negative: nothing gets hotter than the hottest). Time steps are
 //! Runge-Kutta-Legendre's of first order (Meyer, Balsara, Aslam 2012), in four cycles: as many stages as the radius has
 //! texels, not their square. Written as sums of differences, so that an even mask stays as it is to the last bit.
-//! @use surface
+//! @use core surface
 
 /// Cycles of stages; the annotation that counts the stages knows it, too.
 const HEAT_CYCLES: u32 = 4u;

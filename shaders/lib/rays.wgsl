@@ -1,5 +1,5 @@
 //! Rays: how a place shoots them, and what they hit.
-//! @use noise atlas
+//! @use core atlas noise
 
 /// A ray, in model units.
 struct Ray {

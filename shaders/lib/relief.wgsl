@@ -1,5 +1,5 @@
 //! How the relief that a graph has made bends.
-//! @use heat rays
+//! @use core surface heat rays
 
 /// The share of a half turn by which a groove of that depth turns, above 0 in grooves and below on ridges, as `bend_by`.
 ///

@@ -3,7 +3,7 @@
 //! Steps are texels of the chart at hand. Two texels in any direction are valid at every place: over a seam the
 //! atlas keeps ghost texels, refreshed before each read, that hold what lies straight ahead on the other side. Further
 //! away one gets by walking.
-//! @use atlas
+//! @use core atlas
 
 /// The stored value `step` texels away, at most two in each direction.
 fn surface_neighbor(source: texture_2d_array<f32>, at: Surface, step: vec2i) -> vec4f {

@@ -1,17 +1,9 @@
-// Values go where they belong at once: only texels are read that nobody writes in the same round. FORMAT is the storage
-// format of the field, one that can be read and written.
+//! Reads and writes the field that ghosts are filled in, for rounds that read no texel that they write. The format of
+//! `StoredField` is one that can be read and written.
+//! @use atlas surface/fill
+//! @given StoredField
 
-struct Fill {
-    ghost_count: u32,
-    // 0: only owned texels count, 1: ghosts too
-    with_ghosts: u32,
-    row_length: u32,
-    // Rows of the table for a ghost.
-    rows: u32,
-}
-
-@group(1) @binding(0) var<uniform> fill: Fill;
-@group(1) @binding(1) var field: texture_storage_2d_array<FORMAT, read_write>;
+@group(1) @binding(1) var field: StoredField;
 
 fn field_at(texel: vec2i, page: i32) -> vec4f {
     return textureLoad(field, texel, page);

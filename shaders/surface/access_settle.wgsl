@@ -1,17 +1,10 @@
-// The round after one whose values are in the buffer alone: what is coupled is read from there, and so nobody reads a texel
-// that is written. FORMAT is the storage format of the field, one that can be read and written.
+//! Reads and writes the field that ghosts are filled in, for the round after one whose values are in the buffer alone:
+//! coupled ghosts are read from there, so that no texel is read that is written. The format of `StoredField` is one that can
+//! be read and written.
+//! @use atlas surface/fill
+//! @given StoredField
 
-struct Fill {
-    ghost_count: u32,
-    // 0: only owned texels count, 1: ghosts too
-    with_ghosts: u32,
-    row_length: u32,
-    // Rows of the table for a ghost.
-    rows: u32,
-}
-
-@group(1) @binding(0) var<uniform> fill: Fill;
-@group(1) @binding(1) var field: texture_storage_2d_array<FORMAT, read_write>;
+@group(1) @binding(1) var field: StoredField;
 @group(1) @binding(2) var<storage, read> values: array<f32>;
 
 fn field_at(texel: vec2i, page: i32) -> vec4f {

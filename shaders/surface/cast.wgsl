@@ -1,5 +1,6 @@
-// Follows rays through an eight-way tree of boxes that are compressed to eight bits a side (Ylitie, Karras and Laine,
-// "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017), in the layout of the crate obvhs.
+//! Follows rays through an eight-way tree of boxes that are compressed to eight bits a side (Ylitie, Karras and Laine,
+//! "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017), in the layout of the crate obvhs.
+//! @use atlas rays
 
 struct Casting {
     // From working units to the tree's own: (point − center) × scale.
@@ -11,25 +12,13 @@ struct Casting {
     is_nearest: u32,
 }
 
-struct CastRay {
-    origin: vec3f,
-    reach: f32,
-    direction: vec3f,
-    pad: f32,
-}
-
-struct CastHit {
-    distance: f32,
-    triangle: u32,
-}
-
 @group(1) @binding(0) var<uniform> casting: Casting;
 // Five rows a node.
 @group(1) @binding(1) var tree_nodes: texture_2d<u32>;
 // Three rows a triangle: its first corner with its number, the edge to it from the second, and the edge from it to the third.
 @group(1) @binding(2) var tree_triangles: texture_2d<u32>;
-@group(1) @binding(3) var<storage, read> cast_rays: array<CastRay>;
-@group(1) @binding(4) var<storage, read_write> cast_hits: array<CastHit>;
+@group(1) @binding(3) var<storage, read> cast_rays: array<Ray>;
+@group(1) @binding(4) var<storage, read_write> cast_hits: array<RayHit>;
 
 // Deeper trees are not uploaded.
 const STACK: u32 = 24u;
@@ -113,8 +102,8 @@ fn distance_to(corner: vec3f, one: vec3f, two: vec3f, path: Path) -> f32 {
     return select(-1.0, dot(normal, away) * inverse, is_inside);
 }
 
-fn cast_ray(ray: CastRay) -> CastHit {
-    var best = CastHit(-1.0, 0xffffffffu);
+fn cast_ray(ray: Ray) -> RayHit {
+    var best = RayHit(-1.0, 0xffffffffu);
     let size = length(ray.direction);
     var reach = ray.reach * casting.scale;
     // What is no number goes nowhere: every box would seem to be on its way.
@@ -154,7 +143,7 @@ fn cast_ray(ray: CastRay) -> CastHit {
             let corner = triangle_row(at);
             let distance = distance_to(corner.xyz, triangle_row(at + 1u).xyz, triangle_row(at + 2u).xyz, path);
             if distance >= 0.0 && distance <= reach {
-                best = CastHit(distance, bitcast<u32>(corner.w));
+                best = RayHit(distance, bitcast<u32>(corner.w));
                 reach = distance;
                 is_done = casting.is_nearest == 0u;
                 triangles = select(triangles, 0u, is_done);

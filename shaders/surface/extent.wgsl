@@ -1,11 +1,13 @@
-// Lowest and highest value of one component over the surface, as numbers that sort like the values, and how many texels
-// hold no number.
+//! Lowest and highest value of one component over the surface, as keys that sort like the values, and the number of texels
+//! that hold no number.
+//! @use atlas surface/place surface/sorted
 
 struct Asked {
     // Which component of a texel, and the first of the three places for what is found.
     component: u32,
     place: u32,
-    pad: vec2u,
+    pad_0: u32,
+    pad_1: u32,
 }
 
 @group(1) @binding(0) var<uniform> asked: Asked;
@@ -13,11 +15,6 @@ struct Asked {
 @group(1) @binding(2) var<storage, read_write> found: array<atomic<u32>>;
 
 const INFINITY_BITS: u32 = 0x7f800000u;
-
-// Larger values have larger keys, below and above 0.
-fn key_of(bits: u32) -> u32 {
-    return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
-}
 
 // A row of a tile for each invocation, so that few of them want the same places at once.
 @compute @workgroup_size(8)

@@ -1,6 +1,7 @@
-// Computes what coupled ghost texels hold: not all of the four texels around their point over the seam are owned. A table
-// says in its first two rows what is there. Orphans, which take the value of one owned texel, are read alike. Where texels are read
-// and what becomes of the value is said beside it, in `access_*.wgsl`.
+//! Computes coupled ghost texels: not all of the four texels around their point over the seam are owned. The first two rows
+//! of a table describe each. Orphans, which take the value of one owned texel, are read alike. Linked with one of
+//! `access_*.wgsl`, which says where texels are read (`field_at`, `slots_of`, `tap_at`) and where values go (`keep`).
+//! @use atlas surface/fill
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {

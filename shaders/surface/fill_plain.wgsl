@@ -1,5 +1,6 @@
-// Computes what plain ghost texels hold, those whose point over the seam lies between four owned texels; a table says all
-// of it in one row. Where texels are read and what becomes of the value is said beside it, in `access_*.wgsl`.
+//! Computes plain ghost texels, those whose point over the seam lies between four owned texels; a table describes each in
+//! one row. Linked with one of `access_*.wgsl`, which says where texels are read (`field_at`) and where values go (`keep`).
+//! @use atlas surface/fill
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {

@@ -1,12 +1,14 @@
-// The tangent-space normal of a material: the model's own slope and the gradient of the height, by the true metric.
-//
-// Surface gradient after Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU"; the frame is MikkTSpace's,
-// interpolated without normalizing, as those that decode the map use it.
+//! The tangent-space normal of a material: the model's own slope and the gradient of the height, by the true metric.
+//!
+//! Surface gradient after Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU"; the frame is MikkTSpace's,
+//! interpolated without normalizing, as those that decode the map use it.
+//! @use atlas surface/place surface/stencil_marks
 
 struct Relief {
     has_height: u32,
     has_slope: u32,
-    pad: vec2u,
+    pad_0: u32,
+    pad_1: u32,
 }
 
 @group(1) @binding(0) var<uniform> relief: Relief;
@@ -41,10 +43,6 @@ fn height_steps(center: vec3i, marks: u32) -> vec2f {
         steps += select(vec2f(0.0), weight_of(index) * (height - middle), is_ghost);
     }
     return steps;
-}
-
-fn step_of(index: i32) -> vec2i {
-    return vec2i(index % 3 - 1, index / 3 - 1);
 }
 
 fn weight_of(index: i32) -> vec2f {

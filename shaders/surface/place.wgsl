@@ -1,4 +1,6 @@
-// Reconstructs the place of a texel from the linked atlas. Appended to every kernel, with lib/atlas.
+//! Reconstruction of a texel's place on the surface from the linked atlas, and of what is stored for it. Linked to every
+//! kernel.
+//! @use core atlas
 
 fn texel_of(group: vec3u, local: vec3u) -> vec3i {
     let index = dispatch.first_tile + group.y * dispatch.row_length + group.x;
@@ -85,11 +87,7 @@ fn along_sides(piece: u32, v: vec3f) -> vec3f {
     return vec3f(dot(pieces[row].xyz, v), dot(pieces[row + 1u].xyz, v), dot(pieces[row + 2u].xyz, v));
 }
 
-fn stored_material(color: vec4f, surface: vec4f, height: f32, slope: vec3f, emission: vec3f) -> Material {
-    return Material(color.xyz, color.w, surface.x, surface.y, surface.z, height, slope, emission);
-}
-
-// As `stored_material`, for channels that may be missing: bits of `present` in storage order.
+// A stored material. Channels without a bit in `present`, in storage order, are those of the plain material.
 fn switched_material(
     present: u32, color: vec4f, surface: vec4f, height: f32, slope: vec3f, emission: vec3f,
 ) -> Material {

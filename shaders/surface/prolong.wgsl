@@ -1,18 +1,12 @@
-// Brings a plane to the finest level: interpolated between the coarser texels of the same chart. FORMAT is the storage
-// format of the plane.
+//! Brings a plane to the finest level: interpolated between the coarser texels of the same chart.
+//! @use atlas surface/place surface/level
+//! @given StoredField
 
-struct Scale {
-    // Finer texels along a side of a coarser one.
-    factor: u32,
-    pad: vec3u,
-}
-
-@group(1) @binding(0) var<uniform> scale: Scale;
 // The chart that each coarser texel belongs to, or whose ring it is in.
 @group(1) @binding(1) var coarse_charts: texture_2d_array<u32>;
 @group(1) @binding(2) var coarse_frames: texture_2d<u32>;
 @group(1) @binding(3) var coarse: texture_2d_array<f32>;
-@group(1) @binding(4) var fine: texture_storage_2d_array<FORMAT, write>;
+@group(1) @binding(4) var fine: StoredField;
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {

@@ -1,15 +1,8 @@
-// Computes what ghost texels hold once more, with cubics instead of straight lines: slopes that are taken over a seam
-// are then as good as beside it. Ghosts hold what straight lines say already; where a cubic would need a texel that
-// nobody has, it stays.
+//! Computes ghost texels once more, with cubics instead of straight lines: slopes that are taken over a seam are then as
+//! good as beside it. Ghosts hold what straight lines give; where a cubic would need a texel outside of the atlas, that
+//! stays.
+//! @use atlas surface/fill
 
-struct Gather {
-    ghost_count: u32,
-    with_ghosts: u32,
-    row_length: u32,
-    pad: u32,
-}
-
-@group(1) @binding(0) var<uniform> gather: Gather;
 @group(1) @binding(1) var field: texture_2d_array<f32>;
 @group(1) @binding(2) var<storage, read_write> values: array<vec4f>;
 
@@ -25,8 +18,8 @@ fn cubic_weights(t: f32) -> vec4f {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
-    let index = (group.y * gather.row_length + group.x) * 64u + local;
-    if index >= gather.ghost_count {
+    let index = (group.y * fill.row_length + group.x) * 64u + local;
+    if index >= fill.ghost_count {
         return;
     }
     let link = ghost_link(index);

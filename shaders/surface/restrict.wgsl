@@ -1,17 +1,11 @@
-// Brings a plane to a coarser level: the mean of the finer texels of the same chart that a texel covers. FORMAT is the
-// storage format of the plane.
+//! Brings a plane to a coarser level: the mean of the finer texels of the same chart that a texel covers.
+//! @use atlas surface/place surface/level
+//! @given StoredField
 
-struct Scale {
-    // Finer texels along a side of a coarser one.
-    factor: u32,
-    pad: vec3u,
-}
-
-@group(1) @binding(0) var<uniform> scale: Scale;
 @group(1) @binding(1) var fine_owners: texture_2d_array<u32>;
 @group(1) @binding(2) var fine_frames: texture_2d<u32>;
 @group(1) @binding(3) var fine: texture_2d_array<f32>;
-@group(1) @binding(4) var coarse: texture_storage_2d_array<FORMAT, write>;
+@group(1) @binding(4) var coarse: StoredField;
 
 fn fine_frame(row: u32) -> vec4u {
     return textureLoad(fine_frames, table_texel(row), 0);

@@ -1,23 +1,16 @@
-// Writes the gathered values to plain or coupled ghost texels. FORMAT is the storage format of the field.
+//! Writes the gathered values to plain or coupled ghost texels.
+//! @use atlas surface/fill
+//! @given StoredField
 
-struct Scatter {
-    ghost_count: u32,
-    with_ghosts: u32,
-    row_length: u32,
-    // Rows of the table for a ghost.
-    rows: u32,
-}
-
-@group(1) @binding(0) var<uniform> scatter: Scatter;
-@group(1) @binding(1) var field: texture_storage_2d_array<FORMAT, write>;
+@group(1) @binding(1) var field: StoredField;
 @group(1) @binding(2) var<storage, read> values: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
-    let index = (group.y * scatter.row_length + group.x) * 64u + local;
-    if index >= scatter.ghost_count {
+    let index = (group.y * fill.row_length + group.x) * 64u + local;
+    if index >= fill.ghost_count {
         return;
     }
-    let link = fill_link(index * scatter.rows);
+    let link = fill_link(index * fill.rows);
     textureStore(field, link.texel, link.own_page, values[index]);
 }

@@ -1,6 +1,7 @@
-// Gives texels that share a place on the maps what the maps have there: the mean of a group's sources, at all of its
-// targets. Sources are read from the original, so that no group sees what another one writes. FORMAT is the storage format
-// of the field.
+//! Gives texels that share a place on the maps the value that the maps have there: the mean of a group's sources, at all of
+//! its targets. Sources are read from the original, so that no group sees the result of another.
+//! @use atlas
+//! @given StoredField
 
 struct Share {
     group_count: u32,
@@ -16,7 +17,7 @@ struct Share {
 // Texels page by page and row by row.
 @group(1) @binding(2) var<storage, read> texels: array<u32>;
 @group(1) @binding(3) var field: texture_2d_array<f32>;
-@group(1) @binding(4) var shown: texture_storage_2d_array<FORMAT, write>;
+@group(1) @binding(4) var shown: StoredField;
 
 // Column, row and page.
 fn unpacked_texel(index: u32) -> vec3i {

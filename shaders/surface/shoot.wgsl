@@ -1,4 +1,5 @@
-// Where the rays of a texel start. Appended to kernels that shoot.
+//! Starts of the rays of a texel. Linked to kernels that shoot rays.
+//! @use core atlas hash
 
 // The place of ray `index` in its texel, so that what changes inside a texel is averaged. Roberts' sequence spreads the
 // places of a texel evenly. Where a quarter or the one across it has triangles of several planes, the place stays in the

@@ -1,5 +1,6 @@
-// Where the slope of a height is taken for each texel, and what of it lies over seams and hard edges. It hangs on the surface
-// alone, so it is found once for all heights.
+//! Texels that the slope of a height is taken over, for each texel, and which of them lie over seams and hard edges. They
+//! depend on the surface alone, so they are found once for all heights.
+//! @use atlas surface/place surface/stencil_marks
 
 @group(1) @binding(0) var stencils: texture_storage_2d_array<r32uint, write>;
 
@@ -26,10 +27,6 @@ fn is_over_edge(near: vec3i, triangle: u32) -> bool {
     let spot = spot_of(near, owner);
     let own = normal_at(triangle, vec2f(near.xy) + 0.5);
     return dot(own, normal_at(spot.triangle, spot.point)) < HARD_EDGE;
-}
-
-fn step_of(index: i32) -> vec2i {
-    return vec2i(index % 3 - 1, index / 3 - 1);
 }
 
 // The nearest owned texel within two steps; the texel itself if it is owned. w is 0 if there is none.

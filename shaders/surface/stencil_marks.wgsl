@@ -1,7 +1,13 @@
-// What `stencil.wgsl` writes for each texel and `normal.wgsl` reads. Six bits each: the step to the owned texel whose triangle a
-// ghost continues, and the step to the middle of three by three texels that the slope is taken over. Then a bit for each of
-// these nine: those that are ghosts, and those that lie over a hard edge.
+//! Marks that `stencil.wgsl` writes for each texel and `normal.wgsl` reads. Six bits each: the step to the owned texel whose
+//! triangle a ghost continues, and the step to the middle of three by three texels that the slope is taken over. Then a bit
+//! for each of these nine: those that are ghosts, and those that lie over a hard edge.
+
 const FIRST_GHOST: u32 = 0x1000u;
 const FIRST_OVER_EDGE: u32 = 0x200000u;
 // None where a ghost has no owned texel near it.
 const HAS_STENCIL: u32 = 0x80000000u;
+
+// Step from the middle of the nine texels to one of them.
+fn step_of(index: i32) -> vec2i {
+    return vec2i(index % 3 - 1, index / 3 - 1);
+}

@@ -1,18 +1,17 @@
-// How much of the surface has which value: whole numbers, so that no order of adding matters.
+//! Area of the surface by value: whole numbers, so that the order of adding does not matter.
+//! @use atlas survey surface/place surface/sorted
 
 struct Survey {
     // Count for a unit of area.
     count_per_area: f32,
-    pad: vec3u,
+    pad_0: u32,
+    pad_1: u32,
+    pad_2: u32,
 }
 
 @group(1) @binding(0) var<uniform> survey: Survey;
 @group(1) @binding(1) var source: texture_2d_array<f32>;
 @group(1) @binding(2) var<storage, read_write> counts: array<atomic<u32>>;
-
-fn value_of(key: u32) -> f32 {
-    return bitcast<f32>(select(~key, key & 0x7fffffffu, (key & 0x80000000u) != 0u));
-}
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
@@ -27,6 +26,6 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     let high = value_of(atomicLoad(&counts[1]));
     let value = textureLoad(source, texel.xy, texel.z, 0).x;
     let share = (value - low) / max(high - low, 1e-30);
-    let bin = u32(clamp(share * BINS, 0.0, BINS - 1.0));
+    let bin = u32(clamp(share * f32(SURVEY_STEPS), 0.0, f32(SURVEY_STEPS) - 1.0));
     atomicAdd(&counts[2u + bin], u32(area * survey.count_per_area + 0.5));
 }

@@ -1,13 +1,8 @@
-// Lowest and highest value of a mask over the surface, as numbers that sort like the values.
+//! Lowest and highest value of a mask over the surface, as keys that sort like the values.
+//! @use atlas surface/place surface/sorted
 
 @group(1) @binding(0) var source: texture_2d_array<f32>;
 @group(1) @binding(1) var<storage, read_write> counts: array<atomic<u32>>;
-
-// Larger values have larger keys, below and above 0.
-fn key_of(value: f32) -> u32 {
-    let bits = bitcast<u32>(value);
-    return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
-}
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
@@ -18,7 +13,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     }
     let value = textureLoad(source, texel.xy, texel.z, 0).x;
     // Looking first spares nearly all writes to the two places that everybody wants.
-    let key = key_of(clamp(value, -1e9, 1e9));
+    let key = key_of(bitcast<u32>(clamp(value, -1e9, 1e9)));
     if key < atomicLoad(&counts[0]) {
         atomicMin(&counts[0], key);
     }

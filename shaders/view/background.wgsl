@@ -1,4 +1,5 @@
-// What is behind the model.
+//! The environment behind the model.
+//! @use view/frame view/panorama
 
 @group(1) @binding(0) var panorama: texture_2d<f32>;
 // Goes around the seam of the panorama.

@@ -1,6 +1,7 @@
-// How a surface scatters light: a GGX lobe with height-correlated Smith shadowing over a Lambertian base, with the light that
-// bounces between facets kept (Fdez-Agüera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting";
-// for single lights the scale of Turquin 2019, "Practical multiple scattering compensation for microfacet models").
+//! How a surface scatters light: a GGX lobe with height-correlated Smith shadowing over a Lambertian base, with the light that
+//! bounces between facets kept (Fdez-Agüera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting";
+//! for single lights the scale of Turquin 2019, "Practical multiple scattering compensation for microfacet models").
+//! @use view/frame
 
 struct Substance {
     // Reflectance at normal incidence, and the Lambertian base's; linear.

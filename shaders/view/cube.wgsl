@@ -1,9 +1,7 @@
-// Faces of a cube map, as Vulkan, Direct3D and Metal number and turn them.
-
-const PI: f32 = 3.14159265359;
+//! Faces of a cube map, as Vulkan, Direct3D and Metal number and turn them.
 
 /// One pass over all faces of a level.
-struct Pass {
+struct CubePass {
     /// Texels along a side of what is written.
     side: u32,
     /// What the pass makes of it: places along a texel's side, or directions.

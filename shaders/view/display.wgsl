@@ -1,4 +1,5 @@
-// From light to a picture: exposure, view transform, samples brought together, sRGB.
+//! From light to a picture: exposure, view transform, samples brought together, sRGB.
+//! @use view/cover view/srgb
 
 struct Display {
     // Display-referred linear color behind what covers nothing; w 0 leaves it clear.
@@ -18,11 +19,6 @@ override TRANSFORM: u32 = 0u;
 @group(0) @binding(1) var light: texture_2d<f32>;
 // The sum of the samples before this one, display-referred and linear, alpha premultiplied.
 @group(0) @binding(2) var earlier: texture_2d<f32>;
-
-@vertex
-fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    return vec4f(vec2f(f32((index << 1u) & 2u), f32(index & 2u)) * 2.0 - 1.0, 0.0, 1.0);
-}
 
 // AgX by T. Sobotka: light is brought into a wider gamut, its logarithm runs through a curve, and comes back less saturated.
 // Matrices and the curve's polynomial: B. Wrensch 2023, "Minimal AgX implementation", and the Rec. 2020 matrices of Blender 4's
@@ -60,15 +56,6 @@ fn aces(color: vec3f) -> vec3f {
     let v = into * color;
     let curve = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
     return clamp(out_of * curve, vec3f(0.0), vec3f(1.0));
-}
-
-fn linear_of(code: vec3f) -> vec3f {
-    return select(pow((code + 0.055) / 1.055, vec3f(2.4)), code / 12.92, code <= vec3f(0.04045));
-}
-
-fn code_of(linear: vec3f) -> vec3f {
-    let c = clamp(linear, vec3f(0.0), vec3f(1.0));
-    return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, 12.92 * c, c <= vec3f(0.0031308));
 }
 
 // This sample, display-referred and linear, over what is behind it.

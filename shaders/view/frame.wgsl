@@ -1,6 +1,6 @@
-// What every shader of a picture knows: the camera, the light, and how the picture is shown.
-//
-// Places and directions are in view space: the model's box is centered and its largest side is 1; +Y is up.
+//! Numbers, textures and samplers that all shaders of a picture share: the camera, the light, and how the picture is shown.
+//!
+//! Places and directions are in view space: the model's box is centered and its largest side is 1; +Y is up.
 
 struct Light {
     // Where it is, w 1; or for one that is far away the direction towards it, w 0.

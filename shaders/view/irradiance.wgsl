@@ -1,3 +1,5 @@
+//! Irradiance of an environment.
+
 /// Irradiance divided by pi at a normal of unit length; see `Environment::irradiance` for what the rows are.
 fn irradiance_at(rows: array<vec4f, 9>, n: vec3f) -> vec3f {
     let degree_1 = rows[1] * n.x + rows[2] * n.y + rows[3] * n.z;

@@ -1,4 +1,5 @@
-// The light that a place sends to the eye.
+//! Light that a place of the surface sends to the eye.
+//! @use atlas view/brdf view/frame view/irradiance view/relief view/seen view/shadow view/switches
 
 // How much of a reflection reaches a place that is open to so much of its surrounding (Lagarde and de Rousiers 2014, "Moving
 // Frostbite to physically based rendering").

@@ -1,4 +1,5 @@
-// Lines over the model, so many pixels wide.
+//! Lines over the model, so many pixels wide.
+//! @use view/frame
 
 struct LineStyle {
     // Scene-referred linear color; w is the width in pixels.

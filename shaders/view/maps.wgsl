@@ -1,5 +1,5 @@
-// The maps of a material on the linked atlas. Ghosts hold what lies over a seam, so a place between four texels is read alike
-// on both sides of it.
+//! The maps of a material on the linked atlas. Ghosts hold what lies over a seam, so a place between four texels is read alike
+//! on both sides of it.
 
 struct Material {
     // What channels are where nothing sets them: base color and alpha; roughness, metallic, occlusion.

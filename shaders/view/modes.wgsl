@@ -1,4 +1,4 @@
-// Numbers of what is shown; 0 is the lit material.
+//! Numbers of what is shown; 0 is the lit material.
 
 const BASE_COLOR: u32 = 1u;
 const OPACITY: u32 = 2u;

@@ -1,3 +1,5 @@
+//! Layout of a panorama.
+
 /// The place of a direction of any length in a panorama, 0 to 1 from the left and from the top; latitude by longitude as
 /// OpenEXR has it: the middle looks to +Z, a quarter of the way from the left to +X.
 fn panorama_place(direction: vec3f) -> vec2f {

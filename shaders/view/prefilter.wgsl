@@ -1,8 +1,9 @@
-// What a rough surface mirrors: the light around each direction, weighted as GGX does where one looks straight at the
-// surface (Karis 2013, Real Shading in Unreal Engine 4), by few directions that each stand for the light around them
-// (Křivánek and Colbert 2008, Real-time Shading with Filtered Importance Sampling).
+//! What a rough surface mirrors: the light around each direction, weighted as GGX does where one looks straight at the
+//! surface (Karis 2013, Real Shading in Unreal Engine 4), by few directions that each stand for the light around them
+//! (Křivánek and Colbert 2008, Real-time Shading with Filtered Importance Sampling).
+//! @use view/cube
 
-@group(0) @binding(0) var<uniform> pass_: Pass;
+@group(0) @binding(0) var<uniform> cube_pass: CubePass;
 @group(0) @binding(1) var source: texture_cube<f32>;
 @group(0) @binding(2) var around: sampler;
 @group(0) @binding(3) var cube: texture_storage_2d_array<rgba16float, write>;
@@ -11,10 +12,10 @@
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= vec2u(pass_.side)) {
+    if any(id.xy >= vec2u(cube_pass.side)) {
         return;
     }
-    let at = (vec2f(id.xy) + 0.5) / f32(pass_.side) * 2.0 - 1.0;
+    let at = (vec2f(id.xy) + 0.5) / f32(cube_pass.side) * 2.0 - 1.0;
     let normal = normalize(cube_direction(id.z, at));
     // Duff et al. 2017, Building an Orthonormal Basis, Revisited.
     let side = select(-1.0, 1.0, normal.z >= 0.0);
@@ -23,7 +24,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let tangent = vec3f(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x);
     let bitangent = vec3f(b, side + normal.y * normal.y * a, -normal.y);
     var sum = vec4f();
-    for (var i = 0u; i < pass_.count; i++) {
+    for (var i = 0u; i < cube_pass.count; i++) {
         let to = lobe[i];
         let direction = to.x * tangent + to.y * bitangent + to.z * normal;
         sum += to.z * vec4f(textureSampleLevel(source, around, direction, to.w).rgb, 1.0);

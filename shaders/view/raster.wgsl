@@ -1,25 +1,6 @@
-// The model onto the picture: for each pixel, which place of which chart is seen, and the frame it has there. Light follows in
-// a pass of its own, once for each pixel, however small the triangles are.
-
-struct Corner {
-    @location(0) position: vec3f,
-    @location(1) normal: vec3f,
-    // w is the sign of the bitangent.
-    @location(2) tangent: vec4f,
-    // Texel coordinates on the chart's page.
-    @location(3) texel: vec2f,
-    @location(4) chart: u32,
-}
-
-struct Seen {
-    @builtin(position) clip: vec4f,
-    @location(0) position: vec3f,
-    @location(1) normal: vec3f,
-    @location(2) tangent: vec3f,
-    @location(3) texel: vec2f,
-    // Twice the chart's number, and 1 more where the bitangent's sign is negative.
-    @location(4) @interpolate(flat) chart: u32,
-}
+//! The model onto the picture: for each pixel, which place of which chart is seen, and the frame it has there. Light follows in
+//! a pass of its own, once for each pixel, however small the triangles are.
+//! @use view/corner view/frame view/maps view/modes view/relief view/sight view/switches
 
 @vertex
 fn place_corner(corner: Corner) -> Seen {

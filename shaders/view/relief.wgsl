@@ -1,7 +1,8 @@
-// Relief: lines of sight and of light are followed through the heights, over seams as over anything else.
-//
-// A line descends from the highest height to the lowest in steps of at most a texel, and what it meets first is found between
-// the last two of them (relief mapping, Policarpo, Oliveira and Comba 2005).
+//! Relief: lines of sight and of light are followed through the heights, over seams as over anything else.
+//!
+//! A line descends from the highest height to the lowest in steps of at most a texel, and what it meets first is found between
+//! the last two of them (relief mapping, Policarpo, Oliveira and Comba 2005).
+//! @use atlas view/frame view/maps view/switches
 
 // Steps of a line towards a light.
 const LIGHT_STEPS: i32 = 12;

@@ -1,4 +1,5 @@
-// What the model's raster says of a pixel, and what the surface is made of there.
+//! The record that the model's raster leaves for a pixel, and the material there.
+//! @use atlas view/frame view/maps view/switches
 
 @group(2) @binding(1) var seen_places: texture_2d_array<u32>;
 @group(2) @binding(2) var depths: texture_depth_2d;
@@ -82,33 +83,4 @@ fn spot_of(pixel: Pixel) -> Spot {
         unit_or(bent, smooth_normal) * towards,
         smooth_normal * towards,
     );
-}
-
-@vertex
-fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    return vec4f(vec2f(f32((index << 1u) & 2u), f32(index & 2u)) * 2.0 - 1.0, 0.0, 1.0);
-}
-
-fn painted(at: vec2f, has_relief: bool) -> vec4f {
-    let pixel = pixel_at(at);
-    let spot = spot_of(pixel);
-    return vec4f(min(lit(spot, pixel, has_relief), vec3f(65504.0)), 1.0);
-}
-
-@fragment
-fn paint(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    return painted(at.xy, false);
-}
-
-// With shadows of the heights.
-@fragment
-fn paint_relief(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    return painted(at.xy, true);
-}
-
-// Something else than the lit material.
-@fragment
-fn paint_shown(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let pixel = pixel_at(at.xy);
-    return vec4f(shown_color(pixel, spot_of(pixel)), 1.0);
 }

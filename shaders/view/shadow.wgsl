@@ -1,4 +1,5 @@
-// Shadows of lights: the model's depth as each light sees it.
+//! Shadows of lights: the model's depth as each light sees it.
+//! @use view/frame
 
 // The layer of a light's shadow in which a direction away from it lies: one for far lights, a face of a cube for near ones.
 fn layer_of(light: Light, away: vec3f) -> i32 {

@@ -1,14 +1,10 @@
-// What is shown instead of the lit material: one of its channels, a node's own result, or how the maps lie on the model.
-// Colors come as they are to stand in the picture, sRGB-encoded where they are colors, like the files of an export.
+//! What is shown instead of the lit material: one of its channels, a node's own result, or how the maps lie on the model.
+//! Colors come as they are to stand in the picture, sRGB-encoded where they are colors, like the files of an export.
+//! @use view/frame view/maps view/modes view/seen view/srgb view/switches
 
 // Types of a node's result.
 const SHOWN_COLOR: u32 = 1u;
 const SHOWN_VECTOR: u32 = 2u;
-
-fn encoded(linear: vec3f) -> vec3f {
-    let c = clamp(linear, vec3f(0.0), vec3f(1.0));
-    return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, 12.92 * c, c <= vec3f(0.0031308));
-}
 
 // Letters would need a font: squares of two sizes, tinted along u and v, tell place, size, turn and mirroring of UVs.
 fn checker(texel_of_plane: vec2f) -> vec3f {
@@ -36,7 +32,7 @@ fn density_color(density: f32) -> vec3f {
 fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
     let to_eye = -ray_through(pixel.position);
     switch MODE {
-        case BASE_COLOR: { return encoded(spot.base_color); }
+        case BASE_COLOR: { return code_of(spot.base_color); }
         case OPACITY: { return vec3f(spot.alpha); }
         case ROUGHNESS: { return vec3f(spot.roughness); }
         case METALLIC: { return vec3f(spot.metallic); }
@@ -47,11 +43,11 @@ fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
         }
         case NORMAL: { return spot.tangent_normal * 0.5 + 0.5; }
         case MODEL_NORMAL: { return spot.normal * 0.5 + 0.5; }
-        case EMISSION: { return encoded(spot.emission); }
+        case EMISSION: { return code_of(spot.emission); }
         case NODE: {
             let value = value_at(colors, pixel.place);
             if SHOWN_TYPE == SHOWN_COLOR {
-                return encoded(value.xyz);
+                return code_of(value.xyz);
             }
             return select(vec3f(value.x), value.xyz * 0.5 + 0.5, SHOWN_TYPE == SHOWN_VECTOR);
         }

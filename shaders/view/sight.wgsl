@@ -1,4 +1,5 @@
-// Lines of sight through the relief.
+//! Lines of sight through the relief.
+//! @use atlas view/corner view/frame view/maps view/relief
 
 // Steps of a line of sight.
 const SIGHT_STEPS: i32 = 64;

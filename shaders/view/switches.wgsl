@@ -1,5 +1,5 @@
-// What a pipeline is made for. Branches on what all pixels share ask these, which costs nothing, and never a uniform buffer alone:
-// Mesa's software driver builds such a shader anew at every draw, and keeps all of them.
+//! What a pipeline is made for. Branches on what all pixels share ask these, which costs nothing, and never a uniform buffer alone:
+//! Mesa's software driver builds such a shader anew at every draw, and keeps all of them.
 
 // What is shown, see `modes.wgsl`.
 override MODE: u32 = 0u;

@@ -7,6 +7,7 @@ use crate::error::GpuError;
 use crate::pipelines::{texture_entry, uniform_entry, write_entry};
 use crate::pool::array_view;
 use crate::run::RunOptions;
+use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
@@ -53,9 +54,8 @@ impl Gpu {
         })?;
         let start = [u32::MAX, 0, 0].repeat(of.len());
         self.queue.write_buffer(&found, 0, bytemuck::cast_slice(&start));
-        let text = include_str!("../../../shaders/surface/extent.wgsl");
         let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
-        let kernel = self.fixed_kernel("extent", None, text, &entries)?;
+        let kernel = self.fixed_kernel(FixedShader::Extent, &entries)?;
         let slices = Slices::new(self, surface, options.submission);
         for (at, (texture, component)) in of.iter().enumerate() {
             let asked = self.uniform(bytemuck::bytes_of(&Asked {

@@ -10,6 +10,7 @@ use crate::pipelines::{marks_entry, owners_entry, storage_entry, texture_entry, 
 use crate::pool::{array_view, texture};
 use crate::readback::PlaneData;
 use crate::run::{Run, RunOptions};
+use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
@@ -49,10 +50,6 @@ impl Gpu {
         options: &RunOptions<'_>,
     ) -> Result<wgpu::Texture, GpuError> {
         let stencils = self.stencils(surface, run, options)?;
-        let text = concat!(
-            include_str!("../../../shaders/surface/normal.wgsl"),
-            include_str!("../../../shaders/surface/stencil_marks.wgsl")
-        );
         let entries = [
             uniform_entry(0),
             texture_entry(1),
@@ -60,7 +57,7 @@ impl Gpu {
             owners_entry(3),
             storage_entry(4, Format::Rgba32Float),
         ];
-        let kernel = self.fixed_kernel("normal", None, text, &entries)?;
+        let kernel = self.fixed_kernel(FixedShader::Normal, &entries)?;
         let open = texture(self, [1, 1, 1], Format::R32Float)?;
         let bound = |slot: Option<SlotRef>| {
             let stored = slot.and_then(|slot| run.textures[slot].as_ref());
@@ -119,11 +116,7 @@ impl Gpu {
             })
         })?;
         let view = array_view(&made);
-        let text = concat!(
-            include_str!("../../../shaders/surface/stencil.wgsl"),
-            include_str!("../../../shaders/surface/stencil_marks.wgsl")
-        );
-        let kernel = self.fixed_kernel("stencil", None, text, &[marks_entry(0)])?;
+        let kernel = self.fixed_kernel(FixedShader::Stencil, &[marks_entry(0)])?;
         let group = self.bind(&kernel.layout, [wgpu::BindingResource::TextureView(&view)]);
         Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
         Ok(surface.stencils.get_or_init(|| view).clone())

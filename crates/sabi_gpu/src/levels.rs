@@ -12,6 +12,7 @@ use crate::links::{LinkRound, Links};
 use crate::pipelines::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::pool::array_view;
 use crate::run::RunOptions;
+use crate::shaders::FixedShader;
 use crate::surface::{GpuSurface, Measures};
 use crate::tables::SurfaceTables;
 use crate::tiles::Slices;
@@ -54,7 +55,7 @@ impl CoarseSurface {
     fn scale(&self, gpu: &Gpu) -> wgpu::Buffer {
         let scale = Scale {
             factor: self.factor,
-            pad: [0; 7],
+            pad: [0; 3],
         };
         gpu.uniform(bytemuck::bytes_of(&scale))
     }
@@ -104,7 +105,7 @@ impl<'s> Surfaces<'s> {
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Scale {
     factor: u32,
-    pad: [u32; 7],
+    pad: [u32; 3],
 }
 
 impl Gpu {
@@ -118,17 +119,12 @@ impl Gpu {
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
         let coarse = surfaces.coarse(from.max(to))?;
-        let (restrict, prolong) = (
-            include_str!("../../../shaders/surface/restrict.wgsl"),
-            include_str!("../../../shaders/surface/prolong.wgsl"),
-        );
         let fine = surfaces.finest;
         // Both kernels look up owners or charts on the level that is read, and the place of a triangle's chart.
-        let (name, text, ground, orphans, whose, frames) = if to > from {
+        let (shader, ground, orphans, whose, frames) = if to > from {
             let coarse_orphans = &coarse.coarse_orphans;
             (
-                "restrict",
-                restrict,
+                FixedShader::Restrict(format),
                 &coarse.surface,
                 coarse_orphans,
                 &fine.owners,
@@ -136,7 +132,13 @@ impl Gpu {
             )
         } else {
             let frames = &coarse.surface.frames;
-            ("prolong", prolong, fine, &coarse.fine_orphans, &coarse.charts, frames)
+            (
+                FixedShader::Prolong(format),
+                fine,
+                &coarse.fine_orphans,
+                &coarse.charts,
+                frames,
+            )
         };
         let entries = [
             uniform_entry(0),
@@ -145,8 +147,7 @@ impl Gpu {
             texture_entry(3),
             storage_entry(4, format),
         ];
-        let text = text.replace("FORMAT", format.wgsl());
-        let kernel = self.fixed_kernel(name, Some(format), &text, &entries)?;
+        let kernel = self.fixed_kernel(shader, &entries)?;
         let scale = coarse.scale(self);
         let (source, written) = (array_view(source), array_view(target));
         let views = [whose, frames, &source, &written].map(wgpu::BindingResource::TextureView);

@@ -4,17 +4,12 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use sabi_nodes::Library;
-use sabi_nodes::link::{Format, Kernel, KernelSpec, link};
+use sabi_nodes::link::{Format, Kernel, KernelSpec, LinkedModule, link};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pool::wgpu_format;
-
-/// Reconstruction of a place from the atlas, appended to every kernel.
-pub(crate) const PLACE_WGSL: &str = include_str!("../../../shaders/surface/place.wgsl");
-
-/// Where rays start, appended to kernels that shoot.
-const SHOOT_WGSL: &str = include_str!("../../../shaders/surface/shoot.wgsl");
+use crate::shaders::{FixedShader, in_source, linked};
 
 /// A compiled kernel.
 pub(crate) struct CompiledKernel {
@@ -27,14 +22,11 @@ pub(crate) struct CompiledKernel {
     pub(crate) is_warm: std::sync::atomic::AtomicBool,
 }
 
-/// Name of a kernel of Sabi's own, and the format that its text writes.
-type FixedName = (&'static str, Option<Format>);
-
 /// All pipelines of a device.
 pub(crate) struct Pipelines {
     pub(crate) surface_layout: wgpu::BindGroupLayout,
     kernels: Mutex<BTreeMap<[u8; 32], Arc<CompiledKernel>>>,
-    fixed: Mutex<BTreeMap<FixedName, Arc<FixedKernel>>>,
+    fixed: Mutex<BTreeMap<FixedShader, Arc<FixedKernel>>>,
 }
 
 /// A kernel that is not made of nodes.
@@ -194,15 +186,8 @@ impl Gpu {
             nodes: nodes.join(", "),
             why,
         };
-        let place_and_shoot = format!("{PLACE_WGSL}\n{SHOOT_WGSL}");
-        let kernel = link(
-            spec,
-            |id| library.kind(id),
-            |name| library.libraries().text(name),
-            if spec.rays { &place_and_shoot } else { PLACE_WGSL },
-        )
-        .map_err(|error| refused(error.to_string()))?;
-        let key = *blake3::hash(kernel.wgsl.as_bytes()).as_bytes();
+        let kernel = link(spec, library).map_err(|error| refused(error.to_string()))?;
+        let key = *blake3::hash(kernel.module.wgsl().as_bytes()).as_bytes();
         if let Ok(kernels) = self.pipelines.kernels.lock()
             && let Some(known) = kernels.get(&key)
         {
@@ -232,10 +217,11 @@ impl Gpu {
             entries.extend([write_entry(next), read_entry(next + 1)]);
         }
         let (pipeline, shoot, layout) = if kernel.rays {
-            let ([main, shoot], layout) = self.compute_pipelines("nodes", &kernel.wgsl, &entries, ["main", "shoot"])?;
+            let ([main, shoot], layout) =
+                self.compute_pipelines("nodes", &kernel.module, &entries, ["main", "shoot"])?;
             (main, Some(shoot), layout)
         } else {
-            let ([main], layout) = self.compute_pipelines("nodes", &kernel.wgsl, &entries, ["main"])?;
+            let ([main], layout) = self.compute_pipelines("nodes", &kernel.module, &entries, ["main"])?;
             (main, None, layout)
         };
         Ok(CompiledKernel {
@@ -250,18 +236,18 @@ impl Gpu {
     fn compute_pipelines<const N: usize>(
         &self,
         label: &str,
-        wgsl: &str,
+        linked: &LinkedModule,
         entries: &[wgpu::BindGroupLayoutEntry],
         names: [&str; N],
     ) -> Result<([wgpu::ComputePipeline; N], wgpu::BindGroupLayout), GpuError> {
-        self.guarded(label, |device| {
+        let made = self.guarded(label, |device| {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some(label),
                 entries,
             });
             let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+                source: wgpu::ShaderSource::Wgsl(linked.wgsl().into()),
             });
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(label),
@@ -283,29 +269,26 @@ impl Gpu {
                 })
             };
             (names.map(pipeline), layout)
-        })
+        });
+        made.map_err(|error| in_source(error, linked))
     }
 
-    /// A kernel of Sabi's own, by name and the format that its text writes.
+    /// A compiled kernel of Sabi's own.
     pub(crate) fn fixed_kernel(
         &self,
-        name: &'static str,
-        format: Option<Format>,
-        wgsl: &str,
+        shader: FixedShader,
         entries: &[wgpu::BindGroupLayoutEntry],
     ) -> Result<Arc<FixedKernel>, GpuError> {
         if let Ok(fixed) = self.pipelines.fixed.lock()
-            && let Some(known) = fixed.get(&(name, format))
+            && let Some(known) = fixed.get(&shader)
         {
             return Ok(known.clone());
         }
-        let core = include_str!("../../../shaders/lib/core.wgsl");
-        let atlas = include_str!("../../../shaders/lib/atlas.wgsl");
-        let text = format!("{wgsl}\n{PLACE_WGSL}\n{atlas}\n{core}");
-        let ([pipeline], layout) = self.compute_pipelines(name, &text, entries, ["main"])?;
+        let linked = linked(&shader.spec())?;
+        let ([pipeline], layout) = self.compute_pipelines(shader.label(), &linked, entries, ["main"])?;
         let kernel = Arc::new(FixedKernel { pipeline, layout });
         if let Ok(mut fixed) = self.pipelines.fixed.lock() {
-            fixed.insert((name, format), kernel.clone());
+            fixed.insert(shader, kernel.clone());
         }
         Ok(kernel)
     }

@@ -8,6 +8,7 @@ use crate::error::GpuError;
 use crate::pipelines::{read_entry, storage_entry, texture_entry, uniform_entry};
 use crate::pool::{array_view, format_of};
 use crate::run::Run;
+use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::uploads::storage_buffer;
 
@@ -122,9 +123,7 @@ impl Gpu {
         mean: Mean,
     ) -> Result<(), GpuError> {
         let kernel = self.fixed_kernel(
-            "share",
-            Some(format),
-            &include_str!("../../../shaders/surface/share.wgsl").replace("FORMAT", format.wgsl()),
+            FixedShader::Share(format),
             &[
                 uniform_entry(0),
                 read_entry(1),

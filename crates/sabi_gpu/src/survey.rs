@@ -8,6 +8,7 @@ use crate::error::GpuError;
 use crate::pipelines::{storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::pool::{Extent, array_view};
 use crate::run::RunOptions;
+use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
@@ -22,7 +23,7 @@ const WHOLE: f64 = (1_u32 << 31) as f64;
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Constants {
     count_per_area: f32,
-    pad: [f32; 7],
+    pad: [f32; 3],
 }
 
 impl Gpu {
@@ -46,30 +47,26 @@ impl Gpu {
         self.queue.write_buffer(&counts, 0, bytemuck::cast_slice(&start));
         let constants = Constants {
             count_per_area: (WHOLE / surface.area.max(1e-30)) as f32,
-            pad: [0.0; 7],
+            pad: [0.0; 3],
         };
         let constants = self.uniform(bytemuck::bytes_of(&constants));
         let (source, table) = (array_view(source), array_view(table));
         let view = wgpu::BindingResource::TextureView;
         let counts = counts.as_entire_binding();
         let slices = Slices::new(self, surface, options.submission);
-        let with_bins = |text: &str| text.replace("BINS", &format!("{BINS}.0"));
 
-        let text = include_str!("../../../shaders/surface/survey_range.wgsl");
-        let kernel = self.fixed_kernel("survey range", None, text, &[texture_entry(0), write_entry(1)])?;
+        let kernel = self.fixed_kernel(FixedShader::SurveyRange, &[texture_entry(0), write_entry(1)])?;
         let group = self.bind(&kernel.layout, [view(&source), counts.clone()]);
         slices.run(&kernel.pipeline, &group, options.is_canceled)?;
 
-        let text = with_bins(include_str!("../../../shaders/surface/survey_count.wgsl"));
         let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
-        let kernel = self.fixed_kernel("survey count", None, &text, &entries)?;
+        let kernel = self.fixed_kernel(FixedShader::SurveyCount, &entries)?;
         let resources = [constants.as_entire_binding(), view(&source), counts.clone()];
         let group = self.bind(&kernel.layout, resources);
         slices.run(&kernel.pipeline, &group, options.is_canceled)?;
 
-        let text = with_bins(include_str!("../../../shaders/surface/survey_sum.wgsl"));
         let entries = [write_entry(0), storage_entry(1, Format::Rgba32Float)];
-        let kernel = self.fixed_kernel("survey sum", None, &text, &entries)?;
+        let kernel = self.fixed_kernel(FixedShader::SurveySum, &entries)?;
         let group = self.bind(&kernel.layout, [counts, view(&table)]);
         slices.submit(&kernel.pipeline, &group, 0, 1);
         self.wait()

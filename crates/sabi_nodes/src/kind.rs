@@ -62,7 +62,10 @@ pub struct Kind {
     pub cost: u32,
 }
 
-/// How a node reads its inputs (DESIGN §4).
+/// Most inputs of a node: those that the flags of a switched kernel have bits for.
+pub(crate) const INPUT_LIMIT: usize = 16;
+
+/// How a node reads its inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Inputs are values at the same place; fused with its neighbors.

@@ -59,7 +59,6 @@ mod scan;
 mod words;
 
 pub use color::{color_code, color_linear, typed_color};
-pub use compile::validate_wgsl;
 pub use curve::curve_points;
 pub use fault::Fault;
 pub use library::{Libraries, Library, SourceFile};

@@ -16,7 +16,7 @@ use sabi_graph::PortType;
 
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
-use crate::kind::{Argument, Input, Output, Param, Pass, Rays};
+use crate::kind::{Argument, INPUT_LIMIT, Input, Output, Param, Pass, Rays};
 use crate::scan::{Item, Member, Scan};
 use functions::FunctionNotes;
 use inputs::InputNotes;
@@ -26,9 +26,6 @@ pub(crate) const ANNOTATIONS: &[&str] = &[
     "input", "pass", "repeat", "texel", "surveys", "rays", "finds", "reach", "vector", "optional", "default", "type",
     "label",
 ];
-
-/// Inputs that the flags of an interactive kernel have room for.
-const INPUT_LIMIT: usize = 16;
 
 /// What the functions of a file say.
 #[derive(Clone, Debug, Default)]

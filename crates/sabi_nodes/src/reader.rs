@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use crate::analysis::{self, Findings};
-use crate::compile::{Linked, compile, used_libraries};
+use naga::valid::Capabilities;
+
+use crate::compile::{compile, used_libraries, with_libraries};
 use crate::explain;
 use crate::fault::{Fault, Text};
 use crate::kind::{Argument, Input, Kind, Output, Param, Reads, Shape};
@@ -31,8 +33,9 @@ pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<F
     if !faults.is_empty() {
         return Err(faults);
     }
-    let linked = Linked::new(text, &used, libraries);
-    let module = compile(&linked).map_err(|fault| vec![explain::explained(fault, &scan, text, libraries, &used)])?;
+    let linked = with_libraries(text, &used, libraries);
+    let module = compile(&linked, Capabilities::default())
+        .map_err(|fault| vec![explain::explained(fault, &scan, text, libraries, &used)])?;
     if !scan.is_complete {
         let message = "The declarations of this file cannot be told apart.";
         return Err(vec![Fault::of_file(

@@ -3,8 +3,8 @@
 use naga::{Expression, Function, Handle, Module, SampleLevel, Span, Statement, Type, TypeInner};
 
 use crate::analysis::walk::{expressions_with_spans, visit};
-use crate::compile::Linked;
 use crate::fault::{Fault, Text};
+use crate::link::LinkedModule;
 use crate::params::params_type;
 use crate::ports::function;
 use crate::scan::{ItemKind, Scan};
@@ -48,9 +48,9 @@ pub(crate) fn check_docs(text: Text<'_>, scan: &Scan, module: &Module, faults: &
 }
 
 /// Rules that need the module only.
-pub(crate) fn check_module(linked: &Linked<'_>, scan: &Scan, module: &Module, faults: &mut Vec<Fault>) {
+pub(crate) fn check_module(linked: &LinkedModule, scan: &Scan, module: &Module, faults: &mut Vec<Fault>) {
     for item in scan.items.iter().filter(|item| item.kind == ItemKind::Other) {
-        if let Some(keyword) = linked.text.get(item.keyword.clone())
+        if let Some(keyword) = linked.wgsl().get(item.keyword.clone())
             && DIRECTIVES.contains(&keyword)
         {
             let span = Span::from(item.keyword.clone());
@@ -96,7 +96,7 @@ pub(crate) fn check_module(linked: &Linked<'_>, scan: &Scan, module: &Module, fa
 }
 
 fn check_function(
-    linked: &Linked<'_>,
+    linked: &LinkedModule,
     module: &Module,
     handle: Handle<Function>,
     function: &Function,
@@ -139,7 +139,7 @@ fn check_function(
 }
 
 /// What acts on more than one place, or not at all.
-fn check_statements(linked: &Linked<'_>, function: &Function, faults: &mut Vec<Fault>) {
+fn check_statements(linked: &LinkedModule, function: &Function, faults: &mut Vec<Fault>) {
     visit(&function.body, &mut |statement, span| {
         let what = match statement {
             Statement::Kill => "`discard`",
@@ -163,7 +163,7 @@ fn check_statements(linked: &Linked<'_>, function: &Function, faults: &mut Vec<F
 }
 
 /// A copy of the parameters could be changed, and a loop that it bounds would run without bound.
-fn check_params_are_passed_on(linked: &Linked<'_>, module: &Module, faults: &mut Vec<Fault>) {
+fn check_params_are_passed_on(linked: &LinkedModule, module: &Module, faults: &mut Vec<Fault>) {
     let Some((params, _)) = params_type(module) else {
         return;
     };

@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
-use sabi_nodes::link::{Binding, Call, Convert, KernelSpec, Plane, Store, Stored};
+use sabi_nodes::link::{Binding, Call, Convert, Domain, KernelSpec, Operand, Plane, Store, Stored};
 
 use crate::fuse::{self, Value};
 use crate::keys::result_key;
@@ -76,16 +76,14 @@ pub(crate) struct KernelDraft<'b, 'p, 'a> {
 }
 
 impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
-    pub(crate) fn new(builder: &'b Builder<'p, 'a>, on_ghosts: bool) -> Self {
+    pub(crate) fn new(builder: &'b Builder<'p, 'a>, domain: Domain) -> Self {
         KernelDraft {
             builder,
             spec: KernelSpec {
                 calls: Vec::new(),
                 loads: Vec::new(),
                 stores: Vec::new(),
-                on_ghosts,
-                rays: false,
-                once: false,
+                domain,
             },
             blocks: Vec::new(),
             loaded: Vec::new(),
@@ -175,11 +173,11 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
     }
 
     pub(crate) fn store(&mut self, call: usize, value: Value) {
-        let made = Binding::Call(call, Convert::None);
+        let made = Operand::Call(call, Convert::None);
         self.store_kept(made, Kept::result(value), self.builder.stored(value));
     }
 
-    pub(crate) fn store_kept(&mut self, value: Binding, kept: Kept, stored: Stored) {
+    pub(crate) fn store_kept(&mut self, value: Operand, kept: Kept, stored: Stored) {
         self.writes
             .extend(stored.planes().into_iter().map(|plane| Some((kept, plane))));
         self.add_store(value, kept, stored);
@@ -197,10 +195,10 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
         let stored = Stored { ty: set.ty, channels };
         let is_set = |plane: Plane| set.planes().contains(&plane).then_some((kept, plane));
         self.writes.extend(stored.planes().into_iter().map(is_set));
-        self.add_store(Binding::Call(call, Convert::None), kept, stored);
+        self.add_store(Operand::Call(call, Convert::None), kept, stored);
     }
 
-    pub(crate) fn add_store(&mut self, value: Binding, kept: Kept, stored: Stored) {
+    pub(crate) fn add_store(&mut self, value: Operand, kept: Kept, stored: Stored) {
         let formats = stored.planes().iter().map(|plane| plane.format()).collect();
         self.spec.stores.push(Store { value, stored, formats });
         if let What::Result((node, output)) = kept.what {
@@ -239,7 +237,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             }
         };
         let step = KernelStep {
-            fills_ghosts: !self.spec.on_ghosts && !self.spec.once,
+            fills_ghosts: matches!(self.spec.domain, Domain::OwnedTexels | Domain::OwnedTexelsByRays),
             blocks: self.blocks.iter().map(block).collect(),
             spec: self.spec,
             flags: self.flags,

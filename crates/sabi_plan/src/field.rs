@@ -3,7 +3,7 @@
 use sabi_graph::PortType;
 use sabi_nodes::formula::{Formula, Knowns};
 use sabi_nodes::kind::{Argument, Kind, Memory, Output, Reads};
-use sabi_nodes::link::{Binding, Call, Convert, Plane, Stored};
+use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft, What};
 use crate::plan::{MoveStep, Step};
@@ -86,7 +86,7 @@ impl Builder<'_, '_> {
 
     /// An input stored once more in the type that it is read as.
     pub(crate) fn conversion(&self, node: usize, index: usize, input: ResolvedInput) -> (Draft, Kept) {
-        let mut kernel = KernelDraft::new(self, true);
+        let mut kernel = KernelDraft::new(self, Domain::AllTexels);
         let load = kernel.load((input.node, input.output));
         let stored = Stored {
             ty: if input.ty == PortType::Mask {
@@ -100,7 +100,7 @@ impl Builder<'_, '_> {
             what: What::Converted(node, index),
             level: 0,
         };
-        kernel.store_kept(Binding::Load(load, input.convert), kept, stored);
+        kernel.store_kept(Operand::Load(load, input.convert), kept, stored);
         (kernel.finish(), kept)
     }
 
@@ -111,7 +111,12 @@ impl Builder<'_, '_> {
             _ => false,
         });
         // What reads no texture is known on ghosts as exactly as anywhere; else they are filled over the links.
-        let mut kernel = KernelDraft::new(self, !reads_textures);
+        let domain = if reads_textures {
+            Domain::OwnedTexels
+        } else {
+            Domain::AllTexels
+        };
+        let mut kernel = KernelDraft::new(self, domain);
         kernel.level = kept.level;
         let block = kernel.block(node);
         let ready = self.node(node);
@@ -142,7 +147,7 @@ impl Builder<'_, '_> {
             ty: function.ty,
             channels: Vec::new(),
         };
-        kernel.store_kept(Binding::Call(0, Convert::None), kept, stored);
+        kernel.store_kept(Operand::Call(0, Convert::None), kept, stored);
         let times = self.times(ready, kind, function, kept.level);
         kernel.repeat = first_field.filter(|_| times > 1).map(|read| {
             let what = What::Scratch(node, index);
@@ -171,7 +176,7 @@ impl Builder<'_, '_> {
             let is_read = function.arguments.contains(&Argument::Input(index));
             inputs.push(match input {
                 Some(input) if is_read && input.reads == Reads::Value => {
-                    Binding::Load(kernel.load((input.node, input.output)), input.convert)
+                    Binding::Value(Operand::Load(kernel.load((input.node, input.output)), input.convert))
                 }
                 Some(input) if is_read && input.convert != Convert::None => {
                     Binding::Field(kernel.load_kept(What::Converted(node, index), kind.inputs[index].ty))

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use sabi_nodes::kind::Finds;
-use sabi_nodes::link::{Format, KernelSpec, Plane, Stored};
+use sabi_nodes::link::{Domain, Format, KernelSpec, Plane, Stored};
 
 use crate::source_values::SourceValues;
 
@@ -245,7 +245,7 @@ fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result 
     if let Some(feedback) = &kernel.feedback {
         write!(f, " x{} via s{}", feedback.times, feedback.scratch)?;
     }
-    if kernel.spec.once {
+    if kernel.spec.domain == Domain::Once {
         f.write_str(" once")?;
     }
     if kernel.level > 0 {

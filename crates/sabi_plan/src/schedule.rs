@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Channel, Kind};
-use sabi_nodes::link::{Binding, INPUTS_A_WORD, Stored};
+use sabi_nodes::link::{Binding, Domain, INPUTS_A_WORD, Operand, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft};
 use crate::error::{PlanError, Problem};
@@ -201,7 +201,7 @@ impl Builder<'_, '_> {
     /// A region of point nodes as one kernel.
     fn points(&self, members: &[(usize, Vec<usize>)], wanted: &[Value]) -> Draft {
         let group = self.producer[&(members[0].0, members[0].1[0])];
-        let mut kernel = KernelDraft::new(self, true);
+        let mut kernel = KernelDraft::new(self, Domain::AllTexels);
         let mut call_of: BTreeMap<Value, usize> = BTreeMap::new();
         for (node, outputs) in members {
             let block = kernel.block(*node);
@@ -209,8 +209,8 @@ impl Builder<'_, '_> {
                 let bindings = self.node(*node).inputs.iter().map(|input| match input {
                     None => Binding::Default,
                     Some(input) => match call_of.get(&(input.node, input.output)) {
-                        Some(call) => Binding::Call(*call, input.convert),
-                        None => Binding::Load(kernel.load((input.node, input.output)), input.convert),
+                        Some(call) => Binding::Value(Operand::Call(*call, input.convert)),
+                        None => Binding::Value(Operand::Load(kernel.load((input.node, input.output)), input.convert)),
                     },
                 });
                 let inputs = bindings.collect();
@@ -237,7 +237,7 @@ impl Builder<'_, '_> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("points are shaders")
         };
-        let mut kernel = KernelDraft::new(self, true);
+        let mut kernel = KernelDraft::new(self, Domain::AllTexels);
         let block = kernel.block(node);
         let mut flags = [0_u32; 4];
         let mut inputs = Vec::new();
@@ -260,7 +260,7 @@ impl Builder<'_, '_> {
                     .cloned()
                     .unwrap_or_default();
                 let bits = present.iter().fold(0, |bits, channel| bits | 1 << (*channel as u32));
-                flags[1 + (index / INPUTS_A_WORD).min(2)] |= bits << (5 * (index % INPUTS_A_WORD));
+                flags[1 + index / INPUTS_A_WORD] |= bits << (5 * (index % INPUTS_A_WORD));
             }
         }
         let call = kernel.call(node, output, inputs, block);
@@ -272,13 +272,12 @@ impl Builder<'_, '_> {
     /// All results of a node that shoots rays, from the same rays.
     fn rays(&self, node: usize, outputs: &[usize]) -> Draft {
         let ready = self.node(node);
-        let mut kernel = KernelDraft::new(self, false);
-        kernel.spec.rays = true;
+        let mut kernel = KernelDraft::new(self, Domain::OwnedTexelsByRays);
         let block = kernel.block(node);
         for output in outputs {
             let bindings = ready.inputs.iter().map(|input| match input {
                 None => Binding::Default,
-                Some(input) => Binding::Load(kernel.load((input.node, input.output)), input.convert),
+                Some(input) => Binding::Value(Operand::Load(kernel.load((input.node, input.output)), input.convert)),
             });
             let inputs = bindings.collect();
             let call = kernel.call(node, *output, inputs, block);

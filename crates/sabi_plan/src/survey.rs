@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Argument, Kind};
-use sabi_nodes::link::{Binding, Call, Convert, Plane, Stored};
+use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, Stored};
 
 use crate::draft::{Draft, Kept, KernelDraft, What};
 use crate::plan::{Step, SurveyStep};
@@ -17,12 +17,12 @@ impl Builder<'_, '_> {
         };
         let mut drafts = self.table(node, kind);
         drafts.extend((0..kind.passes.len()).map(|pass| self.found(node, kind, pass)));
-        let mut kernel = KernelDraft::new(self, true);
+        let mut kernel = KernelDraft::new(self, Domain::AllTexels);
         let block = kernel.block(node);
         for output in outputs {
             let bindings = self.node(node).inputs.iter().map(|input| match input {
                 None => Binding::Default,
-                Some(input) => Binding::Load(kernel.load((input.node, input.output)), input.convert),
+                Some(input) => Binding::Value(Operand::Load(kernel.load((input.node, input.output)), input.convert)),
             });
             let inputs = bindings.collect();
             let arguments = &kind.outputs[*output].arguments;
@@ -69,8 +69,7 @@ impl Builder<'_, '_> {
     /// What one pass finds in the table.
     fn found(&self, node: usize, kind: &Kind, pass: usize) -> Draft {
         let function = &kind.passes[pass].function;
-        let mut kernel = KernelDraft::new(self, false);
-        kernel.spec.once = true;
+        let mut kernel = KernelDraft::new(self, Domain::Once);
         let block = kernel.block(node);
         let survey = kernel.load_kept(What::Survey(node), PortType::Vector);
         kernel.spec.calls.push(Call {
@@ -86,7 +85,7 @@ impl Builder<'_, '_> {
             ty: function.ty,
             channels: Vec::new(),
         };
-        kernel.store_kept(Binding::Call(0, Convert::None), Kept { what, level: 0 }, stored);
+        kernel.store_kept(Operand::Call(0, Convert::None), Kept { what, level: 0 }, stored);
         kernel.finish()
     }
 }

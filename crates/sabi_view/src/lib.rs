@@ -31,6 +31,7 @@ mod placement;
 pub mod relief;
 mod renderer;
 mod scene;
+mod shaders;
 mod shadows;
 mod target;
 mod upload;
@@ -47,5 +48,6 @@ pub use scene::{
     Background, Light, LightPlace, Lines, MOST_LIGHTS, MaterialLook, Mode, NodeLook, NodeType, Scene, Shot,
     ViewTransform,
 };
+pub use shaders::view_modules;
 pub use target::{LONGEST_SIDE, Pixels, Target};
 pub use viewport::{Quality, Viewport};

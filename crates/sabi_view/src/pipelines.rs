@@ -11,10 +11,11 @@ use sabi_gpu::{Gpu, GpuError};
 
 use crate::edges::Line;
 use crate::model::Corner;
+use crate::shaders::ViewShader;
 use crate::shadows::SHADOW;
 use crate::target::{LIGHT, SEEN, SHOWN, SUM};
 pub(crate) use layouts::Layouts;
-use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, module, pipeline, rows_of};
+use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, pipeline, rows_of};
 pub(crate) use switches::Switches;
 
 /// A pipeline by what it does.
@@ -70,14 +71,31 @@ pub(crate) enum Paint {
     Shown,
 }
 
+/// The device, and the module whose entry points a pipeline runs.
+type Part<'a> = (&'a wgpu::Device, &'a wgpu::ShaderModule);
+
+impl Draws {
+    /// Module with the entry points.
+    fn shader(self) -> ViewShader {
+        match self {
+            Draws::Raster { .. } => ViewShader::Raster,
+            Draws::Paint(..) => ViewShader::Paint,
+            Draws::Background { .. } => ViewShader::Background,
+            Draws::Lines => ViewShader::Lines,
+            Draws::Shadow => ViewShader::CastShadow,
+            Draws::Gather(_) | Draws::Encode(_) | Draws::EncodeSum => ViewShader::Display,
+        }
+    }
+}
+
 /// All pipelines of a renderer, each made when it is first used.
 pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
     /// What is bound of a surface.
     surface: wgpu::BindGroupLayout,
     made: Mutex<BTreeMap<Draws, wgpu::RenderPipeline>>,
-    /// Texts that were read, by their labels.
-    modules: Mutex<BTreeMap<&'static str, wgpu::ShaderModule>>,
+    /// Compiled shader modules.
+    modules: Mutex<BTreeMap<ViewShader, wgpu::ShaderModule>>,
 }
 
 impl Pipelines {
@@ -107,11 +125,12 @@ impl Pipelines {
         {
             return Ok(known.clone());
         }
-        let made = gpu.guarded("the viewport's pipelines", |device| self.make(device, draws));
+        let module = self.module(gpu, draws.shader())?;
+        let made = gpu.guarded("the viewport's pipelines", |device| self.make(device, &module, draws));
         if made.is_err()
             && let Ok(mut modules) = self.modules.lock()
         {
-            // What they were read into may be what failed.
+            // The modules may be what failed.
             modules.clear();
         }
         let made = made?;
@@ -121,49 +140,46 @@ impl Pipelines {
         Ok(made)
     }
 
-    fn make(&self, device: &wgpu::Device, draws: Draws) -> wgpu::RenderPipeline {
+    fn make(&self, device: &wgpu::Device, module: &wgpu::ShaderModule, draws: Draws) -> wgpu::RenderPipeline {
+        let part: Part<'_> = (device, module);
         match draws {
             Draws::Raster {
                 is_double_sided,
                 ground,
                 switches,
-            } => self.raster(device, is_double_sided, ground, switches),
-            Draws::Paint(paint, switches) => self.paint(device, paint, switches),
-            Draws::Background { is_blurred } => self.background(device, is_blurred),
-            Draws::Lines => self.lines(device),
-            Draws::Shadow => self.shadow(device),
-            Draws::Gather(transform) => self.display(device, "gather", SUM, transform),
-            Draws::Encode(transform) => self.display(device, "encode", SHOWN, transform),
+            } => self.raster(part, is_double_sided, ground, switches),
+            Draws::Paint(paint, switches) => self.paint(part, paint, switches),
+            Draws::Background { is_blurred } => self.background(part, is_blurred),
+            Draws::Lines => self.lines(part),
+            Draws::Shadow => self.shadow(part),
+            Draws::Gather(transform) => self.display(part, "gather", SUM, transform),
+            Draws::Encode(transform) => self.display(part, "encode", SHOWN, transform),
             // The sum went through the transform already.
-            Draws::EncodeSum => self.display(device, "encode_sum", SHOWN, Transform(0)),
+            Draws::EncodeSum => self.display(part, "encode_sum", SHOWN, Transform(0)),
         }
     }
 
-    /// Some of the shaders' files, read once.
-    fn module(&self, device: &wgpu::Device, label: &'static str, parts: &[&str]) -> wgpu::ShaderModule {
+    /// A shader module, compiled when it is first used.
+    fn module(&self, gpu: &Gpu, shader: ViewShader) -> Result<wgpu::ShaderModule, GpuError> {
         if let Ok(modules) = self.modules.lock()
-            && let Some(known) = modules.get(label)
+            && let Some(known) = modules.get(&shader)
         {
-            return known.clone();
+            return Ok(known.clone());
         }
-        let read = module(device, label, parts);
+        let compiled = gpu.shader_module(&shader.spec())?;
         if let Ok(mut modules) = self.modules.lock() {
-            modules.insert(label, read.clone());
+            modules.insert(shader, compiled.clone());
         }
-        read
+        Ok(compiled)
     }
 
     fn raster(
         &self,
-        device: &wgpu::Device,
+        (device, module): Part<'_>,
         is_double_sided: bool,
         ground: Ground,
         switches: Switches,
     ) -> wgpu::RenderPipeline {
-        let parts = [
-            "raster", "sight", "relief", "modes", "switches", "maps", "frame", "atlas",
-        ];
-        let module = self.module(device, "raster", &parts);
         let Layouts {
             frame,
             material,
@@ -181,7 +197,7 @@ impl Pipelines {
             device,
             &Recipe {
                 label: "raster",
-                module: &module,
+                module,
                 entries: ("place_corner", Some(entry)),
                 switches: &switches.named(),
                 groups,
@@ -197,22 +213,7 @@ impl Pipelines {
         )
     }
 
-    fn paint(&self, device: &wgpu::Device, paint: Paint, switches: Switches) -> wgpu::RenderPipeline {
-        let parts = [
-            "seen",
-            "lighting",
-            "shadow",
-            "relief",
-            "brdf",
-            "irradiance",
-            "show",
-            "modes",
-            "switches",
-            "maps",
-            "frame",
-            "atlas",
-        ];
-        let module = self.module(device, "paint", &parts);
+    fn paint(&self, (device, module): Part<'_>, paint: Paint, switches: Switches) -> wgpu::RenderPipeline {
         let Layouts {
             frame, material, seen, ..
         } = &self.layouts;
@@ -226,7 +227,7 @@ impl Pipelines {
             device,
             &Recipe {
                 label: "paint",
-                module: &module,
+                module,
                 entries: ("cover", Some(entry)),
                 switches: &switches.named(),
                 groups: &groups,
@@ -242,14 +243,13 @@ impl Pipelines {
         )
     }
 
-    fn background(&self, device: &wgpu::Device, is_blurred: bool) -> wgpu::RenderPipeline {
-        let module = self.module(device, "background", &["background", "panorama", "frame"]);
+    fn background(&self, (device, module): Part<'_>, is_blurred: bool) -> wgpu::RenderPipeline {
         let paint = if is_blurred { "paint_blurred" } else { "paint" };
         pipeline(
             device,
             &Recipe {
                 label: "background",
-                module: &module,
+                module,
                 entries: ("cover", Some(paint)),
                 switches: &[],
                 groups: &[&self.layouts.frame, &self.layouts.panorama],
@@ -265,13 +265,12 @@ impl Pipelines {
         )
     }
 
-    fn lines(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
-        let module = self.module(device, "lines", &["lines", "frame"]);
+    fn lines(&self, (device, module): Part<'_>) -> wgpu::RenderPipeline {
         pipeline(
             device,
             &Recipe {
                 label: "lines",
-                module: &module,
+                module,
                 entries: ("place_end", Some("paint")),
                 switches: &[],
                 groups: &[&self.layouts.frame, &self.layouts.numbers],
@@ -287,13 +286,12 @@ impl Pipelines {
         )
     }
 
-    fn shadow(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
-        let module = self.module(device, "shadow", &["cast_shadow"]);
+    fn shadow(&self, (device, module): Part<'_>) -> wgpu::RenderPipeline {
         pipeline(
             device,
             &Recipe {
                 label: "shadow",
-                module: &module,
+                module,
                 entries: ("place_corner", None),
                 switches: &[],
                 groups: &[&self.layouts.numbers],
@@ -313,17 +311,16 @@ impl Pipelines {
 
     fn display(
         &self,
-        device: &wgpu::Device,
+        (device, module): Part<'_>,
         paint: &str,
         target: wgpu::TextureFormat,
         Transform(transform): Transform,
     ) -> wgpu::RenderPipeline {
-        let module = self.module(device, "display", &["display"]);
         pipeline(
             device,
             &Recipe {
                 label: "display",
-                module: &module,
+                module,
                 entries: ("cover", Some(paint)),
                 switches: &[("TRANSFORM", f64::from(transform))],
                 groups: &[&self.layouts.display],

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use sabi_engine::choose_adapter;
+use sabi_gpu::{Given, ModuleSpec};
 use sabi_surface::bvh::Bvh;
 use wgpu::util::DeviceExt as _;
 
@@ -12,7 +13,6 @@ use super::setup::adapter;
 
 /// Rows along a table's side, as `table_texel` in `shaders/lib/atlas.wgsl` has it.
 const TABLE_WIDTH: usize = 8192;
-const CAST: &str = include_str!("../../../../shaders/surface/cast.wgsl");
 const ATLAS: &str = include_str!("../../../../shaders/lib/atlas.wgsl");
 const TWO: &str = include_str!("bvh2.wgsl");
 
@@ -97,7 +97,13 @@ impl Kernel {
         constants.extend([shot.len() as u32, row, 0, 0].iter().flat_map(|x| x.to_le_bytes()));
         let nodes = machine.table(bytemuck::cast_slice(&bvh.tree().nodes));
         let triangles = machine.table(bytemuck::cast_slice(&rows));
-        Kernel::new(machine, (CAST, 1), &constants, [nodes, triangles], shot)
+        let spec = ModuleSpec {
+            label: "cast",
+            files: vec!["surface/cast"],
+            given: vec![Given::group("SURFACE_GROUP", 0)],
+        };
+        let linked = spec.link().unwrap();
+        Kernel::new(machine, (linked.wgsl(), 1), &constants, [nodes, triangles], shot)
     }
 
     /// The tree of two boxes a node.
@@ -109,7 +115,10 @@ impl Kernel {
             .collect();
         let nodes = machine.table(bytemuck::cast_slice(&bvh.nodes));
         let triangles = machine.table(bytemuck::cast_slice(&bvh.triangles));
-        Kernel::new(machine, (TWO, 0), &constants, [nodes, triangles], shot)
+        let start = ATLAS.find("fn table_texel").unwrap();
+        let length = ATLAS[start..].find("\n}\n").unwrap() + 3;
+        let text = format!("{TWO}\n{}", &ATLAS[start..start + length]);
+        Kernel::new(machine, (&text, 0), &constants, [nodes, triangles], shot)
     }
 
     fn new(
@@ -119,9 +128,6 @@ impl Kernel {
         [nodes, triangles]: [wgpu::TextureView; 2],
         shot: &[Ray],
     ) -> Kernel {
-        let start = ATLAS.find("fn table_texel").unwrap();
-        let length = ATLAS[start..].find("\n}\n").unwrap() + 3;
-        let text = format!("{text}\n{}", &ATLAS[start..start + length]);
         let module = machine.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,
             source: wgpu::ShaderSource::Wgsl(text.into()),

@@ -10,6 +10,7 @@ use crate::error::GpuError;
 use crate::pipelines::{
     FixedKernel, read_entry, storage_entry, texture_entry, uniform_entry, update_entry, write_entry,
 };
+use crate::shaders::FixedShader;
 
 /// One dispatch of a round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,15 +50,6 @@ impl Part {
     }
 }
 
-const PLAIN: &str = include_str!("../../../../shaders/surface/fill_plain.wgsl");
-const COUPLED: &str = include_str!("../../../../shaders/surface/fill_coupled.wgsl");
-const GATHER: &str = include_str!("../../../../shaders/surface/access_gather.wgsl");
-const IN_PLACE: &str = include_str!("../../../../shaders/surface/access_in_place.wgsl");
-const SETTLE: &str = include_str!("../../../../shaders/surface/access_settle.wgsl");
-const SCATTER: &str = include_str!("../../../../shaders/surface/scatter_filled.wgsl");
-const REFINE: &str = include_str!("../../../../shaders/surface/refine_ghosts.wgsl");
-const SCATTER_ALL: &str = include_str!("../../../../shaders/surface/scatter_ghosts.wgsl");
-
 impl Gpu {
     /// Kernel of one dispatch of a round over textures of a format.
     pub(super) fn link_kernel(
@@ -66,25 +58,16 @@ impl Gpu {
         part: Part,
         format: Format,
     ) -> Result<Arc<FixedKernel>, GpuError> {
-        let (name, texts) = match (round, part) {
-            (LinkRound::Cubic, Part::Scatter) => ("scatter ghosts", [SCATTER_ALL, ""]),
-            (LinkRound::Cubic, _) => ("refine ghosts", [REFINE, ""]),
-            (_, Part::Scatter) => ("scatter filled", [SCATTER, ""]),
-            (LinkRound::Plain, Part::InPlace) => ("plain ghosts in place", [PLAIN, IN_PLACE]),
-            (LinkRound::Plain, _) => ("gather plain", [PLAIN, GATHER]),
-            (_, Part::InPlace) => ("coupled ghosts in place", [COUPLED, IN_PLACE]),
-            (_, Part::Settle) => ("settle coupled", [COUPLED, SETTLE]),
-            (_, Part::Gather) => ("gather coupled", [COUPLED, GATHER]),
+        let shader = match (round, part) {
+            (LinkRound::Cubic, Part::Scatter) => FixedShader::ScatterGhosts(format),
+            (LinkRound::Cubic, _) => FixedShader::RefineGhosts,
+            (_, Part::Scatter) => FixedShader::ScatterFilled(format),
+            (LinkRound::Plain, Part::InPlace) => FixedShader::PlainInPlace,
+            (LinkRound::Plain, _) => FixedShader::GatherPlain(format),
+            (_, Part::InPlace) => FixedShader::CoupledInPlace,
+            (_, Part::Settle) => FixedShader::SettleCoupled,
+            (_, Part::Gather) => FixedShader::GatherCoupled(format),
         };
-        let (value, parts) = match format {
-            Format::R32Float => ("f32", "x"),
-            Format::Rgba16Float | Format::Rgba32Float => ("vec4f", "xyzw"),
-        };
-        let text = texts
-            .join("\n")
-            .replace("FORMAT", format.wgsl())
-            .replace("VALUE", value)
-            .replace("PARTS", parts);
-        self.fixed_kernel(name, Some(format), &text, &part.entries(format))
+        self.fixed_kernel(shader, &part.entries(format))
     }
 }

@@ -10,6 +10,7 @@ use super::hierarchy::{DeviceHierarchy, RayScene};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pipelines::{FixedKernel, read_entry, table_entry, uniform_entry, write_entry};
+use crate::shaders::FixedShader;
 use crate::tiles::Slices;
 
 /// Rays per workgroup, as in `shaders/surface/cast.wgsl`.
@@ -53,11 +54,10 @@ impl<'a> OnDevice<'a> {
             read_entry(3),
             write_entry(4),
         ];
-        let text = include_str!("../../../../shaders/surface/cast.wgsl");
         Ok(OnDevice {
             hierarchy,
             working_from_model: scene.working_from_model,
-            kernel: gpu.fixed_kernel("cast", None, text, &entries)?,
+            kernel: gpu.fixed_kernel(FixedShader::Cast, &entries)?,
             constants: gpu.uniform(&[0; size_of::<CastConstants>()]),
         })
     }

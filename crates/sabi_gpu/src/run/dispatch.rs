@@ -3,7 +3,7 @@
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use sabi_nodes::link::Format;
+use sabi_nodes::link::{Domain, Format};
 use sabi_plan::{KernelStep, SlotRef};
 
 use super::{Round, Runner, SourceFill};
@@ -46,7 +46,7 @@ impl Runner<'_> {
             let block = std::iter::once(block.as_entire_binding());
             let group = self.gpu.bind(&compiled.layout, block.chain(bound.resources()));
             self.warm(compiled, &slices, &group)?;
-            if step.spec.once {
+            if step.spec.domain == Domain::Once {
                 slices.submit(&compiled.pipeline, &group, 0, 1);
             } else {
                 slices.run(&compiled.pipeline, &group, self.options.is_canceled)?;

@@ -75,7 +75,7 @@ impl Runner<'_> {
         let adapter = self.gpu.summary();
         let is_on_device = follows_on_device(self.gpu, self.options.caster);
         part(env!("CARGO_PKG_VERSION").as_bytes());
-        part(compiled.kernel.wgsl.as_bytes());
+        part(compiled.kernel.module.wgsl().as_bytes());
         part(adapter.name.as_bytes());
         part(adapter.driver.as_bytes());
         part(&[u8::from(is_on_device), bound.written.len() as u8]);

@@ -6,9 +6,9 @@ use naga::{BinaryOperator, Block, Expression, Function, Handle, LocalVariable, M
 
 use super::interval::{Frame, Interval, Reader};
 use super::walk::{conjuncts, stores};
-use crate::compile::Linked;
 use crate::fault::Fault;
 use crate::kind::Param;
+use crate::link::LinkedModule;
 use crate::params::params_type;
 use crate::scan::Scan;
 
@@ -28,7 +28,7 @@ pub(super) struct Asked {
 
 /// Checks all loops that `roots` reach; gives the parameters that bound one.
 pub(super) fn check(
-    linked: &Linked<'_>,
+    linked: &LinkedModule,
     scan: &Scan,
     module: &Module,
     params: &[Param],
@@ -84,7 +84,7 @@ fn too_many(rounds: u64, times: u64) -> (String, &'static str) {
 }
 
 struct Counter<'a, 'm> {
-    linked: &'a Linked<'a>,
+    linked: &'a LinkedModule,
     reader: Reader<'m>,
     /// Rounds of a function by what its arguments can be.
     known: BTreeMap<(usize, Vec<Option<Interval>>), u64>,

@@ -13,9 +13,9 @@ use std::collections::BTreeSet;
 
 use naga::{Function, Handle, Module};
 
-use crate::compile::Linked;
 use crate::fault::Fault;
 use crate::kind::{Argument, ChannelWrite, Output, Param};
+use crate::link::LinkedModule;
 use crate::ports::{Ports, function};
 use crate::scan::Scan;
 
@@ -36,7 +36,7 @@ pub(crate) struct Findings {
 
 /// Checks use of parameters and inputs, and loops; measures cost and channels.
 pub(crate) fn analyze(
-    linked: &Linked<'_>,
+    linked: &LinkedModule,
     scan: &Scan,
     module: &Module,
     params: &[Param],

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use naga::{Expression, Function, Handle, Module, Span, Statement, TypeInner};
 
 use super::walk::{calls, children, stores, visit};
-use crate::compile::Linked;
 use crate::fault::Fault;
+use crate::link::LinkedModule;
 use crate::params::params_type;
 use crate::scan::Scan;
 
@@ -36,7 +36,7 @@ impl Use {
 ///
 /// `planned`: parameters that say how often, how wide or over how many rays a function runs.
 pub(super) fn check(
-    linked: &Linked<'_>,
+    linked: &LinkedModule,
     scan: &Scan,
     module: &Module,
     roots: &[Handle<Function>],

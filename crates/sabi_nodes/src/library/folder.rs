@@ -5,8 +5,9 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::{Library, SourceFile};
-use crate::compile::{check_library, library_path};
+use crate::compile::check_library;
 use crate::fault::Fault;
+use crate::link::uses::shared_path;
 use crate::reader::FILE_LIMIT_BYTES;
 
 /// Most files read from one folder.
@@ -53,7 +54,7 @@ impl Library {
                 ));
             } else if let Err(found) = self.replace_library(&name, text) {
                 faults.extend(found.into_iter().map(|mut fault| {
-                    if fault.path == library_path(&name) {
+                    if fault.path == shared_path(&name) {
                         fault.path = path.to_path_buf();
                     }
                     fault

@@ -6,6 +6,7 @@ mod tests;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use crate::compile::check_library;
 use crate::fault::Fault;
@@ -15,6 +16,17 @@ use crate::words::nearest;
 
 mod built_in {
     include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+}
+
+/// Text of a file of `surface/` or `view/` by its name in `@use`, such as `surface/place`.
+pub(crate) fn shader_text(name: &str) -> Option<&'static str> {
+    let found = built_in::SHADERS.iter().find(|(known, _)| *known == name);
+    found.map(|(_, text)| *text)
+}
+
+/// Names of the files of `surface/` and `view/`, sorted.
+pub(crate) fn shader_names() -> impl Iterator<Item = &'static str> {
+    built_in::SHADERS.iter().map(|(name, _)| *name)
 }
 
 /// One node file before it is read.
@@ -33,6 +45,17 @@ pub struct SourceFile {
 pub struct Libraries(pub BTreeMap<String, String>);
 
 impl Libraries {
+    /// Those that come with the program.
+    pub fn builtin() -> &'static Libraries {
+        static BUILT_IN: LazyLock<Libraries> = LazyLock::new(|| {
+            let texts = built_in::LIBRARIES
+                .iter()
+                .map(|&(name, text)| (name.to_owned(), text.to_owned()));
+            Libraries(texts.collect())
+        });
+        &BUILT_IN
+    }
+
     /// The text of a library.
     pub fn text(&self, name: &str) -> Option<&str> {
         self.0.get(name).map(String::as_str)
@@ -85,10 +108,7 @@ impl Library {
             id: id.to_owned(),
             text: text.to_owned(),
         });
-        let libraries = built_in::LIBRARIES
-            .iter()
-            .map(|&(name, text)| (name.to_owned(), text.to_owned()));
-        (files.collect(), Libraries(libraries.collect()))
+        (files.collect(), Libraries::builtin().clone())
     }
 
     /// The kind of that id, today's or an earlier one (`@was`).

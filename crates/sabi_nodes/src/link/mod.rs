@@ -1,40 +1,65 @@
-//! Linking: several node files become one compute kernel.
+//! Linking: several WGSL files become one module.
 //!
-//! A [`KernelSpec`] says what is called in which order and what is read from and written to storage; [`link`] turns
-//! it into WGSL. Names of different files are kept apart by a prefix, libraries are appended after the nodes.
+//! Files say in their headers what they use (`uses.rs`); a [`LinkedModule`] keeps the way back to file and line. Two kinds
+//! of modules are linked: those of Sabi's own files, by a [`ModuleSpec`], and kernels of nodes, by a [`KernelSpec`] that
+//! says what is called in which order and what is read from and written to storage. Names of different nodes are kept
+//! apart by a prefix.
 
 mod block;
+mod expressions;
+mod files;
+mod given;
 mod kernel;
+mod module;
 mod rays;
 mod rename;
 mod sources;
+pub(crate) mod uses;
 
 use sabi_graph::PortType;
 
-use crate::kind::Channel;
+use crate::kind::{Channel, INPUT_LIMIT};
 
 pub use block::{BlockLayout, CallLayout};
-pub use kernel::{Kernel, LinkError, link};
+pub use files::ModuleSpec;
+pub use given::{Access, Given};
+pub use kernel::{Kernel, LinkError, Missing, link};
+pub use module::LinkedModule;
 
 /// Inputs whose material channels one flag word of a switched kernel describes.
 pub const INPUTS_A_WORD: usize = 6;
 
-/// What a kernel does, as plain data. Two equal specs give the same text.
+/// Names of the three flag words that describe channels, in order.
+const CHANNEL_WORDS: [&str; 3] = ["y", "z", "w"];
+
+// Every input has its bits in the flags: two in the first word, five in one of the others.
+const _: () = assert!(INPUT_LIMIT <= 16 && INPUT_LIMIT <= CHANNEL_WORDS.len() * INPUTS_A_WORD);
+
+/// Work of one kernel, as plain data. Two equal specs give the same text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KernelSpec {
     /// Calls in order; a call may read results of earlier ones.
     pub calls: Vec<Call>,
     /// Stored results that are read.
     pub loads: Vec<Stored>,
-    /// Results that are stored: which, and how.
+    /// Results that are stored, with their formats.
     pub stores: Vec<Store>,
-    /// Whether ghost texels are evaluated too: true for point nodes, false for fields.
-    pub on_ghosts: bool,
-    /// Whether the calls are means over rays: all of them of one node that shoots some. The text then has two entry points,
-    /// see [`Kernel::rays`].
-    pub rays: bool,
-    /// Whether it runs once for the whole surface: one invocation, which writes the texel at the origin.
-    pub once: bool,
+    /// Texels that the calls are evaluated at.
+    pub domain: Domain,
+}
+
+/// Texels that a kernel is evaluated at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// All texels, ghosts included: point nodes.
+    AllTexels,
+    /// Owned texels; ghosts are filled from them afterwards: fields.
+    OwnedTexels,
+    /// Owned texels, where the calls are means over rays. All calls are of one node that shoots rays. The text then has
+    /// two entry points, see [`Kernel::rays`].
+    OwnedTexelsByRays,
+    /// The texel at the origin, by one invocation: what holds for the whole surface.
+    Once,
 }
 
 /// Evaluation of one function of a node.
@@ -48,25 +73,32 @@ pub struct Call {
     pub inputs: Vec<Binding>,
     /// One for each pass of the kind: the load that holds its result, where the function reads it.
     pub passes: Vec<Option<usize>>,
-    /// The load that holds the table of a survey, where the function asks one.
+    /// Load that holds the table of a survey, where the function reads one.
     pub survey: Option<usize>,
-    /// The parameter block of this call: calls of the same node share one.
+    /// Parameter block of this call: calls of the same node share one.
     pub block: usize,
 }
 
-/// Where an input comes from.
+/// Source of an input's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Binding {
     /// Nothing is connected: the knob, the default expression or the plain material.
     Default,
-    /// The result of an earlier call.
-    Call(usize, Convert),
-    /// A stored result, read at this place.
-    Load(usize, Convert),
-    /// A stored result, handed over as a texture.
+    /// A value at this texel.
+    Value(Operand),
+    /// A stored result, passed on as a texture.
     Field(usize),
     /// Decided when the kernel runs, by the flags of the block: default, load, or load with conversion.
     Switch(usize),
+}
+
+/// A value at a texel, converted on its way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operand {
+    /// Result of an earlier call.
+    Call(usize, Convert),
+    /// A stored result.
+    Load(usize, Convert),
 }
 
 /// Conversion on a wire.
@@ -91,10 +123,10 @@ impl Convert {
     }
 }
 
-/// How a value lies in storage.
+/// Layout of a value in storage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stored {
-    /// What it is.
+    /// Type of the value.
     pub ty: PortType,
     /// Channels of a material that take storage, in storage order; empty for other types.
     pub channels: Vec<Channel>,
@@ -115,15 +147,15 @@ impl Stored {
 /// One stored result of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Store {
-    /// What is stored: the result of a call, or a load on its way to another type.
-    pub value: Binding,
-    /// How it is stored.
+    /// Result of a call, or a load that is converted.
+    pub value: Operand,
+    /// Layout of the value in storage.
     pub stored: Stored,
     /// Texture formats, one for each plane.
     pub formats: Vec<Format>,
 }
 
-/// One texture's worth of a value.
+/// Part of a value that one texture holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Plane {
     /// One number.
@@ -168,8 +200,8 @@ impl Format {
 }
 
 impl Plane {
-    /// The format it is stored in. Masks are whole floats: a threshold above a half float would show its steps, and
-    /// fused and single passes would no longer agree.
+    /// Storage format. Masks take 32 bits: a threshold would show the steps of a half float, and fused and single passes
+    /// would no longer agree.
     pub fn format(self) -> Format {
         match self {
             Plane::Mask | Plane::Material(Channel::Height) => Format::R32Float,

@@ -5,21 +5,25 @@ use std::fmt::Write;
 use sabi_graph::PortType;
 
 use super::KernelSpec;
-use super::kernel::{LinkError, arguments, function, write_bounded, write_store};
-use super::sources::Names;
+use super::expressions::{Caller, write_store};
+use super::kernel::{LinkError, Missing, function, write_bounded};
+use super::sources::Callee;
 use crate::kind::{Argument, Kind, Output, Rays};
 
-/// The bindings of rays and hits, from `binding` on, and both entry points.
+/// Writes the bindings of rays and hits, from `binding` on, and both entry points.
 pub(super) fn write(
     out: &mut String,
     spec: &KernelSpec,
-    kinds: &[&Kind],
-    names: &Names<'_>,
+    callees: &[Callee<'_>],
     binding: usize,
 ) -> Result<(), LinkError> {
-    let (Some(kind), Some(call)) = (kinds.first(), spec.calls.first()) else {
-        return Ok(());
+    let (Some(callee), Some(call)) = (callees.first(), spec.calls.first()) else {
+        return Err(LinkError::Incomplete {
+            reader: "a kernel that shoots rays".to_owned(),
+            missing: Missing::Call,
+        });
     };
+    let kind = callee.kind;
     let rays = kind
         .rays
         .as_ref()
@@ -31,11 +35,17 @@ pub(super) fn write(
          @group(1) @binding({hits}) var<storage, read> shot_hits: array<RayHit>;"
     );
     let count = &kind.params[rays.count].name;
-    write_shoot(out, spec, kind, rays, names);
+    let caller = |index: usize| Caller {
+        index,
+        call: &spec.calls[index],
+        kind,
+        spec,
+    };
+    write_shoot(out, &caller(0), *callee, rays)?;
     write_start(out, "main");
     out.push_str("    if owner == EMPTY || (owner & GHOST_BIT) != 0u { return; }\n");
     out.push_str("    let at = surface_at(texel, owner);\n");
-    write_bounded(out, call.block, kind, names);
+    write_bounded(out, call.block, *callee);
     let _ = writeln!(out, "    let count = bounded_{}.{count};", call.block);
     let averaged = Averaged::of(spec, kind)?;
     for (name, function, _) in &averaged.functions {
@@ -51,9 +61,9 @@ pub(super) fn write(
          let ray = shot_rays[place * count + index];\n    \
          let hit = hit_of(shot_hits[place * count + index], ray);\n",
     );
-    let prefix = names.prefix(kind);
+    let prefix = callee.prefix();
     for (name, function, call) in &averaged.functions {
-        let arguments = arguments(out, *call, &spec.calls[*call], &function.arguments, kind, spec);
+        let arguments = caller(*call).arguments(out, &function.arguments)?;
         let _ = writeln!(out, "    {name} += {prefix}{}({arguments});", function.name);
     }
     out.push_str("    }\n");
@@ -61,17 +71,17 @@ pub(super) fn write(
         let _ = writeln!(out, "    {name} /= f32(count);");
     }
     for (index, function) in &averaged.of_means {
-        let arguments = arguments(out, *index, &spec.calls[*index], &function.arguments, kind, spec);
+        let arguments = caller(*index).arguments(out, &function.arguments)?;
         let _ = writeln!(out, "    let v{index} = {prefix}{}({arguments});", function.name);
     }
     for (index, store) in spec.stores.iter().enumerate() {
-        write_store(out, index, store, spec);
+        write_store(out, index, store, spec)?;
     }
     out.push_str("}\n");
     Ok(())
 }
 
-/// What is averaged in a kernel, and what is made of the means.
+/// Functions that are averaged in a kernel, and those of their means.
 struct Averaged<'k> {
     /// Name of the variable, function, and the call whose inputs it takes.
     functions: Vec<(String, &'k Output, usize)>,
@@ -86,8 +96,7 @@ impl<'k> Averaged<'k> {
             of_means: Vec::new(),
         };
         for (index, call) in spec.calls.iter().enumerate() {
-            let output = function(kind, &call.function)
-                .ok_or_else(|| LinkError::UnknownFunction(kind.id.clone(), call.function.clone()))?;
+            let output = function(kind, &call.function)?;
             if output.arguments.iter().any(Argument::is_of_ray) {
                 averaged.functions.push((format!("v{index}"), output, index));
                 continue;
@@ -105,22 +114,21 @@ impl<'k> Averaged<'k> {
     }
 }
 
-/// The variable that holds the mean of a pass.
+/// Name of the variable that holds the mean of a pass.
 pub(super) fn mean_name(pass: usize) -> String {
     format!("mean_{pass}")
 }
 
-fn write_shoot(out: &mut String, spec: &KernelSpec, kind: &Kind, rays: &Rays, names: &Names<'_>) {
-    let call = &spec.calls[0];
+fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: &Rays) -> Result<(), LinkError> {
     write_start(out, "shoot");
     out.push_str("    if texel.x < 0 { return; }\n");
-    write_bounded(out, call.block, kind, names);
+    write_bounded(out, caller.call.block, callee);
     let _ = writeln!(
         out,
         "    let count = bounded_{}.{};",
-        call.block, kind.params[rays.count].name
+        caller.call.block, caller.kind.params[rays.count].name
     );
-    // A ray that goes nowhere: nobody asks what it hits.
+    // Texels without a place on the surface still have rows: they get rays of no length.
     out.push_str(
         "    if owner == EMPTY || (owner & GHOST_BIT) != 0u {\n        \
          for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = no_ray(); }\n        \
@@ -129,13 +137,14 @@ fn write_shoot(out: &mut String, spec: &KernelSpec, kind: &Kind, rays: &Rays, na
          for (var index = 0u; index < count; index++) {\n    \
          let at = jittered(center, planes, index);\n",
     );
-    let arguments = arguments(out, 0, call, &rays.arguments, kind, spec);
-    let prefix = names.prefix(kind);
+    let arguments = caller.arguments(out, &rays.arguments)?;
+    let prefix = callee.prefix();
     let _ = writeln!(
         out,
         "    var ray = {prefix}ray({arguments});\n    ray.origin = lifted(at, ray.origin, ray.direction);\n    \
          shot_rays[place * count + index] = ray;\n    }}\n}}"
     );
+    Ok(())
 }
 
 fn write_start(out: &mut String, name: &str) {

@@ -11,7 +11,7 @@ enum Token<'a> {
     Space(&'a str),
 }
 
-/// The text with every name declared at module scope prefixed, comments left out.
+/// The text with every name declared at module scope prefixed, line by line, without comments.
 ///
 /// Members of structs (declared or reached by `.`) and attributes keep their names. A local variable that has the
 /// name of a declared item is renamed along with it, which changes nothing.
@@ -101,8 +101,11 @@ fn tokens(text: &str) -> Vec<Token<'_>> {
             continue;
         }
         if rest.starts_with("/*") {
-            rest = &rest[block_comment_length(rest)..];
+            let (comment, after) = rest.split_at(block_comment_length(rest));
             tokens.push(Token::Space(" "));
+            // Line numbers stay those of the file.
+            tokens.extend(comment.matches('\n').map(Token::Space));
+            rest = after;
             continue;
         }
         let length = if first.is_whitespace() {
@@ -178,6 +181,10 @@ mod tests {
             (
                 "struct S { @size(16) size: f32 } const size = 2;",
                 "struct k__S { @size(16) size: f32 } const k__size = 2;",
+            ),
+            (
+                "const a = 1; /* one\ntwo */\nconst b = 2;",
+                "const k__a = 1;  \n\nconst k__b = 2;",
             ),
         ];
         for (text, expected) in cases {

@@ -4,80 +4,84 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use super::block::knob_members;
+use super::module::LinkedModule;
 use super::rename::with_prefix;
 use crate::kind::{Kind, Memory};
 
-/// Names that keep kinds apart in one module.
+/// A kind that a kernel calls, with its number among all of them.
 ///
 /// A kind's own names get a prefix that begins with its number, generated ones begin with `gen_`, so neither two kinds
 /// nor a kind and the generated code can mean the same name.
-pub(super) struct Names<'a> {
-    ids: Vec<&'a str>,
+#[derive(Clone, Copy)]
+pub(super) struct Callee<'a> {
+    pub(super) kind: &'a Kind,
+    number: usize,
 }
 
-impl<'a> Names<'a> {
-    pub(super) fn of(kinds: &[&'a Kind]) -> Names<'a> {
-        let ids: BTreeSet<&str> = kinds.iter().map(|kind| kind.id.as_str()).collect();
-        Names {
-            ids: ids.into_iter().collect(),
-        }
-    }
+/// The kinds with their numbers, by the order of their ids.
+pub(super) fn callees<'a>(kinds: &[&'a Kind]) -> Vec<Callee<'a>> {
+    let ids: BTreeSet<&str> = kinds.iter().map(|kind| kind.id.as_str()).collect();
+    let numbered = |kind: &&'a Kind| Callee {
+        kind,
+        number: ids.range(..kind.id.as_str()).count(),
+    };
+    kinds.iter().map(numbered).collect()
+}
 
-    fn number(&self, kind: &Kind) -> usize {
-        self.ids.iter().position(|id| *id == kind.id).unwrap_or_default()
-    }
-
-    /// What stands before every name of the kind's own.
-    pub(super) fn prefix(&self, kind: &Kind) -> String {
-        let readable: String = kind
+impl Callee<'_> {
+    /// Prefix of every name that the kind declares.
+    pub(super) fn prefix(&self) -> String {
+        let readable: String = self
+            .kind
             .id
             .chars()
             .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
             .collect();
-        format!("n{}_{readable}__", self.number(kind))
+        format!("n{}_{readable}__", self.number)
     }
 
-    /// The generated function that keeps parameters inside their loops' ranges.
-    pub(super) fn bounded(&self, kind: &Kind) -> String {
-        format!("gen_bounded_{}", self.number(kind))
+    /// Name of the generated function that keeps parameters inside their loops' ranges.
+    pub(super) fn bounded(&self) -> String {
+        format!("gen_bounded_{}", self.number)
     }
 
-    /// The generated struct of knobs.
-    pub(super) fn knobs(&self, kind: &Kind) -> String {
-        format!("gen_knobs_{}", self.number(kind))
+    /// Name of the generated struct of knobs.
+    fn knobs(&self) -> String {
+        format!("gen_knobs_{}", self.number)
     }
 }
 
-pub(super) fn write_sources(out: &mut String, blocks: &BTreeMap<usize, &Kind>, names: &Names<'_>) {
+/// Appends the nodes' texts to the module, and writes to `out` what is generated for each.
+pub(super) fn write_sources(module: &mut LinkedModule, out: &mut String, blocks: &BTreeMap<usize, Callee<'_>>) {
     let mut written = BTreeSet::new();
-    for kind in blocks.values() {
-        if !written.insert(&kind.id) {
+    for callee in blocks.values() {
+        if !written.insert(&callee.kind.id) {
             continue;
         }
-        out.push_str(&with_prefix(&kind.source, &names.prefix(kind)));
-        let knobs = knob_members(kind);
+        module.push_node(&callee.kind.path, &with_prefix(&callee.kind.source, &callee.prefix()));
+        let knobs = knob_members(callee.kind);
         if !knobs.is_empty() {
-            let _ = writeln!(out, "struct {} {{", names.knobs(kind));
+            let _ = writeln!(out, "struct {} {{", callee.knobs());
             for (name, ty) in knobs {
                 let _ = writeln!(out, "    {name}: {ty},");
             }
             out.push_str("}\n");
         }
-        write_bounded(out, kind, names);
+        write_bounded(out, *callee);
     }
 }
 
-/// A function that keeps loop-bounding parameters inside their range, whatever the buffer holds.
-fn write_bounded(out: &mut String, kind: &Kind, names: &Names<'_>) {
-    if kind.params_size == 0 {
+/// Writes a function that keeps loop-bounding parameters inside their range, whatever the buffer holds.
+fn write_bounded(out: &mut String, callee: Callee<'_>) {
+    if callee.kind.params_size == 0 {
         return;
     }
-    let (prefix, name) = (names.prefix(kind), names.bounded(kind));
+    let (prefix, name) = (callee.prefix(), callee.bounded());
     let _ = writeln!(
         out,
         "fn {name}(params: {prefix}Params) -> {prefix}Params {{\n    var bounded = params;"
     );
-    for param in kind.params.iter().filter(|param| param.bounds_a_loop) {
+    for param in callee.kind.params.iter().filter(|param| param.bounds_a_loop) {
         if let Some([low, high]) = param.ty.range {
             let suffix = if param.ty.memory == Memory::U32 { "u" } else { "i" };
             let (name, low, high) = (&param.name, low as i64, high as i64);
@@ -90,18 +94,19 @@ fn write_bounded(out: &mut String, kind: &Kind, names: &Names<'_>) {
     out.push_str("    return bounded;\n}\n");
 }
 
-pub(super) fn write_block(out: &mut String, blocks: &BTreeMap<usize, &Kind>, names: &Names<'_>, switches: bool) {
+/// Writes the struct of all blocks' values and its binding.
+pub(super) fn write_block(out: &mut String, blocks: &BTreeMap<usize, Callee<'_>>, switches: bool) {
     out.push_str("struct Block {\n");
     let empty = out.len();
     if switches {
         out.push_str("    flags: vec4u,\n");
     }
-    for (index, kind) in blocks {
-        if kind.params_size > 0 {
-            let _ = writeln!(out, "    params_{index}: {}Params,", names.prefix(kind));
+    for (index, callee) in blocks {
+        if callee.kind.params_size > 0 {
+            let _ = writeln!(out, "    params_{index}: {}Params,", callee.prefix());
         }
-        if !knob_members(kind).is_empty() {
-            let _ = writeln!(out, "    knobs_{index}: {},", names.knobs(kind));
+        if !knob_members(callee.kind).is_empty() {
+            let _ = writeln!(out, "    knobs_{index}: {},", callee.knobs());
         }
     }
     if out.len() == empty {

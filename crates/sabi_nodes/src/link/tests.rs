@@ -2,24 +2,14 @@
 
 use sabi_graph::PortType;
 
-use super::{Binding, Call, Convert, Format, Kernel, KernelSpec, Store, Stored, link};
-use crate::kind::Channel;
-use crate::{Library, validate_wgsl};
-
-const PLACE: &str = include_str!("../../../../shaders/surface/place.wgsl");
-const SHOOT: &str = include_str!("../../../../shaders/surface/shoot.wgsl");
+use super::{Binding, Call, Convert, Domain, Format, Kernel, KernelSpec, LinkError, Operand, Store, Stored, link};
+use crate::Library;
+use crate::kind::{Channel, InputDefault};
 
 fn linked(spec: &KernelSpec) -> Kernel {
-    let library = Library::builtin();
-    let shoot = if spec.rays { SHOOT } else { "" };
-    let kernel = link(
-        spec,
-        |id| library.kind(id),
-        |name| library.libraries().text(name),
-        &format!("{PLACE}\n{shoot}"),
-    );
-    let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
-    validate_wgsl(&kernel.wgsl).unwrap_or_else(|fault| panic!("{fault}\n{}", kernel.wgsl));
+    let kernel = link(spec, &Library::builtin()).unwrap_or_else(|error| panic!("{error}"));
+    let check = kernel.module.check();
+    check.unwrap_or_else(|fault| panic!("{fault}\n{}", kernel.module.wgsl()));
     kernel
 }
 
@@ -43,7 +33,7 @@ fn mask() -> Stored {
 
 fn stores_mask(of: usize) -> Vec<Store> {
     vec![Store {
-        value: Binding::Call(of, Convert::None),
+        value: Operand::Call(of, Convert::None),
         stored: mask(),
         formats: vec![Format::R32Float],
     }]
@@ -53,21 +43,19 @@ fn stores_mask(of: usize) -> Vec<Store> {
 fn two_calls_of_one_kind_share_its_source() {
     let noise = |block| call("noise/simplex", "mask", vec![Binding::Default], block);
     let inputs = vec![
-        Binding::Call(0, Convert::None),
-        Binding::Call(1, Convert::None),
+        Binding::Value(Operand::Call(0, Convert::None)),
+        Binding::Value(Operand::Call(1, Convert::None)),
         Binding::Default,
     ];
     let spec = KernelSpec {
         calls: vec![noise(0), noise(1), call("blend/mask", "mask", inputs, 2)],
         loads: Vec::new(),
         stores: stores_mask(2),
-        on_ghosts: true,
-        rays: false,
-        once: false,
+        domain: Domain::AllTexels,
     };
     let kernel = linked(&spec);
-    assert_eq!(kernel.wgsl.matches("fn n1_noise_simplex__mask(").count(), 1);
-    assert_eq!(kernel.wgsl.matches("= n1_noise_simplex__mask(").count(), 2);
+    assert_eq!(kernel.module.wgsl().matches("fn n1_noise_simplex__mask(").count(), 1);
+    assert_eq!(kernel.module.wgsl().matches("= n1_noise_simplex__mask(").count(), 2);
     assert_eq!(kernel.layout.calls.len(), 3);
 }
 
@@ -77,17 +65,16 @@ fn a_parameter_that_bounds_a_loop_is_clamped_on_the_device() {
         calls: vec![call("noise/simplex", "mask", vec![Binding::Default], 0)],
         loads: Vec::new(),
         stores: stores_mask(0),
-        on_ghosts: true,
-        rays: false,
-        once: false,
+        domain: Domain::AllTexels,
     };
     let kernel = linked(&spec);
     assert!(
         kernel
-            .wgsl
+            .module
+            .wgsl()
             .contains("bounded.octaves = clamp(bounded.octaves, 1u, 16u);"),
         "{}",
-        kernel.wgsl
+        kernel.module.wgsl()
     );
 }
 
@@ -97,13 +84,16 @@ fn a_field_takes_a_texture_and_leaves_ghosts_alone() {
         calls: vec![call("filter/smooth", "mask", vec![Binding::Field(0)], 0)],
         loads: vec![mask()],
         stores: stores_mask(0),
-        on_ghosts: false,
-        rays: false,
-        once: false,
+        domain: Domain::OwnedTexels,
     };
     let kernel = linked(&spec);
     assert_eq!((kernel.reads, kernel.writes.len()), (1, 1));
-    assert!(kernel.wgsl.contains("if (owner & GHOST_BIT) != 0u { return; }"));
+    assert!(
+        kernel
+            .module
+            .wgsl()
+            .contains("if (owner & GHOST_BIT) != 0u { return; }")
+    );
 }
 
 #[test]
@@ -132,13 +122,11 @@ fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
                 )],
                 loads: kind.inputs.iter().map(|input| all(input.ty)).collect(),
                 stores: vec![Store {
-                    value: Binding::Call(0, Convert::None),
+                    value: Operand::Call(0, Convert::None),
                     stored,
                     formats,
                 }],
-                on_ghosts: true,
-                rays: false,
-                once: false,
+                domain: Domain::AllTexels,
             };
             let kernel = linked(&spec);
             assert_eq!(kernel.layout.flags.is_some(), !kind.inputs.is_empty(), "{}", kind.id);
@@ -160,7 +148,7 @@ fn a_kind_that_shoots_rays_links_with_all_its_results_and_a_kernel_that_shoots()
                 channels: Vec::new(),
             };
             Store {
-                value: Binding::Call(at, Convert::None),
+                value: Operand::Call(at, Convert::None),
                 formats: stored.planes().iter().map(|plane| plane.format()).collect(),
                 stored,
             }
@@ -174,13 +162,11 @@ fn a_kind_that_shoots_rays_links_with_all_its_results_and_a_kernel_that_shoots()
                 .collect(),
             loads: Vec::new(),
             stores: kind.outputs.iter().enumerate().map(store).collect(),
-            on_ghosts: false,
-            rays: true,
-            once: false,
+            domain: Domain::OwnedTexelsByRays,
         };
         let kernel = linked(&spec);
         assert!(
-            kernel.rays && kernel.wgsl.contains("fn shoot(") && kernel.wgsl.contains("fn main("),
+            kernel.rays && kernel.module.wgsl().contains("fn shoot(") && kernel.module.wgsl().contains("fn main("),
             "{}",
             kind.id
         );
@@ -194,19 +180,31 @@ fn the_block_lies_where_naga_puts_it() {
         let Some(output) = kind.outputs.first() else { continue };
         let inputs = kind.inputs.iter().enumerate().map(|(index, input)| match input.reads {
             crate::kind::Reads::Field => Binding::Field(index),
+            crate::kind::Reads::Value if input.default == InputDefault::Required => {
+                Binding::Value(Operand::Load(index, Convert::None))
+            }
             crate::kind::Reads::Value => Binding::Default,
         });
+        let stored = |ty| Stored {
+            ty,
+            channels: Vec::new(),
+        };
+        let of_passes = kind.passes.iter().map(|pass| stored(pass.function.ty));
         let first = call("noise/white", "mask", vec![Binding::Default], 0);
+        let second = Call {
+            passes: (0..kind.passes.len())
+                .map(|pass| Some(kind.inputs.len() + pass))
+                .collect(),
+            ..call(&kind.id, &output.name, inputs.collect(), 1)
+        };
         let spec = KernelSpec {
-            calls: vec![first, call(&kind.id, &output.name, inputs.collect(), 1)],
-            loads: kind.inputs.iter().map(|_| mask()).collect(),
+            calls: vec![first, second],
+            loads: kind.inputs.iter().map(|_| mask()).chain(of_passes).collect(),
             stores: Vec::new(),
-            on_ghosts: true,
-            rays: false,
-            once: false,
+            domain: Domain::AllTexels,
         };
         let kernel = linked(&spec);
-        let module = naga::front::wgsl::parse_str(&kernel.wgsl).unwrap();
+        let module = naga::front::wgsl::parse_str(kernel.module.wgsl()).unwrap();
         let (_, block) = module
             .types
             .iter()
@@ -258,18 +256,10 @@ fn names_of_an_artist_never_meet_those_of_another_file_or_generated_ones() {
         ],
         loads: Vec::new(),
         stores: stores_mask(1),
-        on_ghosts: true,
-        rays: false,
-        once: false,
+        domain: Domain::AllTexels,
     };
-    let kernel = link(
-        &spec,
-        |id| library.kind(id),
-        |name| library.libraries().text(name),
-        PLACE,
-    );
-    let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
-    validate_wgsl(&kernel.wgsl).unwrap_or_else(|fault| panic!("{fault}"));
+    let kernel = link(&spec, &library).unwrap_or_else(|error| panic!("{error}"));
+    kernel.module.check().unwrap_or_else(|fault| panic!("{fault}"));
 }
 
 #[test]
@@ -282,13 +272,71 @@ fn a_load_can_be_stored_as_another_type() {
         calls: Vec::new(),
         loads: vec![color],
         stores: vec![Store {
-            value: Binding::Load(0, Convert::Luminance),
+            value: Operand::Load(0, Convert::Luminance),
             stored: mask(),
             formats: vec![Format::R32Float],
         }],
-        on_ghosts: true,
-        rays: false,
-        once: false,
+        domain: Domain::AllTexels,
     };
-    assert!(linked(&spec).wgsl.contains("let s0 = luminance("));
+    assert!(linked(&spec).module.wgsl().contains("let s0 = luminance("));
+}
+
+/// Message of the error that a kernel with one call gives.
+fn refused(call: Call, loads: Vec<Stored>) -> String {
+    let spec = KernelSpec {
+        calls: vec![call],
+        loads,
+        stores: Vec::new(),
+        domain: Domain::AllTexels,
+    };
+    link(&spec, &Library::builtin()).unwrap_err().to_string()
+}
+
+#[test]
+fn what_the_plan_left_out_is_an_error_that_names_the_node_and_no_zero() {
+    let cases = [
+        (
+            call("adjust/coverage", "threshold", Vec::new(), 0),
+            "the survey for `threshold` of the node kind 'adjust/coverage'",
+        ),
+        (
+            call("filter/blur", "mask", vec![Binding::Field(0)], 0),
+            "the result of the pass",
+        ),
+        (
+            call("filter/smooth", "mask", vec![Binding::Default], 0),
+            "a source for the input 'source' for `mask` of the node kind 'filter/smooth'",
+        ),
+        (
+            call("filter/smooth", "mask", Vec::new(), 0),
+            "a source for the input 'source'",
+        ),
+        (
+            call(
+                "adjust/invert",
+                "mask",
+                vec![Binding::Value(Operand::Load(3, Convert::None))],
+                0,
+            ),
+            "the stored result 3",
+        ),
+    ];
+    for (call, expected) in cases {
+        let message = refused(call, vec![mask()]);
+        assert!(message.contains(expected), "{message}\ndoes not name\n{expected}");
+    }
+}
+
+#[test]
+fn a_kernel_of_rays_without_a_call_is_an_error() {
+    let spec = KernelSpec {
+        calls: Vec::new(),
+        loads: Vec::new(),
+        stores: Vec::new(),
+        domain: Domain::OwnedTexelsByRays,
+    };
+    assert!(matches!(
+        link(&spec, &Library::builtin()),
+        Err(LinkError::Incomplete { .. })
+    ));
 }

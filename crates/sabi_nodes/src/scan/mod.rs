@@ -103,7 +103,15 @@ pub(crate) fn scan(text: Text<'_>) -> Result<Scan, Vec<Fault>> {
 
 /// The header lines of a text that is not otherwise scanned (a library).
 pub(crate) fn header_lines(text: Text<'_>) -> Vec<DocLine> {
-    tokens::tokens(text.text)
+    // Only what may hold the header is scanned: kernels are linked at every use.
+    let is_header = |line: &&str| line.trim_start().starts_with("//!") || line.trim().is_empty();
+    let length = text
+        .text
+        .split_inclusive('\n')
+        .take_while(is_header)
+        .map(str::len)
+        .sum();
+    tokens::tokens(&text.text[..length])
         .iter()
         .take_while(|token| token.kind == TokenKind::ModuleDoc)
         .map(|token| doc_line(text, token))

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_nodes::link::{Binding, Call, Convert, INPUTS_A_WORD, Plane};
+use sabi_nodes::link::{Binding, Call, Convert, Domain, INPUTS_A_WORD, Operand, Plane};
 
 use crate::{KernelStep, Plan, Room, Slot, Step};
 
@@ -161,7 +161,7 @@ impl Execution<'_> {
 
     fn run(&mut self, kernel: &KernelStep) {
         let times = kernel.feedback.as_ref().map_or(1, |feedback| feedback.times);
-        let room = if kernel.spec.once {
+        let room = if kernel.spec.domain == Domain::Once {
             Room::Single
         } else {
             Room::Level(kernel.level)
@@ -211,10 +211,10 @@ impl Execution<'_> {
     }
 
     /// What a store holds: a call's result, or a load that is converted.
-    fn stored_symbol(&self, kernel: &KernelStep, value: Binding, symbols: &[u64], reads: &[Option<usize>]) -> u64 {
+    fn stored_symbol(&self, kernel: &KernelStep, value: Operand, symbols: &[u64], reads: &[Option<usize>]) -> u64 {
         match value {
-            Binding::Call(call, Convert::None) => symbols[call],
-            Binding::Load(load, convert) => converted(self.held(kernel, load, reads), convert),
+            Operand::Call(call, Convert::None) => symbols[call],
+            Operand::Load(load, convert) => converted(self.held(kernel, load, reads), convert),
             other => panic!("{other:?} is never stored"),
         }
     }
@@ -230,7 +230,7 @@ impl Execution<'_> {
             let takes = |call: &Call| call.passes.contains(&Some(load));
             let room = match self.plan.slots[*slot].room {
                 // The table for what looks something up in it once, and what was found for what takes it.
-                Room::Survey if kernel.spec.once => Room::Survey,
+                Room::Survey if kernel.spec.domain == Domain::Once => Room::Survey,
                 Room::Single if kernel.level == 0 && kernel.spec.calls.iter().any(takes) => Room::Single,
                 _ => Room::Level(kernel.level),
             };
@@ -255,8 +255,8 @@ impl Execution<'_> {
         let held = |load| self.held(kernel, load, reads);
         match call.inputs[input] {
             Binding::Default => OPEN,
-            Binding::Call(from, convert) => (symbols[from], convert),
-            Binding::Load(load, convert) => (held(load), convert),
+            Binding::Value(Operand::Call(from, convert)) => (symbols[from], convert),
+            Binding::Value(Operand::Load(load, convert)) => (held(load), convert),
             Binding::Field(load) => (held(load), Convert::None),
             Binding::Switch(load) => match (kernel.flags[0] >> (2 * input)) & 3 {
                 0 => OPEN,

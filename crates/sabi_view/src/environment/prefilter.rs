@@ -8,6 +8,7 @@ use sabi_gpu::Gpu;
 
 use super::panorama::Panorama;
 use crate::error::ViewError;
+use crate::shaders::ViewShader;
 
 /// Levels of roughness, see [`roughness_of`].
 pub(super) const LEVELS: u32 = 6;
@@ -17,10 +18,7 @@ const DIRECTIONS: [u32; LEVELS as usize] = [0, 128, 512, 1024, 2048, 4096];
 /// Places along a side of a texel at which the panorama is read.
 const PLACES: u32 = 4;
 
-const CUBE_WGSL: &str = include_str!("../../../../shaders/view/cube.wgsl");
-const PANORAMA_WGSL: &str = include_str!("../../../../shaders/view/panorama.wgsl");
-
-/// As `Pass` in `shaders/view/cube.wgsl`.
+/// As `CubePass` in `shaders/view/cube.wgsl`.
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 struct Pass {
@@ -90,7 +88,7 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
     let source = cube(gpu, "environment", side, side.ilog2() + 1)?;
     let made = cube(gpu, "prefiltered environment", side, LEVELS)?;
     let mut work = Work::new(gpu);
-    let resample = Step::new(gpu, "panorama to cube", RESAMPLE_WGSL, D2)?;
+    let resample = Step::new(gpu, ViewShader::PanoramaToCube, D2)?;
     let pixels = f32::max(panorama.width() as f32 / 4.0, panorama.height() as f32 / 2.0);
     let pass = Pass {
         side,
@@ -101,7 +99,7 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
     };
     let picture = panorama.create_view(&Default::default());
     work.run(&resample, pass, &picture, &level_view(&source, 0, D2Array), &[])?;
-    let halve = Step::new(gpu, "halve cube", HALVE_WGSL, Cube)?;
+    let halve = Step::new(gpu, ViewShader::HalveCube, Cube)?;
     for level in 1..source.mip_level_count() {
         let (side, lod) = (side >> level, 0.0);
         let (finer, to) = (
@@ -112,7 +110,7 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
     }
     work.encoder
         .copy_texture_to_texture(source.as_image_copy(), made.as_image_copy(), made.size());
-    let gather = Step::new(gpu, "prefilter", GATHER_WGSL, Cube)?;
+    let gather = Step::new(gpu, ViewShader::Prefilter, Cube)?;
     for level in 1..LEVELS {
         let roughness = roughness_of(level);
         let lobe = lobe(roughness * roughness, DIRECTIONS[level as usize], side);
@@ -150,10 +148,6 @@ fn lobe(alpha: f32, count: u32, source_side: u32) -> Vec<Vec4> {
     (0..count).map(direction).filter(|to| to.z > 0.0).collect()
 }
 
-const RESAMPLE_WGSL: &str = include_str!("../../../../shaders/view/panorama_to_cube.wgsl");
-const HALVE_WGSL: &str = include_str!("../../../../shaders/view/halve_cube.wgsl");
-const GATHER_WGSL: &str = include_str!("../../../../shaders/view/prefilter.wgsl");
-
 /// What makes one level of a cube map.
 struct Step {
     pipeline: wgpu::ComputePipeline,
@@ -179,7 +173,7 @@ fn buffer(binding: u32, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEnt
 }
 
 impl Step {
-    fn new(gpu: &Gpu, label: &str, wgsl: &str, source: wgpu::TextureViewDimension) -> Result<Step, ViewError> {
+    fn new(gpu: &Gpu, shader: ViewShader, source: wgpu::TextureViewDimension) -> Result<Step, ViewError> {
         let read = wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: true },
             view_dimension: source,
@@ -197,15 +191,13 @@ impl Step {
             entry(3, write),
             buffer(4, wgpu::BufferBindingType::Storage { read_only: true }),
         ];
-        let text = format!("{wgsl}\n{CUBE_WGSL}\n{PANORAMA_WGSL}");
+        let spec = shader.spec();
+        let label = spec.label;
+        let module = gpu.shader_module(&spec)?;
         let step = gpu.guarded(label, |device| {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some(label),
                 entries: &entries,
-            });
-            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(text.into()),
             });
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(label),

@@ -1,58 +1,14 @@
-//! What the pipelines are made of: texts, corners, depth.
+//! Parts of pipelines: entry points, vertex layouts, depth.
 
 use crate::target::DEPTH;
 
-/// The files of `shaders/view/` that draw.
-const SHADERS: [(&str, &str); 19] = [
-    ("background", include_str!("../../../../shaders/view/background.wgsl")),
-    ("brdf", include_str!("../../../../shaders/view/brdf.wgsl")),
-    ("cast_shadow", include_str!("../../../../shaders/view/cast_shadow.wgsl")),
-    ("display", include_str!("../../../../shaders/view/display.wgsl")),
-    ("frame", include_str!("../../../../shaders/view/frame.wgsl")),
-    ("irradiance", include_str!("../../../../shaders/view/irradiance.wgsl")),
-    ("lighting", include_str!("../../../../shaders/view/lighting.wgsl")),
-    ("lines", include_str!("../../../../shaders/view/lines.wgsl")),
-    ("maps", include_str!("../../../../shaders/view/maps.wgsl")),
-    ("modes", include_str!("../../../../shaders/view/modes.wgsl")),
-    ("panorama", include_str!("../../../../shaders/view/panorama.wgsl")),
-    ("raster", include_str!("../../../../shaders/view/raster.wgsl")),
-    ("relief", include_str!("../../../../shaders/view/relief.wgsl")),
-    ("seen", include_str!("../../../../shaders/view/seen.wgsl")),
-    ("shadow", include_str!("../../../../shaders/view/shadow.wgsl")),
-    ("show", include_str!("../../../../shaders/view/show.wgsl")),
-    ("sight", include_str!("../../../../shaders/view/sight.wgsl")),
-    ("switches", include_str!("../../../../shaders/view/switches.wgsl")),
-    // The surface as kernels know it, at the last place for what is bound.
-    ("atlas", include_str!("../../../../shaders/lib/atlas.wgsl")),
-];
-
-/// Several files as one module.
-pub(super) fn module(device: &wgpu::Device, label: &str, names: &[&str]) -> wgpu::ShaderModule {
-    device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(text_of(names).into()),
-    })
-}
-
-fn text_of(names: &[&str]) -> String {
-    let text = |name: &&str| {
-        let found = SHADERS.iter().find(|(known, _)| known == name);
-        let text = found.map_or("", |(_, text)| text);
-        if *name == "atlas" {
-            return text.replace("@group(0)", "@group(3)");
-        }
-        text.to_owned()
-    };
-    names.iter().map(text).collect::<Vec<_>>().join("\n")
-}
-
-/// What differs between the pipelines.
+/// Differences between the pipelines.
 pub(super) struct Recipe<'r> {
     pub(super) label: &'r str,
     pub(super) module: &'r wgpu::ShaderModule,
-    /// Entry points: of corners, and of pixels where any are written.
+    /// Entry points: of the vertex shader, and of the fragment shader where colors are written.
     pub(super) entries: (&'r str, Option<&'r str>),
-    /// Values of the shaders' switches.
+    /// Values of the module's overrides.
     pub(super) switches: &'r [(&'r str, f64)],
     pub(super) groups: &'r [&'r wgpu::BindGroupLayout],
     pub(super) corners: &'r [wgpu::VertexBufferLayout<'r>],

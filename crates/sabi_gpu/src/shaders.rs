@@ -1,0 +1,173 @@
+//! Kernels of Sabi's own: the files that each is linked from, and what they are given.
+
+use sabi_nodes::link::{Access, Format, Given, LinkedModule, ModuleSpec};
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+
+/// Bind group of the surface in every kernel, see `lib/atlas.wgsl`.
+const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 0);
+
+/// Formats of the planes of the atlas.
+const FORMATS: [Format; 3] = [Format::R32Float, Format::Rgba16Float, Format::Rgba32Float];
+
+/// A kernel that is not made of nodes, with the format of the texture that it writes where that varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum FixedShader {
+    Cast,
+    CoupledInPlace,
+    Extent,
+    GatherCoupled(Format),
+    GatherPlain(Format),
+    Normal,
+    PlainInPlace,
+    Prolong(Format),
+    RefineGhosts,
+    Restrict(Format),
+    ScatterFilled(Format),
+    ScatterGhosts(Format),
+    SettleCoupled,
+    Share(Format),
+    Stencil,
+    SurveyCount,
+    SurveyRange,
+    SurveySum,
+}
+
+impl FixedShader {
+    /// All kernels in all formats.
+    pub(crate) fn all() -> Vec<FixedShader> {
+        use FixedShader::*;
+        let with_format = [
+            GatherCoupled,
+            GatherPlain,
+            Prolong,
+            Restrict,
+            ScatterFilled,
+            ScatterGhosts,
+            Share,
+        ];
+        let mut all = vec![
+            Cast,
+            CoupledInPlace,
+            Extent,
+            Normal,
+            PlainInPlace,
+            RefineGhosts,
+            SettleCoupled,
+            Stencil,
+            SurveyCount,
+            SurveyRange,
+            SurveySum,
+        ];
+        all.extend(with_format.iter().flat_map(|make| FORMATS.map(make)));
+        all
+    }
+
+    /// Name in messages and debuggers.
+    pub(crate) fn label(self) -> &'static str {
+        match self {
+            FixedShader::Cast => "cast",
+            FixedShader::CoupledInPlace => "coupled ghosts in place",
+            FixedShader::Extent => "extent",
+            FixedShader::GatherCoupled(_) => "gather coupled",
+            FixedShader::GatherPlain(_) => "gather plain",
+            FixedShader::Normal => "normal",
+            FixedShader::PlainInPlace => "plain ghosts in place",
+            FixedShader::Prolong(_) => "prolong",
+            FixedShader::RefineGhosts => "refine ghosts",
+            FixedShader::Restrict(_) => "restrict",
+            FixedShader::ScatterFilled(_) => "scatter filled",
+            FixedShader::ScatterGhosts(_) => "scatter ghosts",
+            FixedShader::SettleCoupled => "settle coupled",
+            FixedShader::Share(_) => "share",
+            FixedShader::Stencil => "stencil",
+            FixedShader::SurveyCount => "survey count",
+            FixedShader::SurveyRange => "survey range",
+            FixedShader::SurveySum => "survey sum",
+        }
+    }
+
+    /// Files to link, and what they are given.
+    pub(crate) fn spec(self) -> ModuleSpec {
+        let writes = |format| Some(Given::storage("StoredField", format, Access::Write));
+        let updates = Some(Given::storage("StoredField", Format::R32Float, Access::ReadWrite));
+        let (files, field) = match self {
+            FixedShader::Cast => (vec!["surface/cast"], None),
+            FixedShader::CoupledInPlace => (vec!["surface/fill_coupled", "surface/access_in_place"], updates),
+            FixedShader::Extent => (vec!["surface/extent"], None),
+            FixedShader::GatherCoupled(format) => (gathering("surface/fill_coupled", format), None),
+            FixedShader::GatherPlain(format) => (gathering("surface/fill_plain", format), None),
+            FixedShader::Normal => (vec!["surface/normal"], None),
+            FixedShader::PlainInPlace => (vec!["surface/fill_plain", "surface/access_in_place"], updates),
+            FixedShader::Prolong(format) => (vec!["surface/prolong"], writes(format)),
+            FixedShader::RefineGhosts => (vec!["surface/refine_ghosts"], None),
+            FixedShader::Restrict(format) => (vec!["surface/restrict"], writes(format)),
+            FixedShader::ScatterFilled(format) => (vec!["surface/scatter_filled"], writes(format)),
+            FixedShader::ScatterGhosts(format) => (vec!["surface/scatter_ghosts"], writes(format)),
+            FixedShader::SettleCoupled => (vec!["surface/fill_coupled", "surface/access_settle"], updates),
+            FixedShader::Share(format) => (vec!["surface/share"], writes(format)),
+            FixedShader::Stencil => (vec!["surface/stencil"], None),
+            FixedShader::SurveyCount => (vec!["surface/survey_count"], None),
+            FixedShader::SurveyRange => (vec!["surface/survey_range"], None),
+            // The table alone is read and written: it has no place on the surface.
+            FixedShader::SurveySum => {
+                return ModuleSpec {
+                    label: self.label(),
+                    files: vec!["surface/survey_sum"],
+                    given: Vec::new(),
+                };
+            }
+        };
+        ModuleSpec {
+            label: self.label(),
+            files,
+            given: std::iter::once(SURFACE_GROUP).chain(field).collect(),
+        }
+    }
+}
+
+/// Files of a kernel that gathers values of a format in a buffer.
+fn gathering(fill: &'static str, format: Format) -> Vec<&'static str> {
+    let keep = match format {
+        Format::R32Float => "surface/keep_number",
+        Format::Rgba16Float | Format::Rgba32Float => "surface/keep_color",
+    };
+    vec![fill, "surface/access_gather", keep]
+}
+
+impl Gpu {
+    /// Links and compiles a module. The error names file and line where the text is at fault.
+    pub fn shader_module(&self, spec: &ModuleSpec) -> Result<wgpu::ShaderModule, GpuError> {
+        let linked = linked(spec)?;
+        let made = self.guarded(spec.label, |device| {
+            device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(spec.label),
+                source: wgpu::ShaderSource::Wgsl(linked.wgsl().into()),
+            })
+        });
+        made.map_err(|error| in_source(error, &linked))
+    }
+}
+
+/// A module of Sabi's own files.
+pub(crate) fn linked(spec: &ModuleSpec) -> Result<LinkedModule, GpuError> {
+    spec.link()
+        .map_err(|fault| GpuError::Defect(format!("a shader cannot be linked: {fault}")))
+}
+
+/// The error of a module that was refused, with file and line where the text itself is at fault.
+pub(crate) fn in_source(error: GpuError, linked: &LinkedModule) -> GpuError {
+    match error {
+        GpuError::Driver(why) => GpuError::Driver(match linked.check() {
+            Ok(()) => why,
+            Err(fault) => fault.to_string(),
+        }),
+        other => other,
+    }
+}
+
+/// Everything that kernels of Sabi's own are linked from, for tests.
+pub fn fixed_modules() -> Vec<ModuleSpec> {
+    FixedShader::all().into_iter().map(FixedShader::spec).collect()
+}

@@ -1,0 +1,226 @@
+//! WGSL expressions for what calls are given and what is stored.
+
+use std::fmt::Write;
+
+use sabi_graph::PortType;
+
+use super::kernel::{LinkError, Missing};
+use super::{Binding, CHANNEL_WORDS, Call, Convert, Domain, INPUTS_A_WORD, KernelSpec, Operand, Plane, Store, Stored};
+use crate::kind::{Argument, Channel, InputDefault, Kind, Shape};
+
+/// Name of a plane in generated code.
+pub(super) fn plane_name(plane: Plane) -> &'static str {
+    match plane {
+        Plane::Mask => "mask",
+        Plane::Color => "rgb",
+        Plane::Vector => "xyz",
+        Plane::Material(Channel::Color) => "color",
+        Plane::Material(Channel::Surface) => "surface",
+        Plane::Material(Channel::Height) => "height",
+        Plane::Material(Channel::Slope) => "slope",
+        Plane::Material(Channel::Emission) => "emission",
+    }
+}
+
+/// A call whose arguments are written.
+pub(super) struct Caller<'a> {
+    /// Number of the call.
+    pub(super) index: usize,
+    pub(super) call: &'a Call,
+    pub(super) kind: &'a Kind,
+    pub(super) spec: &'a KernelSpec,
+}
+
+impl Caller<'_> {
+    /// The arguments of a function as text; writes the variables that they need.
+    pub(super) fn arguments(&self, out: &mut String, arguments: &[Argument]) -> Result<String, LinkError> {
+        let mut written = Vec::new();
+        for argument in arguments {
+            written.push(match argument {
+                Argument::At => "at".to_owned(),
+                Argument::Params => format!("bounded_{}", self.call.block),
+                Argument::Index => "index".to_owned(),
+                Argument::Ray => "ray".to_owned(),
+                Argument::Hit => "hit".to_owned(),
+                Argument::Round => "Round(dispatch.round, dispatch.rounds, dispatch.texel, dispatch.finest)".to_owned(),
+                Argument::Survey => self.texture(self.call.survey.ok_or_else(|| self.lacks(Missing::Survey))?)?,
+                Argument::Pass(pass) if self.spec.domain == Domain::OwnedTexelsByRays => super::rays::mean_name(*pass),
+                Argument::Pass(pass) => self.pass(*pass)?,
+                Argument::Input(input) => match self.call.inputs.get(*input) {
+                    Some(Binding::Switch(load)) => self.write_switch(out, *input, *load)?,
+                    Some(binding) => self.input(*input, *binding)?,
+                    None => return Err(self.lacks_input(*input)),
+                },
+            });
+        }
+        Ok(written.join(", "))
+    }
+
+    fn lacks(&self, missing: Missing) -> LinkError {
+        LinkError::Incomplete {
+            reader: format!("`{}` of the node kind '{}'", self.call.function, self.kind.id),
+            missing,
+        }
+    }
+
+    fn lacks_input(&self, input: usize) -> LinkError {
+        self.lacks(match self.kind.inputs.get(input) {
+            Some(input) => Missing::Input(input.name.clone()),
+            None => Missing::Input(input.to_string()),
+        })
+    }
+
+    fn load(&self, load: usize) -> Result<&Stored, LinkError> {
+        self.spec.loads.get(load).ok_or_else(|| self.lacks(Missing::Load(load)))
+    }
+
+    fn texture(&self, load: usize) -> Result<String, LinkError> {
+        let planes = self.load(load)?.planes();
+        let plane = planes.first().ok_or_else(|| self.lacks(Missing::Load(load)))?;
+        Ok(format!("load_{load}_{}", plane_name(*plane)))
+    }
+
+    /// The stored result of a pass: a texture, or for a survey the value that holds for the whole surface.
+    fn pass(&self, pass: usize) -> Result<String, LinkError> {
+        let Some(load) = self.call.passes.get(pass).copied().flatten() else {
+            let name = self.kind.passes.get(pass).map(|pass| pass.function.name.clone());
+            return Err(self.lacks(Missing::Pass(name.unwrap_or_else(|| pass.to_string()))));
+        };
+        let texture = self.texture(load)?;
+        Ok(match (self.kind.shape, self.load(load)?.ty) {
+            (Shape::Survey, PortType::Mask) => format!("textureLoad({texture}, vec2i(0), 0, 0).x"),
+            (Shape::Survey, _) => format!("textureLoad({texture}, vec2i(0), 0, 0).xyz"),
+            _ => texture,
+        })
+    }
+
+    fn input(&self, input: usize, binding: Binding) -> Result<String, LinkError> {
+        match binding {
+            Binding::Default | Binding::Switch(_) => self.default_of(input),
+            Binding::Value(Operand::Call(from, convert)) => Ok(converted(&format!("v{from}"), convert)),
+            Binding::Value(Operand::Load(load, convert)) => {
+                Ok(converted(&load_expression(load, self.load(load)?), convert))
+            }
+            Binding::Field(load) => self.texture(load),
+        }
+    }
+
+    /// The value of an input with nothing connected to it.
+    fn default_of(&self, input: usize) -> Result<String, LinkError> {
+        let Some(port) = self.kind.inputs.get(input) else {
+            return Err(self.lacks_input(input));
+        };
+        Ok(match &port.default {
+            InputDefault::Knob(_) => format!("block.knobs_{}.{}", self.call.block, port.name),
+            InputDefault::Expression(expression) => expression.clone(),
+            InputDefault::PlainMaterial => "plain_material()".to_owned(),
+            InputDefault::Required => return Err(self.lacks_input(input)),
+        })
+    }
+
+    /// Writes a local variable that the block's flags fill at run time, and returns its name.
+    ///
+    /// Flag word 0 has two bits an input: 0 default, 1 as it is, 2 gray to color, 3 luminance. The others have a bit a
+    /// channel, [`INPUTS_A_WORD`] inputs each.
+    fn write_switch(&self, out: &mut String, input: usize, load: usize) -> Result<String, LinkError> {
+        let name = format!("in_{}_{input}", self.index);
+        let default = self.default_of(input)?;
+        let mode = format!("((block.flags.x >> {}u) & 3u)", 2 * input);
+        let word = CHANNEL_WORDS
+            .get(input / INPUTS_A_WORD)
+            .ok_or_else(|| self.lacks_input(input))?;
+        let _ = writeln!(out, "    var {name} = {default};");
+        let value = match self.load(load)?.ty {
+            PortType::Material => {
+                let plane = |channel| texel_expression(load, Plane::Material(channel));
+                format!(
+                    "switched_material(block.flags.{word} >> {}u, {}, {}, {}.x, {}.xyz, {}.xyz)",
+                    5 * (input % INPUTS_A_WORD),
+                    plane(Channel::Color),
+                    plane(Channel::Surface),
+                    plane(Channel::Height),
+                    plane(Channel::Slope),
+                    plane(Channel::Emission),
+                )
+            }
+            PortType::Mask => format!("switched_mask({mode}, {})", texel_expression(load, Plane::Mask)),
+            PortType::Color => format!("switched_color({mode}, {})", texel_expression(load, Plane::Color)),
+            PortType::Vector => format!("{}.xyz", texel_expression(load, Plane::Vector)),
+        };
+        let _ = writeln!(out, "    if {mode} != 0u {{ {name} = {value}; }}");
+        Ok(name)
+    }
+}
+
+fn converted(value: &str, convert: Convert) -> String {
+    match convert {
+        Convert::None => value.to_owned(),
+        Convert::Gray => format!("vec3f({value})"),
+        Convert::Luminance => format!("luminance({value})"),
+    }
+}
+
+fn texel_expression(load: usize, plane: Plane) -> String {
+    format!("textureLoad(load_{load}_{}, texel.xy, texel.z, 0)", plane_name(plane))
+}
+
+fn load_expression(load: usize, stored: &Stored) -> String {
+    match stored.ty {
+        PortType::Mask => format!("{}.x", texel_expression(load, Plane::Mask)),
+        PortType::Color => format!("{}.xyz", texel_expression(load, Plane::Color)),
+        PortType::Vector => format!("{}.xyz", texel_expression(load, Plane::Vector)),
+        PortType::Material => material_expression(load, &stored.channels),
+    }
+}
+
+/// A stored material; channels that take no storage are those of the plain material.
+fn material_expression(load: usize, channels: &[Channel]) -> String {
+    let mut present = 0;
+    let mut planes = Vec::new();
+    for (bit, channel) in Channel::ALL.into_iter().enumerate() {
+        planes.push(if channels.contains(&channel) {
+            present |= 1 << bit;
+            texel_expression(load, Plane::Material(channel))
+        } else {
+            "vec4f(0.0)".to_owned()
+        });
+    }
+    let [color, surface, height, slope, emission] = planes.as_slice() else {
+        unreachable!("a material has five channels");
+    };
+    format!("switched_material({present}u, {color}, {surface}, {height}.x, {slope}.xyz, {emission}.xyz)")
+}
+
+/// Writes one result to its textures.
+pub(super) fn write_store(out: &mut String, index: usize, store: &Store, spec: &KernelSpec) -> Result<(), LinkError> {
+    let value = match store.value {
+        Operand::Call(call, convert) => converted(&format!("v{call}"), convert),
+        Operand::Load(load, convert) => {
+            let stored = spec.loads.get(load).ok_or_else(|| LinkError::Incomplete {
+                reader: format!("the result {index} of a kernel"),
+                missing: Missing::Load(load),
+            })?;
+            converted(&load_expression(load, stored), convert)
+        }
+    };
+    let _ = writeln!(out, "    let s{index} = {value};");
+    for plane in store.stored.planes() {
+        let value = match plane {
+            Plane::Mask => format!("vec4f(s{index}, 0.0, 0.0, 1.0)"),
+            Plane::Color | Plane::Vector => format!("vec4f(s{index}, 1.0)"),
+            Plane::Material(Channel::Color) => format!("vec4f(s{index}.base_color, s{index}.alpha)"),
+            Plane::Material(Channel::Surface) => {
+                format!("vec4f(s{index}.roughness, s{index}.metallic, s{index}.occlusion, 1.0)")
+            }
+            Plane::Material(Channel::Height) => format!("vec4f(s{index}.height, 0.0, 0.0, 1.0)"),
+            Plane::Material(Channel::Slope) => format!("vec4f(s{index}.slope, 1.0)"),
+            Plane::Material(Channel::Emission) => format!("vec4f(s{index}.emission, 1.0)"),
+        };
+        let name = plane_name(plane);
+        let _ = writeln!(
+            out,
+            "    textureStore(store_{index}_{name}, texel.xy, texel.z, {value});"
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,66 @@
+//! What the host decides when it links a module: bind groups and storage formats.
+
+use std::fmt;
+
+use super::Format;
+
+/// A declaration that a file asks for with `@given`.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Given {
+    /// Name that the file uses.
+    pub name: &'static str,
+    value: Value,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Value {
+    Group(u32),
+    StorageTexture(Format, Access),
+}
+
+/// Access of a kernel to a storage texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Access {
+    /// Texels are written.
+    Write,
+    /// Texels are read and written.
+    ReadWrite,
+}
+
+impl Given {
+    /// Number of a bind group: `@group(NAME)`.
+    pub const fn group(name: &'static str, number: u32) -> Given {
+        Given {
+            name,
+            value: Value::Group(number),
+        }
+    }
+
+    /// Type of a storage texture with several pages.
+    pub const fn storage(name: &'static str, format: Format, access: Access) -> Given {
+        Given {
+            name,
+            value: Value::StorageTexture(format, access),
+        }
+    }
+}
+
+impl fmt::Display for Given {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = self.name;
+        match self.value {
+            Value::Group(number) => writeln!(f, "const {name}: u32 = {number}u;"),
+            Value::StorageTexture(format, access) => {
+                let access = match access {
+                    Access::Write => "write",
+                    Access::ReadWrite => "read_write",
+                };
+                writeln!(
+                    f,
+                    "alias {name} = texture_storage_2d_array<{}, {access}>;",
+                    format.wgsl()
+                )
+            }
+        }
+    }
+}

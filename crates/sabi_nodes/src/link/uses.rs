@@ -1,0 +1,179 @@
+//! What files say they use, followed to every file that a module needs.
+//!
+//! A header names other files with `//! @use noise surface/place` and what the host decides with `//! @given
+//! SURFACE_GROUP`. A name without a folder is a file of `lib/`; nodes and libraries may use no others. Files that use
+//! each other are linked once each: the order of declarations does not matter to WGSL.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use super::given::Given;
+use super::module::LinkedModule;
+use crate::fault::{Fault, Text};
+use crate::library::{Libraries, shader_names, shader_text};
+use crate::notes::{Notes, Word, unknown};
+use crate::scan;
+use crate::words::{list, nearest};
+
+/// The library that is linked to every node without being asked.
+pub(crate) const CORE: &str = "core";
+
+/// The library that knows what kernels bind; linked to every kernel.
+pub(crate) const ATLAS: &str = "atlas";
+
+/// Path under which messages name a shared file.
+pub(crate) fn shared_path(name: &str) -> PathBuf {
+    PathBuf::from(if name.contains('/') {
+        format!("{name}.wgsl")
+    } else {
+        format!("lib/{name}.wgsl")
+    })
+}
+
+/// Text of a shared file by its name in `@use`.
+pub(crate) fn shared_text<'a>(name: &str, libraries: &'a Libraries) -> Option<&'a str> {
+    if name.contains('/') {
+        shader_text(name)
+    } else {
+        libraries.text(name)
+    }
+}
+
+/// A name that a file expects the host to give it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Wanted {
+    name: String,
+    /// Reported when the host does not give it.
+    missing: Fault,
+}
+
+/// Closure of the files that a module needs.
+pub(crate) struct Uses<'a> {
+    libraries: &'a Libraries,
+    seen: BTreeSet<String>,
+    /// Shared files in the order of first use, each once.
+    pub(crate) names: Vec<String>,
+    wanted: Vec<Wanted>,
+    pub(crate) faults: Vec<Fault>,
+}
+
+impl<'a> Uses<'a> {
+    pub(crate) fn new(libraries: &'a Libraries) -> Uses<'a> {
+        Uses {
+            libraries,
+            seen: BTreeSet::new(),
+            names: Vec::new(),
+            wanted: Vec::new(),
+            faults: Vec::new(),
+        }
+    }
+
+    /// Adds a shared file with all it uses; `false` when there is none of that name.
+    pub(crate) fn add(&mut self, name: &str) -> bool {
+        let Some(file) = shared_text(name, self.libraries) else {
+            return false;
+        };
+        if !self.seen.insert(name.to_owned()) {
+            return true;
+        }
+        self.names.push(name.to_owned());
+        let path = shared_path(name);
+        let text = Text {
+            path: &path,
+            text: file,
+        };
+        let header = SharedHeader::read(text, &mut self.faults);
+        self.wanted.extend(header.given.iter().map(|word| Wanted {
+            name: word.text.clone(),
+            missing: text.fault(
+                word.range.clone(),
+                format!("Nothing gives `{}` to this file.", word.text),
+                "The program that links the file has to give it.",
+            ),
+        }));
+        // Each level of this recursion is one more file in `seen`.
+        self.follow(text, &header.uses, name.contains('/'));
+        true
+    }
+
+    /// Adds what a file names with `@use`; `may_use_all` is false for nodes and libraries, which use libraries alone.
+    pub(crate) fn follow(&mut self, text: Text<'_>, uses: &[Word], may_use_all: bool) {
+        for word in uses {
+            let name = word.text.trim_end_matches(',');
+            if (!may_use_all && name.contains('/')) || !self.add(name) {
+                self.faults.push(self.unknown(text, word, name, may_use_all));
+            }
+        }
+    }
+
+    fn unknown(&self, text: Text<'_>, word: &Word, name: &str, may_use_all: bool) -> Fault {
+        let mut names: Vec<&str> = self.libraries.names().filter(|name| *name != CORE).collect();
+        if may_use_all {
+            for name in shader_names() {
+                names.push(name);
+            }
+        }
+        let known = || names.iter().copied();
+        let advice = match nearest(name, known()) {
+            Some(meant) => format!("Did you mean `{meant}`? There are {}.", list(known())),
+            None => format!("The libraries that can be used: {}.", list(known())),
+        };
+        let message = format!("There is no library `{name}` that can be used.");
+        text.fault(word.range.clone(), message, advice)
+    }
+
+    /// Appends all files, then what they are given. A name that is wanted and not given is a fault, as is one that is
+    /// given and not wanted.
+    pub(crate) fn append(self, module: &mut LinkedModule, given: &[Given]) -> Result<(), Fault> {
+        if let Some(fault) = self.faults.into_iter().next() {
+            return Err(fault);
+        }
+        for name in &self.names {
+            if let Some(text) = shared_text(name, self.libraries) {
+                module.push_shared(name, text);
+            }
+        }
+        let is_given = |wanted: &Wanted| given.iter().any(|given| given.name == wanted.name);
+        if let Some(wanted) = self.wanted.iter().find(|wanted| !is_given(wanted)) {
+            return Err(wanted.missing.clone());
+        }
+        let is_wanted = |given: &&Given| self.wanted.iter().any(|wanted| wanted.name == given.name);
+        if let Some(given) = given.iter().find(|given| !is_wanted(given)) {
+            let message = format!(
+                "`{}` is given to this module, and none of its files wants it.",
+                given.name
+            );
+            let advice = "Add it to a header with `//! @given`, or give it no more.";
+            return Err(Fault::of_file(module.first_path(), message, advice));
+        }
+        if !given.is_empty() {
+            let texts: Vec<String> = given.iter().map(Given::to_string).collect();
+            module.push_generated(&texts.concat());
+        }
+        Ok(())
+    }
+}
+
+/// Header of a shared file.
+pub(crate) struct SharedHeader {
+    pub(crate) uses: Vec<Word>,
+    given: Vec<Word>,
+}
+
+impl SharedHeader {
+    /// Reads `@use` and `@given`, the only annotations that a shared file may have.
+    pub(crate) fn read(text: Text<'_>, faults: &mut Vec<Fault>) -> SharedHeader {
+        let mut header = SharedHeader {
+            uses: Vec::new(),
+            given: Vec::new(),
+        };
+        for note in Notes::read(&scan::header_lines(text)).notes {
+            match note.name.as_str() {
+                "use" => header.uses.extend(note.words),
+                "given" => header.given.extend(note.words),
+                _ => faults.push(unknown(text, &note, &["given", "use"])),
+            }
+        }
+        header
+    }
+}

@@ -1,0 +1,60 @@
+//! Shader modules of the viewport: the files that each is linked from.
+
+use sabi_gpu::{Given, ModuleSpec};
+
+/// Bind group of the surface, behind those of the viewport's own; see `lib/atlas.wgsl`.
+const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 3);
+
+/// A module with the entry points of one kind of pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum ViewShader {
+    Raster,
+    Paint,
+    Background,
+    Lines,
+    CastShadow,
+    Display,
+    PanoramaToCube,
+    HalveCube,
+    Prefilter,
+}
+
+impl ViewShader {
+    pub(crate) const ALL: [ViewShader; 9] = [
+        ViewShader::Raster,
+        ViewShader::Paint,
+        ViewShader::Background,
+        ViewShader::Lines,
+        ViewShader::CastShadow,
+        ViewShader::Display,
+        ViewShader::PanoramaToCube,
+        ViewShader::HalveCube,
+        ViewShader::Prefilter,
+    ];
+
+    /// File to link, and what it is given.
+    pub(crate) fn spec(self) -> ModuleSpec {
+        let surface = vec![SURFACE_GROUP];
+        let (label, file, given) = match self {
+            ViewShader::Raster => ("raster", "view/raster", surface),
+            ViewShader::Paint => ("paint", "view/paint", surface),
+            ViewShader::Background => ("background", "view/background", Vec::new()),
+            ViewShader::Lines => ("lines", "view/lines", Vec::new()),
+            ViewShader::CastShadow => ("shadow", "view/cast_shadow", Vec::new()),
+            ViewShader::Display => ("display", "view/display", Vec::new()),
+            ViewShader::PanoramaToCube => ("panorama to cube", "view/panorama_to_cube", Vec::new()),
+            ViewShader::HalveCube => ("halve cube", "view/halve_cube", Vec::new()),
+            ViewShader::Prefilter => ("prefilter", "view/prefilter", Vec::new()),
+        };
+        ModuleSpec {
+            label,
+            files: vec![file],
+            given,
+        }
+    }
+}
+
+/// Everything that modules of the viewport are linked from, for tests.
+pub fn view_modules() -> Vec<ModuleSpec> {
+    ViewShader::ALL.map(ViewShader::spec).to_vec()
+}
