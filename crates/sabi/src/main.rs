@@ -3,9 +3,9 @@
 mod advice;
 mod arguments;
 mod commands;
+mod defect;
 mod disk;
 mod exit;
-mod mistake;
 mod progress;
 mod quiet_driver;
 mod report_file;
@@ -24,7 +24,7 @@ use crate::terminal::Terminal;
 
 fn main() -> ExitCode {
     quiet_driver::start_again_if_needed();
-    ExitCode::from(mistake::caught(start) as u8)
+    ExitCode::from(defect::caught(start) as u8)
 }
 
 fn start() -> Exit {

@@ -1,9 +1,9 @@
-//! What the device layer says when something is not to be had, and how it stops.
+//! Errors of the device layer, cancellation, budgets and caches.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on may stop")]
 
-#[path = "device/kept.rs"]
-mod kept;
+#[path = "device/cached_results.rs"]
+mod cached_results;
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -114,7 +114,7 @@ impl Bench {
         plan
     }
 
-    /// The chain, and before it a source of so many masks.
+    /// The chain, and before it a source with this many masks.
     fn plan_with_source(&self, masks: usize) -> Plan {
         let mut plan = self.plan(CHAIN, FUSED);
         let slot = plan.results[0].slots[0];
@@ -292,7 +292,7 @@ fn a_source_that_fails_is_an_error_with_its_own_words() {
     assert_eq!(error.to_string(), "nobody fills 'lost'");
 }
 
-/// Gives so many bytes for every plane, and counts the planes.
+/// Source that gives this many bytes for every plane, and counts the planes.
 struct Counted {
     bytes: usize,
     asked: Rc<Cell<usize>>,

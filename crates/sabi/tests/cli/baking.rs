@@ -1,4 +1,4 @@
-//! What a bake writes and says.
+//! Files and messages of a bake.
 
 use serde_json::Value as Json;
 

@@ -1,4 +1,4 @@
-//! A screen in memory, and hands on its mouse and keyboard.
+//! A virtual display (Xvfb), and input by xdotool.
 
 use std::fs;
 use std::path::PathBuf;
@@ -10,21 +10,21 @@ use tempfile::TempDir;
 
 const INSTALL: &str =
     "this test needs a display in memory: apt-get install xvfb xdotool libxkbcommon-x11-0 libx11-xcb1";
-/// Longer than anything takes on a busy machine; only a mistake comes near.
+/// Time limit of a wait: longer than anything takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 const SIZE: [u32; 2] = [1600, 900];
 
-/// A display of its own.
+/// Virtual display of one test.
 pub(crate) struct Display {
     server: Child,
     name: String,
     folder: TempDir,
 }
 
-/// What is on the screen.
+/// Screenshot.
 pub(crate) struct Screen {
     pub(crate) size: [usize; 2],
-    /// Red, green and blue, row by row.
+    /// Red, green and blue of each pixel, row by row.
     pub(crate) pixels: Vec<[u8; 3]>,
 }
 
@@ -32,8 +32,8 @@ impl Display {
     pub(crate) fn new() -> Display {
         let folder = tempfile::tempdir().unwrap();
         let screen = format!("{}x{}x24", SIZE[0], SIZE[1]);
-        // The server looks for a free number itself, and writes it where it is told to. Without `-noreset` it would begin
-        // anew whenever whoever looks for the window leaves, and take along a program that has just come.
+        // The server chooses a free number and writes it to its standard output. Without `-noreset` it restarts when its last
+        // client leaves, such as a search for the window, and closes the connections of clients that have just started.
         let mut server = Command::new("Xvfb")
             .args([
                 "-noreset",
@@ -61,19 +61,19 @@ impl Display {
         }
     }
 
-    /// Has a program draw here.
+    /// Makes a program use this display.
     pub(crate) fn on(&self, command: &mut Command) {
         command.env("DISPLAY", &self.name).env_remove("WAYLAND_DISPLAY");
     }
 
-    /// Moves the mouse and presses keys, as `xdotool` is told to; says what it says.
+    /// Runs `xdotool` with these arguments and returns its output.
     pub(crate) fn hands(&self, words: &[&str]) -> String {
         let output = Command::new("xdotool")
             .args(words)
             .env("DISPLAY", &self.name)
             .output()
             .expect(INSTALL);
-        // What is done is seen a little later.
+        // The window answers a little later.
         sleep(Duration::from_millis(250));
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
@@ -86,7 +86,7 @@ impl Display {
         self.hands(&["mousemove", &x.to_string(), &y.to_string()]);
     }
 
-    /// Drags with the left button, by way of the middle.
+    /// Drags with the left button through the middle of the way.
     pub(crate) fn drag(&self, from: [i32; 2], to: [i32; 2]) {
         self.point(from);
         self.hands(&["mousedown", "1"]);
@@ -95,7 +95,7 @@ impl Display {
         self.hands(&["mouseup", "1"]);
     }
 
-    /// Waits for the window and gives it the keys, since there is nobody else who would.
+    /// Waits for the window and gives it the keyboard focus, since the display has no window manager.
     pub(crate) fn take_window(&self) {
         self.until("a window", || {
             let found = self.hands(&["search", "--name", "Sabi$"]);
@@ -115,7 +115,7 @@ impl Display {
         }
     }
 
-    /// What is on the screen, in the form of the X window dump that the server keeps in memory.
+    /// Takes a screenshot from the X window dump that the server keeps in a file.
     pub(crate) fn screen(&self) -> Screen {
         let file: PathBuf = self.folder.path().join("Xvfb_screen0");
         let bytes = fs::read(file).expect("the server's memory");
@@ -123,7 +123,7 @@ impl Display {
         let [header, width, height, line, colors] = [0, 4, 5, 12, 19].map(word);
         let first = header + 12 * colors;
         let rows = (0..height).map(|row| &bytes[first + row * line..first + row * line + 4 * width]);
-        // Four bytes a pixel, blue first.
+        // Four bytes per pixel, blue first.
         let pixels = rows.flat_map(|row| row.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]));
         Screen {
             size: [width, height],
@@ -140,7 +140,7 @@ impl Drop for Display {
 }
 
 impl Screen {
-    /// How many colors there are in a part of the screen: `[left, top, right, bottom]`.
+    /// Number of colors in a part of the screen: `[left, top, right, bottom]`.
     pub(crate) fn colors(&self, [left, top, right, bottom]: [usize; 4]) -> usize {
         let rows = (top..bottom).flat_map(|row| &self.pixels[row * self.size[0] + left..row * self.size[0] + right]);
         rows.collect::<std::collections::BTreeSet<_>>().len()

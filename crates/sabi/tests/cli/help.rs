@@ -1,4 +1,4 @@
-//! The help, and command lines that make no sense.
+//! The help, and command lines that cannot be understood.
 
 use crate::place::Place;
 

@@ -1,4 +1,4 @@
-//! Pictures that a graph names: where they are looked for, and what is said when they cannot be had.
+//! Pictures that a graph names: their paths, and errors where they cannot be read.
 
 use crate::place::{Place, graph};
 
@@ -21,7 +21,7 @@ fn image(file: &str) -> String {
     .replace("clouds.", "img.")
 }
 
-/// What the map holds, which is the same all over.
+/// Value of a constant map.
 fn constant(place: &Place, graph: &str, more: &[&str]) -> f64 {
     let run = place
         .bake(graph, "cube.glb", &[more, &["--json", "--force"]].concat())
@@ -89,7 +89,7 @@ fn a_picture_that_cannot_be_had_is_named_with_node_path_and_advice() {
     );
 }
 
-/// A pipe would be waited for, and a device may have no end; this one has nothing in it.
+/// Reading a pipe would block, and a device may have no end; this device is empty.
 #[test]
 #[cfg(unix)]
 fn a_device_is_no_picture_and_no_group() {

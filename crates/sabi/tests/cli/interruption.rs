@@ -1,4 +1,4 @@
-//! Ctrl-C in the middle of the work.
+//! Ctrl-C during a bake.
 #![cfg(unix)]
 
 use std::io::{BufRead, BufReader};
@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 
 use crate::place::{Place, graph, software_adapter};
 
-/// Twelve noises of sixteen octaves: enough work to be interrupted in.
+/// Twelve noises of sixteen octaves: enough work for an interruption.
 fn long_work() -> String {
     let mut nodes = String::new();
     for at in 0..12 {
@@ -26,7 +26,7 @@ fn long_work() -> String {
     graph(&nodes)
 }
 
-/// A long bake, once it evaluates; what is left of its words comes with it.
+/// Starts a long bake and returns it once it evaluates, with the rest of its standard error.
 fn started(place: &Place) -> (Child, impl BufRead + use<>) {
     software_adapter();
     place.write("long.sabi", long_work());
@@ -106,8 +106,8 @@ fn a_second_ctrl_c_does_not_wait() {
         assert_ne!(words.read_line(&mut line).unwrap(), 0);
     }
     interrupt(&child);
-    // Leaving at once pulls the driver from under its own threads, and now and then one of those falls over first: then
-    // a signal ends the process, which is as quick.
+    // Exiting at once unloads the driver while its threads run, and sometimes one of them crashes first: then a signal ends
+    // the process, which is as quick.
     let code = child.wait().unwrap().code();
     assert!(matches!(code, Some(130) | None), "{code:?}");
     let maps = if place.path("out").exists() {

@@ -1,4 +1,4 @@
-//! The commands that only look, and `preview`.
+//! The commands that write no file, and `preview`.
 
 use serde_json::Value as Json;
 

@@ -1,4 +1,4 @@
-//! What an artist made is never replaced by what Sabi makes of it.
+//! Files that a bake reads are never replaced by its results.
 
 use crate::place::{Place, graph};
 

@@ -40,7 +40,7 @@ pub(crate) struct Place {
     folder: TempDir,
 }
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Debug)]
 pub(crate) struct Done {
     pub(crate) code: Option<i32>,
@@ -94,7 +94,7 @@ impl Place {
             .env("SABI_CACHE_DIR", self.path(".cache"))
             .env("SABI_NODES", self.path(".nodes"))
             .env_remove("RUST_BACKTRACE")
-            // No test opens a window on the screen of whoever runs it.
+            // No test opens a window on the user's screen.
             .env_remove("DISPLAY")
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
@@ -119,7 +119,7 @@ impl Place {
         self.sabi(&arguments)
     }
 
-    /// A bake that must be refused with this code and these words, leaving nothing behind.
+    /// Runs a bake that must be refused with this code and this sentence, and write nothing.
     pub(crate) fn refuses(&self, graph: &str, model: &str, more: &[&str], code: i32, words: &str) {
         let done = self.bake(graph, model, more);
         assert_eq!(
@@ -156,7 +156,7 @@ impl Done {
     }
 }
 
-/// These tests need a software driver, and say how to get one rather than being skipped.
+/// Fails with the install command where there is no software driver.
 pub(crate) fn software_adapter() {
     static THERE: OnceLock<bool> = OnceLock::new();
     let there = THERE.get_or_init(|| {

@@ -1,4 +1,4 @@
-//! `sabi edit`: a real window, a real mouse and real keys.
+//! `sabi edit` in a window on a virtual display, with mouse and keyboard.
 
 use std::process::{Child, Command};
 use std::thread::sleep;
@@ -10,17 +10,17 @@ use crate::display::Display;
 use crate::place::{Place, software_adapter};
 
 const EMPTY: &str = r#"{ "format": "sabi", "version": 1, "name": "", "nodes": {} }"#;
-/// Where the panels of a new installation are on a screen of 1600 × 900.
+/// Places of the panels of a new installation on a screen of 1600 × 900.
 const MODEL: [usize; 4] = [10, 120, 530, 560];
 const GRAPH: [usize; 4] = [560, 80, 1250, 860];
-/// From the corner of a node to the dot of its only output: below its title, one input and three knobs.
+/// Offset from the corner of a node to its only output: below its title, one input and three knobs.
 const OUTPUT_OF_CLOUDS: [i32; 2] = [200, 28 + 4 * 19 + 9];
-/// To the dot of its first input.
+/// Offset to its first input.
 const FIRST_INPUT: [i32; 2] = [0, 28 + 9];
-/// To the middle of the first knob below one input.
+/// Offset to the middle of the first knob below one input.
 const FIRST_KNOB: [i32; 2] = [100, 28 + 19 + 9];
 
-/// The program in a window.
+/// The program with its window.
 struct Window {
     child: Child,
 }
@@ -39,7 +39,7 @@ impl Window {
         window
     }
 
-    /// Ends it as a crash would.
+    /// Kills the process, as a crash would end it.
     fn kill(mut self) {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
@@ -57,7 +57,7 @@ fn plus(one: [i32; 2], other: [i32; 2]) -> [i32; 2] {
     [one[0] + other[0], one[1] + other[1]]
 }
 
-/// Adds a node by the menu, with its corner there.
+/// Adds a node by the menu with its corner at a place.
 fn add(display: &Display, at: [i32; 2], name: &str) {
     display.point(at);
     display.key("Tab");
@@ -114,7 +114,7 @@ fn what_was_not_saved_when_the_program_was_killed_is_offered_and_comes_back() {
     display.until("a copy of what is not saved", is_kept);
     window.kill();
     let _again = Window::open(&place, &display, &["--mesh", "cube.glb"]);
-    // The first thing on the start page, above all that one could begin with.
+    // Recovered work is at the top of the start page.
     display.key("Tab");
     display.key("space");
     display.until("a picture on the node", || display.screen().colors(GRAPH) > 60);
@@ -131,6 +131,6 @@ fn an_example_of_the_project_is_shown_with_its_model_and_a_picture_on_every_node
     let (place, display) = (Place::new(), Display::new());
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs/rusty-metal.sabi");
     let _window = Window::open(&place, &display, &[example]);
-    // Lit models have shades that frames, titles and wires have not.
+    // A lit model has more shades than frames, titles and wires.
     display.until("pictures on the nodes", || display.screen().colors(GRAPH) > 400);
 }

@@ -1,4 +1,4 @@
-//! What is kept from run to run.
+//! Results that are cached from run to run.
 
 use std::cell::Cell;
 
@@ -59,7 +59,7 @@ fn steps_that_ended_before_a_run_was_stopped_are_not_made_again() {
     assert_eq!(bench.bytes(&plan, &run), bench.bytes(&plan, &fresh));
 }
 
-/// The chain's result made by a source, which gives so many masks at once.
+/// Result of the chain made by a source, which gives this many masks at once.
 fn plan_of_masks(bench: &Bench, masks: usize) -> Plan {
     let mut plan = bench.plan(CHAIN, Mode::Interactive);
     let slot = plan.slots[plan.results[0].slots[0]];
@@ -97,7 +97,7 @@ fn a_texture_that_was_given_out_is_never_written_again() {
     assert_eq!(made, 1);
     let (known, made) = first_mask(1);
     assert_eq!((&known, made), (&first, 0));
-    // The second mask is not known, so the source has to give both.
+    // The second mask is not cached, so the source has to give both.
     let (again, made) = first_mask(2);
     assert_eq!(made, 2);
     assert_ne!(again, first);
