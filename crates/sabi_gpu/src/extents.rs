@@ -6,7 +6,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pipelines::{texture_entry, uniform_entry, write_entry};
 use crate::pool::array_view;
-use crate::run::RunOptions;
+use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;

@@ -11,7 +11,7 @@ use crate::error::GpuError;
 use crate::links::{LinkRound, Links};
 use crate::pipelines::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::pool::array_view;
-use crate::run::RunOptions;
+use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
 use crate::surface::{GpuSurface, Measures};
 use crate::tables::SurfaceTables;

@@ -5,7 +5,8 @@ use sabi_plan::SlotRef;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::run::{Run, RunOptions};
+use crate::run_options::RunOptions;
+use crate::run_result::Run;
 use crate::shares::{Mean, Shares};
 use crate::surface::GpuSurface;
 

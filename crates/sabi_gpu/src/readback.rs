@@ -10,7 +10,7 @@ use sabi_plan::{Plan, SlotRef};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pool::Extent;
-use crate::run::Run;
+use crate::run_result::Run;
 use crate::surface::GpuSurface;
 
 /// Time that a mapping callback may take after the device is done.

@@ -5,7 +5,7 @@ mod rays;
 mod source;
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use sabi_nodes::Library;
 use sabi_nodes::link::{Format, Plane};
@@ -18,42 +18,11 @@ use crate::error::GpuError;
 use crate::levels::Surfaces;
 use crate::links::LinkRound;
 use crate::needed_steps::{last_uses, needed_steps, slot_keys, written_by};
-use crate::pool::{PoolReport, TexturePool, texture};
-use crate::rays::{CasterChoice, HitCache, Hits, RayScene};
+use crate::pool::{TexturePool, texture};
+use crate::rays::{HitCache, Hits, RayScene};
+use crate::run_options::RunOptions;
+use crate::run_result::{Run, RunReport, StepTime};
 use crate::survey::SURVEY_EXTENT;
-
-/// Options of a run.
-pub struct RunOptions<'a> {
-    /// Longest time of one submission: about 25 ms where a window shares the queue, more in a bake.
-    pub submission: Duration,
-    /// Called between submissions; `true` cancels the run.
-    pub is_canceled: &'a dyn Fn() -> bool,
-    /// Called after each step with the number of steps done and of all steps.
-    pub progress: &'a dyn Fn(usize, usize),
-    /// Budget for textures, bytes, those of the surface included; a cache has its own.
-    pub budget_bytes: u64,
-    /// Ray caster to use.
-    pub caster: CasterChoice,
-    /// Origin of ray hits.
-    pub hits: Hits,
-    /// Whether the time of filling ghosts is measured, which costs a little time itself.
-    pub times_ghosts: bool,
-}
-
-impl RunOptions<'_> {
-    /// Options without cancellation and progress, with rays cast by [`CasterChoice::Auto`].
-    pub fn new(submission: Duration, budget_bytes: u64) -> Self {
-        RunOptions {
-            submission,
-            is_canceled: &|| false,
-            progress: &|_, _| {},
-            budget_bytes,
-            caster: CasterChoice::Auto,
-            hits: Hits::Cast,
-            times_ghosts: false,
-        }
-    }
-}
 
 /// Provider of the results of source nodes, and of the scene for rays.
 pub trait SourceFill {
@@ -78,35 +47,6 @@ pub trait SourceFill {
     fn cache_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
 }
 
-/// Time of a step.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StepTime {
-    /// Nodes in it, each with its share of the estimated cost.
-    pub nodes: Vec<(String, f32)>,
-    /// Time from its start until the device is done with it, without compiling.
-    pub run: Duration,
-}
-
-/// Report of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RunReport {
-    /// Time for linking the kernels of nodes, making their pipelines and their first dispatch, when software drivers
-    /// compile. The fixed kernels of this crate are not counted.
-    pub compile: Duration,
-    /// Time of everything else.
-    pub run: Duration,
-    /// Steps that ran, without those whose results were cached.
-    pub steps: Vec<StepTime>,
-    /// Part of `run` in which ghosts were filled, if that was measured.
-    pub ghosts: Duration,
-    /// Whether some results follow from cached hits of longer rays, and so may differ by rounding.
-    pub has_cached_hits: bool,
-    /// Nodes whose rays were not cast, since their results were on disk.
-    pub found_on_disk: Vec<String>,
-    /// Texture memory, that of the surface included.
-    pub pool: PoolReport,
-}
-
 /// Repetition of a kernel.
 #[derive(Clone, Copy)]
 struct Round {
@@ -124,14 +64,6 @@ impl Round {
     fn of_ghosts(self, is_result: bool) -> &'static [LinkRound] {
         LinkRound::of(self.index >= 2, is_result && self.index + 1 == self.count)
     }
-}
-
-/// Results of a plan on the device.
-pub struct Run {
-    pub(crate) textures: Vec<Option<wgpu::Texture>>,
-    /// Times and memory.
-    pub report: RunReport,
-    pub(crate) pool: TexturePool,
 }
 
 impl Gpu {

@@ -7,7 +7,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pipelines::{read_entry, storage_entry, texture_entry, uniform_entry};
 use crate::pool::{array_view, format_of};
-use crate::run::Run;
+use crate::run_result::Run;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::uploads::storage_buffer;

@@ -7,7 +7,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pipelines::{storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::pool::{Extent, array_view};
-use crate::run::RunOptions;
+use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;

@@ -5,13 +5,12 @@ use std::str::FromStr;
 
 use sabi_nodes::kind::Finds;
 
-use super::RayRoom;
 use super::device::OnDevice;
 use super::processor::OnProcessor;
+use super::{RayRoom, RayScene};
 use crate::adapter::AdapterKind;
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::run::SourceFill;
 use crate::tiles::Slices;
 
 /// Ray caster to use.
@@ -65,13 +64,8 @@ pub(crate) fn follows_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
     }
 }
 
-/// Makes the chosen caster for the scene of `sources`.
-pub(crate) fn caster<'s>(
-    gpu: &Gpu,
-    choice: CasterChoice,
-    sources: &'s mut dyn SourceFill,
-) -> Result<Caster<'s>, GpuError> {
-    let scene = sources.scene().map_err(GpuError::Scene)?;
+/// Makes the chosen caster for a scene.
+pub(crate) fn caster<'s>(gpu: &Gpu, choice: CasterChoice, scene: RayScene<'s>) -> Result<Caster<'s>, GpuError> {
     let on_processor = || Caster::OnProcessor(OnProcessor::new(scene));
     let on_device = || Ok(Caster::OnDevice(OnDevice::new(gpu, scene)?));
     if !follows_on_device(gpu, choice) {

@@ -7,8 +7,13 @@ use super::{Runner, SourceFill};
 use crate::blocks::block_buffer;
 use crate::error::GpuError;
 use crate::pipelines::CompiledKernel;
-use crate::rays::{Hits, RayBuffers, RayPass, caster, follows_on_device};
+use crate::rays::{Hits, RayBuffers, RayPass, RayScene, caster, follows_on_device};
 use crate::tiles::Slices;
+
+/// Scene that rays are cast into; it is made when the first rays are.
+fn scene(sources: &mut dyn SourceFill) -> Result<RayScene<'_>, GpuError> {
+    sources.scene().map_err(GpuError::Scene)
+}
 
 impl Runner<'_> {
     #[expect(clippy::too_many_arguments, reason = "a step, its kernel, and what both run on")]
@@ -51,13 +56,13 @@ impl Runner<'_> {
         match self.hit_cache.as_deref_mut().zip(rays.key) {
             Some((hit_cache, key)) if hit_cache.fits(slices.tile_count() as usize, rays.count) => {
                 if !hit_cache.contains(&key) {
-                    let mut caster = caster(gpu, choice, sources)?;
+                    let mut caster = caster(gpu, choice, scene(sources)?)?;
                     hit_cache.insert(key, buffers.remember(&pass, &groups(rays.reach), &mut caster)?);
                 }
                 buffers.recall(&pass, hit_cache.get(&key))?;
                 self.report.has_cached_hits = true;
             }
-            _ => buffers.run(&pass, &mut caster(gpu, choice, sources)?)?,
+            _ => buffers.run(&pass, &mut caster(gpu, choice, scene(sources)?)?)?,
         }
         if let Some(key) = key {
             sources.cache_rays(&key, &self.read_results(bound)?);

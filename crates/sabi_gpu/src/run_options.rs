@@ -1,0 +1,38 @@
+//! Options of a run.
+
+use std::time::Duration;
+
+use crate::rays::{CasterChoice, Hits};
+
+/// Options of a run.
+pub struct RunOptions<'a> {
+    /// Longest time of one submission: about 25 ms where a window shares the queue, more in a bake.
+    pub submission: Duration,
+    /// Called between submissions; `true` cancels the run.
+    pub is_canceled: &'a dyn Fn() -> bool,
+    /// Called after each step with the number of steps done and of all steps.
+    pub progress: &'a dyn Fn(usize, usize),
+    /// Budget for textures, bytes, those of the surface included; a cache has its own.
+    pub budget_bytes: u64,
+    /// Ray caster to use.
+    pub caster: CasterChoice,
+    /// Origin of ray hits.
+    pub hits: Hits,
+    /// Whether the time of filling ghosts is measured, which costs a little time itself.
+    pub times_ghosts: bool,
+}
+
+impl RunOptions<'_> {
+    /// Options without cancellation and progress, with rays cast by [`CasterChoice::Auto`].
+    pub fn new(submission: Duration, budget_bytes: u64) -> Self {
+        RunOptions {
+            submission,
+            is_canceled: &|| false,
+            progress: &|_, _| {},
+            budget_bytes,
+            caster: CasterChoice::Auto,
+            hits: Hits::Cast,
+            times_ghosts: false,
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Results of a run and its report.
+
+use std::time::Duration;
+
+use crate::pool::{PoolReport, TexturePool};
+
+/// Results of a plan on the device.
+pub struct Run {
+    pub(crate) textures: Vec<Option<wgpu::Texture>>,
+    /// Times and memory.
+    pub report: RunReport,
+    pub(crate) pool: TexturePool,
+}
+
+/// Report of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunReport {
+    /// Time for linking the kernels of nodes, making their pipelines and their first dispatch, when software drivers
+    /// compile. The fixed kernels of this crate are not counted.
+    pub compile: Duration,
+    /// Time of everything else.
+    pub run: Duration,
+    /// Steps that ran, without those whose results were cached.
+    pub steps: Vec<StepTime>,
+    /// Part of `run` in which ghosts were filled, if that was measured.
+    pub ghosts: Duration,
+    /// Whether some results follow from cached hits of longer rays, and so may differ by rounding.
+    pub has_cached_hits: bool,
+    /// Nodes whose rays were not cast, since their results were on disk.
+    pub found_on_disk: Vec<String>,
+    /// Texture memory, that of the surface included.
+    pub pool: PoolReport,
+}
+
+/// Time of a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepTime {
+    /// Nodes in it, each with its share of the estimated cost.
+    pub nodes: Vec<(String, f32)>,
+    /// Time from its start until the device is done with it, without compiling.
+    pub run: Duration,
+}
