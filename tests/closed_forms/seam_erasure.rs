@@ -76,7 +76,7 @@ fn compared(mesh: &str, name: &str, difference: impl Fn(&OnMesh, &Map, &Seam, f6
 
 /// Where a point of a seam is on the map, as one of its sides has it.
 fn uv(on_mesh: &OnMesh, seam: &Seam, side: usize, along: f64) -> DVec2 {
-    let mesh = &on_mesh.evaluator.linked.model.mesh;
+    let mesh = &on_mesh.evaluator.linked().model.mesh;
     let corners = mesh.triangles[seam.triangles[side] as usize];
     let weights = seam.weights(side, along).into_iter();
     let uvs = corners.map(|vertex| DVec2::from(mesh.uvs[vertex as usize].map(f64::from)));

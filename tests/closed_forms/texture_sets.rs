@@ -99,7 +99,12 @@ fn textures_and_normal_maps_survive_an_unwrap_of_stacked_charts() {
     let mut unwrapped = on(&mesh, Overlap::Unwrap);
     assert_eq!(unwrapped.atlas().report.overlap_texels, 0);
     assert_eq!(
-        unwrapped.evaluator.linked.unwrapped.as_ref().map(|found| found.uv_set),
+        unwrapped
+            .evaluator
+            .linked()
+            .unwrapped
+            .as_ref()
+            .map(|found| found.uv_set),
         Some(1)
     );
     assert_textured(&mut unwrapped, "unwrapped");

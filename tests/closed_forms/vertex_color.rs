@@ -54,7 +54,7 @@ fn colors_and_alpha_are_those_of_the_place_on_texels_and_on_ghosts() {
             );
         }
     }
-    assert!(on_mesh.evaluator.warnings.is_empty());
+    assert!(on_mesh.evaluator.warnings().is_empty());
 }
 
 #[test]

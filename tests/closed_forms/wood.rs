@@ -86,9 +86,9 @@ fn every_board_is_another_piece_of_wood() {
         )
     });
     let mut on_mesh = OnMesh::new(&graph(r#"{ "rings": 0.02 }"#), made(boards).path(), 512);
-    assert_eq!(on_mesh.evaluator.linked.pieces.boxes.len(), 2);
+    assert_eq!(on_mesh.evaluator.linked().pieces.boxes.len(), 2);
     let [mask, id] = ["wood.mask", "wood.id"].map(|port| on_mesh.evaluate(port).component("mask"));
-    let piece = |triangle: u32| on_mesh.evaluator.linked.pieces.triangle_piece[triangle as usize];
+    let piece = |triangle: u32| on_mesh.evaluator.linked().pieces.triangle_piece[triangle as usize];
     let (mut difference, mut count) = (0.0, 0);
     let mut ids = [None; 2];
     for (index, triangle) in on_mesh.owned() {
@@ -190,7 +190,11 @@ fn a_place_in_a_box_is_the_same_to_kernels_and_to_the_processor() {
         "box": { "kind": "surface/id", "params": { "by": "piece" } } } }"#;
     let kinds = NodeFolder::new(&[("own/here", HERE)]).kinds();
     let mut on_mesh = OnMesh::with_kinds(graph, kinds, made(boards).path(), 256);
-    let scale = on_mesh.evaluator.linked.working_from_model(&sabi_graph::Fit::Unit) as f32;
+    let scale = on_mesh
+        .evaluator
+        .linked()
+        .fitted(sabi_graph::Fit::Unit)
+        .working_from_model() as f32;
     for (axis, name) in ["vector.x", "vector.y", "vector.z"].into_iter().enumerate() {
         let [kernel, processor] = ["here", "box.position"].map(|node| on_mesh.evaluate(node).component(name));
         for index in on_mesh.covered() {
@@ -223,13 +227,13 @@ fn a_pick_selects_parts_by_name_and_tells_what_is_not_there() {
         on_mesh.owned().all(|(index, _)| all[index] == 1.0),
         "nothing picked is everything"
     );
-    let parts = on_mesh.evaluator.linked.model.parts.clone();
+    let parts = on_mesh.evaluator.linked().model.parts.clone();
     assert!(parts.len() > 1, "{parts:?}");
     for (part, name) in parts.iter().enumerate() {
         on_mesh.set_graph(&graph(name));
         let mask = on_mesh.evaluate("one").component("mask");
         for (index, triangle) in on_mesh.owned() {
-            let own = on_mesh.evaluator.linked.model.mesh.triangle_part[triangle as usize];
+            let own = on_mesh.evaluator.linked().model.mesh.triangle_part[triangle as usize];
             let is_picked = parts[own as usize] == *name || own as usize == part;
             assert_eq!(mask[index], f32::from(u8::from(is_picked)), "{name}");
         }

@@ -71,7 +71,7 @@ fn strip(second: Option<[[f32; 2]; 4]>) -> MadeMesh {
 fn along_the_strip(mesh: &MadeMesh, graph: &str) -> Vec<f64> {
     let mut on_mesh = OnMesh::new(graph, mesh.path(), STRIP_SIZE);
     let values = on_mesh.evaluate("smooth").component("mask");
-    let is_cut = on_mesh.evaluator.linked.model.mesh.triangles.len() > 2;
+    let is_cut = on_mesh.evaluator.linked().model.mesh.triangles.len() > 2;
     let texel = 1.0 / f64::from(STRIP_SIZE);
     let mut read = Vec::new();
     for row in 0..STRIP_SIZE / 4 {

@@ -41,8 +41,8 @@ fn evaluated(kinds: Kinds) -> (OnMesh, Vec<f32>) {
 /// Whether exactly the top of the cube is `inside`, and the rest is not.
 fn selects_the_top(on_mesh: &OnMesh, values: &[f32], inside: f32) -> bool {
     on_mesh.owned().all(|(index, triangle)| {
-        let corner = on_mesh.evaluator.linked.model.mesh.triangles[triangle as usize][0];
-        let is_top = on_mesh.evaluator.linked.model.mesh.normals[corner as usize][1] > 0.5;
+        let corner = on_mesh.evaluator.linked().model.mesh.triangles[triangle as usize][0];
+        let is_top = on_mesh.evaluator.linked().model.mesh.normals[corner as usize][1] > 0.5;
         values[index] == if is_top { inside } else { 1.0 - inside }
     })
 }

@@ -129,7 +129,7 @@ const TOLERANCE_OF_MARKS: f64 = 0.045;
 
 /// How far inside of its face a point of the cube lies.
 fn depth(on_mesh: &OnMesh, triangle: u32, weights: [f64; 3]) -> f64 {
-    let mesh = &on_mesh.evaluator.linked.model.mesh;
+    let mesh = &on_mesh.evaluator.linked().model.mesh;
     let corners = mesh.triangles[triangle as usize].map(|corner| mesh.positions[corner as usize]);
     let mut away: [f64; 3] = std::array::from_fn(|axis| {
         let parts = corners.iter().zip(weights);

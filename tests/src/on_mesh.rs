@@ -76,7 +76,7 @@ fn opened(graph: &str) -> OpenGraph {
 impl OnMesh {
     /// Warnings of the evaluation so far, as text.
     pub fn warnings(&self) -> Vec<String> {
-        self.evaluator.warnings.iter().map(ToString::to_string).collect()
+        self.evaluator.warnings().iter().map(ToString::to_string).collect()
     }
 
     /// A graph of built-in kinds on a model, with `size` texels for one unit of UV.
@@ -107,7 +107,7 @@ impl OnMesh {
         };
         let mut linked = LinkedModel::open(&options.model, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
         tamper(&mut linked);
-        let tables = linked.tables(&open.document.fit, open.document.seed);
+        let tables = linked.fitted(open.document.fit).tables(open.document.seed);
         let evaluator = Evaluator::assemble(&open, flat_graph(graph), kinds, linked, device(), &options)
             .unwrap_or_else(|error| panic!("{error}"));
         OnMesh { evaluator, tables }
@@ -115,7 +115,7 @@ impl OnMesh {
 
     /// Puts another graph on the same model; its seed and fit must be those of the first.
     pub fn set_graph(&mut self, graph: &str) {
-        self.evaluator.graph = flat_graph(graph);
+        self.evaluator.set_flat_graph(flat_graph(graph));
     }
 
     /// Evaluates `id` or `id.port` as a bake does.
@@ -126,16 +126,15 @@ impl OnMesh {
     /// Evaluates `id` or `id.port`.
     pub fn evaluate_as(&mut self, node: &str, asked: Asked<'_>) -> Evaluated {
         let target = self.target(node);
-        let limits = self.evaluator.gpu.limits();
-        let plan = self.evaluator.plan(&[target], asked.mode, limits);
+        let plan = self.evaluator.plan(&[target], asked.mode);
         let plan = plan.unwrap_or_else(|error| panic!("{node}: {error}"));
         let mut run = self
             .evaluator
             .run(&plan, SUBMISSION, &NoProgress, asked.cache)
             .unwrap_or_else(|error| panic!("{node}: {error}"));
         let result = &plan.results[0];
-        let gpu = &self.evaluator.gpu;
-        let surface = &self.evaluator.surface;
+        let gpu = self.evaluator.gpu();
+        let surface = self.evaluator.surface();
         let planes: Vec<(Plane, PlaneData)> = result
             .stored
             .planes()
@@ -171,7 +170,7 @@ impl OnMesh {
             Some((id, port)) => (id, Some(port.to_owned())),
             None => (text, None),
         };
-        let node = self.evaluator.graph.find(id);
+        let node = self.evaluator.graph().find(id);
         Target {
             node: node.unwrap_or_else(|| panic!("the graph has no node '{id}'")),
             port,

@@ -42,14 +42,14 @@ impl Pictured {
     pub fn of(mut on_mesh: OnMesh, light: &Panorama) -> Pictured {
         let shown = evaluate_looks(&mut on_mesh.evaluator, None, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
         let evaluator = &on_mesh.evaluator;
-        let linked = &evaluator.linked;
-        let model_from_working = 1.0 / linked.working_from_model(&evaluator.fit);
-        let gpu = &evaluator.gpu;
+        let linked = evaluator.linked();
+        let model_from_working = evaluator.model().model_from_working();
+        let gpu = evaluator.gpu();
         let model = ViewModel::new(
             gpu,
             &linked.model,
             &linked.atlas,
-            &evaluator.surface,
+            evaluator.surface(),
             model_from_working,
         );
         Pictured {
@@ -84,7 +84,7 @@ impl Pictured {
 
     /// A camera at a viewpoint that sees all of the model.
     pub fn camera(&self, viewpoint: Viewpoint, [width, height]: [u32; 2]) -> Camera {
-        let mesh = &self.on_mesh.evaluator.linked.model.mesh;
+        let mesh = &self.on_mesh.evaluator.linked().model.mesh;
         let bounds = Placement::of(mesh).box_in_view(mesh);
         Camera::seen_from(viewpoint, bounds, width as f32 / height as f32)
     }
@@ -102,7 +102,7 @@ impl Pictured {
 
     /// Draws, and hands over what it was drawn into.
     pub fn draw(&self, shot: &Shot, size: [u32; 2]) -> Target {
-        let gpu = &self.on_mesh.evaluator.gpu;
+        let gpu = self.on_mesh.evaluator.gpu();
         let scene = self.scene();
         let mut target = Target::new(gpu, size).unwrap_or_else(|error| panic!("{error}"));
         let drawn = self.renderer.draw(gpu, &mut target, &scene, shot);
@@ -113,13 +113,15 @@ impl Pictured {
     /// The light of a picture: linear RGB and cover.
     pub fn light(&self, shot: &Shot, size: [u32; 2]) -> Vec<[f32; 4]> {
         self.draw(shot, size)
-            .read_light(&self.on_mesh.evaluator.gpu)
+            .read_light(self.on_mesh.evaluator.gpu())
             .expect("light")
     }
 
     /// The picture.
     pub fn pixels(&self, shot: &Shot, size: [u32; 2]) -> Pixels {
-        self.draw(shot, size).read(&self.on_mesh.evaluator.gpu).expect("pixels")
+        self.draw(shot, size)
+            .read(self.on_mesh.evaluator.gpu())
+            .expect("pixels")
     }
 }
 

@@ -11,7 +11,7 @@ pub type OnPage = (u32, DVec2);
 impl OnMesh {
     /// The atlas.
     pub fn atlas(&self) -> &Atlas {
-        &self.evaluator.linked.atlas
+        &self.evaluator.linked().atlas
     }
 
     /// All owned texels: index and triangle.

@@ -26,7 +26,7 @@ impl Seam {
 impl OnMesh {
     /// All seams, from the mesh alone: edges whose triangles have the same two points but other texture coordinates.
     pub fn seams(&self) -> Vec<Seam> {
-        let mesh = &self.evaluator.linked.model.mesh;
+        let mesh = &self.evaluator.linked().model.mesh;
         let mut open: BTreeMap<[[u32; 3]; 2], (u32, [usize; 2])> = BTreeMap::new();
         let mut seams = Vec::new();
         for (triangle, corners) in (0_u32..).zip(&mesh.triangles) {
@@ -53,7 +53,7 @@ impl OnMesh {
     }
 
     fn is_cut(&self, seam: &Seam) -> bool {
-        let mesh = &self.evaluator.linked.model.mesh;
+        let mesh = &self.evaluator.linked().model.mesh;
         let uv = |side: usize, end: usize| {
             let vertex = mesh.triangles[seam.triangles[side] as usize][seam.corners[side][end]];
             mesh.uvs[vertex as usize]

@@ -30,7 +30,7 @@ fn between(plane: &PlaneData, on_mesh: &OnMesh, picked: &Picked) -> [f32; 4] {
 
 /// The frame of a normal map where something was picked: tangent, bitangent and normal, interpolated.
 fn basis(on_mesh: &OnMesh, picked: &Picked) -> [Vec3; 3] {
-    let mesh = &on_mesh.evaluator.linked.model.mesh;
+    let mesh = &on_mesh.evaluator.linked().model.mesh;
     let corners = mesh.triangles[picked.triangle as usize].map(|vertex| vertex as usize);
     let mixed = |of: &dyn Fn(usize) -> Vec3| -> Vec3 {
         (0..3)

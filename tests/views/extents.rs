@@ -17,20 +17,17 @@ fn extents(nodes: &str, node: &str, plane: usize, component: u32, mesh: &Path) -
     let mut on_mesh = OnMesh::new(&graph, mesh, 96);
     let target = on_mesh.target(node);
     let evaluator = &mut on_mesh.evaluator;
-    let limits = evaluator.gpu.limits();
-    let plan = evaluator
-        .plan(&[target], Mode::Bake { fuse: true }, limits)
-        .expect("a plan");
+    let plan = evaluator.plan(&[target], Mode::Bake { fuse: true }).expect("a plan");
     let run = evaluator.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
     let slot = plan.results[0].slots[plane];
-    let (gpu, surface) = (&evaluator.gpu, &evaluator.surface);
+    let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let texture = run.texture(slot).expect("a result");
     let options = RunOptions::new(SUBMISSION, DEFAULT_BUDGET_BYTES);
     let found = gpu
         .extents(surface, &[(&texture, component)], &options)
         .expect("extents");
     let data = gpu.read(surface, &plan, &run, slot).expect("a result");
-    let owners = evaluator.linked.atlas.owners.iter().enumerate();
+    let owners = evaluator.linked().atlas.owners.iter().enumerate();
     let owned = owners.filter(|(_, owner)| **owner & GHOST_BIT == 0);
     let values: Vec<f32> = owned.map(|(index, _)| data.texel(index)[component as usize]).collect();
     let numbers = values.iter().copied().filter(|value| !value.is_nan());

@@ -21,7 +21,7 @@ fn seen<'p>(
     [width, height]: [u32; 2],
 ) -> impl Iterator<Item = (usize, Picked)> + 'p {
     let size = UVec2::new(width, height).as_vec2();
-    let linked = &pictured.on_mesh.evaluator.linked;
+    let linked = pictured.on_mesh.evaluator.linked();
     let mesh = &linked.model.mesh;
     let bvh = linked.bvh.get_or_init(|| sabi_surface::bvh::Bvh::build(mesh));
     (0..(width * height) as usize).filter_map(move |pixel| {

@@ -42,7 +42,7 @@ fn lines_of_sight_meet_the_heights_that_a_march_meets() {
     let texels = 128;
     let mut pictured = Pictured::new(HILLS, made.path(), texels, &even_light(1.0));
     let heights = pictured.on_mesh.evaluate("coat").component("height");
-    let width = pictured.on_mesh.evaluator.linked.atlas.page_size[0] as usize;
+    let width = pictured.on_mesh.evaluator.linked().atlas.page_size[0] as usize;
     for viewpoint in [
         Viewpoint::at(0.0, 0.0),
         Viewpoint::at(40.0, 25.0),

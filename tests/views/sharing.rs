@@ -152,12 +152,11 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     let mut on_mesh = OnMesh::on_model(GRAPH, Kinds::builtin(), taken(&mesh, Overlap::Merge), |_| {});
     let target = on_mesh.target("coat");
     let evaluator = &mut on_mesh.evaluator;
-    let limits = evaluator.gpu.limits();
-    let plan = evaluator.plan(&[target], Plans::Bake { fuse: true }, limits);
+    let plan = evaluator.plan(&[target], Plans::Bake { fuse: true });
     let plan = plan.expect("a plan");
     let mut run = evaluator.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
-    let (gpu, surface) = (&evaluator.gpu, &evaluator.surface);
-    let shares = Shares::upload(gpu, evaluator.linked.shared_texels().groups()).expect("shares");
+    let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
+    let shares = Shares::upload(gpu, evaluator.linked().shared_texels().groups()).expect("shares");
     // One of each format that a plane has.
     for slot in plan.results[0].slots.clone() {
         let before = gpu.read(surface, &plan, &run, slot).expect("a plane");

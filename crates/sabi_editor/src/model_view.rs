@@ -356,7 +356,7 @@ impl ModelView {
         let (Some(length), Some(model)) = (self.length, &stage.shown_model) else {
             return;
         };
-        let view_from_working = model.placement.scale / model.linked.working_from_model(&model.fit);
+        let view_from_working = model.placement.scale / model.fitted().working_from_model();
         let points = (length * view_from_working) as f32 / self.camera.height_at_target() * rect.height();
         let width = points.min(rect.width() - 40.0).max(1.0);
         let start = pos2(rect.left() + 20.0, rect.bottom() - 24.0);

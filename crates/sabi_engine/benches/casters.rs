@@ -32,7 +32,7 @@ type Ray = [[f32; 4]; 2];
 
 /// Rays out of every owned texel, more of them straight up.
 fn rays(linked: &LinkedModel, reach: f32) -> Vec<Ray> {
-    let tables = linked.tables(&sabi_graph::Fit::Metres, 0);
+    let tables = linked.fitted(sabi_graph::Fit::Metres).tables(0);
     let width = linked.atlas.page_size[0];
     let owners = linked.atlas.owners.iter().enumerate();
     let owned = owners.filter(|(_, owner)| **owner >> 31 == 0);

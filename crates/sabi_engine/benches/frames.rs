@@ -73,17 +73,17 @@ impl Stage {
     fn new() -> Stage {
         let mut evaluator = evaluator();
         let shown = evaluate_looks(&mut evaluator, None, &NoProgress).unwrap();
-        let gpu = &evaluator.gpu;
+        let gpu = evaluator.gpu();
         let name = &gpu.summary().name;
         println!("{name}\n\n| what | measured | aim on a software driver |\n|---|---|---|");
-        let linked = &evaluator.linked;
-        let model_from_working = 1.0 / linked.working_from_model(&evaluator.fit);
+        let linked = evaluator.linked();
+        let model_from_working = evaluator.model().model_from_working();
         let new_model = || {
             ViewModel::new(
                 gpu,
                 &linked.model,
                 &linked.atlas,
-                &evaluator.surface,
+                evaluator.surface(),
                 model_from_working,
             )
         };
@@ -101,7 +101,7 @@ impl Stage {
 
     /// Milliseconds of a frame as `change` wants it.
     fn frame(&self, size: [u32; 2], lights: &[Light], change: impl FnOnce(&mut Shot)) -> f64 {
-        let gpu = &self.evaluator.gpu;
+        let gpu = self.evaluator.gpu();
         let scene = Scene {
             model: &self.model,
             looks: &self.shown.looks,
@@ -109,7 +109,7 @@ impl Stage {
             environment: &self.environment,
             lights,
         };
-        let mesh = &self.evaluator.linked.model.mesh;
+        let mesh = &self.evaluator.linked().model.mesh;
         let bounds = Placement::of(mesh).box_in_view(mesh);
         let aspect = size[0] as f32 / size[1] as f32;
         let mut shot = Shot::new(Camera::seen_from(Viewpoint::FRONT, bounds, aspect));

@@ -6,7 +6,5 @@ pub(crate) mod folder;
 pub(crate) mod maps;
 pub(crate) mod mixing;
 pub(crate) mod model_copy;
-pub(crate) mod picture_file;
 pub(crate) mod report;
 pub(crate) mod seams;
-pub(crate) mod sets;

@@ -1,11 +1,11 @@
 //! Evaluation of a graph on a model: plans, runs, and looks, previews and thumbnails of their results.
 
+pub(crate) mod evaluated_graph;
+pub(crate) mod evaluated_surface;
 pub(crate) mod evaluator;
 pub(crate) mod looks;
 pub(crate) mod outputs;
-pub(crate) mod preview;
-pub(crate) mod ray_cache;
-pub(crate) mod seen_node;
 pub(crate) mod sharing;
+pub(crate) mod texture_sets;
 pub(crate) mod texture_space;
 pub(crate) mod thumbnail;

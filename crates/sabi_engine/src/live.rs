@@ -5,17 +5,14 @@
 
 mod evaluation_error;
 mod event;
-mod faults;
 mod flat;
+mod flattened_request;
 mod groups;
-mod inspect;
-mod model;
+mod loaded_model;
 mod queue;
 mod request;
-mod show;
 mod sized_model;
 mod thumbnail_renderer;
-mod thumbnails;
 mod worker;
 
 use std::sync::Arc;

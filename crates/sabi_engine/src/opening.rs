@@ -9,6 +9,5 @@ pub(crate) mod linked_model;
 pub(crate) mod modelless;
 pub(crate) mod overlap;
 pub(crate) mod overridden;
-pub(crate) mod pictures;
 pub(crate) mod setting;
 pub(crate) mod solidity;

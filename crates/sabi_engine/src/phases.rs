@@ -4,6 +4,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value as Json, json};
 
+use crate::error::{EngineError, ErrorKind};
+
 /// Phase of a bake or a rendering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
@@ -50,6 +52,14 @@ impl Progress for NoProgress {
     fn is_canceled(&self) -> bool {
         false
     }
+}
+
+/// Returns an error of kind `Interrupted` if the work was canceled.
+pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineError> {
+    if progress.is_canceled() {
+        return Err(EngineError::new(ErrorKind::Interrupted, "stopped; nothing was written"));
+    }
+    Ok(())
 }
 
 /// Time spent in one phase.

@@ -1,4 +1,7 @@
-//! Lit pictures of a model.
+//! Pictures of results: a lit model, or one node in texture space.
 
 pub(crate) mod displace;
+pub(crate) mod node_argument;
+pub(crate) mod picture_file;
+pub(crate) mod preview;
 pub(crate) mod render;

@@ -26,7 +26,7 @@ impl Lengths {
     /// How long things are on a model; as in the graph while there is none.
     pub(crate) fn on(model: Option<&LiveModel>) -> Lengths {
         Lengths {
-            model_units_per_working: model.map_or(1.0, |model| 1.0 / model.linked.working_from_model(&model.fit)),
+            model_units_per_working: model.map_or(1.0, |model| model.fitted().model_from_working()),
             // glTF counts in metres.
             metres_per_model_unit: 1.0,
         }

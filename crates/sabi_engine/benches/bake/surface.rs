@@ -37,8 +37,8 @@ fn node_seconds(folder: &Path, model: &Path, name: &str, nodes: &str) -> f64 {
 fn bare_seconds(linked: &LinkedModel, rays: u32) -> (f64, f64) {
     let bvh = Bvh::build(&linked.model.mesh);
     let fit = Fit::Unit;
-    let tables = linked.tables(&fit, 0);
-    let scale = linked.working_from_model(&fit) as f32;
+    let tables = linked.fitted(fit).tables(0);
+    let scale = linked.fitted(fit).working_from_model() as f32;
     let [width, _] = linked.atlas.page_size;
     let owned = linked
         .atlas
@@ -123,10 +123,9 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
     let graph = Evaluator::flat_graph(&open, &kinds, &options).unwrap();
     let node = graph.nodes.iter().position(|node| node.id == "filter").unwrap();
     let mut evaluator = Evaluator::open(&open, graph, kinds, &options, &NoProgress).unwrap();
-    evaluator.times_ghosts = true;
-    let limits = evaluator.gpu.limits();
+    evaluator.time_ghosts();
     let target = Target { node, port: None };
-    let plan = evaluator.plan(&[target], Mode::Bake { fuse: true }, limits).unwrap();
+    let plan = evaluator.plan(&[target], Mode::Bake { fuse: true }).unwrap();
     let mut once = || {
         let report = evaluator
             .run(&plan, Duration::from_millis(200), &NoProgress, None)
@@ -137,7 +136,7 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
         report.ghosts.as_secs_f64() / all.as_secs_f64()
     };
     let share = (0..3).map(|_| once()).fold(f64::INFINITY, f64::min);
-    let atlas = &evaluator.linked.atlas;
+    let atlas = &evaluator.linked().atlas;
     let texels: u64 = atlas.charts.iter().map(|chart| u64::from(chart.texels)).sum();
     let what = format!("{what}, {} beside {texels} texels", atlas.ghosts.len());
     row(&what, 100.0 * share, "%", "≤ 8 %");

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use sabi_export::{BakeWriter, Committed, Padding};
-use sabi_gpu::{Run, RunOptions};
+use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 use serde_json::{Map, Value as Json, json};
@@ -16,17 +16,16 @@ use crate::baking::maps::{MapWriter, SetWork, WrittenMaps};
 use crate::baking::model_copy::{open_copy, write_copy};
 use crate::baking::report::BakeReport;
 use crate::baking::seams::ModelSeams;
-use crate::baking::sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::catalog::describe::describe_unwrapping;
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::evaluator::{Evaluator, stop_if_canceled};
-use crate::evaluating::looks::model_source_node;
+use crate::evaluating::evaluator::Evaluator;
 use crate::evaluating::outputs::{clashes, nothing_comes_out, outputs};
+use crate::evaluating::texture_sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{refuse_faults, targets};
 use crate::opening::overlap::Sharing;
-use crate::phases::{PhaseTime, PhaseTimes, Progress};
+use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
 use crate::remedy::Remedy;
 use crate::source::{OUTPUT_MASK, mask_name};
 use crate::warning::Warning;
@@ -69,43 +68,43 @@ fn bake_open(
     refuse_foreign_folder(request, &graph)?;
     let mut writer = BakeWriter::create(&request.output)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
-    evaluator.times.load.add(reading.total());
+    evaluator.times_mut().load.add(reading.total());
     let read = evaluator.read_files(open);
     refuse_read_report(request, &read)?;
     writer.protect(read);
-    evaluator.warn(bare_materials(&evaluator.linked.model, &evaluator.linked.atlas));
-    let (model, atlas) = (&evaluator.linked.model, &evaluator.linked.atlas);
+    let linked = evaluator.linked().clone();
+    let (model, atlas) = (&linked.model, &linked.atlas);
+    evaluator.warn(bare_materials(model, atlas));
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    let mut serving = serve(open, &evaluator.graph, &outputs, model, atlas, &sets)?;
-    let copy = open_copy(request, &evaluator.linked, &sets, &mut serving, &mut writer)?;
+    let mut serving = serve(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
+    let copy = open_copy(request, &linked, &sets, &mut serving, &mut writer)?;
     evaluator.warn(std::mem::take(&mut serving.warnings));
-    let own_looks = serving.model.map(|_| model_source_node(evaluator.fit));
-    evaluator.graph.nodes.extend(own_looks);
-    let wanted = wanted(&evaluator.graph, &outputs, &serving);
-    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse }, evaluator.gpu.limits())?;
+    if serving.model.is_some() {
+        evaluator.append_model_source();
+    }
+    let wanted = wanted(evaluator.graph(), &outputs, &serving);
+    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
-    let sets = set_works(&evaluator.graph, &plan, sets, &serving.nodes);
+    let sets = set_works(evaluator.graph(), &plan, sets, &serving.nodes);
+    let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
         evaluator: &evaluator,
         plan: &plan,
         options,
         padding: request.padding.map_or(Padding::Infinite, Padding::Texels),
-        seams: ModelSeams::new(request.seams, &evaluator.linked),
-        run_options: RunOptions {
-            is_canceled: &|| progress.is_canceled(),
-            ..RunOptions::new(SUBMISSION, request.evaluator.budget_bytes)
-        },
+        seams: ModelSeams::new(request.seams, &linked),
+        run_options: evaluator.run_options(SUBMISSION, &is_canceled),
     };
-    let mut encode = evaluator.times.encode;
+    let mut encode = evaluator.times().encode;
     let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
     encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let committed = encode.time(|| writer.commit())?;
-    let told = evaluator.warnings.iter().chain(&written.warnings);
+    let told = evaluator.warnings().iter().chain(&written.warnings);
     let warnings: Vec<Warning> = told.cloned().chain(left_over(&committed)).collect();
     let times = PhaseTimes {
         encode,
-        ..evaluator.times
+        ..evaluator.times()
     };
     let json = report(request, &evaluator, &plan, &run, &written, &times, &warnings);
     Ok(BakeReport {
@@ -226,8 +225,9 @@ fn report(
     times: &PhaseTimes,
     warnings: &[Warning],
 ) -> Json {
-    let adapter = evaluator.gpu.summary();
-    let atlas = &evaluator.linked.atlas;
+    let adapter = evaluator.gpu().summary();
+    let linked = evaluator.linked();
+    let atlas = &linked.atlas;
     let mut nodes_ms = Map::new();
     for step in &run.report.steps {
         for (node, share) in &step.nodes {
@@ -242,11 +242,11 @@ fn report(
         "graph": request.graph.display().to_string(),
         "mesh": {
             "file": request.evaluator.model.path.display().to_string(),
-            "triangles": evaluator.linked.model.mesh.triangles.len(),
+            "triangles": linked.model.mesh.triangles.len(),
             "charts": atlas.charts.len(),
             "coverage": rounded(atlas.report.coverage),
-            "overlap": Sharing::of(&evaluator.linked).json(&evaluator.linked),
-            "unwrapped": describe_unwrapping(&evaluator.linked),
+            "overlap": Sharing::of(linked).json(linked),
+            "unwrapped": describe_unwrapping(linked),
         },
         "adapter": { "name": adapter.name, "kind": adapter.kind.to_string() },
         "size": atlas.size,
@@ -255,9 +255,9 @@ fn report(
         "finish_passes": written.finish_passes,
         "fused": plan.fused(),
         "peak_texture_bytes": run.report.pool.peak_bytes,
-        "atlas_cached": evaluator.linked.atlas_was_cached,
+        "atlas_cached": linked.atlas_was_cached,
         "rays_cached": run.report.found_on_disk,
-        "unwrapping_cached": evaluator.linked.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
+        "unwrapping_cached": linked.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
         "stages_ms": times.json(),
         "nodes_ms": nodes_ms,
         "outputs": written.outputs.iter().map(sabi_export::OutputRecord::to_json).collect::<Vec<_>>(),

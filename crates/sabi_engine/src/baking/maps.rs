@@ -16,10 +16,10 @@ use sabi_plan::{Plan, PlannedResult, SlotRef};
 use crate::baking::mixing::Mixing;
 use crate::baking::seams::ModelSeams;
 use crate::error::EngineError;
-use crate::evaluating::evaluator::{Evaluator, stop_if_canceled};
+use crate::evaluating::evaluator::Evaluator;
 use crate::evaluating::looks::slot_of;
-use crate::opening::linked_model::{LinkedModel, Overlap};
-use crate::phases::{Phase, Progress};
+use crate::evaluating::texture_space::set_layout;
+use crate::phases::{Phase, Progress, stop_if_canceled};
 use crate::warning::Warning;
 
 /// One texture set: which results go into it.
@@ -81,7 +81,7 @@ impl MapWriter<'_> {
         writer: &mut BakeWriter,
         progress: &dyn Progress,
     ) -> Result<WrittenMaps, EngineError> {
-        let atlas = &self.evaluator.linked.atlas;
+        let atlas = &self.evaluator.linked().atlas;
         let set_bytes = (atlas.size as usize).pow(2) * LAYOUT_PIXEL_BYTES;
         let mut maps = Maps {
             from: self,
@@ -99,7 +99,7 @@ impl MapWriter<'_> {
             let open: Vec<OpenSet<'_>> = together
                 .iter()
                 .map(|work| {
-                    let layout = set_layout(&self.evaluator.linked, work.key);
+                    let layout = set_layout(self.evaluator.linked(), work.key);
                     OpenSet {
                         work,
                         mixing: Mixing::new(atlas, &work.materials),
@@ -134,7 +134,10 @@ impl MapWriter<'_> {
     }
 
     fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
-        Ok(self.evaluator.gpu.read(&self.evaluator.surface, self.plan, run, slot)?)
+        Ok(self
+            .evaluator
+            .gpu()
+            .read(self.evaluator.surface(), self.plan, run, slot)?)
     }
 }
 
@@ -169,7 +172,7 @@ impl Maps<'_> {
             return Ok(());
         }
         let evaluator = self.from.evaluator;
-        let file_from_working = evaluator.linked.file_from_working(&evaluator.fit) as f32;
+        let file_from_working = evaluator.model().file_from_working() as f32;
         for (stored, channels) in MAPS {
             let scale = if stored == Stored::Height {
                 file_from_working
@@ -209,9 +212,9 @@ impl Maps<'_> {
             return Ok(None);
         }
         self.written.finish_passes += 1;
-        let Evaluator { gpu, surface, .. } = self.from.evaluator;
-        Ok(Some(gpu.normals(
-            surface,
+        let evaluator = self.from.evaluator;
+        Ok(Some(evaluator.gpu().normals(
+            evaluator.surface(),
             run,
             height,
             slope,
@@ -296,14 +299,6 @@ impl Maps<'_> {
         self.written.outputs.extend(done.outputs);
         self.written.constants.extend(done.constant);
         Ok(())
-    }
-}
-
-/// The layout of a set, with what charts that share a place get.
-pub(crate) fn set_layout(linked: &LinkedModel, key: SetKey) -> SetLayout {
-    match linked.overlap {
-        Overlap::Merge => SetLayout::merged(&linked.atlas, key),
-        Overlap::First | Overlap::Unwrap => SetLayout::new(&linked.atlas, key),
     }
 }
 

@@ -8,8 +8,8 @@ use serde_json::{Value as Json, json};
 
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::maps::WrittenMaps;
-use crate::baking::sets::{Serving, TextureSet};
 use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::texture_sets::{Serving, TextureSet};
 use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;

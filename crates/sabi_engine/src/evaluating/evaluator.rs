@@ -1,101 +1,97 @@
-//! A graph and a model brought together on a device.
+//! Evaluator of a graph on a model with a device.
 
-mod change;
+mod plan_and_run;
 
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
-use std::time::Duration;
+use std::path::PathBuf;
+use std::sync::Arc;
 
-use sabi_gpu::{
-    AdapterChoice, CasterChoice, DeviceHierarchy, Gpu, GpuError, GpuSurface, Hits, ResultCache, Run, RunOptions,
-    Shares, SurfaceTables, Surfaces,
-};
-use sabi_graph::{Fit, FlatGraph, FlatNode, Found, NodeRef, Overrides};
-use sabi_nodes::kind::Shape;
-use sabi_plan::{Lengths, Limits, Mode, Plan, PlanError, Planner, Target};
-use sabi_surface::atlas::{AtlasOptions, atlas_key};
+use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares};
+use sabi_graph::{Document, Fit, FlatGraph, Found, NodeRef, Overrides};
+use sabi_view::ViewModel;
 
-use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::ray_cache::RayCache;
+use crate::error::EngineError;
+use crate::evaluating::evaluated_graph::EvaluatedGraph;
+use crate::evaluating::evaluated_surface::EvaluatedSurface;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::opening::levels::AtlasLevels;
-use crate::opening::linked_model::{LinkedModel, ModelOptions};
+use crate::opening::linked_model::{FittedModel, LinkedModel, ModelOptions};
 use crate::opening::overridden::refuse_bad_values;
-use crate::opening::pictures::{Pictures, files};
 use crate::opening::setting::read_typed;
-use crate::opening::solidity;
-use crate::phases::{Phase, PhaseTimes, Progress};
-use crate::source::{Files, SourceSurface, Sources};
+use crate::phases::{Phase, PhaseTimes, Progress, stop_if_canceled};
+use crate::source::ray_cache::RayCache;
 use crate::warning::Warning;
 
-/// How a graph and a model are brought together.
+/// Options of an evaluator.
 pub struct EvaluatorOptions {
-    /// The model.
+    /// Model.
     pub model: ModelOptions,
-    /// Variant, values and seed on top of the file. A text is taken as typed: what it is read as depends on the parameter.
+    /// Variant, values and seed in place of those of the file. A text is a typed value: its meaning depends on the parameter.
     pub overrides: Overrides,
-    /// What counts as 1, in place of the document's fit.
+    /// Fit in place of the document's.
     pub fit: Option<Fit>,
-    /// Which adapter.
+    /// Adapter to run on.
     pub adapter: AdapterChoice,
-    /// Who follows rays.
+    /// Ray caster.
     pub caster: CasterChoice,
-    /// Bytes of textures that may be held at once.
+    /// Size limit of the textures of a run, bytes.
     pub budget_bytes: u64,
 }
 
-/// A graph on a model, ready to be evaluated.
-pub struct Evaluator {
-    /// The graph file, as it was named.
-    pub path: PathBuf,
-    /// The flat graph.
-    pub graph: FlatGraph,
-    /// All node kinds, with `source/model` as this model has it.
-    pub kinds: Kinds,
-    /// The model with its atlas.
-    pub linked: Arc<LinkedModel>,
-    /// The device.
-    pub gpu: Arc<Gpu>,
-    /// The atlas on the device.
-    pub surface: GpuSurface,
-    /// What counts as 1.
-    pub fit: Fit,
-    /// Who follows rays.
+/// Settings of a run's rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RaySettings {
+    /// Ray caster.
     pub caster: CasterChoice,
-    /// Whether all rays are shot, or what is known of longer ones will do, as while a knob is moved.
+    /// Whether all rays are traced, or hits are remembered for shorter rays, as while a knob is dragged.
     pub hits: Hits,
-    /// For a first picture, which is grainy and quick: no place shoots more rays than this. None for all of them.
+    /// Limit of rays per texel, for a quick and noisy picture; none for all rays.
     pub most_rays: Option<u32>,
-    /// Whether runs say what part of them the filling of ghosts took.
-    pub times_ghosts: bool,
-    /// Time spent so far.
-    pub times: PhaseTimes,
-    /// What is probably not intended.
-    pub warnings: Vec<Warning>,
-    pictures: Pictures,
-    tables: SurfaceTables,
-    bvh_on_device: OnceLock<DeviceHierarchy>,
-    levels: AtlasLevels,
-    /// Texels that share a place on the maps; none where each has its own.
-    pub(crate) shares: OnceLock<Option<Shares>>,
+}
+
+/// Evaluator of a graph on a model: plans and runs, and collects times and warnings.
+pub struct Evaluator {
+    graph: EvaluatedGraph,
+    surface: EvaluatedSurface,
+    fixed: FixedSettings,
+    gpu: Arc<Gpu>,
+    rays: RaySettings,
     ray_cache: RayCache,
-    /// Warnings on the model itself, which stay when the graph changes.
-    of_model: Vec<Warning>,
-    /// What takes the place of the document's own.
-    chosen: (Option<Fit>, Option<u32>),
-    seed: u32,
-    surface_key: [u8; 32],
-    pub(crate) budget_bytes: u64,
+    budget_bytes: u64,
+    times_ghosts: bool,
+    times: PhaseTimes,
+    warnings: Vec<Warning>,
+}
+
+/// Fit and seed that take the place of the document's.
+struct FixedSettings {
+    fit: Option<Fit>,
+    seed: Option<u32>,
+}
+
+impl FixedSettings {
+    fn new(options: &EvaluatorOptions) -> FixedSettings {
+        FixedSettings {
+            fit: options.fit.or(options.overrides.fit),
+            seed: options.overrides.seed,
+        }
+    }
+
+    /// Returns the fit and the seed for a document.
+    fn of(&self, document: &Document) -> (Fit, u32) {
+        (
+            self.fit.unwrap_or(document.fit),   // The options override the document.
+            self.seed.unwrap_or(document.seed), // The options override the document.
+        )
+    }
 }
 
 impl Evaluator {
-    /// The graph as these options want it, without groups; values that no node takes are refused.
+    /// Flattens the graph with the overrides of the options. Refuses values that no node takes.
     pub fn flat_graph(open: &OpenGraph, kinds: &Kinds, options: &EvaluatorOptions) -> Result<FlatGraph, EngineError> {
         Evaluator::flat_graph_and_find(open, kinds, options, &[]).map(|(graph, _)| graph)
     }
 
-    /// The same, and where in it the results of some nodes of the document come from.
+    /// Flattens the graph, and finds the origin of the results of some nodes of the document.
     pub(crate) fn flat_graph_and_find(
         open: &OpenGraph,
         kinds: &Kinds,
@@ -112,7 +108,7 @@ impl Evaluator {
         Ok((graph, found))
     }
 
-    /// Opens everything on the adapter of choice; `graph` is from [`Evaluator::flat_graph`].
+    /// Loads the model, opens the device and brings everything together; `graph` is from [`Evaluator::flat_graph`].
     pub fn open(
         open: &OpenGraph,
         graph: FlatGraph,
@@ -128,7 +124,11 @@ impl Evaluator {
             .atlas
             .time(|| LinkedModel::link(model, &options.model, progress))?;
         stop_if_canceled(progress)?;
-        let gpu = times.compile.time(|| Gpu::open(&options.adapter))?;
+        let gpu = times.compile.time(|| {
+            let _span = tracing::debug_span!("open device").entered();
+            Gpu::open(&options.adapter)
+        })?;
+        tracing::debug!(adapter = gpu.summary().name, "device opened");
         let mut evaluator = Evaluator::assemble(open, graph, kinds, linked, Arc::new(gpu), options)?;
         evaluator.times.load.add(times.load.total());
         evaluator.times.atlas = times.atlas;
@@ -136,75 +136,136 @@ impl Evaluator {
         Ok(evaluator)
     }
 
-    /// Brings together what is loaded already, on a device that others use too.
+    /// Brings together a loaded model and a device that others may use too.
     pub fn assemble(
         open: &OpenGraph,
         graph: FlatGraph,
-        mut kinds: Kinds,
+        kinds: Kinds,
         linked: impl Into<Arc<LinkedModel>>,
         gpu: Arc<Gpu>,
         options: &EvaluatorOptions,
     ) -> Result<Evaluator, EngineError> {
-        let linked: Arc<LinkedModel> = linked.into();
         let mut times = PhaseTimes::default();
-        let chosen = (options.fit.or(options.overrides.fit), options.overrides.seed);
-        let fit = chosen.0.unwrap_or(open.document.fit);
-        let seed = chosen.1.unwrap_or(open.document.seed);
-        let tables = times.load.time(|| linked.tables(&fit, seed));
-        let levels = times.atlas.time(|| AtlasLevels::new(&linked, &fit));
-        let surface = times
-            .load
-            .time(|| GpuSurface::upload(&gpu, &linked.atlas, &tables, levels.of(0)))?;
-        kinds.adapt_to(&linked.model);
-        let of_model = linked.warnings();
-        let left_out = kinds.left_out().map(Warning::from);
-        let warnings = of_model.iter().cloned().chain(left_out).collect();
-        let surface_key = surface_key(&linked, &tables);
-        let budget_bytes = options.budget_bytes;
-        Ok(Evaluator {
-            path: open.path.clone(),
+        let fixed = FixedSettings::new(options);
+        let surface = EvaluatedSurface::upload(&gpu, linked.into(), fixed.of(&open.document), &mut times)?;
+        let graph = EvaluatedGraph::new(open, graph, kinds, &surface.linked().model);
+        let mut evaluator = Evaluator {
             graph,
-            kinds,
-            linked,
-            gpu,
             surface,
-            fit,
-            times,
-            warnings,
-            pictures: open.pictures.clone(),
-            tables,
-            bvh_on_device: OnceLock::new(),
-            levels,
-            shares: OnceLock::new(),
-            of_model,
-            chosen,
-            seed,
-            surface_key,
-            caster: options.caster,
-            hits: Hits::Cast,
-            most_rays: None,
-            times_ghosts: false,
+            fixed,
+            gpu,
+            rays: RaySettings {
+                caster: options.caster,
+                hits: Hits::Cast,
+                most_rays: None,
+            },
             ray_cache: RayCache::new(options.model.cache_dir.as_deref()),
-            budget_bytes,
-        })
+            budget_bytes: options.budget_bytes,
+            times_ghosts: false,
+            times,
+            warnings: Vec::new(),
+        };
+        evaluator.reset_warnings();
+        Ok(evaluator)
     }
 
-    /// Plans what the targets need; warnings are kept, anything worse is an error.
-    pub fn plan(&mut self, targets: &[Target], mode: Mode, limits: Limits) -> Result<Plan, EngineError> {
-        let (plan, errors) = self.try_plan(targets, mode, limits);
-        let (warnings, errors): (Vec<PlanError>, Vec<PlanError>) = errors.into_iter().partition(PlanError::is_warning);
-        let path = self.path.display().to_string();
-        let said = |error: &PlanError| format!("{path}: {error}");
-        let messages: Vec<String> = errors.iter().map(said).collect();
-        self.warn(warnings.iter().map(said));
-        self.warn(solidity::warnings(&plan, &self.linked));
-        match errors.into_iter().next() {
-            None => Ok(plan),
-            Some(first) => Err(EngineError::several(ErrorKind::BadInput, messages).caused_by(first)),
-        }
+    /// Replaces the graph, for example after an edit; `graph` is the flattened document of `open`. The model stays loaded; only
+    /// the tables of the surface are computed again where the document has another fit or seed.
+    pub fn set_graph(&mut self, open: &OpenGraph, graph: FlatGraph) -> Result<(), EngineError> {
+        let (fit, seed) = self.fixed.of(&open.document);
+        self.surface.set_fit_and_seed(&self.gpu, fit, seed)?;
+        self.graph.set(open, graph);
+        self.reset_warnings();
+        Ok(())
     }
 
-    /// Adds warnings, each once however often it is given.
+    /// Replaces the flat graph by one of the same document, whose fit and seed are the same.
+    pub fn set_flat_graph(&mut self, graph: FlatGraph) {
+        self.graph.set_flat(graph);
+    }
+
+    /// Replaces the node kinds, for example after node files were read again.
+    pub fn set_kinds(&mut self, kinds: Kinds) {
+        self.graph.set_kinds(kinds, &self.surface.linked().model);
+        self.reset_warnings();
+    }
+
+    /// Appends a node of the model's own materials to the graph; its index is the number of nodes before.
+    pub(crate) fn append_model_source(&mut self) {
+        self.graph.append_model_source(self.surface.fit());
+    }
+
+    /// Flat graph.
+    pub fn graph(&self) -> &FlatGraph {
+        self.graph.flat()
+    }
+
+    /// Model with its atlas.
+    pub fn linked(&self) -> &Arc<LinkedModel> {
+        self.surface.linked()
+    }
+
+    /// Model under the fit.
+    pub fn model(&self) -> FittedModel<'_> {
+        self.surface.model()
+    }
+
+    /// Fit of the document, or the one that overrides it.
+    pub fn fit(&self) -> Fit {
+        self.surface.fit()
+    }
+
+    /// Device.
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// Finest level of the atlas on the device.
+    pub fn surface(&self) -> &GpuSurface {
+        self.surface.on_device()
+    }
+
+    /// Texels that show the values of others, where charts overlap.
+    pub(crate) fn shares(&self) -> Result<Option<&Shares>, EngineError> {
+        self.surface.shares(&self.gpu)
+    }
+
+    /// Settings of the rays of the next plan and run.
+    pub fn rays(&self) -> RaySettings {
+        self.rays
+    }
+
+    /// Settings of the rays of the next plan and run, to be changed.
+    pub fn rays_mut(&mut self) -> &mut RaySettings {
+        &mut self.rays
+    }
+
+    /// Has runs report the share of time that filling ghosts takes.
+    pub fn time_ghosts(&mut self) {
+        self.times_ghosts = true;
+    }
+
+    /// Times so far.
+    pub fn times(&self) -> PhaseTimes {
+        self.times
+    }
+
+    /// Times so far, to be added to.
+    pub(crate) fn times_mut(&mut self) -> &mut PhaseTimes {
+        &mut self.times
+    }
+
+    /// Warnings for the artist, each once.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// Takes the warnings after the first `known` ones.
+    pub(crate) fn take_warnings_after(&mut self, known: usize) -> Vec<Warning> {
+        self.warnings.split_off(known)
+    }
+
+    /// Adds warnings, each once.
     pub(crate) fn warn(&mut self, warnings: impl IntoIterator<Item = impl Into<Warning>>) {
         for warning in warnings.into_iter().map(Into::into) {
             if !self.warnings.contains(&warning) {
@@ -213,144 +274,29 @@ impl Evaluator {
         }
     }
 
-    /// Files that this work was read from: they must not be written over.
+    /// Drops the warnings about the last graph.
+    fn reset_warnings(&mut self) {
+        self.warnings = self.surface.linked().warnings();
+        let left_out = self.graph.kinds().left_out();
+        self.warnings.extend(left_out.map(Warning::from));
+    }
+
+    /// Lists the files that the graph and the model were read from, which must not be overwritten.
     pub(crate) fn read_files(&self, open: &OpenGraph) -> Vec<PathBuf> {
-        let groups = self.graph.nodes.iter().filter_map(|node| node.file.as_ref());
-        let groups = groups.map(|file| open.folder().join(file));
-        let model = self.linked.model.files.iter().cloned();
-        let named = files(open.folder(), &self.graph, &self.kinds);
-        let own = std::iter::once(open.path.clone()).chain(groups);
-        own.chain(model).chain(named).collect()
+        let model = self.linked().model.files.iter().cloned();
+        self.graph.read_files(open).into_iter().chain(model).collect()
     }
 
-    /// The folder that paths in the graph start from.
-    fn folder(&self) -> &Path {
-        self.path.parent().unwrap_or(Path::new(""))
+    /// Uploads the model for drawing.
+    pub(crate) fn view_model(&self) -> Result<ViewModel, EngineError> {
+        let LinkedModel { model, atlas, .. } = &**self.linked();
+        let model_from_working = self.model().model_from_working();
+        Ok(ViewModel::new(
+            &self.gpu,
+            model,
+            atlas,
+            self.surface(),
+            model_from_working,
+        )?)
     }
-
-    /// Plans what of the targets can be planned, and says what is at fault.
-    pub fn try_plan(&self, targets: &[Target], mode: Mode, limits: Limits) -> (Plan, Vec<PlanError>) {
-        let scale = self.linked.working_from_model(&self.fit);
-        let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
-        let wanted = self.graph.upstream(&wanted);
-        let contents = self.pictures.contents(self.folder(), &self.graph, &self.kinds, wanted);
-        let is_filter = |node: &FlatNode| {
-            let kind = self.kinds.library.kind(&node.kind);
-            kind.is_some_and(|kind| kind.shape == Shape::Field)
-        };
-        let has_filters = self.graph.nodes.iter().any(is_filter);
-        let levels = self.levels.widths(&self.linked, has_filters);
-        let planner = Planner {
-            graph: &self.graph,
-            library: &self.kinds.library,
-            sources: &self.kinds.sources,
-            sinks: &self.kinds.sinks,
-            files: &contents,
-            lengths: Lengths {
-                working_from: &|fit| scale / self.linked.working_from_model(fit),
-                extent: &|direction| self.linked.extent(&self.fit, direction),
-            },
-            levels: &levels,
-            surface_key: self.surface_key,
-            mode,
-            most_rays: self.most_rays,
-            limits,
-        };
-        planner.plan(targets)
-    }
-
-    /// Runs the only plan of this work, and lets go of the pictures that its nodes name.
-    pub(crate) fn run_once(
-        &mut self,
-        plan: &Plan,
-        submission: Duration,
-        progress: &dyn Progress,
-    ) -> Result<Run, EngineError> {
-        let run = self.run(plan, submission, progress, None)?;
-        self.pictures.forget();
-        Ok(run)
-    }
-
-    /// Runs a plan; `submission` is how long one piece of work may hold the device.
-    pub fn run(
-        &mut self,
-        plan: &Plan,
-        submission: Duration,
-        progress: &dyn Progress,
-        cache: Option<&mut ResultCache>,
-    ) -> Result<Run, EngineError> {
-        self.make_levels(plan)?;
-        Ok(self.run_on_levels(plan, submission, progress, cache)?)
-    }
-
-    /// Makes the coarser levels that a plan runs on and that are not there yet.
-    pub(crate) fn make_levels(&mut self, plan: &Plan) -> Result<(), EngineError> {
-        self.levels.make(plan, &self.gpu, &self.linked, &self.fit, self.seed)
-    }
-
-    /// Runs a plan whose levels are there.
-    pub(crate) fn run_on_levels(
-        &mut self,
-        plan: &Plan,
-        submission: Duration,
-        progress: &dyn Progress,
-        cache: Option<&mut ResultCache>,
-    ) -> Result<Run, GpuError> {
-        let ground = SourceSurface {
-            model: &self.linked.model,
-            atlas: &self.linked.atlas,
-            tables: &self.tables,
-            pieces: &self.linked.pieces,
-            bvh: &self.linked.bvh,
-            bvh_on_device: &self.bvh_on_device,
-            working_from_model: self.linked.working_from_model(&self.fit),
-        };
-        let files = Files {
-            pictures: &self.pictures,
-            folder: self.folder(),
-            graph: &self.graph,
-        };
-        let mut sources = Sources::new(ground, files, &self.ray_cache);
-        let options = RunOptions {
-            submission,
-            is_canceled: &|| progress.is_canceled(),
-            progress: &|done, of| progress.advance(Phase::Run, done, of),
-            budget_bytes: self.budget_bytes,
-            caster: self.caster,
-            hits: self.hits,
-            times_ghosts: self.times_ghosts,
-        };
-        let surfaces = Surfaces {
-            finest: &self.surface,
-            coarser: &self.levels.coarser,
-        };
-        let run = self
-            .gpu
-            .run(surfaces, &self.kinds.library, plan, &options, &mut sources, cache);
-        let told = sources.warnings;
-        self.warn(told);
-        let run = run?;
-        self.times.compile.add(run.report.compile);
-        self.times.run.add(run.report.run);
-        Ok(run)
-    }
-}
-
-/// Ends the work with an error if the user asked for it.
-pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineError> {
-    if progress.is_canceled() {
-        return Err(EngineError::new(ErrorKind::Interrupted, "stopped; nothing was written"));
-    }
-    Ok(())
-}
-
-/// Names the surface: the atlas by what it is made of, and where every triangle lies in space. The program itself need not be
-/// part of it: results are kept in memory, and those of rays on disk have a version of their own.
-fn surface_key(linked: &LinkedModel, tables: &SurfaceTables) -> [u8; 32] {
-    let mut hash = blake3::Hasher::new();
-    hash.update(&atlas_key(&linked.model.mesh, &AtlasOptions::new(linked.atlas.size)));
-    for row in tables.geometry.iter().chain(&tables.frames).chain(&tables.pieces) {
-        hash.update(row.map(f32::to_le_bytes).as_flattened());
-    }
-    *hash.finalize().as_bytes()
 }

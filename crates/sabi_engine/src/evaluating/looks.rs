@@ -5,34 +5,17 @@ use std::time::Duration;
 
 use sabi_export::Channel;
 use sabi_gpu::{DeviceMaps, MaterialSlots, Run, RunOptions};
-use sabi_graph::{Fit, FlatNode, PortType};
+use sabi_graph::PortType;
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Mode, Plan, PlannedResult, SlotRef, Target};
 use sabi_view::{MaterialLook, NodeLook, NodeType};
 
-use crate::baking::sets::shown_by;
 use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
+use crate::evaluating::texture_sets::shown_by;
 use crate::opening::modelless::targets;
 use crate::phases::Progress;
-use crate::source::SOURCE_MODEL;
-
-/// Makes a node of the model's own materials. Its id is not valid in a graph file.
-pub(crate) fn model_source_node(fit: Fit) -> FlatNode {
-    FlatNode {
-        id: "(model)".to_owned(),
-        kind: SOURCE_MODEL.to_owned(),
-        version: 1,
-        params: BTreeMap::new(),
-        inputs: BTreeMap::new(),
-        muted: false,
-        seeds: Vec::new(),
-        length_scale: 1.0,
-        fit,
-        file: None,
-    }
-}
 
 /// Looks of all materials of a model.
 pub struct ModelLooks {
@@ -62,29 +45,26 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 /// them.
 pub fn evaluate_looks(
     evaluator: &mut Evaluator,
-    seen: Option<&Target>,
+    subject: Option<&Target>,
     progress: &dyn Progress,
 ) -> Result<ModelLooks, EngineError> {
-    let (wanted, shows) = match seen {
+    let (wanted, assignment) = match subject {
         Some(target) => (vec![target.clone()], LookAssignment::One),
         None => {
-            let (serving, idle) = shown_by(&evaluator.graph, &evaluator.linked.model, &evaluator.linked.atlas);
+            let (serving, idle) = shown_by(evaluator.graph(), evaluator.linked());
             evaluator.warn(idle);
-            if serving.values().any(|&node| node == evaluator.graph.nodes.len()) {
-                evaluator.graph.nodes.push(model_source_node(evaluator.fit));
+            if serving.values().any(|&node| node == evaluator.graph().nodes.len()) {
+                evaluator.append_model_source();
             }
             let nodes: BTreeSet<usize> = serving.values().copied().collect();
             (targets(nodes), LookAssignment::Served(serving))
         }
     };
-    let limits = evaluator.gpu.limits();
-    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: true }, limits)?;
+    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: true })?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
-    let options = RunOptions {
-        is_canceled: &|| progress.is_canceled(),
-        ..RunOptions::new(SUBMISSION, evaluator.budget_bytes)
-    };
-    looks_of_run(evaluator, &plan, &mut run, &shows, &options)
+    let is_canceled = || progress.is_canceled();
+    let options = evaluator.run_options(SUBMISSION, &is_canceled);
+    looks_of_run(evaluator, &plan, &mut run, &assignment, &options)
 }
 
 /// Makes the looks of all materials from the results of a run.
@@ -92,7 +72,7 @@ pub(crate) fn looks_of_run(
     evaluator: &Evaluator,
     plan: &Plan,
     run: &mut Run,
-    shows: &LookAssignment,
+    assignment: &LookAssignment,
     options: &RunOptions<'_>,
 ) -> Result<ModelLooks, EngineError> {
     let (are_opaque, height_range) = value_extents(evaluator, plan, run, options)?;
@@ -104,14 +84,14 @@ pub(crate) fn looks_of_run(
             ..look(evaluator, run, result, options)?
         });
     }
-    let of_material = |material: u32| match shows {
+    let of_material = |material: u32| match assignment {
         LookAssignment::One => Some(looks.len() - 1),
         LookAssignment::Served(serving) => {
             let node = serving.get(&material)?;
             Some(1 + plan.results.iter().position(|result| result.target.node == *node)?)
         }
     };
-    let materials = 0..evaluator.linked.model.materials.len() as u32;
+    let materials = 0..evaluator.linked().model.materials.len() as u32;
     Ok(ModelLooks {
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
         is_lit: looks.iter().all(|look| look.node.is_none()),
@@ -141,7 +121,7 @@ fn value_extents(
         .iter()
         .map(|(_, texture, component)| (texture, *component))
         .collect();
-    let extents = evaluator.gpu.extents(&evaluator.surface, &components, options)?;
+    let extents = evaluator.gpu().extents(evaluator.surface(), &components, options)?;
     let mut are_opaque = vec![true; plan.results.len()];
     let mut heights = [f32::INFINITY, f32::NEG_INFINITY];
     for ((at, _, component), extent) in asked.iter().zip(extents) {
@@ -162,7 +142,7 @@ fn look(
     result: &PlannedResult,
     options: &RunOptions<'_>,
 ) -> Result<MaterialLook, EngineError> {
-    let Evaluator { gpu, surface, .. } = evaluator;
+    let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let shares = evaluator.shares()?;
     let holds = match result.stored.ty {
         PortType::Mask => NodeType::Mask,

@@ -3,34 +3,10 @@
 use std::collections::BTreeSet;
 
 use sabi_export::{SharedTexels, set_keys};
-use sabi_gpu::Shares;
 use sabi_surface::atlas::{Atlas, Chart};
 
-use crate::baking::maps::set_layout;
-use crate::error::EngineError;
-use crate::evaluating::evaluator::Evaluator;
+use crate::evaluating::texture_space::set_layout;
 use crate::opening::linked_model::LinkedModel;
-
-impl Evaluator {
-    /// Returns the texels that show the values of other texels, as an engine finds them on the maps; computed on first use. None
-    /// for a model without overlapping charts.
-    ///
-    /// Sources and targets are texels of one result. Only an unwrapped model has charts of several results on one sheet, and there
-    /// charts do not overlap, unless they are too small for the size: a texel that lost its pixel to another material's chart
-    /// shows its own material.
-    pub(crate) fn shares(&self) -> Result<Option<&Shares>, EngineError> {
-        if self.shares.get().is_none() {
-            let shared = self.linked.shared_texels();
-            let shares = match shared.is_empty() {
-                true => None,
-                false => Some(Shares::upload(&self.gpu, shared.groups())?),
-            };
-            // Another thread that was faster has computed the same value.
-            let _ = self.shares.set(shares);
-        }
-        Ok(self.shares.get().and_then(Option::as_ref))
-    }
-}
 
 impl LinkedModel {
     /// Finds the texels of all texture sets that show the values of other texels, as the maps do. Nothing is laid out for a model

@@ -8,10 +8,9 @@ use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult};
 
-use crate::baking::maps::set_layout;
 use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
-use crate::opening::linked_model::LinkedModel;
+use crate::opening::linked_model::{LinkedModel, Overlap};
 
 /// Padding around charts of results that are displayed.
 const PADDING: Padding = Padding::Texels(4);
@@ -70,7 +69,7 @@ impl TextureSpace {
     ) -> Result<Vec<ResultPlane>, EngineError> {
         let planes = result.stored.planes().into_iter().zip(&result.slots);
         let laid_out = planes.map(|(plane, &slot)| {
-            let data = evaluator.gpu.read(&evaluator.surface, plan, run, slot)?;
+            let data = evaluator.gpu().read(evaluator.surface(), plan, run, slot)?;
             let (name, holds, components) = shape_of(plane);
             let one = |first| {
                 let channel = Channel::Mask(String::new());
@@ -91,6 +90,14 @@ impl TextureSpace {
             })
         });
         laid_out.collect()
+    }
+}
+
+/// Returns the layout of a texture set, by the overlap setting of the model.
+pub(crate) fn set_layout(linked: &LinkedModel, key: SetKey) -> SetLayout {
+    match linked.overlap {
+        Overlap::Merge => SetLayout::merged(&linked.atlas, key),
+        Overlap::First | Overlap::Unwrap => SetLayout::new(&linked.atlas, key),
     }
 }
 

@@ -10,10 +10,11 @@ use sabi_graph::{Fit, NodeRef, PortType};
 use sabi_view::{Pixels, Placement, ViewModel};
 
 use super::request::ViewSubject;
-use crate::baking::sets::TextureSet;
 use crate::error::EngineError;
 use crate::evaluating::looks::ModelLooks;
+use crate::evaluating::texture_sets::TextureSet;
 use crate::evaluating::texture_space::ResultPlane;
+use crate::opening::linked_model::FittedModel;
 use crate::opening::linked_model::LinkedModel;
 use crate::warning::Warning;
 
@@ -122,6 +123,11 @@ pub struct LiveModel {
 }
 
 impl LiveModel {
+    /// The model under its fit.
+    pub fn fitted(&self) -> FittedModel<'_> {
+        self.linked.fitted(self.fit)
+    }
+
     /// Returns a texture set, or the first where the model does not have the wanted one.
     pub fn set(&self, wanted: Option<SetKey>) -> Option<&TextureSet> {
         self.sets.get(self.index_of_set(wanted))

@@ -5,19 +5,19 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use sabi_export::SetKey;
-use sabi_gpu::{Gpu, Hits, ResultCache, Run, RunOptions, RunReport};
+use sabi_gpu::{Gpu, Hits, ResultCache, Run, RunReport};
 use sabi_graph::{FlatGraph, Overrides};
 use sabi_plan::{Mode, Plan, Step, Target};
-use sabi_view::ViewModel;
 
 use super::evaluation_error::EvaluationError;
 use super::event::LiveModel;
 use super::request::{LiveOptions, LiveRequest};
 use crate::AdapterChoice;
-use crate::baking::sets::{TextureSet, shown_by, texture_sets};
 use crate::error::{EngineError, ErrorKind};
+use crate::evaluating::evaluated_graph::model_source_node;
 use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
-use crate::evaluating::looks::{LookAssignment, ModelLooks, looks_of_run, model_source_node};
+use crate::evaluating::looks::{LookAssignment, ModelLooks, looks_of_run};
+use crate::evaluating::texture_sets::{TextureSet, shown_by, texture_sets};
 use crate::evaluating::texture_space::TextureSpace;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
@@ -123,8 +123,7 @@ impl SizedModel {
             self.evaluator.set_kinds((*request.kinds).clone());
             self.kinds_revision = request.kinds_revision;
         }
-        let linked = &self.evaluator.linked;
-        let (serving, idle_outputs) = shown_by(graph, &linked.model, &linked.atlas);
+        let (serving, idle_outputs) = shown_by(graph, self.evaluator.linked());
         self.serving = serving;
         // A node at the end of the graph gives the model's own materials where no output serves them.
         let mut graph = graph.clone();
@@ -133,8 +132,12 @@ impl SizedModel {
         self.idle_outputs = idle_outputs;
         self.sources.clear();
         self.shoots = false;
-        self.evaluator.hits = if request.is_moving { Hits::Cached } else { Hits::Cast };
-        let is_another = self.evaluator.fit != self.model.fit;
+        self.evaluator.rays_mut().hits = if request.is_moving {
+            Hits::Cached
+        } else {
+            Hits::Cast
+        };
+        let is_another = self.evaluator.fit() != self.model.fit;
         if is_another {
             self.model = live_model(&self.evaluator, self.model.model_revision)?;
         }
@@ -155,19 +158,19 @@ impl SizedModel {
         let set = model.set(wanted).ok_or_else(no_texture_space)?;
         let laid = texture_space.take().filter(|(laid, _)| laid == set);
         let (set, texture_space) =
-            texture_space.insert(laid.unwrap_or_else(|| (set.clone(), TextureSpace::new(&evaluator.linked, set.key))));
+            texture_space.insert(laid.unwrap_or_else(|| (set.clone(), TextureSpace::new(evaluator.linked(), set.key))));
         Ok((evaluator, set, texture_space))
     }
 
     /// Plans the targets as far as possible. While a knob is dragged, coarse pictures trace few rays that are not cached.
     pub(super) fn plan(&mut self, targets: &[Target]) -> Plan {
-        self.evaluator.most_rays = None;
+        self.evaluator.rays_mut().most_rays = None;
         let mut plan = self.try_plan(targets);
         let is_new = |keys: &[[u8; 32]]| keys.iter().any(|key| !self.cache.contains(key));
         let shoots =
             |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some() && is_new(&kernel.keys));
         if self.is_coarse && self.is_moving() && plan.steps.iter().any(shoots) {
-            self.evaluator.most_rays = Some(FEW_RAYS);
+            self.evaluator.rays_mut().most_rays = Some(FEW_RAYS);
             plan = self.try_plan(targets);
         }
         self.shoots |= plan.steps.iter().any(has_rays);
@@ -176,9 +179,8 @@ impl SizedModel {
     }
 
     fn try_plan(&self, targets: &[Target]) -> Plan {
-        let limits = self.evaluator.gpu.limits();
         // The faults of all nodes were sent when the request was flattened.
-        self.evaluator.try_plan(targets, Mode::Interactive, limits).0
+        self.evaluator.try_plan(targets, Mode::Interactive).0
     }
 
     /// Lists the warnings about nodes and sources that the current request needs.
@@ -189,7 +191,7 @@ impl SizedModel {
         let sentences = self.idle_outputs.iter().chain(of_model.into_iter().flatten());
         let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
         let source_warnings = source_warnings.map(|(_, warning)| warning);
-        let evaluator = self.evaluator.warnings.iter();
+        let evaluator = self.evaluator.warnings().iter();
         evaluator.chain(source_warnings).cloned().chain(sentences)
     }
 
@@ -201,7 +203,7 @@ impl SizedModel {
     }
 
     fn is_moving(&self) -> bool {
-        self.evaluator.hits == Hits::Cached
+        self.evaluator.rays().hits == Hits::Cached
     }
 
     /// Whether results of a plan may differ, by rounding or noise, from those after the knob is released.
@@ -216,13 +218,13 @@ impl SizedModel {
         progress: &dyn Progress,
         totals: &mut RunTotals,
     ) -> Result<Run, EvaluationError> {
-        let (gpu, size) = (self.evaluator.gpu.clone(), self.model.size);
+        let (gpu, size) = (self.evaluator.gpu().clone(), self.model.size);
         let made = self.evaluator.make_levels(plan);
         made.map_err(|error| EvaluationError::of(&gpu, error))?;
-        let known = self.evaluator.warnings.len();
+        let known = self.evaluator.warnings().len();
         let cache = Some(&mut self.cache);
         let run = self.evaluator.run_on_levels(plan, self.submission, progress, cache);
-        for warning in self.evaluator.warnings.drain(known..) {
+        for warning in self.evaluator.take_warnings_after(known) {
             self.source_warnings.retain(|(_, other)| *other != warning);
             self.source_warnings.push((sources_of(plan).collect(), warning));
         }
@@ -239,12 +241,10 @@ impl SizedModel {
         shows: &LookAssignment,
         progress: &dyn Progress,
     ) -> Result<ModelLooks, EvaluationError> {
-        let options = RunOptions {
-            is_canceled: &|| progress.is_canceled(),
-            ..RunOptions::new(self.submission, self.evaluator.budget_bytes)
-        };
+        let is_canceled = || progress.is_canceled();
+        let options = self.evaluator.run_options(self.submission, &is_canceled);
         let looks = looks_of_run(&self.evaluator, plan, run, shows, &options);
-        looks.map_err(|error| EvaluationError::of_results(&self.evaluator.gpu, self.model.size, error))
+        looks.map_err(|error| EvaluationError::of_results(self.evaluator.gpu(), self.model.size, error))
     }
 }
 
@@ -267,22 +267,15 @@ fn sources_of(plan: &Plan) -> impl Iterator<Item = [u8; 32]> {
 }
 
 fn live_model(evaluator: &Evaluator, model_revision: u64) -> Result<Arc<LiveModel>, EngineError> {
-    let linked = &evaluator.linked;
-    let model_from_working = 1.0 / linked.working_from_model(&evaluator.fit);
-    let view = ViewModel::new(
-        &evaluator.gpu,
-        &linked.model,
-        &linked.atlas,
-        &evaluator.surface,
-        model_from_working,
-    )?;
+    let linked = evaluator.linked();
+    let view = evaluator.view_model()?;
     Ok(Arc::new(LiveModel {
         model_revision,
         size: linked.atlas.size,
         linked: linked.clone(),
         placement: view.placement,
         view,
-        fit: evaluator.fit,
+        fit: evaluator.fit(),
         // An error is reported where a set is wanted.
         sets: texture_sets(&linked.model, &linked.atlas, None).unwrap_or_default(),
     }))

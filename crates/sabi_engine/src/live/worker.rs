@@ -1,5 +1,11 @@
 //! Worker thread: answers the latest request step by step.
 
+mod faults;
+mod inspect;
+mod model;
+mod show;
+mod thumbnails;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -11,8 +17,8 @@ use sabi_graph::NodeRef;
 
 use super::evaluation_error::EvaluationError;
 use super::event::{Faults, LiveEvent, LiveTimes};
-use super::faults::FailedNode;
-use super::model::LoadedModel;
+use super::flattened_request::FailedNode;
+use super::loaded_model::LoadedModel;
 use super::queue::WorkerQueue;
 use super::request::{LiveOptions, LiveRequest, ViewSubject};
 use super::sized_model::RunTotals;

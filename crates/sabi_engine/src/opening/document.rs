@@ -11,7 +11,7 @@ use sabi_surface::load::{Unread, read_plain};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
-use crate::opening::pictures::Pictures;
+use crate::source::pictures::Pictures;
 
 /// Graph files larger than this are refused before they are read.
 const SIZE_LIMIT_BYTES: u64 = 64 << 20;
@@ -60,7 +60,7 @@ impl OpenGraph {
         kinds: &Kinds,
         nodes: impl IntoIterator<Item = usize>,
     ) -> FileContents {
-        self.pictures.contents(self.folder(), graph, kinds, nodes)
+        self.pictures.contents(self.folder(), graph, &kinds.sources, nodes)
     }
 
     /// A sentence about the graph, with the file's path before it.

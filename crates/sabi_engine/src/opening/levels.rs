@@ -1,41 +1,44 @@
-//! Coarser levels of the surface, made when a plan runs on them.
+//! Coarser levels of the atlas, built when a plan runs on them.
 
 use std::collections::BTreeMap;
 
 use sabi_gpu::{CoarseSurface, Gpu, Measures};
-use sabi_graph::Fit;
 use sabi_plan::{Plan, Step};
 
 use crate::error::EngineError;
-use crate::opening::linked_model::LinkedModel;
+use crate::opening::linked_model::FittedModel;
 
-/// The levels of one surface that were made so far.
+/// Levels of an atlas that were built so far.
 pub(crate) struct AtlasLevels {
     /// Width of the finest texels, working units.
     finest: f64,
     /// Largest coordinate of the model, working units.
     farthest: f64,
-    pub(crate) coarser: BTreeMap<u32, CoarseSurface>,
+    coarser: BTreeMap<u32, CoarseSurface>,
 }
 
 impl AtlasLevels {
-    pub(crate) fn new(linked: &LinkedModel, fit: &Fit) -> AtlasLevels {
-        let scale = linked.working_from_model(fit);
+    pub(crate) fn new(model: FittedModel<'_>) -> AtlasLevels {
         AtlasLevels {
-            finest: linked.finest_texel() * scale,
-            farthest: linked.farthest * scale,
+            finest: model.finest_texel(),
+            farthest: model.farthest(),
             coarser: BTreeMap::new(),
         }
     }
 
-    /// Texel width of each level that may be used, working units, finest first. The whole atlas is looked at for that, so
-    /// it is asked for graphs only that have filters.
-    pub(crate) fn widths(&self, linked: &LinkedModel, has_filters: bool) -> Vec<f64> {
-        let coarser = if has_filters { linked.usable_levels() } else { 0 };
+    /// Coarser levels on the device, by number.
+    pub(crate) fn coarser(&self) -> &BTreeMap<u32, CoarseSurface> {
+        &self.coarser
+    }
+
+    /// Returns the texel width of each usable level, working units, finest first. Counting the levels visits the whole atlas,
+    /// so it is done only for graphs with filters.
+    pub(crate) fn widths(&self, model: FittedModel<'_>, has_filters: bool) -> Vec<f64> {
+        let coarser = if has_filters { model.linked().usable_levels() } else { 0 };
         (0..=coarser).map(|level| self.of(level).texel).collect()
     }
 
-    /// Widths of a level's texels.
+    /// Returns the texel widths of a level.
     pub(crate) fn of(&self, level: u32) -> Measures {
         Measures {
             texel: self.finest * f64::from(1_u32 << level),
@@ -44,15 +47,15 @@ impl AtlasLevels {
         }
     }
 
-    /// Makes what a plan runs on and is not there yet.
+    /// Builds and uploads the levels that a plan runs on, as far as they are missing.
     pub(crate) fn make(
         &mut self,
         plan: &Plan,
         gpu: &Gpu,
-        linked: &LinkedModel,
-        fit: &Fit,
+        model: FittedModel<'_>,
         seed: u32,
     ) -> Result<(), EngineError> {
+        let linked = model.linked();
         let levels = plan.steps.iter().map(|step| match step {
             Step::Kernel(kernel) => kernel.level,
             Step::Move(step) => step.levels[0].max(step.levels[1]),
@@ -63,7 +66,7 @@ impl AtlasLevels {
                 continue;
             }
             let made = linked.atlas.level(&linked.model.mesh, level)?;
-            let tables = linked.tables_of(&made.atlas, fit, seed);
+            let tables = model.tables_of(&made.atlas, seed);
             let surface = CoarseSurface::upload(gpu, &made, &tables, self.of(level))?;
             self.coarser.insert(level, surface);
         }

@@ -1,9 +1,10 @@
 //! A model, made ready: loaded, its atlas built or found, its lengths known.
 
+mod fitted_model;
+
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-use sabi_gpu::SurfaceTables;
 use sabi_graph::Fit;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
 use sabi_surface::bvh::Bvh;
@@ -13,8 +14,8 @@ use sabi_surface::pieces::Pieces;
 use sabi_surface::unwrap::{UnwrapError, UnwrapReport, unwrap_cached};
 
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::evaluator::stop_if_canceled;
-use crate::phases::{Phase, Progress};
+use crate::phases::{Phase, Progress, stop_if_canceled};
+pub use fitted_model::FittedModel;
 
 /// How a model is taken.
 #[derive(Clone, Debug)]
@@ -204,29 +205,9 @@ impl LinkedModel {
         self.bvh.get_or_init(|| Bvh::build(&self.model.mesh))
     }
 
-    /// Factor from model units to working units under a fit.
-    pub fn working_from_model(&self, fit: &Fit) -> f64 {
-        match fit {
-            Fit::Unit => 1.0 / self.largest_side,
-            Fit::Metres => 1.0,
-            Fit::Length(length) => 1.0 / length,
-        }
-    }
-
-    /// Factor from working units under a fit to the units of the model's file, in which heights are exported.
-    pub fn file_from_working(&self, fit: &Fit) -> f64 {
-        1.0 / (self.working_from_model(fit) * self.scale)
-    }
-
-    /// The tables that kernels read, in working units.
-    pub fn tables(&self, fit: &Fit, seed: u32) -> SurfaceTables {
-        self.tables_of(&self.atlas, fit, seed)
-    }
-
-    /// The same for another level of the atlas.
-    pub(crate) fn tables_of(&self, atlas: &Atlas, fit: &Fit, seed: u32) -> SurfaceTables {
-        let scale = self.working_from_model(fit);
-        SurfaceTables::new(&self.model.mesh, &self.pieces, atlas, scale, seed)
+    /// Returns the model under a fit.
+    pub fn fitted(&self, fit: Fit) -> FittedModel<'_> {
+        FittedModel::new(self, fit)
     }
 
     /// Width of the finest texels, model units; see [`Atlas::finest_texel`].
@@ -239,26 +220,6 @@ impl LinkedModel {
     /// Coarser levels that may be used; see [`Atlas::usable_levels`].
     pub(crate) fn usable_levels(&self) -> u32 {
         *self.usable_levels.get_or_init(|| self.atlas.usable_levels())
-    }
-
-    /// Lowest and highest `dot(vertex, direction)` in working units.
-    pub fn extent(&self, fit: &Fit, direction: [f32; 3]) -> [f32; 2] {
-        let scale = self.working_from_model(fit);
-        let along = |position: &[f32; 3]| {
-            let dot: f64 = position
-                .iter()
-                .zip(direction)
-                .map(|(x, d)| f64::from(*x) * f64::from(d))
-                .sum();
-            (dot * scale) as f32
-        };
-        let start = [f32::INFINITY, f32::NEG_INFINITY];
-        let used = self.model.mesh.triangles.iter().flatten();
-        let positions = used.filter_map(|vertex| self.model.mesh.positions.get(*vertex as usize));
-        let [low, high] = positions
-            .map(along)
-            .fold(start, |[low, high], x| [low.min(x), high.max(x)]);
-        if low <= high { [low, high] } else { [0.0, 1.0] }
     }
 }
 

@@ -34,8 +34,9 @@ pub(crate) fn displaced_model(
     shown: &ModelLooks,
     triangles: Triangles,
 ) -> Result<ViewModel, EngineError> {
-    let (model, atlas) = (&evaluator.linked.model, &evaluator.linked.atlas);
-    let model_from_working = 1.0 / evaluator.linked.working_from_model(&evaluator.fit);
+    let linked = evaluator.linked().clone();
+    let (model, atlas) = (&linked.model, &linked.atlas);
+    let model_from_working = evaluator.model().model_from_working();
     let of_looks = shown.looks.iter();
     let heights: Vec<Option<Vec<f32>>> = of_looks
         .map(|look| heights_of(evaluator, look, model_from_working))
@@ -43,7 +44,7 @@ pub(crate) fn displaced_model(
     let options = DisplaceOptions {
         // A map holds no hill that is narrower than two texels.
         edge_length: 2.0 * texel_length(&model.mesh, atlas),
-        triangle_budget: triangles.budget(evaluator.gpu.summary().kind),
+        triangle_budget: triangles.budget(evaluator.gpu().summary().kind),
     };
     let height = |chart: u32, texel: [f32; 2]| match plane_of(chart, atlas, shown, &heights) {
         Some(plane) => plane.at(chart, texel),
@@ -52,11 +53,11 @@ pub(crate) fn displaced_model(
     };
     let copy = displaced(&model.mesh, atlas, &options, height);
     let made = ViewModel::displaced(
-        &evaluator.gpu,
+        evaluator.gpu(),
         &copy,
         model,
         atlas,
-        &evaluator.surface,
+        evaluator.surface(),
         model_from_working,
     )?;
     let flat = heights.iter().all(Option::is_none).then(|| {
@@ -90,7 +91,7 @@ fn heights_of(
     let Some(map) = &look.maps.height else {
         return Ok(None);
     };
-    let mut heights = evaluator.gpu.read_numbers(map)?;
+    let mut heights = evaluator.gpu().read_numbers(map)?;
     for height in &mut heights {
         *height = (f64::from(*height) * model_from_working) as f32;
     }

@@ -9,18 +9,18 @@ use sabi_view::{
     ViewModel, ViewTransform, Viewpoint, aspect_of,
 };
 
-use crate::baking::picture_file::PictureFiles;
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions, stop_if_canceled};
+use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
 use crate::evaluating::looks::{ModelLooks, evaluate_looks};
 use crate::evaluating::outputs::outputs;
-use crate::evaluating::seen_node::graph_and_target;
 use crate::opening::document::OpenGraph;
 use crate::opening::environment::{environment_of, read_panorama};
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{refuse_faults, targets};
-use crate::phases::{Phase, Progress};
+use crate::phases::{Phase, Progress, stop_if_canceled};
 use crate::rendering::displace::{Triangles, displaced_model};
+use crate::rendering::node_argument::graph_and_target;
+use crate::rendering::picture_file::PictureFiles;
 use crate::warning::Warning;
 
 /// The view in which there is light.
@@ -114,7 +114,7 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     inputs.push(PathBuf::from(&request.environment));
     let mut files = PictureFiles::begin(&paths, inputs)?;
     let cache_dir = request.evaluator.model.cache_dir.as_deref();
-    let (environment, remark) = environment_of(&evaluator.gpu, &panorama, cache_dir)?;
+    let (environment, remark) = environment_of(evaluator.gpu(), &panorama, cache_dir)?;
     evaluator.warn(remark);
     let shown = evaluate_looks(&mut evaluator, seen.as_ref(), progress)?;
     let model = view_model(request, &mut evaluator, &shown)?;
@@ -132,7 +132,7 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     files.commit()?;
     Ok(Rendered {
         files: paths,
-        warnings: evaluator.warnings,
+        warnings: evaluator.warnings().to_vec(),
     })
 }
 
@@ -184,16 +184,7 @@ fn view_model(
     if let Some(triangles) = request.displace {
         return displaced_model(evaluator, shown, triangles);
     }
-    let (gpu, linked) = (&evaluator.gpu, &evaluator.linked);
-    let model_from_working = 1.0 / linked.working_from_model(&evaluator.fit);
-    let (model, atlas) = (&linked.model, &linked.atlas);
-    Ok(ViewModel::new(
-        gpu,
-        model,
-        atlas,
-        &evaluator.surface,
-        model_from_working,
-    )?)
+    evaluator.view_model()
 }
 
 fn draw(
@@ -204,7 +195,7 @@ fn draw(
     files: &mut PictureFiles,
     progress: &dyn Progress,
 ) -> Result<(), EngineError> {
-    let gpu = &evaluator.gpu;
+    let gpu = evaluator.gpu();
     let renderer = Renderer::new(gpu)?;
     let mut canvas = Canvas::new(gpu, request.size)?;
     let frames = request.turntable.unwrap_or(1);
@@ -247,7 +238,7 @@ fn draw(
 }
 
 fn camera_of(request: &RenderRequest, evaluator: &Evaluator) -> Camera {
-    let mesh = &evaluator.linked.model.mesh;
+    let mesh = &evaluator.linked().model.mesh;
     let bounds = Placement::of(mesh).box_in_view(mesh);
     let aspect = aspect_of(UVec2::from(request.size).as_vec2());
     let mut camera = Camera::seen_from(request.camera, bounds, aspect);

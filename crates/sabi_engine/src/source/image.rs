@@ -7,10 +7,10 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Wrap;
 
+use super::pictures::OpenPicture;
 use super::projection::Projection;
 use super::sampler::Sampler;
 use super::texels::SourceSurface;
-use crate::opening::pictures::OpenPicture;
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/image";

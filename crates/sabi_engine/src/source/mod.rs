@@ -5,7 +5,9 @@ mod mip_chain;
 mod model;
 mod output_mask;
 mod output_material;
+pub(crate) mod pictures;
 mod projection;
+pub(crate) mod ray_cache;
 mod sampler;
 mod surface_id;
 mod texels;
@@ -23,17 +25,18 @@ use sabi_plan::{SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
-use crate::evaluating::ray_cache::RayCache;
-use crate::opening::pictures::{OpenPicture, Pictures, path_of};
-
-pub(crate) use mip_chain::MipChain;
 pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
+use pictures::{OpenPicture, Pictures, path_of};
+use ray_cache::RayCache;
 pub(crate) use texels::SourceSurface;
 
+/// Source or output kinds by id.
+pub(crate) type SourceKinds = BTreeMap<String, SourceKind>;
+
 /// Returns the source kinds by id. The content of those that show the model is set once it is loaded.
-pub(crate) fn kinds() -> BTreeMap<String, SourceKind> {
+pub(crate) fn kinds() -> SourceKinds {
     by_id([image::kind(), model::kind(), surface_id::kind(), vertex_color::kind()])
 }
 
@@ -53,11 +56,11 @@ fn hash_apart(hash: &mut blake3::Hasher, bytes: &[u8]) {
 }
 
 /// Returns the output kinds by id.
-pub(crate) fn sinks() -> BTreeMap<String, SourceKind> {
+pub(crate) fn sinks() -> SourceKinds {
     by_id([output_material::kind(), output_mask::kind()])
 }
 
-fn by_id(kinds: impl IntoIterator<Item = SourceKind>) -> BTreeMap<String, SourceKind> {
+fn by_id(kinds: impl IntoIterator<Item = SourceKind>) -> SourceKinds {
     kinds.into_iter().map(|kind| (kind.id.clone(), kind)).collect()
 }
 

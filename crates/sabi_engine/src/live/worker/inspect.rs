@@ -7,15 +7,15 @@ use sabi_gpu::Run;
 use sabi_graph::NodeRef;
 use sabi_plan::{Plan, PlannedResult, Target};
 
-use super::evaluation_error::EvaluationError;
-use super::event::{Inspected, LiveEvent};
-use super::faults::FlattenedRequest;
-use super::model::LoadedModel;
-use super::queue::Watch;
 use super::show::evaluate;
-use super::sized_model::SizedModel;
-use super::worker::{Job, Worker};
+use super::{Job, Worker};
 use crate::error::EngineError;
+use crate::live::evaluation_error::EvaluationError;
+use crate::live::event::{Inspected, LiveEvent};
+use crate::live::flattened_request::FlattenedRequest;
+use crate::live::loaded_model::LoadedModel;
+use crate::live::queue::Watch;
+use crate::live::sized_model::SizedModel;
 
 impl Worker {
     /// Sends the values of the inspected node, if they have changed.

@@ -12,8 +12,8 @@ use sabi_nodes::kind::Role;
 use sabi_plan::{FileContents, FileFault};
 use sabi_surface::load::{Unread, read_plain};
 
-use crate::opening::kinds::Kinds;
-use crate::source::MipChain;
+use super::SourceKinds;
+use super::mip_chain::MipChain;
 
 /// Files of pictures larger than this are not read.
 const SIZE_LIMIT_BYTES: u64 = 1 << 30;
@@ -121,12 +121,12 @@ impl Pictures {
         &self,
         folder: &Path,
         graph: &FlatGraph,
-        kinds: &Kinds,
+        sources: &SourceKinds,
         nodes: impl IntoIterator<Item = usize>,
     ) -> FileContents {
         let named = nodes.into_iter().filter_map(|index| {
             let node = graph.nodes.get(index).filter(|node| !node.muted)?;
-            let (param, path) = named_file(node, kinds)?;
+            let (param, path) = named_file(node, sources)?;
             let content = self.content(&path_of(folder, node, path), path);
             let content = content.map_err(|(why, is_missing)| FileFault {
                 param: param.to_owned(),
@@ -193,9 +193,9 @@ impl Pictures {
 }
 
 /// The files that the nodes of a graph name.
-pub(crate) fn files(folder: &Path, graph: &FlatGraph, kinds: &Kinds) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &Path, graph: &FlatGraph, sources: &SourceKinds) -> Vec<PathBuf> {
     let named = graph.nodes.iter().filter_map(|node| {
-        let (_, path) = named_file(node, kinds)?;
+        let (_, path) = named_file(node, sources)?;
         (!path.is_empty()).then(|| path_of(folder, node, path))
     });
     named.collect()
@@ -211,8 +211,8 @@ pub(crate) fn path_of(folder: &Path, node: &FlatNode, path: &str) -> PathBuf {
 }
 
 /// The parameter with which a node names a file, and the path; empty when none was chosen.
-fn named_file<'n>(node: &'n FlatNode, kinds: &'n Kinds) -> Option<(&'n str, &'n str)> {
-    let params = &kinds.sources.get(&node.kind)?.params;
+fn named_file<'n>(node: &'n FlatNode, sources: &'n SourceKinds) -> Option<(&'n str, &'n str)> {
+    let params = &sources.get(&node.kind)?.params;
     let param = params.iter().find(|param| param.ty.role == Role::File)?;
     match node.params.get(&param.name) {
         Some(Value::Text(path)) => Some((param.name.as_str(), path.as_str())),

@@ -7,15 +7,15 @@ use std::time::Instant;
 use sabi_gpu::Run;
 use sabi_plan::{Plan, Target};
 
-use super::evaluation_error::EvaluationError;
-use super::event::LiveEvent;
-use super::faults::{FailedNode, FlattenedRequest};
-use super::queue::Watch;
-use super::request::ViewSubject;
-use super::sized_model::{RunTotals, SizedModel};
-use super::worker::{Job, Key, SentLooks, Worker};
+use super::{Job, Key, SentLooks, Worker};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::looks::LookAssignment;
+use crate::live::evaluation_error::EvaluationError;
+use crate::live::event::LiveEvent;
+use crate::live::flattened_request::{FailedNode, FlattenedRequest};
+use crate::live::queue::Watch;
+use crate::live::request::ViewSubject;
+use crate::live::sized_model::{RunTotals, SizedModel};
 use crate::opening::modelless::targets;
 
 impl Worker {

@@ -7,16 +7,16 @@ use sabi_graph::PortType;
 use sabi_image::{PngData, PngOptions, encode_exr, encode_png, quantize_u8};
 use sabi_plan::Mode;
 
-use crate::baking::picture_file::PictureFiles;
-use crate::baking::sets::{texture_sets, which_is_shown};
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions, stop_if_canceled};
-use crate::evaluating::seen_node::graph_and_target;
+use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
+use crate::evaluating::texture_sets::{texture_sets, which_is_shown};
 use crate::evaluating::texture_space::{ResultPlane, TextureSpace, rgb_codes};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::refuse_faults;
-use crate::phases::Progress;
+use crate::phases::{Progress, stop_if_canceled};
+use crate::rendering::node_argument::graph_and_target;
+use crate::rendering::picture_file::PictureFiles;
 use crate::warning::Warning;
 
 /// Request for a preview.
@@ -59,14 +59,15 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let rehearsed = refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
     rehearsed.results.first().ok_or_else(nothing)?;
     let mut evaluator = Evaluator::open(&open, graph, kinds, &request.evaluator, progress)?;
-    let (model, atlas) = (&evaluator.linked.model, &evaluator.linked.atlas);
+    let linked = evaluator.linked().clone();
+    let (model, atlas) = (&linked.model, &linked.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
     evaluator.warn(which_is_shown(&sets));
     let key = sets[0].key;
-    let plan = evaluator.plan(&[target], Mode::Bake { fuse: true }, evaluator.gpu.limits())?;
+    let plan = evaluator.plan(&[target], Mode::Bake { fuse: true })?;
     let run = evaluator.run(&plan, Duration::from_millis(200), progress, None)?;
     let result = plan.results.first().ok_or_else(nothing)?;
-    let texture_space = TextureSpace::new(&evaluator.linked, key);
+    let texture_space = TextureSpace::new(&linked, key);
     let planes = texture_space.planes(&evaluator, &plan, &run, result)?;
     let size = texture_space.layout.size;
     let bytes = if is_exact {
@@ -79,7 +80,7 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let mut file = PictureFiles::begin(output, evaluator.read_files(&open))?;
     file.add(bytes)?;
     file.commit()?;
-    Ok(evaluator.warnings)
+    Ok(evaluator.warnings().to_vec())
 }
 
 fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {

@@ -3,35 +3,19 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use sabi_graph::{FlatGraph, NodeRef, Value};
+use sabi_graph::{FlatGraph, NodeRef};
 use sabi_plan::{FileContents, PlanError, Target};
 
-use super::event::{BlockedNode, Faults, LiveEvent, NodeFault};
-use super::groups::{Ungrouped, open_groups};
-use super::model::LoadedModel;
-use super::request::ViewSubject;
-use super::worker::{Job, Worker};
+use super::{Job, Worker};
 use crate::evaluating::outputs::clashes;
+use crate::live::event::{BlockedNode, Faults, LiveEvent, NodeFault, Warning};
+use crate::live::flattened_request::FlattenedRequest;
+use crate::live::groups::{Ungrouped, open_groups};
+use crate::live::loaded_model::LoadedModel;
+use crate::live::request::ViewSubject;
 use crate::opening::modelless::{all_nodes, planner};
-use crate::opening::pictures;
+use crate::source::pictures;
 use crate::warning::Warning;
-
-/// Request with its flat graph and the targets in it.
-pub(super) struct FlattenedRequest {
-    pub(super) graph: FlatGraph,
-    /// Targets of the nodes that the request names, as far as they exist.
-    pub(super) found: BTreeMap<NodeRef, Target>,
-    contents: FileContents,
-    /// Faults known before the evaluation.
-    faults: Faults,
-}
-
-/// Node whose result could not be made. It is tried again once its parameters or its file change.
-pub(super) struct FailedNode {
-    why: String,
-    params: BTreeMap<String, Value>,
-    content: Option<[u8; 32]>,
-}
 
 impl Worker {
     /// Flattens the graph of a request and sends its faults; none where it cannot be flattened.
@@ -63,7 +47,7 @@ impl Worker {
                 return None;
             }
         };
-        files.extend(pictures::files(request.graph.folder(), &graph, &request.kinds));
+        files.extend(pictures::files(request.graph.folder(), &graph, &request.kinds.sources));
         self.send_files(job, files);
         let mut other = clashes(&graph);
         let mut targets = BTreeMap::new();
@@ -143,62 +127,6 @@ impl Worker {
             revision: job.request.revision,
             faults,
         });
-    }
-}
-
-impl FlattenedRequest {
-    /// Records that a node's result cannot be made. Returns whether this node of the graph had not failed before: otherwise
-    /// planning again without it would not end.
-    pub(super) fn record_failure(
-        &self,
-        failed_nodes: &mut BTreeMap<String, FailedNode>,
-        node: &str,
-        why: &str,
-    ) -> bool {
-        let Some(index) = self.graph.find(node) else {
-            return false;
-        };
-        let found = FailedNode {
-            why: why.to_owned(),
-            params: self.graph.nodes[index].params.clone(),
-            content: self.content(index),
-        };
-        failed_nodes.insert(node.to_owned(), found).is_none()
-    }
-
-    fn content(&self, node: usize) -> Option<[u8; 32]> {
-        self.contents.get(&node)?.as_ref().ok().copied()
-    }
-
-    fn still_fails(&self, id: &str, failed: &FailedNode) -> bool {
-        self.graph.find(id).is_some_and(|index| {
-            let node = &self.graph.nodes[index];
-            !node.muted && node.params == failed.params && self.content(index) == failed.content
-        })
-    }
-
-    /// Lists the ids of all nodes downstream of a node.
-    fn behind(&self, id: &str) -> impl Iterator<Item = &str> {
-        let index = self.graph.find(id);
-        let needs = move |node: &usize| {
-            Some(*node) != index && index.is_some_and(|index| self.graph.upstream(&[*node]).contains(&index))
-        };
-        let nodes = (0..self.graph.nodes.len()).filter(needs);
-        nodes.map(|node| self.graph.nodes[node].id.as_str())
-    }
-
-    /// Keeps the targets that need no failed node.
-    pub(super) fn sound(&self, targets: &[Target], failed_nodes: &BTreeMap<String, FailedNode>) -> Vec<Target> {
-        if failed_nodes.is_empty() {
-            return targets.to_vec();
-        }
-        let failed: Vec<usize> = failed_nodes.keys().filter_map(|id| self.graph.find(id)).collect();
-        let is_sound = |target: &&Target| {
-            // The node of the model's own materials is appended to the graph and has no inputs.
-            let needed = self.graph.upstream(&[target.node]);
-            !failed.iter().any(|node| needed.contains(node))
-        };
-        targets.iter().filter(is_sound).cloned().collect()
     }
 }
 

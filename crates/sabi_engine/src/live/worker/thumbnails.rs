@@ -6,18 +6,18 @@ use sabi_graph::NodeRef;
 use sabi_plan::{Plan, Target};
 use sabi_view::Pixels;
 
-use super::evaluation_error::EvaluationError;
-use super::event::LiveEvent;
-use super::faults::FlattenedRequest;
-use super::model::LoadedModel;
-use super::queue::Watch;
-use super::request::LiveRequest;
 use super::show::evaluate;
-use super::sized_model::SizedModel;
-use super::thumbnail_renderer::ThumbnailRenderer;
-use super::worker::{Job, Key, Worker};
+use super::{Job, Key, Worker};
 use crate::error::EngineError;
 use crate::evaluating::looks::LookAssignment;
+use crate::live::evaluation_error::EvaluationError;
+use crate::live::event::LiveEvent;
+use crate::live::flattened_request::FlattenedRequest;
+use crate::live::loaded_model::LoadedModel;
+use crate::live::queue::Watch;
+use crate::live::request::LiveRequest;
+use crate::live::sized_model::SizedModel;
+use crate::live::thumbnail_renderer::ThumbnailRenderer;
 
 impl Worker {
     /// Sends thumbnails of the nodes whose results have changed.

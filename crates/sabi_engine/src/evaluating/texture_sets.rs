@@ -10,6 +10,7 @@ use sabi_surface::model::{Model, ModelMaterial};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::outputs::{idle, masks, materials, outputs, quoted, served};
 use crate::opening::document::OpenGraph;
+use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
@@ -209,7 +210,8 @@ pub(crate) fn serve(
 
 /// Which node each material of a model is shown by: the output that serves it, or else a node of the model's own looks,
 /// which the graph does not have yet and is at its end. And outputs that serve nothing, in sentences.
-pub(crate) fn shown_by(graph: &FlatGraph, model: &Model, atlas: &Atlas) -> (BTreeMap<u32, usize>, Vec<String>) {
+pub(crate) fn shown_by(graph: &FlatGraph, linked: &LinkedModel) -> (BTreeMap<u32, usize>, Vec<String>) {
+    let LinkedModel { model, atlas, .. } = linked;
     let outputs = outputs(graph);
     let stems = set_names(model);
     let used = used_materials(atlas);

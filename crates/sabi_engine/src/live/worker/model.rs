@@ -2,51 +2,15 @@
 
 use std::sync::Arc;
 
-use super::evaluation_error::EvaluationError;
-use super::event::LiveEvent;
-use super::faults::FlattenedRequest;
-use super::queue::LoadWatch;
-use super::sized_model::SizedModel;
-use super::worker::{Job, Worker};
+use super::{Job, Worker};
 use crate::error::{EngineError, ErrorKind};
+use crate::live::evaluation_error::EvaluationError;
+use crate::live::event::LiveEvent;
+use crate::live::flattened_request::FlattenedRequest;
+use crate::live::loaded_model::LoadedModel;
+use crate::live::queue::LoadWatch;
+use crate::live::sized_model::SizedModel;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
-
-/// Loaded model, at one size or two.
-pub(super) struct LoadedModel {
-    revision: u64,
-    /// Options it was loaded with; their size is the full one.
-    options: Arc<ModelOptions>,
-    /// Coarse size; none where the full size is no larger.
-    pub(super) coarse: Option<SizedModel>,
-    /// Full size; none before it is needed, and where it failed.
-    pub(super) full: Option<SizedModel>,
-    /// Whether the full size failed to load.
-    has_full_failed: bool,
-}
-
-impl LoadedModel {
-    /// Returns the size for first pictures.
-    pub(super) fn first(&mut self) -> Option<&mut SizedModel> {
-        self.coarse.as_mut().or(self.full.as_mut())
-    }
-
-    /// Returns the coarse or the full size.
-    pub(super) fn at(&mut self, is_coarse: bool) -> Option<&mut SizedModel> {
-        match is_coarse {
-            true => self.coarse.as_mut(),
-            false => self.full.as_mut(),
-        }
-    }
-
-    /// Returns the largest loaded size.
-    pub(super) fn best(&mut self) -> Option<&mut SizedModel> {
-        self.full.as_mut().or(self.coarse.as_mut())
-    }
-
-    pub(super) fn sizes(&self) -> impl Iterator<Item = &SizedModel> {
-        self.coarse.iter().chain(&self.full)
-    }
-}
 
 impl Worker {
     /// Loads the model if its revision has changed, at the coarse size if there is one.

@@ -1,0 +1,134 @@
+//! Graph that is evaluated, with the kinds and files that it names.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use sabi_graph::{Fit, FlatGraph, FlatNode};
+use sabi_nodes::kind::Shape;
+use sabi_plan::{FileContents, Target};
+use sabi_surface::model::Model;
+
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::source::pictures::{Pictures, files};
+use crate::source::{Files, SOURCE_MODEL};
+
+/// Flat graph with its node kinds and pictures.
+pub(crate) struct EvaluatedGraph {
+    /// Graph file, as it was named.
+    path: PathBuf,
+    flat: FlatGraph,
+    /// All node kinds, with those of the model's content adapted to the model.
+    kinds: Kinds,
+    pictures: Pictures,
+}
+
+impl EvaluatedGraph {
+    /// `flat` is the flattened document of `open`.
+    pub(crate) fn new(open: &OpenGraph, flat: FlatGraph, kinds: Kinds, model: &Model) -> EvaluatedGraph {
+        let mut graph = EvaluatedGraph {
+            path: open.path.clone(),
+            flat,
+            kinds,
+            pictures: open.pictures.clone(),
+        };
+        graph.kinds.adapt_to(model);
+        graph
+    }
+
+    /// Replaces the graph; `flat` is the flattened document of `open`.
+    pub(crate) fn set(&mut self, open: &OpenGraph, flat: FlatGraph) {
+        self.path.clone_from(&open.path);
+        self.pictures = open.pictures.clone();
+        self.flat = flat;
+    }
+
+    /// Replaces the flat graph alone.
+    pub(crate) fn set_flat(&mut self, flat: FlatGraph) {
+        self.flat = flat;
+    }
+
+    /// Replaces the node kinds, for example after node files were read again.
+    pub(crate) fn set_kinds(&mut self, kinds: Kinds, model: &Model) {
+        self.kinds = kinds;
+        self.kinds.adapt_to(model);
+    }
+
+    /// Appends a node of the model's own materials, whose index is the number of nodes before.
+    pub(crate) fn append_model_source(&mut self, fit: Fit) {
+        self.flat.nodes.push(model_source_node(fit));
+    }
+
+    pub(crate) fn flat(&self) -> &FlatGraph {
+        &self.flat
+    }
+
+    pub(crate) fn kinds(&self) -> &Kinds {
+        &self.kinds
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Folder from which paths in the graph start.
+    fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new("")) // A bare file name lies in the current folder.
+    }
+
+    /// Access to the files that nodes name.
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files {
+            pictures: &self.pictures,
+            folder: self.folder(),
+            graph: &self.flat,
+        }
+    }
+
+    /// Returns the contents of the files that the targets need.
+    pub(crate) fn contents(&self, targets: &[Target]) -> FileContents {
+        let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
+        let wanted = self.flat.upstream(&wanted);
+        self.pictures
+            .contents(self.folder(), &self.flat, &self.kinds.sources, wanted)
+    }
+
+    /// Whether any node is a filter, which may run on coarser levels of the atlas.
+    pub(crate) fn has_filters(&self) -> bool {
+        let is_filter = |node: &FlatNode| {
+            let kind = self.kinds.library.kind(&node.kind);
+            kind.is_some_and(|kind| kind.shape == Shape::Field)
+        };
+        self.flat.nodes.iter().any(is_filter)
+    }
+
+    /// Lists the files of the graph: its own, its groups and its pictures.
+    pub(crate) fn read_files(&self, open: &OpenGraph) -> Vec<PathBuf> {
+        let groups = self.flat.nodes.iter().filter_map(|node| node.file.as_ref());
+        let groups = groups.map(|file| open.folder().join(file));
+        let named = files(open.folder(), &self.flat, &self.kinds.sources);
+        let own = std::iter::once(open.path.clone()).chain(groups);
+        own.chain(named).collect()
+    }
+
+    /// Drops the decoded pictures; they are read again when they are needed again.
+    pub(crate) fn forget_pictures(&self) {
+        self.pictures.forget();
+    }
+}
+
+/// Makes a node of the model's own materials. Its id is not valid in a graph file.
+pub(crate) fn model_source_node(fit: Fit) -> FlatNode {
+    FlatNode {
+        id: "(model)".to_owned(),
+        kind: SOURCE_MODEL.to_owned(),
+        version: 1,
+        params: BTreeMap::new(),
+        inputs: BTreeMap::new(),
+        muted: false,
+        seeds: Vec::new(),
+        length_scale: 1.0,
+        fit,
+        file: None,
+    }
+}

@@ -1,0 +1,154 @@
+//! Surface that a graph is evaluated on: a model under a fit and a seed, uploaded to the device.
+
+use std::sync::{Arc, OnceLock};
+
+use sabi_gpu::{DeviceHierarchy, Gpu, GpuSurface, Shares, SurfaceTables, Surfaces};
+use sabi_graph::Fit;
+use sabi_plan::Plan;
+use sabi_surface::atlas::{AtlasOptions, atlas_key};
+
+use crate::error::EngineError;
+use crate::opening::levels::AtlasLevels;
+use crate::opening::linked_model::FittedModel;
+use crate::opening::linked_model::LinkedModel;
+use crate::phases::PhaseTimes;
+use crate::source::SourceSurface;
+
+/// Model under a fit and a seed, with everything on the device that depends on them.
+pub(crate) struct EvaluatedSurface {
+    linked: Arc<LinkedModel>,
+    fit: Fit,
+    seed: u32,
+    tables: SurfaceTables,
+    on_device: GpuSurface,
+    levels: AtlasLevels,
+    hierarchy_on_device: OnceLock<DeviceHierarchy>,
+    /// Texels that show the values of others; none where charts do not overlap.
+    shares: OnceLock<Option<Shares>>,
+    /// Hash of the surface, part of the keys of results.
+    key: [u8; 32],
+}
+
+impl EvaluatedSurface {
+    /// Computes the tables of a surface and uploads them.
+    pub(crate) fn upload(
+        gpu: &Gpu,
+        linked: Arc<LinkedModel>,
+        (fit, seed): (Fit, u32),
+        times: &mut PhaseTimes,
+    ) -> Result<EvaluatedSurface, EngineError> {
+        let _span = tracing::debug_span!("upload surface", seed).entered();
+        let model = linked.fitted(fit);
+        let tables = times.load.time(|| model.tables(seed));
+        let levels = times.atlas.time(|| AtlasLevels::new(model));
+        let on_device = times
+            .load
+            .time(|| GpuSurface::upload(gpu, &linked.atlas, &tables, levels.of(0)))?;
+        Ok(EvaluatedSurface {
+            key: key_of(&linked, &tables),
+            linked,
+            fit,
+            seed,
+            tables,
+            on_device,
+            levels,
+            hierarchy_on_device: OnceLock::new(),
+            shares: OnceLock::new(),
+        })
+    }
+
+    /// Uploads the surface again if the fit or the seed is another one.
+    pub(crate) fn set_fit_and_seed(&mut self, gpu: &Gpu, fit: Fit, seed: u32) -> Result<(), EngineError> {
+        if (fit, seed) == (self.fit, self.seed) {
+            return Ok(());
+        }
+        let linked = self.linked.clone();
+        let uploaded = EvaluatedSurface::upload(gpu, linked, (fit, seed), &mut PhaseTimes::default())?;
+        // Shared texels depend on the atlas alone.
+        let shares = std::mem::take(&mut self.shares);
+        *self = EvaluatedSurface { shares, ..uploaded };
+        Ok(())
+    }
+
+    pub(crate) fn linked(&self) -> &Arc<LinkedModel> {
+        &self.linked
+    }
+
+    pub(crate) fn model(&self) -> FittedModel<'_> {
+        self.linked.fitted(self.fit)
+    }
+
+    pub(crate) fn fit(&self) -> Fit {
+        self.fit
+    }
+
+    pub(crate) fn key(&self) -> [u8; 32] {
+        self.key
+    }
+
+    pub(crate) fn on_device(&self) -> &GpuSurface {
+        &self.on_device
+    }
+
+    /// Returns all levels that were uploaded so far.
+    pub(crate) fn surfaces(&self) -> Surfaces<'_> {
+        Surfaces {
+            finest: &self.on_device,
+            coarser: self.levels.coarser(),
+        }
+    }
+
+    /// Returns the texel width of each usable level, working units.
+    pub(crate) fn level_widths(&self, has_filters: bool) -> Vec<f64> {
+        self.levels.widths(self.model(), has_filters)
+    }
+
+    /// Builds and uploads the coarser levels that a plan runs on, as far as they are missing.
+    pub(crate) fn make_levels(&mut self, plan: &Plan, gpu: &Gpu) -> Result<(), EngineError> {
+        let model = self.linked.fitted(self.fit);
+        self.levels.make(plan, gpu, model, self.seed)
+    }
+
+    /// Returns the surface as sources see it.
+    pub(crate) fn for_sources(&self) -> SourceSurface<'_> {
+        SourceSurface {
+            model: &self.linked.model,
+            atlas: &self.linked.atlas,
+            tables: &self.tables,
+            pieces: &self.linked.pieces,
+            bvh: &self.linked.bvh,
+            bvh_on_device: &self.hierarchy_on_device,
+            working_from_model: self.model().working_from_model(),
+        }
+    }
+
+    /// Returns the texels that show the values of other texels, as an engine finds them on the maps; computed on first use. None
+    /// for a model without overlapping charts.
+    ///
+    /// Sources and targets are texels of one result. Only an unwrapped model has charts of several results on one sheet, and there
+    /// charts do not overlap, unless they are too small for the size: a texel that lost its pixel to another material's chart
+    /// shows its own material.
+    pub(crate) fn shares(&self, gpu: &Gpu) -> Result<Option<&Shares>, EngineError> {
+        if self.shares.get().is_none() {
+            let shared = self.linked.shared_texels();
+            let shares = match shared.is_empty() {
+                true => None,
+                false => Some(Shares::upload(gpu, shared.groups())?),
+            };
+            // Another thread that was faster has computed the same value.
+            let _ = self.shares.set(shares);
+        }
+        Ok(self.shares.get().and_then(Option::as_ref))
+    }
+}
+
+/// Hashes the surface: what the atlas is made of, and the position of every triangle in space. The version of the program is not
+/// part of it, since results are kept in memory, and ray results on disk have a version of their own.
+fn key_of(linked: &LinkedModel, tables: &SurfaceTables) -> [u8; 32] {
+    let mut hash = blake3::Hasher::new();
+    hash.update(&atlas_key(&linked.model.mesh, &AtlasOptions::new(linked.atlas.size)));
+    for row in tables.geometry.iter().chain(&tables.frames).chain(&tables.pieces) {
+        hash.update(row.map(f32::to_le_bytes).as_flattened());
+    }
+    *hash.finalize().as_bytes()
+}

@@ -1,0 +1,121 @@
+//! Plans and runs of an evaluator.
+
+use std::time::Duration;
+
+use sabi_gpu::{GpuError, ResultCache, Run, RunOptions};
+use sabi_plan::{Lengths, Mode, Plan, PlanError, Planner, Target};
+
+use super::Evaluator;
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::solidity;
+use crate::phases::{Phase, Progress};
+use crate::source::Sources;
+
+impl Evaluator {
+    /// Options for work on results outside of a run.
+    pub(crate) fn run_options<'p>(&self, submission: Duration, is_canceled: &'p dyn Fn() -> bool) -> RunOptions<'p> {
+        RunOptions {
+            is_canceled,
+            ..RunOptions::new(submission, self.budget_bytes)
+        }
+    }
+
+    /// Plans the targets with the limits of the device. Keeps warnings; returns anything worse as an error.
+    pub fn plan(&mut self, targets: &[Target], mode: Mode) -> Result<Plan, EngineError> {
+        let (plan, errors) = self.try_plan(targets, mode);
+        let (warnings, errors): (Vec<PlanError>, Vec<PlanError>) = errors.into_iter().partition(PlanError::is_warning);
+        let path = self.graph.path().display().to_string();
+        let said = |error: &PlanError| format!("{path}: {error}");
+        let messages: Vec<String> = errors.iter().map(said).collect();
+        self.warn(warnings.iter().map(said));
+        self.warn(solidity::warnings(&plan, self.surface.linked()));
+        match errors.into_iter().next() {
+            None => Ok(plan),
+            Some(first) => Err(EngineError::several(ErrorKind::BadInput, messages).caused_by(first)),
+        }
+    }
+
+    /// Plans the targets as far as possible, and returns the faults.
+    pub fn try_plan(&self, targets: &[Target], mode: Mode) -> (Plan, Vec<PlanError>) {
+        let _span = tracing::debug_span!("plan", targets = targets.len()).entered();
+        let model = self.model();
+        let kinds = self.graph.kinds();
+        let contents = self.graph.contents(targets);
+        let levels = self.surface.level_widths(self.graph.has_filters());
+        let planner = Planner {
+            graph: self.graph.flat(),
+            library: &kinds.library,
+            sources: &kinds.sources,
+            sinks: &kinds.sinks,
+            files: &contents,
+            lengths: Lengths {
+                working_from: &|fit| model.working_from(*fit),
+                extent: &|direction| model.extent(direction),
+            },
+            levels: &levels,
+            surface_key: self.surface.key(),
+            mode,
+            most_rays: self.rays.most_rays,
+            limits: self.gpu.limits(),
+        };
+        planner.plan(targets)
+    }
+
+    /// Runs the only plan of this evaluator, and drops the decoded pictures afterwards.
+    pub(crate) fn run_once(
+        &mut self,
+        plan: &Plan,
+        submission: Duration,
+        progress: &dyn Progress,
+    ) -> Result<Run, EngineError> {
+        let run = self.run(plan, submission, progress, None)?;
+        self.graph.forget_pictures();
+        Ok(run)
+    }
+
+    /// Runs a plan; `submission` is the longest time of one GPU submission.
+    pub fn run(
+        &mut self,
+        plan: &Plan,
+        submission: Duration,
+        progress: &dyn Progress,
+        cache: Option<&mut ResultCache>,
+    ) -> Result<Run, EngineError> {
+        self.make_levels(plan)?;
+        Ok(self.run_on_levels(plan, submission, progress, cache)?)
+    }
+
+    /// Builds the coarser levels that a plan runs on, as far as they are missing.
+    pub(crate) fn make_levels(&mut self, plan: &Plan) -> Result<(), EngineError> {
+        self.surface.make_levels(plan, &self.gpu)
+    }
+
+    /// Runs a plan whose levels are built.
+    pub(crate) fn run_on_levels(
+        &mut self,
+        plan: &Plan,
+        submission: Duration,
+        progress: &dyn Progress,
+        cache: Option<&mut ResultCache>,
+    ) -> Result<Run, GpuError> {
+        let _span = tracing::debug_span!("run", steps = plan.steps.len()).entered();
+        let mut sources = Sources::new(self.surface.for_sources(), self.graph.files(), &self.ray_cache);
+        let options = RunOptions {
+            submission,
+            is_canceled: &|| progress.is_canceled(),
+            progress: &|done, of| progress.advance(Phase::Run, done, of),
+            budget_bytes: self.budget_bytes,
+            caster: self.rays.caster,
+            hits: self.rays.hits,
+            times_ghosts: self.times_ghosts,
+        };
+        let (surfaces, library) = (self.surface.surfaces(), &self.graph.kinds().library);
+        let run = self.gpu.run(surfaces, library, plan, &options, &mut sources, cache);
+        let warnings = sources.warnings;
+        self.warn(warnings);
+        let run = run?;
+        self.times.compile.add(run.report.compile);
+        self.times.run.add(run.report.run);
+        Ok(run)
+    }
+}

@@ -1,0 +1,81 @@
+//! Request with its flat graph, and the nodes of it that failed.
+
+use std::collections::BTreeMap;
+
+use sabi_graph::{FlatGraph, NodeRef, Value};
+use sabi_plan::{FileContents, Target};
+
+use super::event::Faults;
+
+/// Request with its flat graph and the targets in it.
+pub(super) struct FlattenedRequest {
+    pub(super) graph: FlatGraph,
+    /// Targets of the nodes that the request names, as far as they exist.
+    pub(super) found: BTreeMap<NodeRef, Target>,
+    pub(super) contents: FileContents,
+    /// Faults known before the evaluation.
+    pub(super) faults: Faults,
+}
+
+/// Node whose result could not be made. It is tried again once its parameters or its file change.
+pub(super) struct FailedNode {
+    pub(super) why: String,
+    pub(super) params: BTreeMap<String, Value>,
+    pub(super) content: Option<[u8; 32]>,
+}
+
+impl FlattenedRequest {
+    /// Records that a node's result cannot be made. Returns whether this node of the graph had not failed before: otherwise
+    /// planning again without it would not end.
+    pub(super) fn record_failure(
+        &self,
+        failed_nodes: &mut BTreeMap<String, FailedNode>,
+        node: &str,
+        why: &str,
+    ) -> bool {
+        let Some(index) = self.graph.find(node) else {
+            return false;
+        };
+        let found = FailedNode {
+            why: why.to_owned(),
+            params: self.graph.nodes[index].params.clone(),
+            content: self.content(index),
+        };
+        failed_nodes.insert(node.to_owned(), found).is_none()
+    }
+
+    fn content(&self, node: usize) -> Option<[u8; 32]> {
+        self.contents.get(&node)?.as_ref().ok().copied()
+    }
+
+    pub(super) fn still_fails(&self, id: &str, failed: &FailedNode) -> bool {
+        self.graph.find(id).is_some_and(|index| {
+            let node = &self.graph.nodes[index];
+            !node.muted && node.params == failed.params && self.content(index) == failed.content
+        })
+    }
+
+    /// Lists the ids of all nodes downstream of a node.
+    pub(super) fn behind(&self, id: &str) -> impl Iterator<Item = &str> {
+        let index = self.graph.find(id);
+        let needs = move |node: &usize| {
+            Some(*node) != index && index.is_some_and(|index| self.graph.upstream(&[*node]).contains(&index))
+        };
+        let nodes = (0..self.graph.nodes.len()).filter(needs);
+        nodes.map(|node| self.graph.nodes[node].id.as_str())
+    }
+
+    /// Keeps the targets that need no failed node.
+    pub(super) fn sound(&self, targets: &[Target], failed_nodes: &BTreeMap<String, FailedNode>) -> Vec<Target> {
+        if failed_nodes.is_empty() {
+            return targets.to_vec();
+        }
+        let failed: Vec<usize> = failed_nodes.keys().filter_map(|id| self.graph.find(id)).collect();
+        let is_sound = |target: &&Target| {
+            // The node of the model's own materials is appended to the graph and has no inputs.
+            let needed = self.graph.upstream(&[target.node]);
+            !failed.iter().any(|node| needed.contains(node))
+        };
+        targets.iter().filter(is_sound).cloned().collect()
+    }
+}

@@ -1,0 +1,43 @@
+//! Loaded model, coarse and full.
+
+use std::sync::Arc;
+
+use super::sized_model::SizedModel;
+use crate::opening::linked_model::ModelOptions;
+
+/// Loaded model, at one size or two.
+pub(super) struct LoadedModel {
+    pub(super) revision: u64,
+    /// Options it was loaded with; their size is the full one.
+    pub(super) options: Arc<ModelOptions>,
+    /// Coarse size; none where the full size is no larger.
+    pub(super) coarse: Option<SizedModel>,
+    /// Full size; none before it is needed, and where it failed.
+    pub(super) full: Option<SizedModel>,
+    /// Whether the full size failed to load.
+    pub(super) has_full_failed: bool,
+}
+
+impl LoadedModel {
+    /// Returns the size for first pictures.
+    pub(super) fn first(&mut self) -> Option<&mut SizedModel> {
+        self.coarse.as_mut().or(self.full.as_mut())
+    }
+
+    /// Returns the coarse or the full size.
+    pub(super) fn at(&mut self, is_coarse: bool) -> Option<&mut SizedModel> {
+        match is_coarse {
+            true => self.coarse.as_mut(),
+            false => self.full.as_mut(),
+        }
+    }
+
+    /// Returns the largest loaded size.
+    pub(super) fn best(&mut self) -> Option<&mut SizedModel> {
+        self.full.as_mut().or(self.coarse.as_mut())
+    }
+
+    pub(super) fn sizes(&self) -> impl Iterator<Item = &SizedModel> {
+        self.coarse.iter().chain(&self.full)
+    }
+}
