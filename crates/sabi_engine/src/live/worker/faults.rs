@@ -8,7 +8,7 @@ use sabi_plan::{FileContents, PlanError, Target};
 
 use super::{Job, Worker};
 use crate::evaluating::outputs::clashes;
-use crate::live::event::{BlockedNode, Faults, LiveEvent, NodeFault, Warning};
+use crate::live::event::{BlockedNode, Faults, LiveEvent, NodeFault};
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::groups::{Ungrouped, open_groups};
 use crate::live::loaded_model::LoadedModel;
