@@ -132,11 +132,7 @@ impl SizedModel {
         self.idle_outputs = idle_outputs;
         self.sources.clear();
         self.shoots = false;
-        self.evaluator.rays_mut().hits = if request.is_moving {
-            Hits::Cached
-        } else {
-            Hits::Cast
-        };
+        self.evaluator.rays_mut().hits = if request.is_moving { Hits::Cached } else { Hits::Cast };
         let is_another = self.evaluator.fit() != self.model.fit;
         if is_another {
             self.model = live_model(&self.evaluator, self.model.model_revision)?;
