@@ -1,247 +1,377 @@
-//! What panels ask for: they show and ask, and the window does.
+//! Actions: everything that the views of the window ask for. Views show and ask; `app/perform.rs` does.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use sabi_editing::{MaskMerge, PendingWire, StackEnd};
+use egui::Pos2;
+use sabi_editing::{KnobTarget, MaskMerge, PendingWire, StackEnd};
 use sabi_engine::NodeDraft;
-use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
+use sabi_engine::catalog::Entry;
+use sabi_graph::{Fit, NodeId, OutputRef, SlotRef, Value};
 
-use crate::canvas::Way;
-use crate::command::Command;
+use crate::command::{Command, Habit};
+use crate::dock::Panel;
 use crate::knobs::KnobEvent;
 use crate::reading::Reading;
+use crate::settings::export::{ExportChoices, ExportPlace};
+use crate::theme::Shade;
 
-/// Something that a panel asks for.
+/// sRGB color that was clicked, or a sentence about why there is none.
+pub(crate) type ClickedColor = Result<[u8; 3], String>;
+
+/// Something that a view asks for.
 #[derive(Clone, Debug)]
 pub(crate) enum Action {
-    /// What a key or a menu entry means.
+    /// Perform a command, as a key or a menu entry asks for.
     Do(Command),
-    /// Add a node of a kind.
+    /// Show a sentence for a while.
+    Notice(String),
+    /// Add a node, connected to a loose wire or put into a wire.
     Add {
-        kind: New,
+        new: New,
         place: [f32; 2],
         loose: Option<PendingWire>,
-        /// The wire into which it is put.
         into: Option<SlotRef>,
     },
+    /// Add a node in the middle of the canvas.
+    AddInMiddle(New),
+    /// Draw a node that is dragged to the canvas from another panel.
+    DragNew { face: Arc<Entry>, at: Pos2 },
+    /// Add a dragged node where it was dropped, if that is on the canvas.
+    DropNew { new: New, face: Arc<Entry>, at: Pos2 },
     /// Put the selected group into a library.
     Shelve(Shelf),
     /// Write the file of a node of the artist's own.
     SaveNode(NodeDraft),
-    /// Put a node of another kind in the place of one.
+    /// Replace a node by one of another kind.
     Replace { node: NodeId, by: New },
     /// Change wires.
-    Wire(WireAsk),
-    /// A drag of nodes begins.
-    BeginMove,
-    /// Nodes are dragged.
-    Move(BTreeMap<NodeId, [f32; 2]>),
-    /// A drag of nodes ends.
-    EndMove,
-    /// A drag of nodes is let go: they are where they were.
-    TakeBack,
-    /// Take the selected nodes out of their wires and begin to drag them.
+    Wire(WireAction),
+    /// Move nodes.
+    Move(MoveAction),
+    /// Disconnect the selected nodes and connect what they were between.
     TakeOut,
-    /// Select these and nothing else.
+    /// Select these nodes and no others.
     Select(Vec<NodeId>),
     /// Go to the node or the port that an arrow key leads to.
-    Arrow(Way),
-    /// Select one more, or one less.
+    Arrow(ArrowKey),
+    /// Add a node to the selection, or remove it from there.
     Toggle(NodeId),
-    /// Show a node's result in the 2D view, and on the model where that follows: of an output, or the one chosen last.
+    /// Show a node's result in the 2D view, and on the model where that follows clicks: at an output, or at the one that was
+    /// chosen last.
     Show { node: NodeId, port: Option<String> },
-    /// Show a node's result in the 2D view always.
+    /// Keep a node's result in the 2D view, or release it.
     Pin { node: NodeId },
     /// Change what the model and the 2D view show.
-    Look(LookAsk),
-    /// Go into a group.
+    Look(LookAction),
+    /// Show the inside of a group instance.
     Enter(NodeId),
-    /// Go so far up.
+    /// Leave groups until this many are left.
     LeaveTo(usize),
-    /// A knob of a node is turned; with the others of its kind that are selected.
+    /// Change a parameter of a node, and of the selected nodes of its kind.
     Knob { node: NodeId, event: KnobEvent },
-    /// Change or turn what is published.
-    Panel(PanelAsk),
-    /// Save, apply or change a variant of the panel.
-    Variant(VariantAsk),
-    /// Change what the graph that is seen takes and gives as a group.
-    Port(PortAsk),
+    /// Change or set published parameters.
+    Published(PublishedAction),
+    /// Save, apply or change a variant.
+    Variant(VariantAction),
+    /// Change the inputs and outputs that the shown graph has as a group.
+    Port(PortAction),
     /// Change a layer of a stack.
-    Layer(LayerAsk),
+    Layer(LayerAction),
     /// Name a node.
     Rename { node: NodeId, name: String },
     /// Change frames around nodes.
-    Frame(FrameAsk),
-    /// Paste a text at a place.
+    Frame(FrameAction),
+    /// Paste nodes from a text at a place.
     Paste { text: String, place: [f32; 2] },
-    /// Open a graph file.
-    OpenFile(PathBuf),
-    /// Take another model.
-    TakeModel(PathBuf),
-    /// Read the model that is shown otherwise.
-    ReadModel(Reading),
-    /// Whatever a file is that was dropped on the window.
+    /// Change what holds for the whole document.
+    Document(DocumentAction),
+    /// Open, save or replace the graph's file.
+    File(FileAction),
+    /// Change the model that the graph is shown on.
+    Model(ModelAction),
+    /// Take a file or a folder that was dropped on the window.
     Dropped(PathBuf),
-    /// Show a node, which is named as the evaluation names it.
+    /// Select a node, which is named as the evaluation names it, and show it on the canvas.
     GoTo(String),
-    /// Take back or do again so many steps; negative is back.
+    /// Undo or redo this many steps; negative is undo.
     Steps(i32),
+    /// Write textures, or change how.
+    Export(ExportAction),
+    /// Give the clicked color to the parameter that waits for one.
+    TakeColor(ClickedColor),
+    /// Change a setting.
+    Setting(SettingAction),
+    /// Bring a panel to the front.
+    ShowPanel(Panel),
+    /// Put all panels where they are in a new installation.
+    ResetPanels,
+    /// Show the start page.
+    ShowStartPage,
 }
 
-/// Something that is asked of what is shown where.
+/// Arrow key that leads from node to node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum LookAsk {
-    /// Have the model show what the outputs make of it.
+pub(crate) enum ArrowKey {
+    Left,
+    Right,
+    Up,
+    Down,
+}
+
+/// Step of a drag of nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum MoveAction {
+    /// Begin the drag: everything until its end is one step to undo.
+    Begin,
+    /// Put nodes at these places.
+    To(BTreeMap<NodeId, [f32; 2]>),
+    /// End the drag.
+    End,
+    /// Cancel the drag: the nodes go back to where they were.
+    Cancel,
+}
+
+/// Change of which result is shown where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LookAction {
+    /// Show the outputs on the model.
     Outputs,
-    /// Have the model show the node that is clicked.
+    /// Show the clicked node on the model.
     Follow,
-    /// Have the model show the node that was clicked last whatever is clicked from now on.
+    /// Keep the node that was clicked last on the model.
     Lock,
-    /// Let the locked node go.
+    /// Release the locked node.
     Release,
     /// Show the locked node beside what the model shows, or no longer.
     Compare,
-    /// Have the 2D view show the node that is clicked again.
+    /// Show the clicked node in the 2D view again.
     Unpin,
 }
 
-/// Something that is asked of wires.
+/// Change of what holds for the whole document.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum DocumentAction {
+    /// Texels along a side while working.
+    Size(u32),
+    /// Length that counts as 1.
+    Fit(Fit),
+    /// Seed that all nodes' seeds are made with.
+    Seed(u32),
+}
+
+/// What takes the place of the open graph, once nothing is lost by that.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Next {
+    New,
+    Open(PathBuf),
+    /// The example of this index.
+    Example(usize),
+    /// The recovered graph of this index.
+    Recover(usize),
+    /// Nothing: the window closes.
+    Close,
+}
+
+/// Action about the graph's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum FileAction {
+    /// Go on with another graph, and ask first where changes would be lost.
+    Ask(Next),
+    /// Go on with another graph, whatever is lost.
+    Proceed(Next),
+    /// Save to the graph's file, or ask for one.
+    Save,
+    /// Save to another file, and ask first where that is another graph's.
+    SaveAs(PathBuf),
+    /// Save to another file, whatever is there.
+    Overwrite(PathBuf),
+    /// Read the graph again from its file, which another program has written.
+    Reload,
+    /// Keep the open graph although another program has written its file.
+    KeepOpen,
+    /// Delete what was kept of a graph that was never saved.
+    DeleteRecovery(usize),
+    /// Give an image file to a parameter.
+    SetImage { parameter: KnobTarget, file: PathBuf },
+}
+
+/// Action about the model that the graph is shown on.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum WireAsk {
-    /// Tie a wire, taking it off another input where it came from one.
+pub(crate) enum ModelAction {
+    /// Ask for a model file.
+    Ask,
+    /// Show another model.
+    Show(PathBuf),
+    /// Read the shown model with other options.
+    Read(Reading),
+    /// Remove a model from the strip.
+    Remove(PathBuf),
+}
+
+/// Action about exports.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum ExportAction {
+    /// Export; with `force` to a folder whatever files are in it.
+    Start { force: bool },
+    /// Cancel the running export.
+    Cancel,
+    /// Use these choices from now on.
+    Choose(ExportChoices),
+    /// Use this target for the open graph from now on.
+    Target(ExportPlace),
+}
+
+/// Change of a setting.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum SettingAction {
+    Shade(Shade),
+    Habit(Habit),
+    /// Keys of commands that have others than the habit's, by the command's name.
+    Keys(BTreeMap<String, Vec<String>>),
+    /// Environment of the viewport: a built-in name, or a file.
+    Environment(String),
+    /// Make a favorite of what has this key, or no longer.
+    ToggleFavorite(String),
+}
+
+/// Change of wires.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum WireAction {
+    /// Connect an output to an input; `off` is the input that the wire is taken from.
     Connect {
         from: OutputRef,
         to: SlotRef,
         off: Option<SlotRef>,
     },
-    /// Tie a second wire to an input.
+    /// Connect a second output to an input, with a node that merges both.
     Merge {
         from: OutputRef,
         to: SlotRef,
         how: MaskMerge,
     },
-    /// Take wires off inputs.
+    /// Disconnect inputs.
     Cut(Vec<SlotRef>),
     /// Put a node into a wire.
     Insert { node: NodeId, into: SlotRef },
-    /// Bend a wire.
+    /// Put a reroute into a wire.
     Reroute { into: SlotRef, place: [f32; 2] },
 }
 
-/// Something that is asked of frames.
+/// Change of frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum FrameAsk {
-    /// Name one.
+pub(crate) enum FrameAction {
+    /// Name a frame.
     Rename { frame: String, title: String },
-    /// Give one its next color.
+    /// Give a frame its next color.
     Recolor(String),
-    /// Select the nodes in one.
+    /// Select the nodes in a frame.
     Select(String),
-    /// Put the selected nodes into one, or take them out of all.
+    /// Put the selected nodes into a frame, or take them out of all.
     Fill(Option<String>),
-    /// Remove one.
+    /// Remove a frame.
     Remove(String),
 }
 
-/// Something that is asked of the panel of published knobs; knobs go by their name on it.
+/// Change of published parameters, which are named as published.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum PanelAsk {
-    /// Turn one.
+pub(crate) enum PublishedAction {
+    /// Change a value.
     Turn(KnobEvent),
-    /// The name that artists see.
+    /// Set the name that artists see.
     Label { name: String, label: String },
-    /// The name in files and on command lines.
+    /// Set the name in files and on command lines.
     Rename { name: String, to: String },
-    /// The part of the panel that it stands in.
+    /// Set the section of the panel.
     Section { name: String, section: String },
-    /// What it may hold.
+    /// Set the range.
     Range { name: String, range: Option<[f64; 2]> },
-    /// What it holds while nobody sets it, whatever its nodes hold.
+    /// Set the default, whatever the nodes of the parameter hold.
     Default { name: String, default: Option<Value> },
-    /// Stand before another one, or at the end.
+    /// Move before another parameter, or to the end.
     Move { name: String, before: Option<String> },
-    /// Take it off.
+    /// Publish a parameter no longer.
     TakeOff(String),
 }
 
-/// Something that is asked of the variants of the panel.
+/// Change of the variants.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum VariantAsk {
-    /// Keep what the panel holds now under a name.
+pub(crate) enum VariantAction {
+    /// Save the present values under a name.
     Save(String),
-    /// Turn the panel as one has it.
+    /// Set the parameters to the values of a variant.
     Apply(String),
-    /// Give one another name.
+    /// Rename a variant.
     Rename { name: String, to: String },
-    /// Remove one.
+    /// Remove a variant.
     Remove(String),
 }
 
-/// Something that is asked of the inputs and outputs of the graph that is seen, which go by their names.
+/// Change of the inputs and outputs of the shown graph, by their names.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum PortAsk {
+pub(crate) enum PortAction {
     /// Name the graph.
     NameGraph(String),
-    /// Make an input out of one of a node.
+    /// Publish an input of a node.
     PublishInput(SlotRef),
-    /// Make an output out of a result.
+    /// Publish an output of a node.
     PublishOutput(OutputRef),
-    /// The name of an input that artists see.
+    /// Set the name of an input that artists see.
     LabelInput { name: String, label: String },
-    /// The name of an input in files.
+    /// Set the name of an input in files.
     RenameInput { name: String, to: String },
     /// Remove an input.
     RemoveInput(String),
-    /// Have an input feed one of a node too.
+    /// Connect an input to an input of a node.
     Feed { name: String, slot: SlotRef },
-    /// Take an input of a node off what feeds it.
+    /// Disconnect an input of a node from the input that feeds it.
     Unfeed(SlotRef),
-    /// The name of an output.
+    /// Rename an output.
     RenameOutput { name: String, to: String },
     /// Remove an output.
     RemoveOutput(String),
-    /// Have an output give another result.
+    /// Connect an output to another result.
     Retarget { name: String, from: OutputRef },
 }
 
-/// Something that is asked of layers, which are counted from the top of their stack.
+/// Change of layers, which are counted from the top of their stack.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum LayerAsk {
-    /// Hide or show one.
+pub(crate) enum LayerAction {
+    /// Hide or show a layer.
     Toggle(NodeId),
-    /// How much of one is used.
+    /// Set the opacity of a layer.
     Opacity { node: NodeId, opacity: f64 },
-    /// Put one elsewhere.
+    /// Move a layer.
     Move { end: StackEnd, from: usize, to: usize },
-    /// Remove one.
+    /// Remove a layer.
     Remove { end: StackEnd, at: usize },
-    /// Add a node of a kind above one.
+    /// Add a layer of a kind above another one.
     Add { end: StackEnd, at: usize, kind: String },
 }
 
-/// A library of groups to be used again.
+/// Library of groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shelf {
-    /// In the folder `library` beside the graph.
+    /// Folder `library` beside the graph.
     Project,
-    /// The user's own.
+    /// Library of the user.
     User,
 }
 
-/// What is added.
+/// What is added to a graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum New {
-    /// A node of a kind.
+    /// Node of a kind.
     Kind(String),
-    /// An instance of one of the document's groups.
+    /// Instance of one of the document's groups.
     Group(String),
-    /// A group out of a library file.
+    /// Group from a library file.
     Library(PathBuf),
 }
 
 impl New {
-    /// What a favorite is remembered by.
+    /// Key of a favorite in settings.
     pub(crate) fn key(&self) -> String {
         match self {
             New::Kind(kind) => kind.clone(),

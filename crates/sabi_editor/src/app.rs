@@ -1,310 +1,262 @@
-//! The window: what happens in a frame, and what is held from frame to frame.
+//! The window: its owners, wired together in each frame.
 
-mod ask;
-mod bars;
 mod documents;
-mod exports;
-mod eyedropper;
-mod keeping;
-mod keys;
-mod looks;
-mod measures;
-mod models;
+mod flows;
+mod opening;
 mod perform;
-mod rooms;
+mod shell;
 #[cfg(test)]
 mod tests;
-mod work;
 
-use std::collections::{BTreeMap, VecDeque};
-use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::time::Instant;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Context, Rect, Ui};
-use sabi_editing::OpenDocument;
-use sabi_engine::{Gpu, Session};
-use sabi_graph::NodeRef;
+use egui::{Context, Ui, ViewportCommand};
+use sabi_engine::Gpu;
 
-pub(crate) use documents::{MODELS, PICTURES, model_of};
-pub(crate) use eyedropper::Taken;
-use keys::KeyState;
-pub(crate) use keys::told_by_system;
+use crate::action::Action;
+use crate::bars;
+use crate::context::{View, ViewContext};
+use crate::dock::{Dock, Panel};
+use crate::evaluation::{Evaluation, Wanted};
+use crate::exports::Exports;
+use crate::looks::Looks;
+use crate::views::Views;
+pub(crate) use documents::Folders;
+use documents::{Documents, autosave_at_end};
+pub(crate) use opening::{Handover, InitialState};
+use opening::{LostWindow, Opened};
+use shell::Shell;
 
-use crate::canvas::Canvas;
-use crate::command::Command;
-use crate::dock::{self, Layout, Panel};
-use crate::files::{Files, Question};
-use crate::flat_view::FlatView;
-use crate::key_map::KeyMap;
-use crate::knobs::KnobMemory;
-use crate::model_view::ModelView;
-use crate::panels;
-use crate::panels::page::Draft;
-use crate::search::{Candidate, candidates};
-use crate::settings::Settings;
-use crate::stage::Stage;
-use crate::theme::Theme;
-use crate::watching::Watching;
-use keeping::Keeping;
-use work::Work;
-
-/// How long a sentence stays.
-const NOTICE_LASTS: Duration = Duration::from_secs(6);
-
-/// Folders of the program on this machine; none where there is no such place.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Folders {
-    pub(crate) settings: Option<PathBuf>,
-    pub(crate) cache: Option<PathBuf>,
-    /// What is not saved is kept here.
-    pub(crate) recovery: Option<PathBuf>,
-    /// Groups that were saved to be used again.
-    pub(crate) library: Option<PathBuf>,
-    /// Examples that were opened.
-    pub(crate) examples: Option<PathBuf>,
-}
-
-/// What a window begins with.
-pub(crate) struct Beginning {
-    pub(crate) session: Session,
-    pub(crate) model: PathBuf,
-    pub(crate) folders: Folders,
-    /// Whether the start page is shown.
-    pub(crate) is_start: bool,
-}
-
-/// What outlives a window whose device was lost.
-pub(crate) struct Kept {
-    pub(crate) document: OpenDocument,
-    pub(crate) canvas: Canvas,
-    pub(crate) model: PathBuf,
-    /// Node files that were being written.
-    pub(crate) drafts: Vec<Draft>,
-    /// Whether textures were being written, which ended with the device.
-    pub(crate) was_exporting: bool,
-}
-
-/// Where a window leaves what outlives it.
-pub(crate) type Handover = Arc<Mutex<Option<Kept>>>;
-
-/// The window.
+/// The window. Each owner has its own state; this type wires them in a frame, and performs actions (`app/perform.rs`).
 pub(crate) struct Editor {
-    pub(crate) document: OpenDocument,
-    pub(crate) canvas: Canvas,
-    pub(crate) stage: Stage,
-    pub(crate) watching: Watching,
-    pub(crate) model_view: ModelView,
-    pub(crate) flat_view: FlatView,
-    theme: Arc<Theme>,
-    keys: KeyMap,
-    pub(crate) settings: Settings,
-    kept_settings: serde_json::Value,
-    folders: Folders,
-    layout: Layout,
-    use_layout: Option<Layout>,
-    /// Where panels were when they were last drawn.
-    pub(crate) rects: BTreeMap<Panel, Rect>,
-    /// The panel that keys are for.
-    pub(crate) active: Panel,
-    candidates: (Option<(u64, u64)>, Vec<Candidate>),
-    /// The node that is looked at, and the output of it.
-    shown: Option<NodeRef>,
-    /// The node that the model shows while it follows clicks; none once a click went beside all nodes.
-    followed: Option<NodeRef>,
-    /// Kept in the 2D view whatever is clicked.
-    pinned: Option<NodeRef>,
-    /// Kept on the model whatever is clicked.
-    locked: Option<NodeRef>,
-    /// Outputs of nodes other than the first that thumbnails show, by the full id of the node.
-    ports: BTreeMap<String, String>,
-    /// Whether a knob is being moved.
-    pub(crate) is_moving: bool,
-    knob_memory: KnobMemory,
-    pub(crate) panels: panels::Panels,
-    pub(crate) files: Files,
-    notices: VecDeque<(Instant, String)>,
-    keeping: Keeping,
-    render: Option<RenderState>,
+    pub(crate) documents: Documents,
+    pub(crate) evaluation: Evaluation,
+    pub(crate) looks: Looks,
+    pub(crate) exports: Exports,
+    pub(crate) shell: Shell,
+    pub(crate) views: Views,
     handover: Handover,
+    /// Whether the window ends, since its device was lost and another window takes over.
     is_leaving: bool,
-    key_state: KeyState,
-    /// What the window is called.
-    named: String,
-    pub(crate) context: Context,
-    /// The command that waits for another key.
-    pub(crate) waits_for_key: Option<Command>,
-    /// Time of the last frames without the drawing of the device.
-    pub(crate) frame_times: VecDeque<Duration>,
+    /// Whether the window may close without a question.
+    may_close: bool,
 }
 
 impl Editor {
     /// A window on a device.
     pub(crate) fn new(
-        beginning: Beginning,
+        initial: InitialState,
         context: &Context,
         gpu: Arc<Gpu>,
         render: Option<RenderState>,
         handover: Handover,
     ) -> Editor {
-        let (settings, fault) = Settings::load(beginning.folders.settings.as_deref());
-        let (keys, mut faults) = KeyMap::new(settings.habit, &settings.keys);
-        faults.extend(fault);
-        let theme = Arc::new(Theme::of(settings.shade));
-        dress(context, &theme, settings.scale);
-        let work = Work::taken_up(beginning.session, beginning.model, &handover, || {
-            Files::new(beginning.is_start, beginning.folders.recovery.as_deref())
-        });
-        let (watching, fault) = Watching::new(context);
-        faults.extend(fault.map(|error| error.to_string()));
-        faults.extend(work.fault);
-        let model = (work.model.as_path(), settings.reading(&work.model));
-        let stage = Stage::new(gpu, model, beginning.folders.cache.clone(), context);
+        let folders = initial.folders.clone();
+        let mut shell = Shell::new(folders.settings.clone(), context, render);
+        let Opened {
+            documents,
+            views,
+            model,
+            fault,
+        } = Opened::new(initial, &shell.settings, context, &handover);
+        for fault in fault {
+            shell.say(fault);
+        }
+        let model = (model.as_path(), shell.settings.reading(&model));
         let mut editor = Editor {
-            model_view: ModelView::new(&settings.environment, &settings.view),
-            flat_view: FlatView::default(),
-            layout: dock::sound(settings.layout.clone()),
-            use_layout: None,
-            keys,
-            theme,
-            kept_settings: settings.to_json(),
-            settings,
-            files: work.files,
-            panels: panels::Panels::new(beginning.folders.cache.clone(), work.drafts),
-            folders: beginning.folders,
-            rects: BTreeMap::new(),
-            active: Panel::Canvas,
-            candidates: (None, Vec::new()),
-            shown: None,
-            followed: None,
-            pinned: None,
-            locked: None,
-            ports: BTreeMap::new(),
-            is_moving: false,
-            knob_memory: KnobMemory::default(),
-            notices: VecDeque::new(),
-            keeping: Keeping::default(),
-            document: work.document,
-            canvas: work.canvas,
-            stage,
-            watching,
-            render,
+            evaluation: Evaluation::new(gpu, model, folders.cache, context),
+            documents,
+            looks: Looks::default(),
+            exports: Exports::default(),
+            shell,
+            views,
             handover,
             is_leaving: false,
-            key_state: KeyState::default(),
-            named: String::new(),
-            context: context.clone(),
-            waits_for_key: None,
-            frame_times: VecDeque::new(),
+            may_close: false,
         };
-        editor.begin(faults);
+        editor.remember_model();
+        editor.recall_export();
         editor
     }
 
-    /// Remembers what there is from the beginning, and says what could not be read.
-    fn begin(&mut self, faults: Vec<String>) {
-        self.remember_model();
-        self.recall_export();
-        for fault in faults {
-            self.say(fault);
-        }
+    /// What views read, the views, and the layout that they are drawn in.
+    fn parts(&mut self) -> (ViewContext<'_>, &mut Views, &mut Dock) {
+        let Editor {
+            documents,
+            evaluation,
+            looks,
+            exports,
+            shell,
+            views,
+            ..
+        } = self;
+        let is_dirty = documents.document.session.is_dirty();
+        let context = ViewContext {
+            document: &documents.document,
+            evaluation,
+            looks,
+            exports,
+            library: &documents.library,
+            pictures: &documents.pictures,
+            candidates: documents.candidates(),
+            recoveries: &documents.recoveries,
+            settings: &shell.settings,
+            theme: &shell.theme,
+            keys: &shell.keys,
+            render: shell.render.as_ref(),
+            frame_times: &shell.frame_times,
+            pictures_drawn: views.model.drawn,
+            is_dirty,
+            is_file_foreign: documents.is_file_foreign,
+            is_use_view: shell.dock.is_use_view(),
+            is_dragging: documents.is_dragging,
+        };
+        (context, views, &mut shell.dock)
     }
 
-    /// Shows a sentence for a while.
-    pub(crate) fn say(&mut self, sentence: impl Into<String>) {
-        let sentence = sentence.into();
-        self.notices.retain(|(_, known)| *known != sentence);
-        self.notices.push_back((Instant::now(), sentence));
-        while self.notices.len() > 4 {
-            self.notices.pop_front();
-        }
-    }
-
-    /// Draws everything and does what is asked for.
+    /// Draws everything and performs what is asked for.
     pub(crate) fn frame(&mut self, ui: &mut Ui) {
         let began = Instant::now();
         if self.is_leaving {
             return;
         }
         let context = ui.ctx().clone();
-        self.stage.take_news(&context);
-        self.follow_export();
-        if self.stage.lost.is_some() {
+        self.evaluation.take_events(&context);
+        self.exports.poll(&context);
+        if self.evaluation.lost.is_some() {
             self.hand_over(&context);
             return;
         }
         self.follow_files();
-        self.put_down_eyedropper(&context);
-        let mut actions = self.keys_pressed(ui);
-        self.take_dropped(&context, &mut actions);
-        self.refresh_candidates();
-        self.top_bar(ui, &mut actions);
-        self.show_outside(ui);
-        self.status_bar(ui);
-        self.panels(ui, &mut actions);
-        self.leave_hidden();
-        self.show_files(ui, &mut actions);
-        self.show_notices(ui);
-        for action in actions {
-            self.perform(action, ui);
+        self.cancel_color_target(&context);
+        let is_dragging = self.documents.is_dragging;
+        let mut actions = self.shell.keys_pressed(ui, &self.views, is_dragging);
+        actions.extend(dropped_files(&context));
+        self.documents.refresh_candidates();
+        self.hold_close(ui);
+        actions.extend(self.show(ui));
+        self.shell.leave_hidden_panel(&mut self.views);
+        self.shell.notices.show(ui);
+        self.perform_all(actions, ui);
+        self.set_title();
+        self.request_results(&context);
+        self.autosave(&context);
+        self.shell.keyboard.end_frame(&context);
+        self.shell.add_frame_time(began.elapsed());
+    }
+
+    /// Draws the bars and the views, and gives what is asked for in them.
+    fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let (context, views, dock) = self.parts();
+        let mut actions = bars::top(ui, &context);
+        actions.extend(bars::foreign_file(ui, &context));
+        actions.extend(bars::status(ui, &context));
+        dock.show(ui, context.theme, context.problem_count(), &mut |ui, panel| {
+            actions.extend(views.in_panel(panel).show(ui, &context));
+        });
+        if views.start.is_open && views.questions.open.is_none() {
+            actions.extend(views.start.show(ui, &context));
         }
-        for sentence in self.document.take_notices() {
-            self.say(sentence);
-        }
-        self.name_window(&context);
-        self.wish(&context);
-        self.keep(&context);
-        self.key_state.was_typing = context.text_edit_focused();
-        self.frame_times.push_back(began.elapsed());
-        while self.frame_times.len() > 120 {
-            self.frame_times.pop_front();
+        actions.extend(views.key_list.show(ui, &context));
+        actions.extend(views.questions.show(ui, &context));
+        actions
+    }
+
+    /// Requests the results that are shown now.
+    fn request_results(&mut self, context: &Context) {
+        let document = &self.documents.document;
+        self.looks.forget_deleted(document);
+        let is_shown = |panel: Panel| self.shell.dock.is_shown(panel);
+        let nodes = self.views.canvas.visible(document).into_iter();
+        let nodes = nodes.map(|id| self.looks.chosen(document, &id));
+        let layers = self.views.layers.wanted.iter().cloned();
+        let on_model = self.looks.on_model(document, &self.shell.settings);
+        let wanted = Wanted {
+            subjects: [on_model].into_iter().chain(self.looks.beside_model()).collect(),
+            inspected: self.looks.inspected().cloned(),
+            set: self.views.flat.set,
+            thumbnails: nodes
+                .filter(|_| is_shown(Panel::Canvas))
+                .chain(layers.filter(|_| is_shown(Panel::Stack)))
+                .collect(),
+            is_flat: self.shell.settings.is_flat,
+            is_moving: self.documents.is_dragging,
+        };
+        self.evaluation.ask(document, wanted);
+        // A drag may end outside of the window.
+        if self.documents.is_dragging && !context.input(|input| input.pointer.any_down()) {
+            self.documents.document.session.end();
+            self.documents.is_dragging = false;
+            context.request_repaint();
         }
     }
 
-    /// What may be added, brought up to date.
-    fn refresh_candidates(&mut self) {
-        let now = (self.document.session.revision(), self.document.kinds().1);
-        let shelves = self.shelves();
-        if self.candidates.0 == Some(now) && !self.panels.library.has_changed(&shelves) {
-            return;
+    /// Saves copies of what is not saved, and settings that changed.
+    fn autosave(&mut self, context: &Context) {
+        let drafts_revision = self.views.page.revision();
+        if self.documents.is_autosave_due() {
+            let drafts = self.views.page.unsaved();
+            let saved = self.documents.autosave(&drafts, drafts_revision);
+            self.shell.report(saved);
+            self.save_settings();
         }
-        let groups: Vec<String> = self.document.contents().groups.keys().cloned().collect();
-        let shelved = self.panels.library.shelved(shelves, self.document.catalog());
-        let found = candidates(self.document.catalog(), self.document.faces(), &groups, shelved);
-        self.candidates = (Some(now), found);
+        self.documents.schedule_autosave(context, drafts_revision);
     }
 
-    /// Leaves the work to a window on another device, since this one's is gone.
+    /// Saves the settings, with what views and exports have of them.
+    fn save_settings(&mut self) {
+        self.remember_export();
+        self.shell.settings.view = self.views.model.choices();
+        self.shell.save_settings();
+    }
+
+    fn set_title(&mut self) {
+        let document = &mut self.documents.document;
+        let is_dirty = document.session.is_dirty();
+        let name = bars::marked_name(document, is_dirty);
+        self.shell.set_title(format!("{name} – Sabi"));
+    }
+
+    /// Leaves the work to a window on another device, since this one's is lost.
     fn hand_over(&mut self, context: &Context) {
-        let mut document = self.take_document();
-        // Should the other window never come, what is here is kept.
-        keeping::keep_at_last(&mut document, &self.panels.page.unsaved());
-        self.canvas.drop_all();
+        let mut document = self.documents.take();
+        // In case that the other window cannot be opened.
+        autosave_at_end(&mut document, &self.views.page.unsaved());
+        self.views.canvas.cancel_all();
         if let Ok(mut handover) = self.handover.lock() {
-            *handover = Some(Kept {
+            *handover = Some(LostWindow {
                 document,
-                canvas: std::mem::take(&mut self.canvas),
-                model: self.stage.model_file().to_owned(),
-                drafts: self.panels.page.take_drafts(),
-                was_exporting: self.panels.export.running.is_some(),
+                canvas: std::mem::take(&mut self.views.canvas),
+                model: self.evaluation.model_file().to_owned(),
+                drafts: self.views.page.take_drafts(),
+                was_exporting: self.exports.running.is_some(),
             });
         }
-        self.stage.lost = None;
+        self.evaluation.lost = None;
         self.is_leaving = true;
-        context.send_viewport_cmd(egui::ViewportCommand::Close);
+        context.send_viewport_cmd(ViewportCommand::Close);
+    }
+
+    /// Closes the open graph as the window ends. What is not saved and was not discarded is kept, since systems end programs
+    /// without asking them.
+    fn end(&mut self) {
+        let mut document = self.documents.take();
+        let drafts = self.views.page.unsaved();
+        if self.may_close || !document.session.is_dirty() && drafts.is_empty() {
+            document.session.close();
+        } else {
+            autosave_at_end(&mut document, &drafts);
+        }
     }
 }
 
-/// Gives the window its look and its letters.
-fn dress(context: &Context, theme: &Theme, scale: f32) {
-    let mut fonts = egui::FontDefinitions::default();
-    egui_phosphor::add_to_fonts(&mut fonts, egui_phosphor::Variant::Regular);
-    context.set_fonts(fonts);
-    theme.apply(context);
-    // Ctrl and + is a key of ours, which is kept between runs and can be bound anew.
-    context.options_mut(|options| options.zoom_with_keyboard = false);
-    context.set_zoom_factor(scale);
+/// Files that were dropped on the window.
+fn dropped_files(context: &Context) -> Vec<Action> {
+    let dropped = context.input(|input| input.raw.dropped_files.clone());
+    let paths = dropped.into_iter().filter_map(|file| file.path);
+    paths.map(Action::Dropped).collect()
 }
 
 impl eframe::App for Editor {
@@ -313,55 +265,17 @@ impl eframe::App for Editor {
     }
 
     fn clear_color(&self, _: &egui::Visuals) -> [f32; 4] {
-        self.theme.ground.to_normalized_gamma_f32()
+        self.shell.theme.ground.to_normalized_gamma_f32()
     }
 
     fn on_exit(&mut self) {
-        self.keep_settings();
+        self.save_settings();
         if !self.is_leaving {
-            self.end_work();
+            self.end();
         }
     }
 
     fn persist_egui_memory(&self) -> bool {
         false
-    }
-}
-
-/// The question that is open, if there is one.
-impl Editor {
-    /// The picture of a node's result, if there is one.
-    pub(crate) fn thumbnail_of(&self, id: &sabi_graph::NodeId) -> Option<egui::TextureId> {
-        self.picture_of(&self.chosen(id))
-    }
-
-    /// The picture of a result, if there is one.
-    pub(crate) fn picture_of(&self, result: &NodeRef) -> Option<egui::TextureId> {
-        self.stage.thumbnail(result).map(egui::TextureHandle::id)
-    }
-
-    #[cfg(test)]
-    fn folders(&self) -> &Folders {
-        &self.folders
-    }
-
-    pub(crate) fn theme(&self) -> &Arc<Theme> {
-        &self.theme
-    }
-
-    pub(crate) fn keys(&self) -> &KeyMap {
-        &self.keys
-    }
-
-    pub(crate) fn candidates(&self) -> &[Candidate] {
-        &self.candidates.1
-    }
-
-    pub(crate) fn knob_memory(&mut self) -> &mut KnobMemory {
-        &mut self.knob_memory
-    }
-
-    pub(crate) fn question(&self) -> Option<&Question> {
-        self.files.question.as_ref()
     }
 }

@@ -7,14 +7,18 @@ mod bend;
 mod body;
 mod card;
 mod focus;
+mod frame_rects;
 mod frames;
 mod gesture;
 mod ghost;
 mod mini_map;
 mod nodes;
+mod places;
 mod port_menu;
 mod ports;
 mod questions;
+mod sensing;
+mod shown;
 mod sides;
 mod snapshot;
 mod tips;
@@ -26,22 +30,21 @@ use std::sync::Arc;
 
 use egui::{Pos2, Rect, Sense, Ui, pos2, vec2};
 use sabi_editing::OpenDocument;
-use sabi_graph::NodeId;
+use sabi_graph::{NodeId, NodeRef};
 
 use crate::action::Action;
+use crate::bars;
 use crate::command::{CanvasCommand, Habit};
+use crate::context::ViewContext;
 use crate::search::Candidate;
 use crate::theme::Theme;
 use add_menu::{AddMenu, Outcome, Purpose};
 use gesture::Gesture;
 use questions::{MergeQuestion, Renaming};
+use shown::NodeState;
 use snapshot::Snapshot;
 use view::View;
 use wires::Wire;
-
-pub(crate) use body::shown_time;
-pub(crate) use focus::Way;
-pub(crate) use snapshot::NodeState;
 
 /// Below this zoom nodes are cards with a picture and a name, whose sides are taken for their ports.
 const CARD_ZOOM: f32 = 0.5;
@@ -64,7 +67,7 @@ pub(crate) struct Canvas {
     /// The port that keys are about.
     port: Option<focus::PortAt>,
     /// The same, as a place.
-    focused: Option<ports::Place>,
+    focused: Option<places::Place>,
     /// Nodes in the order in which they were touched: later ones lie above.
     touched: Vec<NodeId>,
     /// What is dragged here from another panel has been away from the edges.
@@ -76,7 +79,7 @@ pub(crate) struct Canvas {
 }
 
 /// What the canvas is drawn from.
-pub(crate) struct Around<'a> {
+struct Around<'a> {
     pub(crate) document: &'a OpenDocument,
     pub(crate) theme: &'a Arc<Theme>,
     /// What is known of a node's result.
@@ -93,9 +96,46 @@ pub(crate) struct Around<'a> {
     pub(crate) has_map: bool,
 }
 
+impl crate::context::View for Canvas {
+    fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        let mut actions = bars::path(ui, context);
+        let ViewContext {
+            document,
+            evaluation,
+            looks,
+            settings,
+            ..
+        } = *context;
+        let state_of = |id: &NodeId| {
+            let result = looks.chosen(document, id);
+            NodeState {
+                picture: context.result_picture(&result),
+                time: evaluation.time(&result.node),
+                fault: evaluation.fault(&result.node).cloned(),
+                waits: evaluation.waits(&result.node).cloned(),
+            }
+        };
+        let here = |result: &NodeRef| document.seen_at(&result.node);
+        let previewed = looks.inspected().and_then(here);
+        let pinned = looks.pinned.as_ref().and_then(here);
+        let around = Around {
+            document,
+            theme: context.theme,
+            state_of: &state_of,
+            candidates: context.candidates,
+            previewed: previewed.as_ref(),
+            habit: settings.habit,
+            pinned: pinned.as_ref(),
+            has_map: settings.has_mini_map,
+        };
+        actions.extend(self.draw(ui, &around));
+        actions
+    }
+}
+
 impl Canvas {
-    /// Draws the graph and says what is asked for.
-    pub(crate) fn show(&mut self, ui: &mut Ui, around: &Around<'_>) -> Vec<Action> {
+    /// Draws the graph and gives what is asked for.
+    fn draw(&mut self, ui: &mut Ui, around: &Around<'_>) -> Vec<Action> {
         let panel = ui.available_rect_before_wrap();
         if !panel.is_positive() {
             return Vec::new();
@@ -152,7 +192,7 @@ impl Canvas {
         self.view.place(panel, self.screen_for_new(ui))
     }
 
-    /// The middle of what is seen.
+    /// Middle of the part of the canvas that is shown.
     pub(crate) fn middle(&self) -> [f32; 2] {
         self.panel
             .map_or([0.0; 2], |panel| self.view.place(panel, panel.center()))
@@ -185,24 +225,24 @@ impl Canvas {
         self.menu.is_some() || self.renaming.is_some() || self.merge.is_some()
     }
 
-    /// Whether Escape means something here besides leaving a group.
-    pub(crate) fn let_go(&mut self) -> bool {
-        let held = self.has_something_in_hand();
+    /// Cancels what is being dragged and takes the keyboard from a port; gives whether there was either.
+    pub(crate) fn cancel_drag(&mut self) -> bool {
+        let held = self.is_busy();
         self.gesture = Gesture::Idle;
         self.leave_port();
         held
     }
 
-    /// Lets go of what is in hand, and closes what is open.
-    pub(crate) fn drop_all(&mut self) {
+    /// Cancels what is being dragged, and closes menus and text fields.
+    pub(crate) fn cancel_all(&mut self) {
         self.gesture = Gesture::Idle;
         self.menu = None;
         self.renaming = None;
         self.merge = None;
     }
 
-    /// Whether something is being dragged, or a port is chosen.
-    pub(crate) fn has_something_in_hand(&self) -> bool {
+    /// Whether something is being dragged, or a port has the keyboard.
+    pub(crate) fn is_busy(&self) -> bool {
         !matches!(self.gesture, Gesture::Idle) || self.port.is_some()
     }
 

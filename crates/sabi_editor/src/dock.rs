@@ -1,6 +1,8 @@
-//! Panels and where they are.
+//! Panels, and where in the window they are.
 
-use egui::{Response, Ui, WidgetInfo, WidgetText, WidgetType};
+use std::collections::BTreeMap;
+
+use egui::{CentralPanel, Frame, Id, Rect, Response, Sense, Ui, Vec2, WidgetInfo, WidgetText, WidgetType};
 use egui_phosphor::regular as icon;
 use egui_tiles::{Container, Linear, LinearDir, SimplificationOptions, TileId, Tiles, Tree, UiResponse};
 
@@ -24,7 +26,7 @@ pub(crate) enum Panel {
 }
 
 impl Panel {
-    /// All of them.
+    /// All panels, in the order in which keys step through them.
     pub(crate) const ALL: [Panel; 11] = [
         Panel::Viewport,
         Panel::Flat,
@@ -39,7 +41,7 @@ impl Panel {
         Panel::Page,
     ];
 
-    /// What it is called.
+    /// Title of its tab.
     pub(crate) fn title(self) -> &'static str {
         match self {
             Panel::Canvas => "Graph",
@@ -77,7 +79,7 @@ impl Panel {
 pub(crate) type Layout = Tree<Panel>;
 
 /// Where panels are in a new installation: the model and the texture on the left, the graph in the middle.
-pub(crate) fn default_layout() -> Layout {
+fn default_layout() -> Layout {
     let mut tiles = Tiles::default();
     let mut tabs = |panels: &[Panel]| {
         let ids: Vec<TileId> = panels.iter().map(|panel| tiles.insert_pane(*panel)).collect();
@@ -104,8 +106,8 @@ pub(crate) fn default_layout() -> Layout {
     Tree::new("panels", root, tiles)
 }
 
-/// Only the model and the knobs, for people who never open the graph.
-pub(crate) fn use_layout() -> Layout {
+/// Only the model and the published parameters, for people who never open the graph.
+fn use_layout() -> Layout {
     let mut tiles = Tiles::default();
     let model = tiles.insert_pane(Panel::Viewport);
     let knobs = tiles.insert_pane(Panel::Parameters);
@@ -125,29 +127,155 @@ fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> T
     tiles.insert_new(egui_tiles::Tile::Container(Container::Linear(linear)))
 }
 
-/// A layout that has every panel that a new version knows; the default one where it does not.
-pub(crate) fn sound(layout: Option<Layout>) -> Layout {
+/// A layout of settings, or the default one where it lacks a panel, as those of older versions may.
+fn sound(layout: Option<Layout>) -> Layout {
     let has_all = |layout: &Layout| layout.root().is_some() && Panel::ALL.iter().all(|panel| has(layout, *panel));
     layout.filter(has_all).unwrap_or_else(default_layout)
 }
 
 /// Whether a panel is in a layout.
-pub(crate) fn has(layout: &Layout, panel: Panel) -> bool {
+fn has(layout: &Layout, panel: Panel) -> bool {
     let mut tiles = layout.tiles.tiles();
     tiles.any(|tile| matches!(tile, egui_tiles::Tile::Pane(known) if *known == panel))
 }
 
-/// Brings a panel to the front.
-pub(crate) fn bring_up(layout: &mut Layout, panel: Panel) {
+/// Brings a panel to the front of its tabs.
+fn bring_up(layout: &mut Layout, panel: Panel) {
     layout.make_active(|_, tile| matches!(tile, egui_tiles::Tile::Pane(known) if *known == panel));
 }
 
-/// Draws panels by asking for what is in them.
-pub(crate) struct Docked<'a> {
-    pub(crate) theme: &'a Theme,
-    /// Badges on tabs: how many problems there are.
-    pub(crate) problems: usize,
-    pub(crate) contents: &'a mut dyn FnMut(&mut Ui, Panel),
+/// Layout of the panels, and where they were drawn last.
+pub(crate) struct Dock {
+    layout: Layout,
+    /// Layout while only the model and the published parameters are shown.
+    use_layout: Option<Layout>,
+    /// Rectangles of the panels that were drawn in the last frame.
+    pub(crate) rects: BTreeMap<Panel, Rect>,
+}
+
+impl Dock {
+    /// A dock with a layout of settings, if it has every panel.
+    pub(crate) fn new(layout: Option<Layout>) -> Dock {
+        Dock {
+            layout: sound(layout),
+            use_layout: None,
+            rects: BTreeMap::new(),
+        }
+    }
+
+    /// Shows a layout, whatever panels it lacks.
+    #[cfg(test)]
+    pub(crate) fn set_layout(&mut self, layout: Layout) {
+        self.layout = layout;
+    }
+
+    /// Layout for settings.
+    pub(crate) fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Whether only the model and the published parameters are shown.
+    pub(crate) fn is_use_view(&self) -> bool {
+        self.use_layout.is_some()
+    }
+
+    /// Whether a panel was drawn in the last frame.
+    pub(crate) fn is_shown(&self, panel: Panel) -> bool {
+        self.rects.contains_key(&panel)
+    }
+
+    /// Panels that were drawn in the last frame, in their usual order.
+    pub(crate) fn shown(&self) -> impl Iterator<Item = Panel> {
+        Panel::ALL.into_iter().filter(|panel| self.is_shown(*panel))
+    }
+
+    /// Shows only the model and the published parameters, or all panels again; gives whether it is only those now.
+    pub(crate) fn toggle_use_view(&mut self) -> bool {
+        self.use_layout = match self.use_layout.take() {
+            Some(_) => None,
+            None => Some(use_layout()),
+        };
+        self.is_use_view()
+    }
+
+    /// Puts all panels where they are in a new installation.
+    pub(crate) fn reset(&mut self) {
+        self.layout = default_layout();
+        self.use_layout = None;
+    }
+
+    /// Brings a panel to the front. The view of model and parameters ends where it does not have the panel.
+    pub(crate) fn bring_up(&mut self, panel: Panel) {
+        match &mut self.use_layout {
+            Some(layout) if has(layout, panel) => bring_up(layout, panel),
+            _ => {
+                self.use_layout = None;
+                bring_up(&mut self.layout, panel);
+            }
+        }
+    }
+
+    /// Draws the panels: `contents` draws what is in one.
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut Ui,
+        theme: &Theme,
+        problems: usize,
+        contents: &mut dyn FnMut(&mut Ui, Panel),
+    ) {
+        let Dock {
+            layout,
+            use_layout,
+            rects,
+        } = self;
+        rects.clear();
+        let mut docked = Docked {
+            theme,
+            problems,
+            contents: &mut |ui, panel| {
+                rects.insert(panel, ui.max_rect());
+                anchor(ui, panel);
+                match panel {
+                    Panel::Canvas | Panel::Viewport => contents(ui, panel),
+                    _ => padded(ui, theme, |ui| contents(ui, panel)),
+                }
+            },
+        };
+        // The window is cleared to the color of the lines between the panels.
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
+            use_layout.as_mut().unwrap_or(layout).ui(&mut docked, ui);
+        });
+    }
+}
+
+/// Id of what has the keyboard focus after a panel was chosen by a key: Tab leads from there to its first widget.
+pub(crate) fn anchor_id(panel: Panel) -> Id {
+    Id::new(("keys are for", panel))
+}
+
+/// Place at the corner of a panel that can have the keyboard focus. The canvas has a focus of its own.
+fn anchor(ui: &Ui, panel: Panel) {
+    if panel != Panel::Canvas {
+        let corner = Rect::from_min_size(ui.max_rect().min, Vec2::ZERO);
+        let anchor = ui.interact(corner, anchor_id(panel), Sense::focusable_noninteractive());
+        anchor.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, panel.title()));
+    }
+}
+
+/// A panel with room around its contents.
+fn padded(ui: &mut Ui, theme: &Theme, contents: impl FnOnce(&mut Ui)) {
+    Frame::new().fill(theme.panel).inner_margin(8).show(ui, |ui| {
+        ui.set_min_size(ui.available_size());
+        contents(ui);
+    });
+}
+
+/// Draws the tabs of panels, and asks for their contents.
+struct Docked<'a> {
+    theme: &'a Theme,
+    /// Number of problems, which the tab of that panel shows.
+    problems: usize,
+    contents: &'a mut dyn FnMut(&mut Ui, Panel),
 }
 
 impl egui_tiles::Behavior<Panel> for Docked<'_> {
@@ -165,7 +293,7 @@ impl egui_tiles::Behavior<Panel> for Docked<'_> {
     }
 
     fn on_tab_button(&mut self, tiles: &mut Tiles<Panel>, tile: TileId, response: Response) -> Response {
-        // The title is only painted; it is told to those who do not see it.
+        // The tab only paints its title; assistive technology needs it as a label.
         if let Some(panel) = tiles.get_pane(&tile) {
             let count = format!("{} {}", panel.title(), self.problems);
             let has_count = *panel == Panel::Problems && self.problems > 0;

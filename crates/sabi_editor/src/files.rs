@@ -1,185 +1,128 @@
-//! Files: opening, saving, the questions before work is lost, and the start page. Every path can be typed in the window; the
-//! system's dialog is the convenience.
+//! Questions about files, the start page and the list of keys. Every path can be typed in the window; the system's dialog is
+//! the convenience.
 
 pub(crate) mod examples;
-mod key_list;
-mod start;
+pub(crate) mod key_list;
+pub(crate) mod start;
 pub(crate) mod system_dialog;
 
 use std::path::{Path, PathBuf};
 
-use egui::{Key, Modal, RichText, Ui};
+use egui::{Button, Id, Key, Modal, RichText, TextEdit, Ui, WidgetInfo, WidgetType};
+
+use crate::action::{Action, ExportAction, FileAction, ModelAction, Next};
+use crate::context::{View, ViewContext};
+use crate::paths::{file_name, with_graph_ending};
 use sabi_editing::{KnobTarget, OpenDocument};
-use sabi_engine::{Recovery, canonical, recoveries};
+use system_dialog::{PathFor, SystemDialog, answer_of};
 
-use crate::action::Action;
-use crate::app::Editor;
-use crate::dock::Panel;
-use system_dialog::{SystemDialog, answer_of};
-
-/// What a path is wanted for.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum PathFor {
-    Open,
-    Save,
-    Model,
-    /// A knob that names a picture.
-    Picture(KnobTarget),
-}
-
-/// Something that has to be answered before anything else.
+/// Question that has to be answered before anything else.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Question {
-    /// Which file.
+    /// Which path to use.
     Path { what: PathFor, text: String },
-    /// What becomes of changes that are not saved, and what is done next.
+    /// What to do with changes that are not saved.
     Unsaved { next: Next },
-    /// Whether a file is replaced that is another graph's.
+    /// Whether to replace a file that is another graph's.
     Replace { file: PathBuf },
-    /// The window is to be closed, and textures are being written.
+    /// Whether to close the window while textures are being written.
     Exporting,
 }
 
-/// What comes after the work was saved or let go.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Next {
-    New,
-    Open(PathBuf),
-    Example(usize),
-    Recover(usize),
-    Close,
-}
-
-/// What is open of files and questions.
-pub(crate) struct Files {
-    pub(crate) question: Option<Question>,
-    /// Whether the start page is shown.
-    pub(crate) is_start: bool,
-    pub(crate) shows_keys: bool,
-    /// What was kept of graphs when the program ended before they were saved.
-    pub(crate) recoveries: Vec<Recovery>,
-    /// The system's dialog for the path that is asked for, while it is open.
+/// The question that is open, and what follows its answer.
+#[derive(Default)]
+pub(crate) struct Questions {
+    pub(crate) open: Option<Question>,
+    /// System dialog for the path that is asked for, while it is open.
     pub(crate) dialog: Option<SystemDialog>,
-    /// What comes once a save is done.
+    /// What follows once the graph is saved or has no changes.
     after_save: Option<Next>,
-    /// Whether the window may close without another question.
-    pub(crate) may_close: bool,
 }
 
-impl Files {
-    pub(crate) fn new(is_start: bool, recovery_folder: Option<&Path>) -> Files {
-        let recoveries = recovery_folder.map(recoveries).unwrap_or_default();
-        Files {
-            question: None,
-            is_start: is_start || !recoveries.is_empty(),
-            shows_keys: false,
-            recoveries,
-            dialog: None,
-            after_save: None,
-            may_close: false,
-        }
+impl View for Questions {
+    fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        let asked = match self.open.take() {
+            Some(Question::Path { what, text }) => self.path(ui, what, text),
+            Some(Question::Unsaved { next }) => self.unsaved(ui, next),
+            Some(Question::Replace { file }) => self.replace(ui, file),
+            Some(Question::Exporting) => self.exporting(ui, context),
+            None => None,
+        };
+        asked.into_iter().collect()
     }
+}
 
-    pub(crate) fn ask_new(&mut self, document: &mut OpenDocument) {
-        self.ask_next(document, Next::New);
-    }
-
-    pub(crate) fn ask_open(&mut self, document: &OpenDocument) {
+impl Questions {
+    /// Asks for a graph file to open.
+    pub(crate) fn ask_to_open(&mut self, document: &OpenDocument) {
         let folder = document.session.file().and_then(Path::parent);
-        self.ask_path(
-            PathFor::Open,
-            folder
-                .map(|folder| format!("{}/", folder.display()))
-                .unwrap_or_default(),
-        );
+        let folder = folder.map_or_else(String::new, |folder| format!("{}/", folder.display()));
+        self.ask_path(PathFor::Open, folder);
     }
 
-    pub(crate) fn ask_save(&mut self, document: &OpenDocument) {
+    /// Asks for a file to save the graph to.
+    pub(crate) fn ask_to_save(&mut self, document: &OpenDocument) {
         let file = document.session.file().map(|file| file.display().to_string());
         self.ask_path(PathFor::Save, file.unwrap_or_else(|| "untitled.sabi".to_owned()));
     }
 
+    /// Asks for a model file.
     pub(crate) fn ask_for_model(&mut self) {
         self.ask_path(PathFor::Model, String::new());
     }
 
-    pub(crate) fn ask_for_picture(&mut self, knob: KnobTarget) {
-        self.ask_path(PathFor::Picture(knob), String::new());
+    /// Asks for an image file for a parameter.
+    pub(crate) fn ask_for_image(&mut self, parameter: KnobTarget) {
+        self.ask_path(PathFor::Image(parameter), String::new());
     }
 
     fn ask_path(&mut self, what: PathFor, text: String) {
         self.dialog = None;
-        self.question = Some(Question::Path { what, text });
+        self.open = Some(Question::Path { what, text });
     }
 
-    /// Asks first where something would be lost.
-    pub(crate) fn ask_next(&mut self, document: &mut OpenDocument, next: Next) {
-        let is_dirty = document.session.is_dirty();
-        self.question = is_dirty.then_some(Question::Unsaved { next: next.clone() });
-        if !is_dirty {
+    /// Asks whether to replace a file that is another graph's.
+    pub(crate) fn ask_to_replace(&mut self, file: PathBuf) {
+        self.open = Some(Question::Replace { file });
+    }
+
+    /// Goes on with another graph, and asks first where changes would be lost.
+    pub(crate) fn ask_next(&mut self, is_dirty: bool, next: Next) {
+        if is_dirty {
+            self.open = Some(Question::Unsaved { next });
+        } else {
+            self.open = None;
             self.after_save = Some(next);
         }
     }
 
-    /// What is to be done now that nothing is lost by it. A save that failed ends it: the document stays open.
-    pub(crate) fn take_next(&mut self, document: &mut OpenDocument) -> Option<Next> {
-        if self.question.is_some() {
+    /// What follows now that nothing is lost by it. After a save that failed, nothing follows.
+    pub(crate) fn take_next(&mut self, is_dirty: bool) -> Option<Next> {
+        if self.open.is_some() {
             return None;
         }
-        self.after_save.take().filter(|_| !document.session.is_dirty())
-    }
-}
-
-impl Editor {
-    /// Shows what is asked, and the start page.
-    pub(crate) fn show_files(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        if ui.input(|input| input.viewport().close_requested()) && !self.files.may_close {
-            let is_held = if self.document.session.is_dirty() {
-                self.files.question = Some(Question::Unsaved { next: Next::Close });
-                true
-            } else {
-                self.is_held_open()
-            };
-            if is_held {
-                ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            }
-        }
-        start::show(self, ui, actions);
-        key_list::show(self, ui);
-        match self.files.question.take() {
-            Some(Question::Path { what, text }) => self.path_question(ui, what, text, actions),
-            Some(Question::Unsaved { next }) => self.unsaved_question(ui, next),
-            Some(Question::Replace { file }) => self.replace_question(ui, file),
-            Some(Question::Exporting) => self.exporting_question(ui),
-            None => {}
-        }
-        if let Some(next) = self.files.take_next(&mut self.document) {
-            self.go_on(next, ui);
-        }
+        self.after_save.take().filter(|_| !is_dirty)
     }
 
-    fn path_question(&mut self, ui: &Ui, what: PathFor, mut text: String, actions: &mut Vec<Action>) {
+    fn path(&mut self, ui: &Ui, what: PathFor, mut text: String) -> Option<Action> {
         let (title, verb) = match &what {
             PathFor::Open => ("Open a graph", "Open"),
             PathFor::Save => ("Save the graph", "Save"),
             PathFor::Model => ("Add a model", "Add"),
-            PathFor::Picture(_) => ("Choose a picture", "Choose"),
+            PathFor::Image(_) => ("Choose a picture", "Choose"),
         };
         let mut chosen = false;
-        if let Some(path) = answer_of(&mut self.files.dialog) {
+        if let Some(path) = answer_of(&mut self.dialog) {
             text = path.display().to_string();
             chosen = true;
         }
-        let waits = self.files.dialog.is_some();
-        let modal = Modal::new(egui::Id::new("path question")).show(ui.ctx(), |ui| {
+        let waits = self.dialog.is_some();
+        let modal = Modal::new(Id::new("path question")).show(ui.ctx(), |ui| {
             ui.set_width(460.0);
             ui.heading(title);
-            let field = ui.add(
-                egui::TextEdit::singleline(&mut text)
-                    .desired_width(f32::INFINITY)
-                    .hint_text("Path"),
-            );
-            field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Path"));
+            let edit = TextEdit::singleline(&mut text).desired_width(f32::INFINITY);
+            let field = ui.add(edit.hint_text("Path"));
+            field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Path"));
             chosen |= field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let buttons = ui.horizontal(|ui| {
                 let does = ui.button(verb);
@@ -188,7 +131,7 @@ impl Editor {
                 } else {
                     "System dialog…"
                 };
-                let asks_system = ui.add_enabled(!waits, egui::Button::new(system));
+                let asks_system = ui.add_enabled(!waits, Button::new(system));
                 [does, asks_system, ui.button("Cancel")]
             });
             let [does, asks_system, cancels] = buttons.inner;
@@ -200,188 +143,115 @@ impl Editor {
             }
             chosen |= does.clicked();
             if asks_system.clicked() {
-                self.files.dialog = Some(SystemDialog::file(ui.ctx(), &what, &text));
+                self.dialog = Some(SystemDialog::file(ui.ctx(), &what, &text));
             }
             cancels.clicked()
         });
         let path = PathBuf::from(text.trim());
         if chosen && !path.as_os_str().is_empty() {
-            self.take_path(what, path, actions);
-        } else if !modal.inner && !modal.should_close() {
-            self.files.question = Some(Question::Path { what, text });
+            return Some(action_for(what, path));
+        }
+        if modal.inner || modal.should_close() {
+            self.after_save = None;
+            self.dialog = None;
         } else {
-            self.files.after_save = None;
-            self.files.dialog = None;
+            self.open = Some(Question::Path { what, text });
         }
+        None
     }
 
-    /// Does with a path what it was asked for.
-    fn take_path(&mut self, what: PathFor, path: PathBuf, actions: &mut Vec<Action>) {
-        match what {
-            PathFor::Open => self.files.ask_next(&mut self.document, Next::Open(path)),
-            // At once, since an action that closes the document may wait for it.
-            PathFor::Save => self.save_unless_taken(with_ending(path)),
-            PathFor::Model => actions.push(Action::TakeModel(path)),
-            PathFor::Picture(knob) => {
-                let text = self.document.relative(&path);
-                self.document.set_at(&knob, sabi_graph::Value::Text(text));
-            }
-        }
-    }
-
-    fn unsaved_question(&mut self, ui: &Ui, next: Next) {
-        let mut answer = None;
-        let modal = Modal::new(egui::Id::new("unsaved question")).show(ui.ctx(), |ui| {
-            ui.set_width(420.0);
-            ui.heading("There are changes that are not saved");
-            ui.label("They would be lost.");
-            ui.horizontal(|ui| {
-                let save = egui::Button::new(RichText::new("Save").strong());
-                if ui.add(save).clicked() {
-                    answer = Some(Some(true));
-                }
-                if ui.button("Let them go").clicked() {
-                    answer = Some(Some(false));
-                }
-                if ui.button("Cancel").clicked() {
-                    answer = Some(None);
-                }
-            });
-        });
+    fn unsaved(&mut self, ui: &Ui, next: Next) -> Option<Action> {
+        let buttons = ["Save", "Let them go", "Cancel"];
+        let title = "There are changes that are not saved";
+        let answer = asked(ui, "unsaved question", 420.0, title, "They would be lost.", &buttons);
         match answer {
-            Some(Some(true)) => {
-                self.files.after_save = Some(next);
-                self.save();
+            Answer::Button(0) => {
+                self.after_save = Some(next);
+                Some(Action::File(FileAction::Save))
             }
-            Some(Some(false)) => self.go_on(next, ui),
-            Some(None) => {}
-            None if modal.should_close() => {}
-            None => self.files.question = Some(Question::Unsaved { next }),
+            Answer::Button(1) => Some(Action::File(FileAction::Proceed(next))),
+            Answer::Button(_) | Answer::Closed => None,
+            Answer::None => {
+                self.open = Some(Question::Unsaved { next });
+                None
+            }
         }
     }
 
-    /// Whether something else than the graph keeps the window from closing; what that is, is said.
-    fn is_held_open(&mut self) -> bool {
-        if self.panels.page.show_unsaved() {
-            self.bring_up(Panel::Page);
-            self.say("The text of a node is not saved: save it or let it go, then close the window.");
-            return true;
+    fn replace(&mut self, ui: &Ui, file: PathBuf) -> Option<Action> {
+        let buttons = ["Replace it", "Another name…"];
+        let text = format!(
+            "{} would be replaced, and stay beside it as {}.bak.",
+            file.display(),
+            file_name(&file)
+        );
+        let title = "There is such a file already";
+        match asked(ui, "replace question", 460.0, title, &text, &buttons) {
+            Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
+            Answer::Button(_) => self.ask_path(PathFor::Save, file.display().to_string()),
+            Answer::Closed => self.after_save = None,
+            Answer::None => self.open = Some(Question::Replace { file }),
         }
-        let is_exporting = self.panels.export.running.is_some();
-        if is_exporting {
-            self.files.question = Some(Question::Exporting);
-        }
-        is_exporting
+        None
     }
 
     /// Closes the window as soon as textures are written, or without them.
-    fn exporting_question(&mut self, ui: &Ui) {
-        let mut answer = None;
-        let modal = Modal::new(egui::Id::new("exporting question")).show(ui.ctx(), |ui| {
-            ui.set_width(420.0);
-            ui.heading("Textures are being written");
-            ui.label("The window closes when they are done.");
-            ui.horizontal(|ui| {
-                if ui.button("Close without them").clicked() {
-                    answer = Some(true);
-                }
-                if ui.button("Stay").clicked() {
-                    answer = Some(false);
-                }
-            });
-        });
-        match answer {
-            Some(true) => self.panels.export.cancel(),
-            Some(false) => return,
-            None if modal.should_close() => return,
-            None => {}
+    fn exporting(&mut self, ui: &Ui, context: &ViewContext<'_>) -> Option<Action> {
+        let buttons = ["Close without them", "Stay"];
+        let text = "The window closes when they are done.";
+        let title = "Textures are being written";
+        let answer = asked(ui, "exporting question", 420.0, title, text, &buttons);
+        if matches!(answer, Answer::Button(1) | Answer::Closed) {
+            return None;
         }
-        // What was canceled ends soon, and leaves no half files then.
-        match self.panels.export.running {
-            Some(_) => self.files.question = Some(Question::Exporting),
-            None => self.go_on(Next::Close, ui),
+        if context.exports.running.is_none() {
+            return Some(Action::File(FileAction::Proceed(Next::Close)));
         }
+        // A canceled export ends soon, without leaving incomplete files.
+        self.open = Some(Question::Exporting);
+        (answer == Answer::Button(0)).then_some(Action::Export(ExportAction::Cancel))
     }
+}
 
-    /// Saves under a name, unless a file is there that is another graph's: then that is asked about.
-    fn save_unless_taken(&mut self, file: PathBuf) {
-        let whole = |path: &Path| canonical(path).ok();
-        let own = self.document.session.file().and_then(whole);
-        match whole(&file) {
-            Some(found) if Some(&found) != own.as_ref() => self.files.question = Some(Question::Replace { file }),
-            _ => self.save_to(&file),
-        }
-    }
+/// Answer to a question with buttons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Answer {
+    None,
+    /// The button of this index.
+    Button(usize),
+    /// The question was closed by Escape or a click beside it.
+    Closed,
+}
 
-    fn replace_question(&mut self, ui: &Ui, file: PathBuf) {
-        let mut answer = None;
-        let modal = Modal::new(egui::Id::new("replace question")).show(ui.ctx(), |ui| {
-            ui.set_width(460.0);
-            ui.heading("There is such a file already");
-            let name = file.file_name().unwrap_or_default().to_string_lossy();
-            ui.label(format!(
-                "{} would be replaced, and stay beside it as {name}.bak.",
-                file.display()
-            ));
-            ui.horizontal(|ui| {
-                if ui.button("Replace it").clicked() {
-                    answer = Some(Some(()));
+/// Shows a question with buttons, of which the first is the suggested one.
+fn asked(ui: &Ui, id: &str, width: f32, title: &str, text: &str, buttons: &[&str]) -> Answer {
+    let mut answer = Answer::None;
+    let modal = Modal::new(Id::new(id)).show(ui.ctx(), |ui| {
+        ui.set_width(width);
+        ui.heading(title);
+        ui.label(text);
+        ui.horizontal(|ui| {
+            for (at, words) in buttons.iter().enumerate() {
+                let words = RichText::new(*words);
+                let words = if at == 0 { words.strong() } else { words };
+                if ui.add(Button::new(words)).clicked() {
+                    answer = Answer::Button(at);
                 }
-                if ui.button("Another name…").clicked() {
-                    answer = Some(None);
-                }
-            });
-        });
-        match answer {
-            Some(Some(())) => self.save_to(&file),
-            Some(None) => self.files.ask_path(PathFor::Save, file.display().to_string()),
-            None if modal.should_close() => self.files.after_save = None,
-            None => self.files.question = Some(Question::Replace { file }),
-        }
-    }
-
-    /// Does what was waiting for an answer.
-    fn go_on(&mut self, next: Next, ui: &Ui) {
-        match next {
-            Next::New => {
-                let session = sabi_engine::Session::new(self.recovery_folder());
-                self.take_session(session);
             }
-            Next::Open(path) => self.open_file(&path),
-            Next::Example(at) => self.open_example(at),
-            Next::Recover(at) => self.recover(at),
-            Next::Close if self.is_held_open() => {}
-            Next::Close => {
-                self.files.may_close = true;
-                ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
-            }
-        }
+        });
+    });
+    match answer {
+        Answer::None if modal.should_close() => Answer::Closed,
+        answer => answer,
     }
 }
 
-/// A file by its one name, where it is there.
-pub(crate) fn whole(file: &Path) -> PathBuf {
-    canonical(file).unwrap_or_else(|_| file.to_owned())
-}
-
-/// A file whose folder is the one of its name. What a link leads to may have another name, and others beside it.
-pub(crate) fn in_whole_folder(file: &Path) -> PathBuf {
-    match (file.parent(), file.file_name()) {
-        (Some(folder), Some(name)) => whole(folder).join(name),
-        _ => file.to_owned(),
+/// Action for a path that was chosen.
+fn action_for(what: PathFor, path: PathBuf) -> Action {
+    match what {
+        PathFor::Open => Action::File(FileAction::Ask(Next::Open(path))),
+        PathFor::Save => Action::File(FileAction::SaveAs(with_graph_ending(path))),
+        PathFor::Model => Action::Model(ModelAction::Show(path)),
+        PathFor::Image(parameter) => Action::File(FileAction::SetImage { parameter, file: path }),
     }
-}
-
-/// A graph file ends in .sabi, whatever was typed.
-fn with_ending(path: PathBuf) -> PathBuf {
-    let is_graph = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case(sabi_editing::GRAPH_EXTENSION));
-    let Some(name) = path.file_name().filter(|_| !is_graph) else {
-        return path;
-    };
-    let mut name = name.to_owned();
-    name.push(".");
-    name.push(sabi_editing::GRAPH_EXTENSION);
-    path.with_file_name(name)
 }

@@ -14,10 +14,12 @@ use egui_phosphor::regular as icon;
 use sabi_engine::{Inspected, LiveModel, SetKey};
 use sabi_graph::NodeRef;
 
-use crate::app::Taken;
+use crate::action::{Action, ClickedColor, LookAction};
 use crate::command::TextureCommand;
-use crate::errand::{Errand, Failed};
-use crate::stage::Stage;
+use crate::context::{View, ViewContext};
+use crate::evaluation::Evaluation;
+use crate::looks::title_of;
+use crate::task::{Failed, Task};
 use crate::theme::{Theme, space, type_size};
 use picture::{Histogram, picture_of};
 use wires::Wires;
@@ -44,7 +46,7 @@ pub(crate) struct FlatView {
     /// What no picture could be made of.
     failed: Option<Part>,
     /// What will be shown next.
-    coming: Option<(Part, Errand<(ColorImage, Histogram)>)>,
+    coming: Option<(Part, Task<(ColorImage, Histogram)>)>,
     wires: Wires,
 }
 
@@ -58,25 +60,25 @@ struct Shown {
 }
 
 /// What is shown.
-pub(crate) struct Subject<'a> {
+struct Subject<'a> {
     /// The result; none where none was clicked yet.
-    pub(crate) wanted: Option<&'a NodeRef>,
+    wanted: Option<&'a NodeRef>,
     /// What it is called.
-    pub(crate) title: &'a str,
+    title: &'a str,
     /// Whether it is shown whatever is clicked.
-    pub(crate) is_pinned: bool,
+    is_pinned: bool,
     /// Whether a click takes the color that is seen.
-    pub(crate) is_taking_color: bool,
-    pub(crate) theme: &'a Theme,
+    is_taking_color: bool,
+    theme: &'a Theme,
 }
 
 /// What was done in the view.
 #[derive(Default)]
-pub(crate) struct Done {
+struct Done {
     /// Whether what is pinned shall be no longer.
-    pub(crate) unpins: bool,
+    unpins: bool,
     /// The color that was clicked, where one is wanted.
-    pub(crate) taken: Option<Taken>,
+    taken: Option<ClickedColor>,
 }
 
 impl Default for FlatView {
@@ -97,18 +99,36 @@ impl Default for FlatView {
     }
 }
 
+impl View for FlatView {
+    fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        let looks = context.looks;
+        let wanted = looks.inspected();
+        let title = wanted.map_or_else(String::new, |result| title_of(context.document, result));
+        let subject = Subject {
+            wanted,
+            title: &title,
+            is_pinned: looks.pinned.is_some(),
+            is_taking_color: looks.color_target.is_some(),
+            theme: context.theme,
+        };
+        let done = self.draw(ui, context.evaluation, &subject);
+        let unpin = done.unpins.then_some(Action::Look(LookAction::Unpin));
+        unpin.into_iter().chain(done.taken.map(Action::TakeColor)).collect()
+    }
+}
+
 impl FlatView {
     /// Draws the result of the inspected node.
-    pub(crate) fn show(&mut self, ui: &mut Ui, stage: &Stage, subject: &Subject<'_>) -> Done {
+    fn draw(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>) -> Done {
         let mut done = Done::default();
         let Subject {
             wanted, theme, title, ..
         } = *subject;
-        let values = stage.inspected.as_ref().filter(|(node, _)| Some(node) == wanted);
+        let values = evaluation.inspected.as_ref().filter(|(node, _)| Some(node) == wanted);
         let values = values.map(|(_, values)| values.clone());
-        done.unpins = self.bar(ui, stage, subject, values.as_deref());
+        done.unpins = self.bar(ui, evaluation, subject, values.as_deref());
         let Some(values) = values else {
-            let fault = wanted.and_then(|node| stage.fault(&node.node).or(stage.waits(&node.node)));
+            let fault = wanted.and_then(|node| evaluation.fault(&node.node).or(evaluation.waits(&node.node)));
             let sentence = match (wanted, fault) {
                 (_, Some(fault)) => fault,
                 (Some(_), None) => "Evaluating…",
@@ -137,7 +157,7 @@ impl FlatView {
         let square = self.paint(&painter, shown, rect, values.size);
         painter.rect_stroke(square, 0.0, Stroke::new(1.0, theme.line), egui::StrokeKind::Outside);
         if self.has_wires
-            && let Some(model) = &stage.shown_model
+            && let Some(model) = &evaluation.shown_model
         {
             self.wires.draw(&painter, (model, values.set.key), square, theme);
         }
@@ -190,7 +210,7 @@ impl FlatView {
     }
 
     /// What stands above the picture; says whether it shall not be pinned any more.
-    fn bar(&mut self, ui: &mut Ui, stage: &Stage, subject: &Subject<'_>, values: Option<&Inspected>) -> bool {
+    fn bar(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>, values: Option<&Inspected>) -> bool {
         let mut unpins = false;
         ui.horizontal(|ui| {
             if subject.is_pinned {
@@ -200,7 +220,7 @@ impl FlatView {
                 unpins = pin.clicked();
             }
             ui.strong(subject.title);
-            if let Some(model) = &stage.shown_model {
+            if let Some(model) = &evaluation.shown_model {
                 self.sets(ui, model);
             }
             let Some(values) = values else { return };
@@ -270,7 +290,7 @@ impl FlatView {
         let component = self.component.filter(|at| *at < plane.components);
         let wanted = (values.clone(), self.plane, component);
         let is_wanted = |of: &Part| Arc::ptr_eq(&of.0, &wanted.0) && (of.1, of.2) == (wanted.1, wanted.2);
-        if let Some(come) = self.coming.as_ref().and_then(|(_, errand)| errand.poll())
+        if let Some(come) = self.coming.as_ref().and_then(|(_, task)| task.poll())
             && let Some((of, _)) = self.coming.take()
         {
             match come {
@@ -289,14 +309,14 @@ impl FlatView {
             return;
         }
         let (values, at, component) = wanted.clone();
-        let errand = Errand::start(ui.ctx(), move || {
+        let task = Task::start(ui.ctx(), move || {
             let plane = &values.planes[at];
             (
                 picture_of(&values, plane, component),
                 Histogram::of(&values, plane, component, BINS),
             )
         });
-        self.coming = Some((wanted, errand));
+        self.coming = Some((wanted, task));
     }
 
     fn take(&mut self, ui: &Ui, of: Part, image: ColorImage, histogram: Histogram) {

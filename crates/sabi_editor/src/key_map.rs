@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers};
 
 use crate::command::{Command, Habit, Scope};
 
@@ -54,6 +54,21 @@ impl Chord {
         let held = |modifiers: Modifiers| [modifiers.command || modifiers.ctrl, modifiers.shift, modifiers.alt];
         key == self.key && held(modifiers) == held(self.modifiers)
     }
+}
+
+/// Chord behind an event of the clipboard: systems report the usual keys of copy, cut and paste only as what they mean.
+/// Whether other modifiers are held with them is not reported.
+pub(crate) fn from_clipboard_event(event: &Event) -> Option<Chord> {
+    let key = match event {
+        Event::Copy => Key::C,
+        Event::Cut => Key::X,
+        Event::Paste(_) => Key::V,
+        _ => return None,
+    };
+    Some(Chord {
+        modifiers: Modifiers::COMMAND,
+        key,
+    })
 }
 
 /// Commands that keys mean.

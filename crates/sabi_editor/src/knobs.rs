@@ -17,6 +17,7 @@ mod length;
 mod lettering;
 mod numbers;
 mod row;
+mod sentence;
 mod stops;
 #[cfg(test)]
 mod tests;

@@ -2,23 +2,33 @@
 
 mod action;
 mod app;
+mod bars;
 mod canvas;
 mod command;
+mod context;
 mod dock;
-mod errand;
+mod evaluation;
+mod exports;
 mod files;
 mod flat_view;
 mod key_map;
 mod knobs;
+mod library;
+mod looks;
 mod model_view;
 mod mouse;
+mod notices;
 mod offscreen;
 mod panels;
+mod paths;
 mod reading;
+mod saved_pictures;
 mod search;
 mod settings;
-mod stage;
+mod task;
 mod theme;
+mod time_text;
+mod views;
 mod watching;
 mod window;
 

@@ -1,12 +1,12 @@
-//! The model in the light, as one turns it about.
+//! The viewport: the model in its light, turned by drags.
 
-mod choices;
 mod environment;
 mod eyedropper;
 mod lamps;
 mod menu;
 mod painting;
 mod showing;
+mod subject;
 mod tools;
 
 use std::path::Path;
@@ -21,19 +21,15 @@ use glam::Vec2;
 use sabi_engine::view::{Camera, Lens, Lines, Picked, Shot, Viewpoint, Viewport, aspect_of, pick};
 use sabi_engine::{LiveModel, ViewSubject};
 
-use crate::action::Action;
-use crate::app::Taken;
-use crate::command::{Habit, Scope, ViewportCommand};
-use crate::key_map::KeyMap;
+use crate::command::{Scope, ViewportCommand};
+use crate::evaluation::{Evaluation, Picture};
 use crate::knobs::Lengths;
 use crate::mouse::{self, Drags};
-use crate::stage::{Picture, Stage};
+use crate::settings::viewport::ViewChoices;
 use crate::theme::{Theme, type_size};
-pub(crate) use choices::ViewChoices;
 use environment::Surroundings;
 use lamps::Lamps;
-pub(crate) use menu::staying;
-pub(crate) use showing::Showing;
+use subject::{Done, Subject};
 use tools::Tools;
 
 /// After the last movement the picture rests.
@@ -75,36 +71,6 @@ pub(crate) struct ModelView {
     pub(crate) drawn: u64,
 }
 
-/// What is shown.
-pub(crate) struct Subject<'a> {
-    pub(crate) seen: &'a ViewSubject,
-    /// What it is compared with.
-    pub(crate) locked: Option<&'a ViewSubject>,
-    /// Both in words.
-    pub(crate) showing: &'a Showing,
-    /// Whether a click takes the color that is seen.
-    pub(crate) is_taking_color: bool,
-    /// Whether a knob is being moved.
-    pub(crate) is_moving: bool,
-    pub(crate) theme: &'a Theme,
-    /// What drags mean.
-    pub(crate) habit: Habit,
-    pub(crate) keys: &'a KeyMap,
-}
-
-/// What was done in the view.
-#[derive(Default)]
-pub(crate) struct Done {
-    /// The color that was clicked, where one is wanted.
-    pub(crate) taken: Option<Taken>,
-    /// The environment that was chosen.
-    pub(crate) environment: Option<String>,
-    /// What menus ask for.
-    pub(crate) asked: Vec<Action>,
-    /// Why an environment cannot be had.
-    pub(crate) fault: Option<String>,
-}
-
 impl ModelView {
     /// A view in this environment, as it was chosen to be.
     pub(crate) fn new(environment: &str, choices: &ViewChoices) -> ModelView {
@@ -117,7 +83,7 @@ impl ModelView {
             samples: SAMPLES,
             ..Shot::new(camera)
         };
-        choices.give(&mut shot);
+        choices.apply(&mut shot);
         ModelView {
             screens: [None, None],
             tools: Tools::default(),
@@ -163,7 +129,7 @@ impl ModelView {
         self.surroundings.read_again();
     }
 
-    /// Another number for every environment that was shown.
+    /// Rises with every environment that is shown.
     #[cfg(test)]
     pub(crate) fn environment_number(&self) -> u64 {
         self.surroundings.number()
@@ -175,16 +141,25 @@ impl ModelView {
         self.surroundings.read_again();
     }
 
-    /// Draws the model and lets it be turned.
-    pub(crate) fn show(
+    /// Puts the line between two pictures in the middle when a comparison begins.
+    fn follow_comparison(&mut self, is_compared: bool) {
+        self.wipe = match self.wipe {
+            Some(share) if is_compared => Some(share),
+            None if is_compared => Some(0.5),
+            _ => None,
+        };
+    }
+
+    /// Draws the model, and turns it as drags ask.
+    fn draw_view(
         &mut self,
         ui: &mut Ui,
-        stage: &Stage,
+        evaluation: &Evaluation,
         render: Option<&RenderState>,
         subject: &Subject<'_>,
     ) -> Done {
         let mut done = Done {
-            fault: self.surroundings.poll(stage, ui.ctx()),
+            fault: self.surroundings.poll(evaluation, ui.ctx()),
             ..Done::default()
         };
         let rect = ui.available_rect_before_wrap();
@@ -195,19 +170,19 @@ impl ModelView {
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Model"));
         let ground = ui.painter().add(Shape::Noop);
         // What is evaluated for the first time takes a while, and an empty view in between would be a flash.
-        let picture = stage.picture(subject.seen).or(self.last.as_ref()).cloned();
+        let picture = evaluation.picture(subject.seen).or(self.last.as_ref()).cloned();
         if let Some(picture) = &picture {
             self.frame_new(&picture.model, rect);
             let drags = mouse::dragged(subject.habit, Scope::Viewport, &response);
             self.turn(ui, &response, rect, drags);
-            done.taken = self.clicked_color(&response, rect, stage, picture, subject);
+            done.taken = self.clicked_color(&response, rect, evaluation, picture, subject);
         }
         let is_covered = match (render, &picture) {
-            (Some(render), Some(picture)) => self.paint(ui, rect, stage, render, picture, subject),
+            (Some(render), Some(picture)) => self.paint(ui, rect, evaluation, render, picture, subject),
             (render, _) => {
                 let why = match render {
                     None => "This window has no graphics device to draw the model with.",
-                    Some(_) => stage.model_failure.as_deref().unwrap_or("Reading the model…"),
+                    Some(_) => evaluation.model_failure.as_deref().unwrap_or("Reading the model…"),
                 };
                 self.say(ui, rect, subject.theme, why);
                 false
@@ -221,9 +196,9 @@ impl ModelView {
         if let Some(fault) = &self.fault {
             self.say(ui, rect, subject.theme, fault);
         }
-        self.draw_length(ui, rect, stage, subject.theme);
-        showing::label(self, ui, rect, stage, subject);
-        done.environment = menu::show(self, ui, rect, stage, subject, &mut done.asked);
+        self.draw_length(ui, rect, evaluation, subject.theme);
+        showing::label(self, ui, rect, evaluation, subject);
+        done.environment = menu::show(self, ui, rect, evaluation, subject, &mut done.asked);
         done
     }
 
@@ -309,12 +284,12 @@ impl ModelView {
     pub(crate) fn command(
         &mut self,
         command: ViewportCommand,
-        stage: &Stage,
+        evaluation: &Evaluation,
         seen: &ViewSubject,
         rect: Rect,
         pointer: Option<egui::Pos2>,
     ) {
-        let picture = stage.picture(seen).or(self.last.as_ref());
+        let picture = evaluation.picture(seen).or(self.last.as_ref());
         let Some(model) = picture.map(|picture| picture.model.clone()) else {
             return;
         };
@@ -352,8 +327,8 @@ impl ModelView {
     }
 
     /// A bar as long as a length on the model, at the distance that is looked at, and how long that is.
-    fn draw_length(&self, ui: &Ui, rect: Rect, stage: &Stage, theme: &Theme) {
-        let (Some(length), Some(model)) = (self.length, &stage.shown_model) else {
+    fn draw_length(&self, ui: &Ui, rect: Rect, evaluation: &Evaluation, theme: &Theme) {
+        let (Some(length), Some(model)) = (self.length, &evaluation.shown_model) else {
             return;
         };
         let view_from_working = model.placement.scale / model.fitted().working_from_model();

@@ -13,7 +13,7 @@ use egui::{ClippedPrimitive, Context, Event, RawInput, Rect, TextureId, Vec2};
 use sabi_engine::{AdapterChoice, EngineError, Gpu, Session, default_cache_dir};
 use sabi_graph::{Document, Edit, NodeId, Value};
 
-use crate::app::{Beginning, Editor, Folders};
+use crate::app::{Editor, Folders, InitialState};
 use crate::dock::Panel;
 use crate::window::configuration;
 use painter::Painter;
@@ -76,7 +76,7 @@ impl Offscreen {
                 let _ = wake.send(());
             }
         });
-        let beginning = Beginning {
+        let initial = InitialState {
             session: Session::open(graph.as_ref(), None)?,
             model,
             folders: Folders {
@@ -87,7 +87,7 @@ impl Offscreen {
         };
         let painter = Painter::new(render.clone(), size.into());
         let handover = Arc::new(Mutex::new(None));
-        let editor = Editor::new(beginning, &context, Arc::new(gpu), Some(render), handover);
+        let editor = Editor::new(initial, &context, Arc::new(gpu), Some(render), handover);
         Ok(Offscreen {
             context,
             editor,
@@ -169,54 +169,58 @@ impl Offscreen {
 
     /// Whether results are on their way.
     pub fn is_busy(&self) -> bool {
-        self.editor.stage.is_busy()
+        self.editor.evaluation.is_busy()
     }
 
     /// Sets a knob as a drag of it does, or as a click does that is not followed by another.
     pub fn turn(&mut self, node: &str, knob: &str, value: f64, is_drag: bool) {
         let Ok(node) = node.parse::<NodeId>() else { return };
-        self.editor.is_moving = is_drag;
-        self.editor.document.set_knob(&node, knob, Some(Value::Number(value)));
+        self.editor.documents.is_dragging = is_drag;
+        self.editor
+            .documents
+            .document
+            .set_knob(&node, knob, Some(Value::Number(value)));
     }
 
     /// Looks at a node's result, as a click on it does.
     pub fn look_at(&mut self, node: &str) {
         let Ok(node) = node.parse::<NodeId>() else { return };
-        self.editor.look_at(&node, None);
+        let Editor { looks, documents, .. } = &mut self.editor;
+        looks.show(&documents.document, &node, None);
     }
 
     /// The graph as it is.
     pub fn document(&self) -> &Document {
-        self.editor.document.contents()
+        self.editor.documents.document.contents()
     }
 
     /// Makes an edit, unless it is refused.
     pub fn edit(&mut self, edit: Edit) {
-        self.editor.document.edit("Edit", vec![edit]);
+        self.editor.documents.document.edit("Edit", vec![edit]);
     }
 
     /// Takes the last step back.
     pub fn undo(&mut self) {
-        self.editor.document.undo();
+        self.editor.documents.document.undo();
     }
 
     /// Does the last step again that was taken back.
     pub fn redo(&mut self) {
-        self.editor.document.redo();
+        self.editor.documents.document.redo();
     }
 
     /// How many pictures of the model were drawn, and at how many texels the last one that came is.
     pub fn drawn(&self) -> (u64, u32) {
-        let picture = self.editor.stage.picture(&sabi_engine::ViewSubject::Outputs);
+        let picture = self.editor.evaluation.picture(&sabi_engine::ViewSubject::Outputs);
         (
-            self.editor.model_view.drawn,
+            self.editor.views.model.drawn,
             picture.map_or(0, |picture| picture.model.size),
         )
     }
 
     /// Bytes of results that are kept, and that may be kept.
     pub fn kept_bytes(&self) -> [u64; 2] {
-        let last = &self.editor.stage.last;
+        let last = &self.editor.evaluation.last;
         [last.texture_bytes, last.budget_bytes]
     }
 
@@ -225,11 +229,11 @@ impl Offscreen {
     /// # Errors
     /// The device is gone.
     pub fn finish(&self) -> Result<(), EngineError> {
-        Ok(self.editor.stage.gpu().wait()?)
+        Ok(self.editor.evaluation.gpu().wait()?)
     }
 
     /// Where on the screen the canvas is.
     pub fn canvas(&self) -> Option<Rect> {
-        self.editor.rects.get(&Panel::Canvas).copied()
+        self.editor.shell.dock.rects.get(&Panel::Canvas).copied()
     }
 }

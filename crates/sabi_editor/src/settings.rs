@@ -1,4 +1,7 @@
-//! What is kept between runs: looks, keys, layout, and files that were open.
+//! Settings: looks, keys, layout and recent files, kept between runs.
+
+pub(crate) mod export;
+pub(crate) mod viewport;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,11 +13,11 @@ use serde_json::Value as Json;
 
 use crate::command::Habit;
 use crate::dock::Layout;
-use crate::files::whole;
-use crate::model_view::ViewChoices;
-use crate::panels::export::{ExportChoices, ExportPlace};
+use crate::paths::canonical_if_present;
 use crate::reading::Reading;
 use crate::theme::Shade;
+use export::{ExportChoices, ExportPlace};
+use viewport::ViewChoices;
 
 const FILE: &str = "settings.json";
 const BACKUP: &str = "settings.json.bak";
@@ -28,31 +31,31 @@ pub(crate) const MOST_MODELS: usize = 6;
 #[serde(default)]
 pub(crate) struct Settings {
     pub(crate) shade: Shade,
-    /// Everything is so many times as large.
+    /// Factor of the size of everything.
     pub(crate) scale: f32,
     pub(crate) habit: Habit,
-    /// Commands bound to other keys, by name.
+    /// Keys of commands that have others than the habit's, by the command's name.
     pub(crate) keys: BTreeMap<String, Vec<String>>,
-    /// Files that were open, the last one first.
+    /// Recent graph files, the last one first.
     pub(crate) recent: Vec<PathBuf>,
-    /// Models that graphs are tried on.
+    /// Models on the strip above the viewport.
     pub(crate) models: Vec<PathBuf>,
-    /// How models are read whose files are read otherwise than others.
+    /// Options for reading models that differ from the default.
     pub(crate) readings: BTreeMap<PathBuf, Reading>,
-    /// Whether pictures on nodes show texture space.
+    /// Whether node pictures show texture space.
     pub(crate) is_flat: bool,
     pub(crate) export: ExportChoices,
-    /// Where textures of the graphs that were open go.
+    /// Export targets of recent graphs.
     pub(crate) export_places: BTreeMap<PathBuf, ExportPlace>,
     /// Environment of the viewport: a built-in name, or a file.
     pub(crate) environment: String,
     /// Light and picture of the viewport.
     pub(crate) view: ViewChoices,
-    /// Whether the model shows the node that is clicked, and not only the outputs.
+    /// Whether the model shows the clicked node, and not only the outputs.
     pub(crate) follows: bool,
     pub(crate) has_mini_map: bool,
     pub(crate) layout: Option<Layout>,
-    /// Node kinds and library files that are shown first.
+    /// Keys of node kinds, groups and library files that are shown first.
     pub(crate) favorites: Vec<String>,
 }
 
@@ -80,7 +83,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// What was kept in a folder; says what could not be read, and begins anew then.
+    /// Settings in a folder; those of a new installation with a sentence where they cannot be read.
     pub(crate) fn load(folder: Option<&Path>) -> (Settings, Option<String>) {
         let read = match folder.map(|folder| fs::read_to_string(folder.join(FILE))) {
             None => return (Settings::default(), None),
@@ -91,7 +94,7 @@ impl Settings {
         match read {
             Ok(settings) => (settings.sound(), None),
             Err(error) => {
-                // What is kept from now on must not take its place: it may be of a newer version.
+                // The next save must not overwrite it: it may be of a newer version.
                 let aside = folder.map(|folder| fs::rename(folder.join(FILE), folder.join(BACKUP)));
                 let place = match aside {
                     Some(Ok(())) => format!(" The others are in {BACKUP}."),
@@ -105,7 +108,10 @@ impl Settings {
         }
     }
 
-    /// Keeps them: whole, or as they were before. What is as in `before` stays as another window has kept it since.
+    /// Saves the settings that differ from `before`. The others stay as another window has saved them since.
+    ///
+    /// # Errors
+    /// A sentence, where the file cannot be written.
     pub(crate) fn save(&self, folder: &Path, before: &Json) -> Result<(), String> {
         let file = folder.join(FILE);
         let mut kept = match fs::read(&file).map(|bytes| serde_json::from_slice(&bytes)) {
@@ -124,43 +130,46 @@ impl Settings {
             .map_err(|error| format!("the settings cannot be kept in {}: {error}", folder.display()))
     }
 
-    /// What is kept of them.
+    /// Settings as the file has them.
     pub(crate) fn to_json(&self) -> Json {
-        // Nothing of them is of a kind that JSON does not have.
+        // Cannot fail: every field has a form in JSON, and maps have text as keys.
         serde_json::to_value(self).unwrap_or_default()
     }
 
-    /// Remembers a file as the last one that was open.
+    /// Puts a graph file first among the recent ones.
     pub(crate) fn remember(&mut self, file: &Path) {
-        let whole = whole(file);
-        self.recent.retain(|known| *known != whole);
-        self.recent.insert(0, whole);
+        let file = canonical_if_present(file);
+        self.recent.retain(|known| *known != file);
+        self.recent.insert(0, file);
         self.recent.truncate(MOST_RECENT);
     }
 
-    /// Where textures of a graph went.
+    /// Export target of a graph.
     pub(crate) fn export_place(&self, graph: &Path) -> ExportPlace {
-        let whole = whole(graph);
-        self.export_places.get(&whole).cloned().unwrap_or_default()
+        let file = canonical_if_present(graph);
+        self.export_places.get(&file).cloned().unwrap_or_default()
     }
 
-    /// Remembers where textures of a graph go, as long as the graph is one of those that were open lately.
+    /// Remembers the export target of a graph, and forgets those of graphs that are no longer recent.
     pub(crate) fn remember_export(&mut self, graph: &Path, place: &ExportPlace) {
-        let whole = whole(graph);
-        self.export_places.insert(whole.clone(), place.clone());
+        let file = canonical_if_present(graph);
+        self.export_places.insert(file.clone(), place.clone());
         let recent = &self.recent;
         self.export_places
-            .retain(|graph, _| *graph == whole || recent.contains(graph));
+            .retain(|graph, _| *graph == file || recent.contains(graph));
     }
 
-    /// How a model is read.
+    /// Options for reading a model.
     pub(crate) fn reading(&self, model: &Path) -> Reading {
-        self.readings.get(&whole(model)).copied().unwrap_or_default()
+        self.readings
+            .get(&canonical_if_present(model))
+            .copied()
+            .unwrap_or_default()
     }
 
-    /// Remembers how a model is read.
+    /// Remembers the options for reading a model.
     pub(crate) fn remember_reading(&mut self, model: &Path, reading: Reading) {
-        let model = whole(model);
+        let model = canonical_if_present(model);
         if reading == Reading::default() {
             self.readings.remove(&model);
         } else {
@@ -185,7 +194,7 @@ impl Settings {
     }
 }
 
-/// Where settings are kept.
+/// Folder of the settings of this user.
 pub(crate) fn default_folder() -> Option<PathBuf> {
     let set = |name: &str| {
         std::env::var_os(name)

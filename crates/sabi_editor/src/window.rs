@@ -9,8 +9,9 @@ use sabi_engine::{
     AdapterChoice, EngineError, ErrorKind, Gpu, Remedy, Session, choose_adapter, default_cache_dir, device_descriptor,
 };
 
-use crate::app::{Beginning, Editor, Folders, Handover};
-use crate::files::{examples, in_whole_folder};
+use crate::app::{Editor, Folders, Handover, InitialState};
+use crate::files::examples;
+use crate::paths::{in_canonical_folder, model_of};
 use crate::settings::default_folder;
 
 /// How often a window is opened anew for a lost device before it is given up, where each was lost soon.
@@ -50,14 +51,14 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
             }
             None => (Session::new(None), PathBuf::new()),
         };
-        let beginning = Beginning {
+        let initial = InitialState {
             model,
             session,
             folders: folders.clone(),
             is_start: request.graph.is_none(),
         };
         let opened = Instant::now();
-        run(request, beginning, &handover)?;
+        run(request, initial, &handover)?;
         let is_lost = handover.lock().is_ok_and(|kept| kept.is_some());
         Ok(is_lost.then(|| opened.elapsed()))
     })
@@ -88,7 +89,7 @@ fn refuse_without_display() -> Result<(), EngineError> {
     Err(EngineError::new(ErrorKind::NoAdapter, why))
 }
 
-fn run(request: &EditRequest, beginning: Beginning, handover: &Handover) -> Result<(), EngineError> {
+fn run(request: &EditRequest, initial: InitialState, handover: &Handover) -> Result<(), EngineError> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Sabi")
@@ -108,7 +109,7 @@ fn run(request: &EditRequest, beginning: Beginning, handover: &Handover) -> Resu
             .clone()
             .ok_or("the window has no graphics device")?;
         let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone())?;
-        let editor = Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover);
+        let editor = Editor::new(initial, &context.egui_ctx, Arc::new(gpu), Some(render), handover);
         Ok(Box::new(editor) as Box<dyn eframe::App>)
     };
     eframe::run_native("sabi", options, Box::new(created)).map_err(|error| {
@@ -149,16 +150,16 @@ fn folders() -> Folders {
 /// The model to begin with: the one that was named, the one that the graph names, or one that comes with the program.
 fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> Result<PathBuf, EngineError> {
     if let Some(mesh) = &request.mesh {
-        return Ok(in_whole_folder(mesh));
+        return Ok(in_canonical_folder(mesh));
     }
-    if let Some(model) = crate::app::model_of(session) {
-        return Ok(in_whole_folder(&model));
+    if let Some(model) = model_of(session) {
+        return Ok(in_canonical_folder(&model));
     }
     let folder = folders
         .examples
         .clone()
         .unwrap_or_else(|| std::env::temp_dir().join("sabi"));
-    unpacked(&folder).map(|model| in_whole_folder(&model))
+    unpacked(&folder).map(|model| in_canonical_folder(&model))
 }
 
 fn unpacked(folder: &Path) -> Result<PathBuf, EngineError> {

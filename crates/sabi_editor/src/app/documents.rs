@@ -1,293 +1,259 @@
-//! Graphs, models and textures as files.
+//! The open graph with everything that belongs to it: what can be added, saved pictures, autosave and watched files.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
-use egui::Ui;
+use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
-use sabi_graph::{Edit, Preview, Value};
+use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
+use sabi_graph::{Edit, Preview};
 
-use super::Editor;
-use crate::action::{Action, Shelf};
-use crate::command::Favorite;
-use crate::files::{examples, whole};
-use crate::panels::library::KEPT_AS;
+use crate::action::Shelf;
+use crate::evaluation::Evaluation;
+use crate::library::Library;
+use crate::paths::{canonical_if_present, model_of};
+use crate::saved_pictures::SavedPictures;
+use crate::search::{Candidate, candidates};
+use crate::watching::{WatchedFiles, Watching};
 
-/// Endings of models.
-pub(crate) const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
-/// Endings of pictures that nodes read.
-pub(crate) const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
+/// Time between two saves of what is not saved yet.
+const AUTOSAVE_EVERY: Duration = Duration::from_secs(3);
 
-impl Editor {
+/// Folders of the program on this machine; none where there is no such place.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Folders {
+    pub(crate) settings: Option<PathBuf>,
+    pub(crate) cache: Option<PathBuf>,
+    /// Graphs that are not saved yet.
+    pub(crate) recovery: Option<PathBuf>,
+    /// Groups that every graph can use.
+    pub(crate) library: Option<PathBuf>,
+    /// Examples that were opened.
+    pub(crate) examples: Option<PathBuf>,
+}
+
+/// The open graph with everything that belongs to it.
+pub(crate) struct Documents {
+    pub(crate) document: OpenDocument,
+    pub(crate) folders: Folders,
+    /// Graphs and node files that were not saved when the program ended.
+    pub(crate) recoveries: Vec<Recovery>,
+    pub(crate) library: Library,
+    pub(crate) pictures: SavedPictures,
+    pub(crate) watching: Watching,
+    /// Whether another program has written the graph's file, and the artist has not said yet which one to keep.
+    pub(crate) is_file_foreign: bool,
+    /// Whether a parameter is being dragged: an undo step is open, and results are quick.
+    pub(crate) is_dragging: bool,
+    pub(crate) autosave: Autosave,
+    /// Nodes and groups that can be added, with the revisions that they were listed for.
+    candidates: (Option<(u64, u64)>, Vec<Candidate>),
+}
+
+/// Copies of what is not saved yet, in case the program ends.
+pub(crate) struct Autosave {
+    at: Instant,
+    /// Revisions of the graph and of node files that were saved last.
+    saved: Option<(u64, u64)>,
+    pub(crate) every: Duration,
+}
+
+impl Default for Autosave {
+    fn default() -> Autosave {
+        Autosave {
+            at: Instant::now(),
+            saved: None,
+            every: AUTOSAVE_EVERY,
+        }
+    }
+}
+
+impl Autosave {
+    /// Saves again at the next opportunity, although nothing was edited.
+    pub(crate) fn invalidate(&mut self) {
+        self.saved = None;
+    }
+}
+
+impl Documents {
+    /// An open graph, with what can be recovered where that is to be offered.
+    pub(crate) fn new(document: OpenDocument, folders: Folders, watching: Watching, has_recoveries: bool) -> Documents {
+        let recovery = folders.recovery.as_deref().filter(|_| has_recoveries);
+        Documents {
+            document,
+            recoveries: recovery.map_or_else(Vec::new, recoveries),
+            library: Library::default(),
+            pictures: SavedPictures::new(folders.cache.clone()),
+            watching,
+            is_file_foreign: false,
+            is_dragging: false,
+            autosave: Autosave::default(),
+            candidates: (None, Vec::new()),
+            folders,
+        }
+    }
+
+    /// Folder of copies of graphs that are not saved yet.
     pub(crate) fn recovery_folder(&self) -> Option<&Path> {
         self.folders.recovery.as_deref()
     }
 
-    /// Opens a graph file in the place of what is open.
-    pub(crate) fn open_file(&mut self, path: &Path) {
-        match Session::open(path, self.recovery_folder()) {
-            Ok(session) => {
-                self.settings.remember(path);
-                self.take_session(session);
-            }
-            Err(error) => self.say(error.to_string()),
-        }
-    }
-
-    pub(crate) fn open_example(&mut self, at: usize) {
-        let Some(folder) = self.folders.examples.clone() else {
-            self.say("This system has no folder for examples; open one of the project's graphs instead.");
-            return;
-        };
-        match examples::unpack(&folder, at) {
-            Ok(Some(file)) => self.open_file(&file),
-            Ok(None) => {}
-            Err(error) => self.say(format!("{} cannot be written: {error}", folder.display())),
-        }
-    }
-
-    /// Goes on with what was kept when the program ended.
-    pub(crate) fn recover(&mut self, at: usize) {
-        if at >= self.files.recoveries.len() {
-            return;
-        }
-        let recovery = self.files.recoveries.remove(at);
-        let drafts = recovery.drafts().to_vec();
-        match Session::recover(recovery) {
-            Ok(session) => self.take_session(session),
-            Err(error) => self.say(error.to_string()),
-        }
-        // Whatever became of the graph.
-        self.panels.page.recover(drafts, &self.document);
-    }
-
-    /// Opens another graph, on the model that it names.
-    pub(crate) fn take_session(&mut self, session: Session) {
-        let model = super::model_of(&session);
-        self.remember_export();
+    /// Closes the open graph and opens another one; gives the file of the model that it names.
+    pub(crate) fn replace(&mut self, session: Session) -> Option<PathBuf> {
+        let model = model_of(&session);
         let before = std::mem::replace(&mut self.document, OpenDocument::new(session));
         before.session.close();
-        self.recall_export();
-        self.keeping.kept = None;
-        self.canvas = Default::default();
-        self.look_at_nothing();
-        if let Some(model) = model.filter(|model| whole(model) != whole(self.stage.model_file())) {
-            self.take_model(&model);
+        self.autosave.invalidate();
+        model
+    }
+
+    /// Takes the open graph, with an empty one in its place, since the window ends.
+    pub(crate) fn take(&mut self) -> OpenDocument {
+        std::mem::replace(&mut self.document, OpenDocument::new(Session::new(None)))
+    }
+
+    /// Nodes and groups that can be added.
+    pub(crate) fn candidates(&self) -> &[Candidate] {
+        &self.candidates.1
+    }
+
+    /// Lists again what can be added, where the graph, the node kinds or the library have changed.
+    pub(crate) fn refresh_candidates(&mut self) {
+        let now = (self.document.session.revision(), self.document.kinds().1);
+        let folders = self.library_folders();
+        if self.candidates.0 == Some(now) && !self.library.has_changed(&folders) {
+            return;
+        }
+        let groups: Vec<String> = self.document.contents().groups.keys().cloned().collect();
+        let shelved = self.library.groups(folders, self.document.catalog());
+        let found = candidates(self.document.catalog(), self.document.faces(), &groups, shelved);
+        self.candidates = (Some(now), found);
+    }
+
+    /// Folder of a library. That of the project is only there once the graph has a file.
+    pub(crate) fn library_folder(&self, shelf: Shelf) -> Option<PathBuf> {
+        match shelf {
+            Shelf::Project => Some(self.document.session.file()?.with_file_name("library")),
+            Shelf::User => self.folders.library.clone(),
         }
     }
 
-    /// Saves to the graph's file, or asks for one.
-    pub(crate) fn save(&mut self) {
-        match self.document.session.file().map(Path::to_owned) {
-            Some(file) => {
-                self.keep_model();
-                let saved = self.document.save();
-                self.tell_saved(&file, saved);
-            }
-            None => self.files.ask_save(&self.document),
+    /// Folders of the libraries, each of them once.
+    fn library_folders(&self) -> Vec<(Shelf, PathBuf)> {
+        let found = [Shelf::Project, Shelf::User].map(|shelf| Some((shelf, self.library_folder(shelf)?)));
+        let mut folders: Vec<(Shelf, PathBuf)> = found.into_iter().flatten().collect();
+        folders.dedup_by(|one, other| one.1 == other.1);
+        folders
+    }
+
+    /// Reads node kinds again from these folders.
+    pub(crate) fn reread_kinds(&mut self, folders: &[PathBuf]) {
+        let mut kinds = Kinds::clone(self.document.kinds().0);
+        kinds.reread(folders);
+        self.document.take_kinds(kinds);
+    }
+
+    /// Saves copies of the graph and of node files, if they have changed and the last copies are old enough.
+    ///
+    /// # Errors
+    /// A sentence, where they cannot be written.
+    pub(crate) fn autosave(&mut self, drafts: &[NodeDraft], drafts_revision: u64) -> Result<(), String> {
+        self.autosave.at = Instant::now();
+        self.autosave.saved = Some((self.document.session.revision(), drafts_revision));
+        if let Err(error) = self.document.session.keep(drafts) {
+            self.autosave.saved = None;
+            return Err(format!("What is not saved cannot be kept in case of a crash: {error}"));
+        }
+        Ok(())
+    }
+
+    /// Whether it is time for the next autosave.
+    pub(crate) fn is_autosave_due(&self) -> bool {
+        self.autosave.at.elapsed() >= self.autosave.every
+    }
+
+    /// Has a frame drawn for the next autosave, where there is something to save.
+    pub(crate) fn schedule_autosave(&self, context: &Context, drafts_revision: u64) {
+        if self.autosave.saved != Some((self.document.session.revision(), drafts_revision)) {
+            context.request_repaint_after(self.autosave.every);
         }
     }
 
-    /// Makes the model that the graph was worked on its own, so that it opens on that one again. What comes with the program
-    /// stands in for a model that nobody has chosen, and as long as there is something to do again nothing is edited, since a
-    /// save takes no step away.
-    fn keep_model(&mut self) {
-        let model = self.stage.model_file();
-        let own = model_of(&self.document.session);
-        let is_own = own.as_ref().is_some_and(|own| whole(own) == whole(model));
-        let is_stand_in = own.is_none()
-            && self
-                .folders
-                .examples
-                .as_ref()
-                .is_some_and(|of| whole(model).starts_with(whole(of)));
+    /// Names the shown model in the graph before it is saved, so that the graph opens on that model again. The model of an
+    /// example is not named for a graph without one, since the artist has not chosen it. While there are steps to redo the
+    /// graph is not edited, since an edit would remove them.
+    pub(crate) fn name_model(&mut self, evaluation: &Evaluation) {
+        let model = evaluation.model_file();
+        let named = model_of(&self.document.session);
+        let is_named = named
+            .as_ref()
+            .is_some_and(|named| canonical_if_present(named) == canonical_if_present(model));
+        let examples = self.folders.examples.as_ref();
+        let is_example =
+            examples.is_some_and(|folder| canonical_if_present(model).starts_with(canonical_if_present(folder)));
         let has_redo = self.document.session.redo_names().next().is_some();
-        if is_own || is_stand_in || has_redo || self.stage.model_failure.is_some() {
+        if is_named || named.is_none() && is_example || has_redo || evaluation.model_failure.is_some() {
             return;
         }
         let preview = Preview {
             mesh: Some(self.document.seen_from_own_folder(model)),
+            // A document without a preview has no size of it either.
             ..self.document.contents().preview.clone().unwrap_or_default()
         };
         let edit = Edit::SetPreview { preview: Some(preview) };
         self.document.edit("Remember the model", vec![edit]);
     }
 
-    pub(crate) fn save_to(&mut self, path: &Path) {
-        self.keep_model();
-        let before = self.document.session.file().unwrap_or(Path::new("")).to_owned();
-        let saved = self.document.save_as(path);
-        let after = self.document.session.file().unwrap_or(path);
-        if saved.is_ok()
-            && let Err(why) = self.panels.keepsakes.follow(&before, after)
-        {
-            self.say(why);
-        }
-        self.tell_saved(path, saved);
-    }
-
-    fn tell_saved(&mut self, path: &Path, saved: Result<(), EngineError>) {
-        match saved {
-            Ok(()) => {
-                // A save lets go of what was kept, and node files that are being written are no part of it.
-                self.keeping.kept = None;
-                self.settings.remember(path);
-                self.say(format!("Saved to {}", path.display()));
-                self.export_after_save();
-            }
-            Err(error) => self.say(error.to_string()),
-        }
-    }
-
-    /// The folder of a shelf of groups; the project's is only there once the graph has a file.
-    fn shelf_folder(&self, shelf: Shelf) -> Option<PathBuf> {
-        match shelf {
-            Shelf::Project => {
-                let file = self.document.session.file()?;
-                Some(file.parent().unwrap_or(Path::new("")).join("library"))
-            }
-            Shelf::User => self.folders.library.clone(),
-        }
-    }
-
-    /// Folders of groups to be used again, each of them once.
-    pub(super) fn shelves(&self) -> Vec<(Shelf, PathBuf)> {
-        let found = [Shelf::Project, Shelf::User].map(|shelf| Some((shelf, self.shelf_folder(shelf)?)));
-        let mut shelves: Vec<(Shelf, PathBuf)> = found.into_iter().flatten().collect();
-        shelves.dedup_by(|one, other| one.1 == other.1);
-        shelves
-    }
-
-    /// Puts the selected group into a library, with its picture.
-    pub(super) fn shelve_selected(&mut self, shelf: Shelf) {
-        let Some(folder) = self.shelf_folder(shelf) else {
-            self.say(match shelf {
-                Shelf::Project => "Save the graph first, so that there is a folder beside it.",
-                Shelf::User => "This system has no folder for a library.",
-            });
-            return;
+    /// Watches the files that the window depends on now.
+    pub(crate) fn watch(&mut self, evaluation: &Evaluation, environment: Option<&Path>) {
+        let now = WatchedFiles {
+            graph: self.document.session.file().map(Path::to_owned),
+            model: evaluation.model_file().to_owned(),
+            loaded: evaluation.loaded_model(),
+            named: Arc::clone(&evaluation.files),
+            library: self.library.files().clone(),
+            environment: environment.map(Path::to_owned),
         };
-        let picture = self.document.selected_one().and_then(|id| {
-            let result = self.reference(id, None);
-            self.stage.thumbnail_pixels(&result).cloned()
-        });
-        let Some(file) = self.document.shelve(&folder) else {
-            return;
-        };
-        self.panels.library.forget();
-        if let Some(picture) = picture
-            && let Err(why) = self.panels.keepsakes.keep(&self.context, &file, KEPT_AS, &picture)
-        {
-            self.say(why);
+        let before = self.watching.watched();
+        if before.is_some_and(|before| before.graph != now.graph) {
+            self.is_file_foreign = false;
         }
+        self.watching.watch(now, || model_files(evaluation));
     }
 
-    /// Writes the file of a node and takes it into use.
-    pub(super) fn save_node(&mut self, node: &NodeDraft) {
-        let NodeDraft { folder, id, .. } = node;
-        match node.save() {
-            Ok(file) => {
-                self.say(format!(
-                    "'{id}' is in {}, and among the nodes that can be added.",
-                    file.display()
-                ));
-                let mut kinds = Kinds::clone(self.document.kinds().0);
-                kinds.reread(std::slice::from_ref(folder));
-                self.document.take_kinds(kinds);
-                self.panels.page.saved(node);
-            }
-            Err(error) => self.say(error.to_string()),
-        }
-    }
-
-    /// Adds a node of a favorite where the pointer is.
-    pub(super) fn add_favorite(&mut self, favorite: Favorite, ui: &Ui) {
-        let key = self.settings.favorites.get(favorite.index()).cloned();
-        let found = key.and_then(|key| self.candidates().iter().find(|known| known.new.key() == key));
-        let Some(kind) = found.map(|found| found.new.clone()) else {
-            let number = favorite.index() + 1;
-            self.say(format!(
-                "There is no favorite {number}; a star in the library makes one."
-            ));
-            return;
-        };
-        let add = Action::Add {
-            kind,
-            place: self.canvas.place_for_new(ui),
-            loose: None,
-            into: None,
-        };
-        self.perform(add, ui);
-    }
-
-    /// Takes a file by what it is: a graph is opened, a model shown, an environment lit, a picture becomes a node.
-    pub(super) fn take_dropped_file(&mut self, path: &Path, ui: &Ui) {
-        if path.is_dir() {
-            self.take_dropped_folder(path, ui);
-            return;
-        }
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        match ending.as_deref() {
-            Some("sabi") => self
-                .files
-                .ask_next(&mut self.document, crate::files::Next::Open(path.to_owned())),
-            Some(ending) if MODELS.contains(&ending) => self.take_model(path),
-            Some("hdr") => self.take_environment(path),
-            Some("exr") if self.active != crate::dock::Panel::Canvas => self.take_environment(path),
-            Some(ending) if PICTURES.contains(&ending) => self.add_picture(path, ui),
-            _ => self.say(format!(
-                "{} is nothing that can be taken; drop graphs, models, pictures and environments",
-                path.display()
-            )),
-        }
-    }
-
-    /// Takes a folder as the texture sets that its pictures are.
-    fn take_dropped_folder(&mut self, folder: &Path, ui: &Ui) {
-        let entries = match std::fs::read_dir(folder) {
-            Ok(entries) => entries,
-            Err(error) => {
-                self.say(format!("{} cannot be read: {error}", folder.display()));
-                return;
-            }
-        };
-        let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
-        let is_picture = |file: &PathBuf| {
-            let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-            ending.is_some_and(|ending| PICTURES.contains(&ending.as_str()))
-        };
-        let files: Vec<PathBuf> = files.filter(is_picture).collect();
-        if files.is_empty() {
-            self.say(format!("{} holds no pictures", folder.display()));
-            return;
-        }
-        let place = self.canvas.place_for_new(ui);
-        self.document.add_texture_sets(&files, place);
-    }
-
-    fn take_environment(&mut self, path: &Path) {
-        let choice = whole(path).display().to_string();
-        self.model_view.choose_environment(&choice);
-        self.settings.environment = choice;
-    }
-
-    fn add_picture(&mut self, path: &Path, ui: &Ui) {
-        let place = self.canvas.place_for_new(ui);
-        let text = self.document.relative(path);
-        self.document.session.begin("Add picture");
-        let added = self.document.add("source/image", place, None);
-        if let Some(id) = &added {
-            self.document.set_knob(id, "file", Some(Value::Text(text)));
-        }
-        self.document.session.end();
-        if let Some(id) = added {
-            self.look_at(&id, None);
-        }
+    /// Finds out whether another program wrote the graph's file; gives a sentence where the file was deleted.
+    pub(crate) fn check_file(&mut self) -> Option<String> {
+        let state = self.document.session.look_at_file();
+        self.is_file_foreign = state == FileState::Another;
+        self.autosave.invalidate();
+        let file = self.document.session.file().filter(|_| state == FileState::Gone)?;
+        Some(format!(
+            "{} is not there any more; saving writes it again",
+            file.display()
+        ))
     }
 }
 
-/// Where a path leads that a graph names.
-pub(crate) fn model_of(session: &Session) -> Option<PathBuf> {
-    let named = session.document().preview.as_ref()?.mesh.clone()?;
-    Some(session.graph().folder().join(named))
+/// Files that the model is read from. While it cannot be read, also its folder, where a missing file may appear.
+fn model_files(evaluation: &Evaluation) -> Vec<PathBuf> {
+    let file = evaluation.model_file();
+    let mut files = vec![file.to_owned()];
+    match &evaluation.shown_model {
+        Some(model) if evaluation.loaded_model().1 => {
+            let model = &model.linked.model;
+            files.extend(model.files.iter().chain(&model.absent).cloned());
+        }
+        _ => files.extend(file.parent().map(Path::to_owned)),
+    }
+    files
+}
+
+/// Saves copies of what is not saved, where no window is left to report an error.
+pub(crate) fn autosave_at_end(document: &mut OpenDocument, drafts: &[NodeDraft]) {
+    // A drag may still be open.
+    document.session.end();
+    if let Err(error) = document.session.keep(drafts) {
+        tracing::error!("what is not saved cannot be kept: {error}");
+    }
 }

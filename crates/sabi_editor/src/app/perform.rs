@@ -1,251 +1,327 @@
-//! What is asked for is done here, and nowhere else.
+//! The one place where actions are performed. No match here has a wildcard: an action or a command that is not handled does
+//! not compile.
 
 mod commands;
-mod publishing;
+mod graph;
+
+use std::path::Path;
 
 use egui::Ui;
-use sabi_editing::{KnobTarget, OpenDocument, PendingWire};
-use sabi_graph::{NodeId, SlotRef};
+use sabi_editing::{KnobTarget, PendingWire};
+use sabi_graph::{NodeId, SlotRef, Value};
 
 use super::Editor;
-use crate::action::{Action, FrameAsk, LayerAsk, New, WireAsk};
-use crate::canvas::Way;
+use crate::action::{
+    Action, ArrowKey, ClickedColor, ExportAction, FileAction, LayerAction, ModelAction, New, PublishedAction,
+    VariantAction,
+};
 use crate::dock::Panel;
-use crate::files::Next;
 use crate::knobs::KnobEvent;
+use crate::looks::result_of;
+use crate::paths::canonical_if_present;
 
 impl Editor {
-    /// Does what a panel asks for.
+    /// Performs the actions of a frame, and what follows from them.
+    pub(super) fn perform_all(&mut self, actions: Vec<Action>, ui: &Ui) {
+        let length = self.looks.length.take();
+        for action in actions {
+            self.perform(action, ui);
+        }
+        // The viewport has been drawn without it.
+        if self.looks.length != length {
+            ui.ctx().request_repaint();
+        }
+        let is_dirty = self.documents.document.session.is_dirty();
+        if let Some(next) = self.views.questions.take_next(is_dirty) {
+            self.proceed(next);
+        }
+        for sentence in self.documents.document.take_notices() {
+            self.shell.say(sentence);
+        }
+    }
+
+    /// Performs an action.
     pub(super) fn perform(&mut self, action: Action, ui: &Ui) {
-        let document = &mut self.document;
+        let document = &mut self.documents.document;
         match action {
             Action::Do(command) => self.command(command, ui),
+            Action::Notice(sentence) => self.shell.say(sentence),
             Action::Add {
-                kind,
+                new,
                 place,
                 loose,
                 into,
-            } => self.add(&kind, place, loose.as_ref(), into.as_ref()),
+            } => self.add(&new, place, loose.as_ref(), into.as_ref()),
+            Action::AddInMiddle(new) => self.add(&new, self.views.canvas.middle(), None, None),
+            Action::DragNew { face, at } => self.views.canvas.drag_new(ui, &self.shell.theme, document, &face, at),
+            Action::DropNew { new, face, at } => {
+                if let Some((place, into)) = self.views.canvas.place_for_dropped(document, &face, at) {
+                    self.add(&new, place, None, into.as_ref());
+                }
+            }
+            Action::Shelve(shelf) => self.shelve(shelf),
             Action::SaveNode(node) => self.save_node(&node),
-            Action::Shelve(shelf) => self.shelve_selected(shelf),
             Action::Replace { node, by } => self.replace(&node, &by),
-            Action::Wire(asked) => self.change_wires(asked),
-            Action::BeginMove => document.session.begin("Move"),
-            Action::Move(places) => {
-                document.move_to("Move", places);
-            }
-            Action::EndMove => document.session.end(),
-            Action::TakeBack => document.take_back(),
-            Action::TakeOut => {
-                document.take_out();
-            }
+            Action::Wire(action) => graph::change_wires(document, action),
+            Action::Move(action) => graph::move_nodes(document, action),
+            Action::TakeOut => drop(document.take_out()),
             Action::Select(ids) => self.select(ids),
-            Action::Arrow(way) => self.follow_arrow(way, ui),
+            Action::Arrow(key) => self.follow_arrow(key, ui),
             Action::Toggle(id) => document.toggle(&id),
-            Action::Show { node, port } => self.look_at(&node, port),
-            Action::Pin { node } => self.pin(&node),
-            Action::Look(asked) => self.look(asked),
-            Action::Enter(id) => {
-                document.enter(&id);
-            }
-            Action::LeaveTo(depth) => {
-                document.leave_to(depth);
-            }
-            Action::Knob { node, event } => self.turn_knob(&node, event),
-            Action::Panel(asked) => self.change_panel(asked),
-            Action::Variant(asked) => self.change_variants(asked),
-            Action::Port(asked) => self.change_ports(asked),
-            Action::Layer(asked) => self.change_layers(asked),
-            Action::Rename { node, name } => {
-                document.rename(&node, &name);
-            }
-            Action::Frame(asked) => self.change_frames(asked),
-            Action::Paste { text, place } => {
-                document.paste(&text, place);
-            }
-            Action::OpenFile(path) => self.files.ask_next(&mut self.document, Next::Open(path)),
-            Action::TakeModel(path) => self.take_model(&path),
-            Action::ReadModel(reading) => self.read_model(reading),
-            Action::Dropped(path) => self.take_dropped_file(&path, ui),
+            Action::Show { node, port } => self.looks.show(document, &node, port),
+            Action::Pin { node } => self.looks.toggle_pin(document, &node),
+            Action::Look(action) => self.looks.perform(action, &mut self.shell.settings),
+            Action::Enter(id) => drop(document.enter(&id)),
+            Action::LeaveTo(depth) => drop(document.leave_to(depth)),
+            Action::Knob { node, event } => self.change_knob(&node, event),
+            Action::Published(action) => self.change_published(action),
+            Action::Variant(action) => self.change_variants(action),
+            Action::Port(action) => graph::change_ports(document, action),
+            Action::Layer(action) => self.change_layers(action),
+            Action::Rename { node, name } => drop(document.rename(&node, &name)),
+            Action::Frame(action) => graph::change_frames(document, action),
+            Action::Paste { text, place } => drop(document.paste(&text, place)),
+            Action::Document(action) => graph::change_document(document, action),
+            Action::File(action) => self.perform_on_file(action),
+            Action::Model(action) => self.perform_on_model(action),
+            Action::Dropped(path) => self.take_dropped(&path, ui),
             Action::GoTo(node) => self.go_to(&node),
-            Action::Steps(steps) => self.go_steps(steps),
+            Action::Steps(steps) => graph::step(document, steps),
+            Action::Export(action) => self.perform_export(action),
+            Action::TakeColor(color) => self.take_color(color),
+            Action::Setting(action) => self.shell.set(action),
+            Action::ShowPanel(panel) => self.shell.dock.bring_up(panel),
+            Action::ResetPanels => self.shell.dock.reset(),
+            Action::ShowStartPage => self.views.start.is_open = true,
         }
     }
 
-    /// Takes back so many steps, or does them again.
-    fn go_steps(&mut self, steps: i32) {
-        for _ in 0..steps.unsigned_abs() {
-            if steps < 0 {
-                self.document.undo()
-            } else {
-                self.document.redo()
+    fn perform_on_file(&mut self, action: FileAction) {
+        match action {
+            FileAction::Ask(next) => {
+                let is_dirty = self.documents.document.session.is_dirty();
+                self.views.questions.ask_next(is_dirty, next);
+            }
+            FileAction::Proceed(next) => self.proceed(next),
+            FileAction::Save => self.save(),
+            FileAction::SaveAs(file) => {
+                let own = self.documents.document.session.file().map(canonical_if_present);
+                let is_taken = file.exists() && own != Some(canonical_if_present(&file));
+                match is_taken {
+                    true => self.views.questions.ask_to_replace(file),
+                    false => self.save_to(&file),
+                }
+            }
+            FileAction::Overwrite(file) => self.save_to(&file),
+            FileAction::Reload => self.reload(),
+            FileAction::KeepOpen => {
+                self.documents.is_file_foreign = false;
+                self.documents.document.session.keep_apart();
+                self.documents.autosave.invalidate();
+            }
+            FileAction::DeleteRecovery(at) => {
+                let recoveries = &mut self.documents.recoveries;
+                if at < recoveries.len() {
+                    recoveries.remove(at).forget();
+                }
+            }
+            FileAction::SetImage { parameter, file } => self.set_image(&parameter, &file),
+        }
+    }
+
+    fn set_image(&mut self, parameter: &KnobTarget, file: &Path) {
+        let document = &mut self.documents.document;
+        let text = document.relative(file);
+        document.set_at(parameter, Value::Text(text));
+    }
+
+    fn perform_on_model(&mut self, action: ModelAction) {
+        match action {
+            ModelAction::Ask => self.views.questions.ask_for_model(),
+            ModelAction::Show(path) => self.take_model(&path),
+            ModelAction::Read(reading) => self.read_model(reading),
+            ModelAction::Remove(path) => self.shell.settings.models.retain(|known| *known != path),
+        }
+    }
+
+    fn perform_export(&mut self, action: ExportAction) {
+        match action {
+            ExportAction::Start { force } => self.export(force),
+            ExportAction::Cancel => self.exports.cancel(),
+            ExportAction::Choose(choices) => self.shell.settings.export = choices,
+            ExportAction::Target(place) => {
+                self.exports.asks_force &= place.folder == self.exports.place.folder;
+                self.exports.place = place;
             }
         }
+    }
+
+    /// Selects nodes; without any, the model shows the outputs again.
+    fn select(&mut self, ids: Vec<NodeId>) {
+        if ids.is_empty() {
+            self.looks.followed = None;
+        }
+        self.documents.document.select(ids);
     }
 
     /// Goes to the node or the port that an arrow key leads to.
-    fn follow_arrow(&mut self, way: Way, ui: &Ui) {
-        for action in self.canvas.arrow(&self.document, way) {
+    fn follow_arrow(&mut self, key: ArrowKey, ui: &Ui) {
+        for action in self.views.canvas.arrow(&self.documents.document, key) {
             self.perform(action, ui);
         }
     }
 
-    /// Adds a node, ties it to the wire in hand or puts it into another one, and looks at it.
-    fn add(&mut self, kind: &New, place: [f32; 2], loose: Option<&PendingWire>, into: Option<&SlotRef>) {
-        let document = &mut self.document;
-        document.session.begin("Add");
-        let added = match kind {
-            New::Kind(kind) => document.add(kind, place, loose),
-            New::Group(group) => document.add_group_instance(group, place, loose),
-            New::Library(file) => document.add_from_library(file, place, loose),
-        };
-        if let Some((id, into)) = added.as_ref().zip(into) {
-            document.insert(id, into);
-        }
-        document.session.end();
-        if let Some(id) = added {
-            self.look_at(&id, None);
+    /// Adds a node, connected to a loose wire or put into a wire, and shows its result.
+    fn add(&mut self, new: &New, place: [f32; 2], loose: Option<&PendingWire>, into: Option<&SlotRef>) {
+        if let Some(id) = graph::add(&mut self.documents.document, new, place, loose, into) {
+            self.looks.show(&self.documents.document, &id, None);
         }
     }
 
-    /// Puts something in the place of a node; who looked at that one looks at it.
+    /// Replaces a node, also wherever its result is shown.
     fn replace(&mut self, node: &NodeId, by: &New) {
-        let gone = self.document.full_id(node);
-        let document = &mut self.document;
-        let is_made = match by {
-            New::Kind(kind) => document.replace(node, kind),
-            New::Group(group) => document.replace_by_group(node, group),
-            New::Library(file) => {
-                document.session.begin("Replace by a group");
-                let group = document.bring_from_library(file);
-                let is_made = group.is_some_and(|group| document.replace_by_group(node, &group));
-                if is_made {
-                    document.session.end();
-                } else {
-                    document.take_back();
-                }
-                is_made
-            }
-        };
-        if let Some(new) = self.document.selected_one().cloned().filter(|_| is_made) {
-            self.look_on(&gone, &new);
+        let document = &mut self.documents.document;
+        let before = document.full_id(node);
+        if let Some(id) = graph::replace(document, node, by) {
+            self.looks.replace(&before, &result_of(document, &id, None));
         }
     }
 
-    fn change_wires(&mut self, asked: WireAsk) {
-        let document = &mut self.document;
-        match asked {
-            WireAsk::Connect { from, to, off } => {
-                document.session.begin("Connect");
-                if document.connect(&from, &to)
-                    && let Some(off) = off
-                {
-                    document.cut(&[off]);
-                }
-                document.session.end();
-            }
-            WireAsk::Merge { from, to, how } => drop(document.merge(&from, &to, how)),
-            WireAsk::Cut(slots) => drop(document.cut(&slots)),
-            WireAsk::Insert { node, into } => drop(document.insert(&node, &into)),
-            WireAsk::Reroute { into, place } => drop(document.reroute(&into, place)),
-        }
-    }
-
-    fn change_frames(&mut self, asked: FrameAsk) {
-        let document = &mut self.document;
-        match asked {
-            FrameAsk::Rename { frame, title } => self.change_frame(&frame, |known| known.title = Some(title)),
-            FrameAsk::Recolor(frame) => self.change_frame(&frame, |known| {
-                known.color = Some(OpenDocument::next_color(known.color.as_deref()));
-            }),
-            FrameAsk::Select(frame) => document.select_frame(&frame),
-            FrameAsk::Fill(frame) => {
-                let nodes = document.selection().clone();
-                document.put_into_frame(&nodes, frame.as_deref());
-            }
-            FrameAsk::Remove(frame) => drop(document.remove_frame(&frame)),
-        }
-    }
-
-    fn change_layers(&mut self, asked: LayerAsk) {
-        let document = &mut self.document;
-        match asked {
-            LayerAsk::Toggle(id) => drop(document.toggle_layer(&id)),
-            LayerAsk::Opacity { node, opacity } => drop(document.set_layer_opacity(&node, opacity)),
-            LayerAsk::Move { end, from, to } => drop(document.move_layer(&end, from, to)),
-            LayerAsk::Remove { end, at } => drop(document.remove_layer(&end, at)),
-            LayerAsk::Add { end, at, kind } => {
+    fn change_layers(&mut self, action: LayerAction) {
+        let document = &mut self.documents.document;
+        match action {
+            LayerAction::Toggle(id) => drop(document.toggle_layer(&id)),
+            LayerAction::Opacity { node, opacity } => drop(document.set_layer_opacity(&node, opacity)),
+            LayerAction::Move { end, from, to } => drop(document.move_layer(&end, from, to)),
+            LayerAction::Remove { end, at } => drop(document.remove_layer(&end, at)),
+            LayerAction::Add { end, at, kind } => {
                 if let Some(id) = document.add_layer(&end, at, &kind) {
-                    self.look_at(&id, None);
+                    self.looks.show(document, &id, None);
                 }
             }
         }
     }
 
-    fn change_frame(&mut self, id: &str, change: impl FnOnce(&mut sabi_graph::Frame)) {
-        if let Some(mut frame) = self.document.graph().frames().get(id).cloned() {
-            change(&mut frame);
-            self.document.set_frame("Change frame", id, frame);
-        }
-    }
-
-    fn turn_knob(&mut self, node: &NodeId, event: KnobEvent) {
-        let document = &mut self.document;
+    /// Changes a parameter of a node, and of the selected nodes of its kind.
+    fn change_knob(&mut self, node: &NodeId, event: KnobEvent) {
+        let document = &mut self.documents.document;
         match event {
-            KnobEvent::Set { knob, value } => {
-                document.set_knob_of_alike(node, &knob, Some(value));
-            }
-            KnobEvent::Reset { knob } => {
-                document.set_knob_of_alike(node, &knob, None);
-            }
-            KnobEvent::Expose { knob } => self.expose_of_alike(node, &knob),
-            KnobEvent::Unexpose { knob } => {
-                document.take_off_panel(node, &knob);
-            }
-            KnobEvent::Eyedropper { knob } => self.ask_for_color(KnobTarget::of_node(node, knob)),
-            KnobEvent::Browse { knob } => self.files.ask_for_picture(KnobTarget::of_node(node, knob)),
-            KnobEvent::Began | KnobEvent::Ended | KnobEvent::GivenUp | KnobEvent::ShowLength(_) => {
-                self.move_knob(&event)
-            }
+            KnobEvent::Set { knob, value } => drop(document.set_knob_of_alike(node, &knob, Some(value))),
+            KnobEvent::Reset { knob } => drop(document.set_knob_of_alike(node, &knob, None)),
+            KnobEvent::Expose { knob } => graph::expose_of_alike(document, node, &knob),
+            KnobEvent::Unexpose { knob } => drop(document.take_off_panel(node, &knob)),
+            KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::of_node(node, knob)),
+            KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::of_node(node, knob)),
+            KnobEvent::Began => self.begin_drag(),
+            KnobEvent::Ended => self.end_drag(),
+            KnobEvent::GivenUp => self.cancel_drag(),
+            KnobEvent::ShowLength(length) => self.looks.length = Some(length).filter(|length| length.is_finite()),
         }
     }
 
-    /// Publishes a knob: one on the panel turns it on all selected nodes of the kind.
-    fn expose_of_alike(&mut self, node: &NodeId, knob: &str) {
-        let document = &mut self.document;
-        let kind = |document: &OpenDocument, id: &NodeId| document.node(id).map(|node| node.kind.clone());
-        let alike = document
-            .selection()
-            .iter()
-            .filter(|id| *id != node && kind(document, id) == kind(document, node));
-        let alike: Vec<NodeId> = alike.cloned().collect();
-        document.session.begin("Expose");
-        document.expose(node, knob);
-        if let Some(name) = document.exposed_as(node, knob).map(str::to_owned) {
-            for other in alike {
-                document.expose_as(&other, knob, &name);
-            }
+    fn change_published(&mut self, action: PublishedAction) {
+        let document = &mut self.documents.document;
+        match action {
+            PublishedAction::Turn(event) => self.change_published_value(event),
+            PublishedAction::Label { name, label } => drop(document.label_exposed(&name, &label)),
+            PublishedAction::Rename { name, to } => drop(document.rename_exposed(&name, &to)),
+            PublishedAction::Section { name, section } => drop(document.set_section(&name, &section)),
+            PublishedAction::Range { name, range } => drop(document.set_exposed_range(&name, range)),
+            PublishedAction::Default { name, default } => drop(document.set_exposed_default(&name, default)),
+            PublishedAction::Move { name, before } => drop(document.move_exposed(&name, before.as_deref())),
+            PublishedAction::TakeOff(name) => drop(document.unexpose(&name)),
         }
-        document.session.end();
     }
 
-    /// Shows a node, in the group that it is in.
-    fn go_to(&mut self, node: &str) {
-        self.document.leave_to(0);
-        let steps: Vec<NodeId> = node.split('/').filter_map(|step| step.parse().ok()).collect();
-        let Some((mut last, instances)) = steps.split_last() else {
+    fn change_published_value(&mut self, event: KnobEvent) {
+        let document = &mut self.documents.document;
+        match event {
+            KnobEvent::Set { knob, value } => drop(document.turn(&knob, &value)),
+            KnobEvent::Reset { knob } => drop(document.turn_back(&knob)),
+            KnobEvent::Unexpose { knob } => drop(document.unexpose(&knob)),
+            KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::Panel(knob)),
+            KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::Panel(knob)),
+            KnobEvent::Began => self.begin_drag(),
+            KnobEvent::Ended => self.end_drag(),
+            KnobEvent::GivenUp => self.cancel_drag(),
+            KnobEvent::ShowLength(length) => self.looks.length = Some(length).filter(|length| length.is_finite()),
+            // A parameter of the panel is published already.
+            KnobEvent::Expose { .. } => {}
+        }
+    }
+
+    /// Begins the drag of a parameter: all of it is one step to undo, and results are quick meanwhile.
+    fn begin_drag(&mut self) {
+        self.documents.document.session.begin("Turn a knob");
+        self.documents.is_dragging = true;
+    }
+
+    /// Ends the drag of a parameter. It has ended already where its row has disappeared.
+    fn end_drag(&mut self) {
+        if self.documents.is_dragging {
+            self.documents.document.session.end();
+            self.documents.is_dragging = false;
+        }
+    }
+
+    /// Cancels the drag of a parameter.
+    fn cancel_drag(&mut self) {
+        self.documents.document.take_back();
+        self.documents.is_dragging = false;
+    }
+
+    fn toggle_color_target(&mut self, parameter: KnobTarget) {
+        if self.looks.toggle_color_target(parameter) {
+            self.shell
+                .say("Click the color on the model or in the 2D view. Escape gives it up.");
+        }
+    }
+
+    /// Gives the clicked color to the parameter that waits for one. Where there is none, it waits for another click.
+    fn take_color(&mut self, color: ClickedColor) {
+        let Some([red, green, blue]) = self.shell.report(color) else {
             return;
         };
-        for instance in instances {
-            if !self.document.enter(instance) {
-                // What is in a group file is not seen here; the nearest to it is the instance.
-                last = instance;
-                break;
+        if let Some(parameter) = self.looks.color_target.take() {
+            let text = format!("#{red:02x}{green:02x}{blue:02x}");
+            self.documents.document.set_at(&parameter, Value::Text(text));
+        }
+    }
+
+    fn change_variants(&mut self, action: VariantAction) {
+        let document = &mut self.documents.document;
+        match action {
+            VariantAction::Apply(name) => drop(document.apply_variant(&name)),
+            VariantAction::Rename { name, to } => drop(document.rename_variant(&name, &to)),
+            VariantAction::Remove(name) => drop(document.remove_variant(&name)),
+            VariantAction::Save(name) => {
+                if document.save_variant(&name) {
+                    self.store_picture_of_variant(name.trim());
+                }
             }
         }
-        self.document.select([last.clone()]);
-        self.bring_up(Panel::Canvas);
-        self.canvas.frame_nodes(&self.document, [last].into_iter());
-        self.look_at(last, None);
+    }
+
+    /// Stores the model as it looks now as the picture of a variant.
+    fn store_picture_of_variant(&mut self, name: &str) {
+        let Some(picture) = self.views.model.picture(self.evaluation.gpu()) else {
+            return;
+        };
+        let documents = &mut self.documents;
+        let file = documents.document.session.file().unwrap_or(Path::new(""));
+        let text = documents.document.variant_as_text(name);
+        let stored = documents.pictures.store(&self.shell.context, file, &text, &picture);
+        self.shell.report(stored);
+    }
+
+    /// Selects a node in the group that it is in, and shows it on the canvas.
+    fn go_to(&mut self, node: &str) {
+        let document = &mut self.documents.document;
+        let Some(id) = graph::go_to(document, node) else {
+            return;
+        };
+        self.shell.dock.bring_up(Panel::Canvas);
+        self.views.canvas.frame_nodes(document, [&id].into_iter());
+        self.looks.show(document, &id, None);
     }
 }

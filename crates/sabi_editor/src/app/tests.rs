@@ -1,5 +1,6 @@
 //! The window as somebody uses it: by clicks and keys, without a screen.
 
+mod answers;
 mod beginning;
 mod bends;
 mod building;
@@ -39,7 +40,7 @@ use egui_kittest::kittest::Queryable;
 use sabi_editing::OpenDocument;
 use sabi_engine::{AdapterChoice, Gpu, Session};
 
-use super::{Beginning, Editor, Folders, Handover};
+use super::{Editor, Folders, Handover, InitialState};
 use crate::window::configuration;
 
 /// What runs tests needs a Vulkan driver.
@@ -93,7 +94,7 @@ impl Window {
 
     /// The next window, after the program ended without a word.
     fn after_a_crash(self) -> Window {
-        drop(self.harness.into_state().document.session);
+        drop(self.harness.into_state().documents.document.session);
         let mut next = Window::in_folder(self.folder, |_| Session::new(None));
         next.settle();
         next
@@ -104,7 +105,7 @@ impl Window {
     }
 
     fn document(&self) -> &OpenDocument {
-        &self.harness.state().document
+        &self.harness.state().documents.document
     }
 
     /// Draws frames until nothing moves any more.
@@ -125,7 +126,7 @@ impl Window {
 
     /// The graph's text.
     fn text(&mut self) -> String {
-        self.harness.state_mut().document.session.text().to_owned()
+        self.harness.state_mut().documents.document.session.text().to_owned()
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -188,7 +189,7 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
     let mut harness = builder.wgpu_setup(setup).build_eframe(move |context| {
         let render = context.wgpu_render_state.clone().expect(INSTALL);
         let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone()).expect(INSTALL);
-        let beginning = Beginning {
+        let beginning = InitialState {
             session,
             model,
             folders,
@@ -197,7 +198,7 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
         Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover)
     });
     // A picture that is quick, and not a good one.
-    harness.state_mut().model_view.shot.samples = 1;
+    harness.state_mut().views.model.shot.samples = 1;
     harness
 }
 

@@ -215,7 +215,7 @@ impl AddMenu {
         match purpose.instead {
             Some(node) => Action::Replace { node, by: new.clone() },
             None => Action::Add {
-                kind: new.clone(),
+                new: new.clone(),
                 place: purpose.place,
                 loose: purpose.loose,
                 into: purpose.into,

@@ -3,14 +3,15 @@
 use egui::{Rect, Response, Stroke, StrokeKind, Ui};
 use sabi_graph::OutputRef;
 
+use super::sensing::sensed;
 use super::snapshot::Key;
-use super::{Around, Canvas, node_rect, nodes};
+use super::{Around, Canvas, node_rect};
 
 /// Draws a bend, as large as it is at any zoom.
 pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, key: Key) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
     let rect = canvas.view.screen_rect(panel, node_rect(around.document, &shown.id)?);
-    let response = nodes::sensed(ui, key, rect);
+    let response = sensed(ui, key, rect);
     let theme = around.theme;
     let passed = OutputRef {
         node: shown.id.clone(),

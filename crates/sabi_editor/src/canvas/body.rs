@@ -1,14 +1,13 @@
 //! What stands in a node: its title, the names of its ports, its first knobs, and a picture of its result.
 
-use std::time::Duration;
-
 use egui::{Align2, Color32, CornerRadius, FontId, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::{MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT};
 
-use super::snapshot::{Hand, Shown};
+use super::shown::{Hand, NodeSummary};
 use crate::knobs::{KnobRow, knob_inline};
 use crate::theme::{Theme, space, type_size};
+use crate::time_text::time_text;
 
 /// What the canvas crate leaves free to the left and right of what a node holds.
 const SIDE: f32 = 15.0;
@@ -20,7 +19,7 @@ const BUTTONS: f32 = 20.0;
 const INNER: f32 = NODE_WIDTH - 2.0 * SIDE;
 
 /// A node's title, as wide as the node, so that all nodes are.
-pub(super) fn title_row(ui: &mut Ui, hand: &Hand, shown: &Shown) {
+pub(super) fn title_row(ui: &mut Ui, hand: &Hand, shown: &NodeSummary) {
     let zoom = hand.zoom;
     let size = vec2(INNER, TITLE_HEIGHT - 2.0 * ABOVE) * zoom;
     // The crate's own label is empty, and this begins where it would have; after it the crate leaves room for its buttons.
@@ -59,7 +58,7 @@ pub(super) fn elided(ui: &Ui, text: &str, font: FontId, width: f32, color: Color
 }
 
 /// What stands at the end of a title: that it is muted, at fault or waits, or how long it took.
-fn badge(shown: &Shown) -> Option<(String, Option<Color32>)> {
+fn badge(shown: &NodeSummary) -> Option<(String, Option<Color32>)> {
     if shown.is_muted {
         return Some((icon::SPEAKER_SIMPLE_SLASH.to_owned(), None));
     }
@@ -67,17 +66,7 @@ fn badge(shown: &Shown) -> Option<(String, Option<Color32>)> {
     if state.fault.is_some() || state.waits.is_some() {
         return Some((icon::WARNING.to_owned(), None));
     }
-    state.time.map(|time| (shown_time(time), None))
-}
-
-/// A time in as few signs as tell it.
-pub(crate) fn shown_time(time: Duration) -> String {
-    let milliseconds = time.as_secs_f64() * 1000.0;
-    match milliseconds {
-        ..0.95 => format!("{milliseconds:.1} ms"),
-        ..999.5 => format!("{milliseconds:.0} ms"),
-        _ => format!("{:.1} s", milliseconds / 1000.0),
-    }
+    state.time.map(|time| (time_text(time), None))
 }
 
 /// The name of a port beside its dot.
@@ -93,7 +82,7 @@ pub(super) fn port_row(ui: &mut Ui, hand: &Hand, name: &str, is_input: bool) {
 }
 
 /// A knob that is turned on the node itself.
-pub(super) fn knob_row(ui: &mut Ui, hand: &mut Hand, shown: &Shown, at: usize) {
+pub(super) fn knob_row(ui: &mut Ui, hand: &mut Hand, shown: &NodeSummary, at: usize) {
     let zoom = hand.zoom;
     // Taken first: rows are as high as they say, whatever is in them, since ports are where rows are.
     let (rect, _) = ui.allocate_exact_size(vec2(INNER, ROW_HEIGHT) * zoom, Sense::hover());
@@ -113,7 +102,7 @@ pub(super) fn knob_row(ui: &mut Ui, hand: &mut Hand, shown: &Shown, at: usize) {
 }
 
 /// The picture of the result, or what is wrong.
-pub(super) fn picture_row(ui: &mut Ui, hand: &Hand, shown: &Shown) {
+pub(super) fn picture_row(ui: &mut Ui, hand: &Hand, shown: &NodeSummary) {
     if shown.face.outputs.is_empty() && shown.face.category() != "output" {
         return;
     }
@@ -125,7 +114,7 @@ pub(super) fn picture_row(ui: &mut Ui, hand: &Hand, shown: &Shown) {
 }
 
 /// The picture in its place.
-pub(super) fn picture(ui: &Ui, theme: &Theme, shown: &Shown, rect: Rect, zoom: f32) {
+pub(super) fn picture(ui: &Ui, theme: &Theme, shown: &NodeSummary, rect: Rect, zoom: f32) {
     let corner = CornerRadius::same(space::CORNER);
     ui.painter().rect_filled(rect, corner, theme.ground);
     if let Some(picture) = shown.state.picture {
@@ -157,7 +146,7 @@ pub(super) fn picture(ui: &Ui, theme: &Theme, shown: &Shown, rect: Rect, zoom: f
 }
 
 /// What is behind a node: body, title strip and, around it, whether it is selected, at fault or muted.
-pub(super) fn backdrop(theme: &Theme, shown: &Shown, rect: Rect, zoom: f32, is_selected: bool) -> Shape {
+pub(super) fn backdrop(theme: &Theme, shown: &NodeSummary, rect: Rect, zoom: f32, is_selected: bool) -> Shape {
     let radius = (f32::from(space::CORNER + 2) * zoom).clamp(1.0, 12.0) as u8;
     let mut title = rect;
     title.max.y = (rect.min.y + TITLE_HEIGHT * zoom).min(rect.max.y);
@@ -198,23 +187,4 @@ pub(super) fn backdrop(theme: &Theme, shown: &Shown, rect: Rect, zoom: f32, is_s
             StrokeKind::Outside,
         )),
     ])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_time_is_told_in_as_few_signs_as_tell_it() {
-        let told = |seconds: f64| shown_time(Duration::from_secs_f64(seconds));
-        let expected = [
-            (0.0004, "0.4 ms"),
-            (0.0123, "12 ms"),
-            (0.9994, "999 ms"),
-            (2.34, "2.3 s"),
-        ];
-        for (seconds, text) in expected {
-            assert_eq!(told(seconds), text);
-        }
-    }
 }

@@ -3,8 +3,9 @@
 use egui::{Align2, CornerRadius, FontId, Rect, Response, Ui};
 use egui_phosphor::regular as icon;
 
+use super::sensing::sensed;
 use super::snapshot::Key;
-use super::{Around, Canvas, body, node_rect, nodes};
+use super::{Around, Canvas, body, node_rect};
 use crate::theme::space;
 
 /// Letters smaller than this are left out, screen points.
@@ -17,7 +18,7 @@ pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, k
     let shown = &canvas.snapshot.graph[key].user_data;
     let zoom = canvas.view.zoom;
     let rect = canvas.view.screen_rect(panel, node_rect(around.document, &shown.id)?);
-    let response = nodes::sensed(ui, key, rect);
+    let response = sensed(ui, key, rect);
     let theme = around.theme;
     let is_selected = around.document.is_selected(&shown.id);
     ui.painter().add(body::backdrop(theme, shown, rect, zoom, is_selected));

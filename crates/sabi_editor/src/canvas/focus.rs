@@ -4,24 +4,15 @@ use sabi_editing::OpenDocument;
 use sabi_graph::{NodeId, OutputRef};
 
 use super::gesture::Gesture;
-use super::ports::{self, Place};
+use super::places::{self, Place};
 use super::{Canvas, node_rect};
-use crate::action::Action;
+use crate::action::{Action, ArrowKey};
 
 /// The port that keys are about.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct PortAt {
     node: NodeId,
     at: usize,
-}
-
-/// Where an arrow key leads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
-    Left,
-    Right,
-    Up,
-    Down,
 }
 
 impl Canvas {
@@ -42,7 +33,7 @@ impl Canvas {
     /// The port that keys are about.
     pub(super) fn port_place(&self, document: &OpenDocument) -> Option<Place> {
         let port = self.port.as_ref()?;
-        ports::places(document, &port.node)
+        places::places(document, &port.node)
             .into_iter()
             .nth(port.at)
             .map(|(place, _)| place)
@@ -53,7 +44,7 @@ impl Canvas {
         let Some(id) = document.selected_one().cloned() else {
             return;
         };
-        let places = ports::places(document, &id);
+        let places = places::places(document, &id);
         let fits = |at: usize| self.gesture.takes(document, &places[at].0) != Some(false);
         let now = self.port.as_ref().filter(|port| port.node == id).map(|port| port.at);
         let order: Vec<usize> = match (is_on, now) {
@@ -93,13 +84,13 @@ impl Canvas {
 
     /// Where an arrow key leads: up and down through the ports of a node once one of them has the focus, left and right along
     /// its wire or to the ports on the other side; and from node to node otherwise, or with a wire in hand.
-    pub(crate) fn arrow(&mut self, document: &OpenDocument, way: Way) -> Vec<Action> {
+    pub(crate) fn arrow(&mut self, document: &OpenDocument, way: ArrowKey) -> Vec<Action> {
         let focused = self.port_place(document);
-        let is_aside = matches!(way, Way::Left | Way::Right);
+        let is_aside = matches!(way, ArrowKey::Left | ArrowKey::Right);
         let is_in_hand = matches!(self.gesture, Gesture::Wire { .. });
         match focused {
             Some(_) if !is_aside => {
-                self.step_port(document, way == Way::Down);
+                self.step_port(document, way == ArrowKey::Down);
                 return Vec::new();
             }
             Some(place) if !is_in_hand => {
@@ -123,7 +114,7 @@ impl Canvas {
     /// Gives a port the focus, and selects its node.
     fn go_to_port(&mut self, document: &OpenDocument, place: &Place) -> Vec<Action> {
         let node = place.node().clone();
-        let at = ports::places(document, &node)
+        let at = places::places(document, &node)
             .iter()
             .position(|(known, _)| known == place);
         self.port = at.map(|at| PortAt { node: node.clone(), at });
@@ -156,7 +147,7 @@ impl Canvas {
     }
 
     /// The node to which an arrow key leads: of those that lie that way, the nearest.
-    fn neighbor(&self, document: &OpenDocument, way: Way) -> Option<NodeId> {
+    fn neighbor(&self, document: &OpenDocument, way: ArrowKey) -> Option<NodeId> {
         let from = document.selected_one().and_then(|id| node_rect(document, id));
         let Some(from) = from else {
             return document.graph().ids().next().cloned();
@@ -168,10 +159,10 @@ impl Canvas {
             .filter_map(|id| {
                 let to = node_rect(document, id)?.center() - from.center();
                 let (along, aside) = match way {
-                    Way::Left => (-to.x, to.y),
-                    Way::Right => (to.x, to.y),
-                    Way::Up => (-to.y, to.x),
-                    Way::Down => (to.y, to.x),
+                    ArrowKey::Left => (-to.x, to.y),
+                    ArrowKey::Right => (to.x, to.y),
+                    ArrowKey::Up => (-to.y, to.x),
+                    ArrowKey::Down => (to.y, to.x),
                 };
                 // What lies aside counts as farther than what lies ahead.
                 (along > 1.0).then(|| (along + 2.0 * aside.abs(), id))
@@ -184,14 +175,14 @@ impl Canvas {
 
 /// The port to the left or right of one: the other end of its wire, or the first port on the other side of its node. None
 /// where it has no wire on that side.
-fn aside(document: &OpenDocument, place: &Place, way: Way) -> Option<Place> {
+fn aside(document: &OpenDocument, place: &Place, way: ArrowKey) -> Option<Place> {
     let inside = |is_input: bool| {
-        let places = ports::places(document, place.node()).into_iter();
+        let places = places::places(document, place.node()).into_iter();
         let mut places = places.map(|(place, _)| place);
         places.find(|place| matches!(place, Place::Input(_)) == is_input)
     };
     match (place, way) {
-        (Place::Input(slot), Way::Left) => {
+        (Place::Input(slot), ArrowKey::Left) => {
             let from = document.wire_into(slot)?;
             let port = document.face(&from.node)?.output(from.port.as_deref())?;
             Some(Place::Output(OutputRef {
@@ -199,7 +190,7 @@ fn aside(document: &OpenDocument, place: &Place, way: Way) -> Option<Place> {
                 port: Some(port.name.clone()),
             }))
         }
-        (Place::Output(from), Way::Right) => {
+        (Place::Output(from), ArrowKey::Right) => {
             let mut readers = document.graph().readers(from.node.as_str()).into_iter();
             readers.find(|slot| document.reads(slot, from)).map(Place::Input)
         }

@@ -3,34 +3,16 @@
 use std::collections::BTreeMap;
 
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
-use sabi_editing::{FRAME_AROUND, FRAME_STRIP, OpenDocument};
+use sabi_editing::FRAME_STRIP;
 
+use super::frame_rects::rect_of;
 use super::gesture::Gesture;
 use super::questions::Renaming;
-use super::{Around, Canvas, node_rect};
-use crate::action::{Action, FrameAsk};
+use super::{Around, Canvas};
+use crate::action::{Action, FrameAction, MoveAction};
 use crate::theme::type_size;
 
-/// The rectangle of a frame on the canvas; none where none of its nodes is there.
-pub(super) fn rect_of(document: &OpenDocument, id: &str) -> Option<Rect> {
-    let frame = document.graph().frames().get(id)?;
-    let rects = frame.nodes.iter().filter_map(|id| node_rect(document, id));
-    let all = rects.reduce(|all, rect| all.union(rect))?.expand(FRAME_AROUND);
-    Some(Rect::from_min_max(all.min - vec2(0.0, FRAME_STRIP), all.max))
-}
-
-/// The frame into which the selected nodes are dropped there: one that holds none of them yet.
-pub(super) fn under(canvas: &Canvas, document: &OpenDocument, pointer: egui::Pos2) -> Option<String> {
-    let panel = canvas.panel?;
-    let frames = document.graph().frames().iter();
-    let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| document.is_selected(id)));
-    let mut under = others.filter(|(id, _)| {
-        let rect = rect_of(document, id).map(|rect| canvas.view.screen_rect(panel, rect));
-        rect.is_some_and(|rect| rect.contains(pointer))
-    });
-    under.next().map(|(id, _)| id.clone())
-}
-
+/// Draws the frames, and gives what is asked of them.
 pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, actions: &mut Vec<Action>) {
     let document = around.document;
     for (id, frame) in document.graph().frames() {
@@ -62,7 +44,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
         if response.double_clicked() {
             canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
         } else if response.clicked() {
-            actions.push(Action::Frame(FrameAsk::Select(id.clone())));
+            actions.push(Action::Frame(FrameAction::Select(id.clone())));
         }
         if response.drag_started_by(egui::PointerButton::Primary) {
             let places = frame
@@ -70,8 +52,8 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
                 .iter()
                 .filter_map(|id| Some((id.clone(), document.node(id)?.pos)));
             let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(strip.center());
-            actions.push(Action::Frame(FrameAsk::Select(id.clone())));
-            actions.push(Action::BeginMove);
+            actions.push(Action::Frame(FrameAction::Select(id.clone())));
+            actions.push(Action::Move(MoveAction::Begin));
             canvas.gesture = Gesture::Move {
                 from: places.collect::<BTreeMap<_, _>>(),
                 grabbed: canvas.view.place(panel, origin),
@@ -80,13 +62,13 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_
         }
         response.context_menu(|ui| {
             if ui.button("Next color").clicked() {
-                actions.push(Action::Frame(FrameAsk::Recolor(id.clone())));
+                actions.push(Action::Frame(FrameAction::Recolor(id.clone())));
             }
             if ui.button("Rename").clicked() {
                 canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
             }
             if ui.button("Remove the frame").clicked() {
-                actions.push(Action::Frame(FrameAsk::Remove(id.clone())));
+                actions.push(Action::Frame(FrameAction::Remove(id.clone())));
             }
         });
     }

@@ -2,6 +2,7 @@
 
 mod carrying;
 mod marking;
+mod wiring;
 
 use std::collections::BTreeMap;
 
@@ -9,15 +10,16 @@ use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke
 use sabi_editing::{OpenDocument, PendingWire};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
-use super::ports::Place;
+use super::places::{self, Place};
 use super::questions::MergeQuestion;
 use super::wires::{self, Wire};
-use super::{AddMenu, Around, Canvas, Purpose, ports};
-use crate::action::{Action, WireAsk};
+use super::{AddMenu, Around, Canvas, Purpose};
+use crate::action::{Action, WireAction};
 use crate::command::{Habit, Scope};
 use crate::mouse::{self, Drags};
 use carrying::drag;
 use marking::{end_box, end_line};
+use wiring::target;
 
 /// So near an edge of the panel what is dragged pulls the canvas along, screen points.
 pub(super) const EDGE: f32 = 28.0;
@@ -190,10 +192,10 @@ fn flick(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, panel: Rect, actions
         return false;
     };
     let is_ours = ui.ctx().layer_id_at(from).is_none_or(|layer| layer == ui.layer_id());
-    let Some(place) = ports::at(canvas, around.document, panel, from).filter(|_| is_ours) else {
+    let Some(place) = places::at(canvas, around.document, panel, from).filter(|_| is_ours) else {
         return false;
     };
-    canvas.gesture = ports::taken(around.document, &place);
+    canvas.gesture = Gesture::taken_at(around.document, &place);
     drop_wire(canvas, around, panel, to, actions);
     true
 }
@@ -238,11 +240,11 @@ fn rest(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, wires: &[W
     if ground.double_clicked() {
         if let Some(wire) = wires::under(wires, pointer) {
             let into = wire.to.clone();
-            actions.push(Action::Wire(WireAsk::Reroute { into, place }));
+            actions.push(Action::Wire(WireAction::Reroute { into, place }));
         }
     } else if ground.clicked() {
         match wires::under(wires, pointer) {
-            Some(wire) if modifiers.alt => actions.push(Action::Wire(WireAsk::Cut(vec![wire.to.clone()]))),
+            Some(wire) if modifiers.alt => actions.push(Action::Wire(WireAction::Cut(vec![wire.to.clone()]))),
             _ => actions.push(Action::Select(Vec::new())),
         }
         canvas.leave_port();
@@ -276,14 +278,14 @@ pub(super) fn pull(canvas: &mut Canvas, ui: &Ui, panel: Rect, pointer: Pos2) {
 }
 
 fn drop_wire(canvas: &mut Canvas, around: &Around<'_>, panel: Rect, pointer: Pos2, actions: &mut Vec<Action>) {
-    let target = ports::target(canvas, around, panel, pointer);
+    let target = target(canvas, around, panel, pointer);
     let Gesture::Wire { loose, off, .. } = std::mem::take(&mut canvas.gesture) else {
         return;
     };
     match target {
         Some(place) => canvas.tie(around.document, loose, place, off, pointer, actions),
         None => match off {
-            Some(slot) => actions.push(Action::Wire(WireAsk::Cut(vec![slot]))),
+            Some(slot) => actions.push(Action::Wire(WireAction::Cut(vec![slot]))),
             None => {
                 let purpose = Purpose {
                     place: canvas.view.place(panel, pointer),
@@ -317,7 +319,7 @@ impl Canvas {
         if off.is_none() && document.may_merge(&from, &to) {
             self.merge = Some(MergeQuestion::new(at, from, to));
         } else {
-            actions.push(Action::Wire(WireAsk::Connect { from, to, off }));
+            actions.push(Action::Wire(WireAction::Connect { from, to, off }));
         }
     }
 }
@@ -342,7 +344,7 @@ pub(super) fn draw(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>) {
             let tied = canvas.view.screen(panel, tied);
             let target = match by_key {
                 true => canvas.port_place(around.document),
-                false => ports::target(canvas, around, panel, pointer),
+                false => target(canvas, around, panel, pointer),
             };
             let end = target.and_then(|place| place.on_canvas(around.document));
             let end = end.map_or(pointer, |place| canvas.view.screen(panel, place));

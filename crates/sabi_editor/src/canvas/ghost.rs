@@ -3,6 +3,7 @@
 use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
 use sabi_editing::{NODE_WIDTH, OpenDocument, PICTURE_SIDE, TITLE_HEIGHT};
 use sabi_engine::catalog::Entry;
+use sabi_graph::SlotRef;
 
 use super::gesture::{EDGE, pull};
 use super::wires::{self, Wire};
@@ -13,8 +14,24 @@ use crate::theme::{Theme, space, type_size};
 const BESIDE: f32 = 0.6;
 
 impl Canvas {
-    /// Shows a node that is dragged, where it would come to stand.
-    pub(crate) fn ghost(&self, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
+    /// Draws a node that is dragged from another panel where it would be put, and scrolls at the edges of the canvas.
+    pub(crate) fn drag_new(&mut self, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
+        self.draw_dragged(ui, theme, document, face, at);
+        self.scroll_for(ui, at);
+    }
+
+    /// Place for a node that is dropped at a place of the screen, and the wire that takes it; none beside the canvas.
+    pub(crate) fn place_for_dropped(
+        &self,
+        document: &OpenDocument,
+        face: &Entry,
+        at: Pos2,
+    ) -> Option<([f32; 2], Option<SlotRef>)> {
+        let wire = self.wire_for(document, face, at);
+        Some((self.place_at(at)?, wire.map(|wire| wire.to)))
+    }
+
+    fn draw_dragged(&self, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
         let zoom = self.place_at(at).map_or(BESIDE, |_| self.view.zoom);
         let painter = ui
             .ctx()
@@ -36,16 +53,16 @@ impl Canvas {
         ui.set_cursor_icon(egui::CursorIcon::Grabbing);
     }
 
-    /// The wire at a place of the screen into which a new node would be put.
-    pub(crate) fn wire_for(&self, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<Wire> {
+    /// Wire at a place of the screen that takes a new node.
+    fn wire_for(&self, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<Wire> {
         let panel = self.panel.filter(|panel| panel.contains(at))?;
         let wires = wires::visible(document, &self.view, panel);
         let wire = wires::under(&wires, at)?;
         document.may_insert_new(face, &wire.to).then(|| wire.clone())
     }
 
-    /// What is dragged here pulls the canvas along at an edge, once it has been farther in.
-    pub(crate) fn bring(&mut self, ui: &Ui, at: Pos2) {
+    /// Scrolls the canvas under a drag near its edge, once the drag has been farther in.
+    fn scroll_for(&mut self, ui: &Ui, at: Pos2) {
         let Some(panel) = self.panel.filter(|panel| panel.contains(at)) else {
             return;
         };

@@ -8,9 +8,11 @@ use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
 use sabi_editing::{TITLE_HEIGHT, is_bend};
 use sabi_graph::NodeId;
 
-use super::snapshot::{Hand, Key};
+use super::sensing::window_id;
+use super::shown::Hand;
+use super::snapshot::Key;
 use super::{Around, CARD_ZOOM, Canvas, bend, body, card, node_rect, ports, sides, tips};
-use crate::action::{Action, FrameAsk};
+use crate::action::{Action, FrameAction};
 use crate::command::{CanvasCommand, Command, GraphCommand, LookCommand, WindowCommand};
 use crate::knobs::KnobEvent;
 
@@ -134,11 +136,6 @@ fn knob(node: NodeId, event: KnobEvent) -> Action {
     Action::Knob { node, event }
 }
 
-/// The id under which the widget senses clicks and drags of the whole node.
-fn window_id(ui: &Ui, key: Key) -> egui::Id {
-    ui.id().with(key).with((key, "window"))
-}
-
 /// What a click or a drag on a node means.
 fn touched(canvas: &mut Canvas, id: &NodeId, response: &Response, around: &Around<'_>, actions: &mut Vec<Action>) {
     let modifiers = response.ctx.input(|input| input.modifiers);
@@ -151,7 +148,7 @@ fn touched(canvas: &mut Canvas, id: &NodeId, response: &Response, around: &Aroun
         actions.push(match (modifiers.command, modifiers.shift) {
             (true, true) => Action::Pin { node: id.clone() },
             (false, false) => Action::Select(vec![id.clone()]),
-            _ => Action::Toggle(id.clone()),
+            (true, false) | (false, true) => Action::Toggle(id.clone()),
         });
         if !modifiers.command && !modifiers.shift {
             actions.push(Action::Show {
@@ -193,7 +190,7 @@ fn context_menu(
         let frames = around.document.graph().frames().values();
         let is_framed = frames.into_iter().any(|frame| frame.nodes.contains(id));
         if is_framed && ui_menu.button("Take out of the frame").clicked() {
-            actions.push(Action::Frame(FrameAsk::Fill(None)));
+            actions.push(Action::Frame(FrameAction::Fill(None)));
         }
         ui_menu.separator();
         let commands = [
@@ -239,11 +236,6 @@ fn zoomed(style: &egui::Style, zoom: f32) -> egui::Style {
     spacing.icon_width_inner *= zoom;
     spacing.icon_spacing *= zoom;
     style
-}
-
-/// A node's rectangle on the screen, sensed as a whole: for cards and bends, which have no widgets in them.
-pub(super) fn sensed(ui: &Ui, key: Key, rect: Rect) -> Response {
-    ui.interact(rect, window_id(ui, key), Sense::click_and_drag())
 }
 
 #[cfg(test)]

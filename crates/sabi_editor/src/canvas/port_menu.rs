@@ -4,9 +4,9 @@ use egui::{Align2, FontId, Painter, Pos2, Response, Stroke, vec2};
 use sabi_editing::OpenDocument;
 use sabi_graph::{Body, SlotRef};
 
-use super::ports::Place;
+use super::places::Place;
 use super::{AddMenu, Canvas, Purpose};
-use crate::action::{Action, PortAsk, WireAsk};
+use crate::action::{Action, PortAction, WireAction};
 use crate::theme::{Theme, type_size};
 
 /// Below this zoom the names of what is given on cannot be read.
@@ -49,7 +49,7 @@ pub(super) fn show(
             .add_enabled(!tied.is_empty(), egui::Button::new("Disconnect"))
             .clicked()
         {
-            actions.push(Action::Wire(WireAsk::Cut(tied.clone())));
+            actions.push(Action::Wire(WireAction::Cut(tied.clone())));
         }
         let instead = match (place, tied.is_empty()) {
             (Place::Input(_), false) => "Replace by…",
@@ -61,17 +61,17 @@ pub(super) fn show(
     });
 }
 
-fn published(place: &Place) -> PortAsk {
+fn published(place: &Place) -> PortAction {
     match place {
-        Place::Input(slot) => PortAsk::PublishInput(slot.clone()),
-        Place::Output(from) => PortAsk::PublishOutput(from.clone()),
+        Place::Input(slot) => PortAction::PublishInput(slot.clone()),
+        Place::Output(from) => PortAction::PublishOutput(from.clone()),
     }
 }
 
-fn taken_back(place: &Place, name: &str) -> PortAsk {
+fn taken_back(place: &Place, name: &str) -> PortAction {
     match place {
-        Place::Input(slot) => PortAsk::Unfeed(slot.clone()),
-        Place::Output(_) => PortAsk::RemoveOutput(name.to_owned()),
+        Place::Input(slot) => PortAction::Unfeed(slot.clone()),
+        Place::Output(_) => PortAction::RemoveOutput(name.to_owned()),
     }
 }
 

@@ -5,7 +5,7 @@ use sabi_editing::MaskMerge;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::{Around, Canvas, focus_id};
-use crate::action::{Action, FrameAsk, WireAsk};
+use crate::action::{Action, FrameAction, WireAction};
 
 /// How a second mask is put together with the first one.
 pub(super) struct MergeQuestion {
@@ -81,7 +81,7 @@ pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut
     });
     asked.is_new = false;
     if let Some(how) = chosen {
-        actions.push(Action::Wire(WireAsk::Merge {
+        actions.push(Action::Wire(WireAction::Merge {
             from: asked.from.clone(),
             to: asked.to.clone(),
             how,
@@ -130,7 +130,7 @@ pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions:
     };
     let corner = match &renaming.what {
         Named::Node(id) => around.document.node(id).map(|node| node.pos),
-        Named::Frame(id) => super::frames::rect_of(around.document, id).map(|rect| [rect.min.x, rect.min.y]),
+        Named::Frame(id) => super::frame_rects::rect_of(around.document, id).map(|rect| [rect.min.x, rect.min.y]),
     };
     let Some(corner) = corner else {
         canvas.renaming = None;
@@ -164,7 +164,7 @@ pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions:
                 node,
                 name: renaming.text,
             },
-            Named::Frame(frame) => Action::Frame(FrameAsk::Rename {
+            Named::Frame(frame) => Action::Frame(FrameAction::Rename {
                 frame,
                 title: renaming.text,
             }),

@@ -6,7 +6,8 @@ use sabi_engine::catalog::{Entry, Port};
 use sabi_graph::NodeId;
 
 use super::gesture::Gesture;
-use super::ports::{self, DOT, INSIDE, Place};
+use super::places::{self, DOT, Place};
+use super::ports::{self, INSIDE};
 use super::{Around, Canvas, node_rect};
 use crate::action::Action;
 
@@ -92,7 +93,7 @@ impl Side<'_> {
         let away = |row: &usize| (self.y(*row) - at.y).abs();
         let row = rows.min_by(|one, other| away(one).total_cmp(&away(other)))?;
         let before = if self.is_input { 0 } else { self.face.inputs.len() };
-        ports::places(document, self.id).into_iter().nth(before + row)
+        places::places(document, self.id).into_iter().nth(before + row)
     }
 
     fn touched(&self, canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
@@ -114,7 +115,7 @@ impl Side<'_> {
         if response.drag_started_by(PointerButton::Primary) {
             let origin = ui.input(|input| input.pointer.press_origin());
             if let Some((place, _)) = origin.and_then(nearest) {
-                canvas.gesture = ports::taken(document, &place);
+                canvas.gesture = Gesture::taken_at(document, &place);
             }
         } else if response.clicked() {
             if let Some((place, _)) = response.interact_pointer_pos().and_then(nearest) {

@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::Duration;
 
 use egui::{Color32, Ui};
 use egui_node_graph::{
@@ -14,41 +13,12 @@ use sabi_engine::catalog::Entry;
 use sabi_graph::{Body, NodeId, PortType, Value};
 
 use super::body;
-use crate::knobs::KnobEvent;
-use crate::theme::Theme;
+use super::shown::{Hand, NodeState, NodeSummary};
 
 /// The crate's graph of our nodes.
-pub(super) type Graph = egui_node_graph::Graph<Shown, Carries, Row>;
+pub(super) type Graph = egui_node_graph::Graph<NodeSummary, Carries, Row>;
 /// The crate's own name of a node.
 pub(super) type Key = egui_node_graph::NodeId;
-
-/// What is known of a node's result.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct NodeState {
-    /// A picture of it.
-    pub(crate) picture: Option<egui::TextureId>,
-    /// How long it took.
-    pub(crate) time: Option<Duration>,
-    /// What is wrong with it.
-    pub(crate) fault: Option<String>,
-    /// What it waits for.
-    pub(crate) waits: Option<String>,
-}
-
-/// What is drawn of a node.
-pub(super) struct Shown {
-    pub(super) id: NodeId,
-    pub(super) face: Arc<Entry>,
-    pub(super) title: String,
-    pub(super) is_muted: bool,
-    pub(super) state: NodeState,
-    /// Whether the 2D view shows it.
-    pub(super) is_previewed: bool,
-    /// Whether it does so whatever is clicked.
-    pub(super) is_pinned: bool,
-    /// Values of the knobs that are rows of the node, by name; those that are not here have their defaults.
-    pub(super) values: BTreeMap<String, Value>,
-}
 
 /// What a port carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,13 +37,6 @@ pub(super) enum Row {
 /// What the rows of nodes ask for.
 #[derive(Clone, Debug)]
 pub(super) struct Asked;
-
-/// What drawing needs, and what rows asked for.
-pub(super) struct Hand {
-    pub(super) theme: Arc<Theme>,
-    pub(super) zoom: f32,
-    pub(super) knob_events: Vec<(NodeId, KnobEvent)>,
-}
 
 impl UserResponseTrait for Asked {}
 
@@ -94,9 +57,9 @@ impl DataTypeTrait<Hand> for Carries {
 impl WidgetValueTrait for Row {
     type Response = Asked;
     type UserState = Hand;
-    type NodeData = Shown;
+    type NodeData = NodeSummary;
 
-    fn value_widget(&mut self, name: &str, _: Key, ui: &mut Ui, hand: &mut Hand, shown: &Shown) -> Vec<Asked> {
+    fn value_widget(&mut self, name: &str, _: Key, ui: &mut Ui, hand: &mut Hand, shown: &NodeSummary) -> Vec<Asked> {
         match self {
             Row::Port => body::port_row(ui, hand, name, true),
             Row::Knob(at) => body::knob_row(ui, hand, shown, *at),
@@ -110,19 +73,19 @@ impl WidgetValueTrait for Row {
         key: Key,
         ui: &mut Ui,
         hand: &mut Hand,
-        shown: &Shown,
+        shown: &NodeSummary,
     ) -> Vec<Asked> {
         self.value_widget(name, key, ui, hand, shown)
     }
 }
 
-impl NodeDataTrait for Shown {
+impl NodeDataTrait for NodeSummary {
     type Response = Asked;
     type UserState = Hand;
     type DataType = Carries;
     type ValueType = Row;
 
-    fn top_bar_ui(&self, ui: &mut Ui, _: Key, _: &Graph, hand: &mut Hand) -> Vec<NodeResponse<Asked, Shown>> {
+    fn top_bar_ui(&self, ui: &mut Ui, _: Key, _: &Graph, hand: &mut Hand) -> Vec<NodeResponse<Asked, NodeSummary>> {
         body::title_row(ui, hand, self);
         Vec::new()
     }
@@ -134,12 +97,12 @@ impl NodeDataTrait for Shown {
         _: &Graph,
         hand: &mut Hand,
         name: &str,
-    ) -> Vec<NodeResponse<Asked, Shown>> {
+    ) -> Vec<NodeResponse<Asked, NodeSummary>> {
         body::port_row(ui, hand, name, false);
         Vec::new()
     }
 
-    fn bottom_ui(&self, ui: &mut Ui, _: Key, _: &Graph, hand: &mut Hand) -> Vec<NodeResponse<Asked, Shown>> {
+    fn bottom_ui(&self, ui: &mut Ui, _: Key, _: &Graph, hand: &mut Hand) -> Vec<NodeResponse<Asked, NodeSummary>> {
         body::picture_row(ui, hand, self);
         Vec::new()
     }
@@ -211,7 +174,7 @@ impl Snapshot {
     }
 
     fn add(&mut self, id: &NodeId, face: Arc<Entry>) {
-        let shown = Shown {
+        let shown = NodeSummary {
             id: id.clone(),
             face: face.clone(),
             title: String::new(),

@@ -3,13 +3,13 @@
 use egui::{Rect, Response, Sense, Ui};
 
 use super::Around;
-use super::snapshot::Shown;
+use super::shown::NodeSummary;
 
 /// Widest line of it.
 const WIDEST: f32 = 280.0;
 
 /// Says what a node is and what is wrong with it over a part of it.
-pub(super) fn show(ui: &Ui, around: &Around<'_>, shown: &Shown, node: &Response, part: Rect) {
+pub(super) fn show(ui: &Ui, around: &Around<'_>, shown: &NodeSummary, node: &Response, part: Rect) {
     let part = ui.interact(part, node.id.with("tip"), Sense::hover());
     part.on_hover_ui(|ui| {
         ui.set_max_width(WIDEST);

@@ -1,11 +1,14 @@
-//! All keys, by where they act, to be taken away and added to; and what is dragged with the mouse.
+//! The list of keys by scope, where keys are added and removed, and of mouse drags.
 
-use egui::{Event, Key, Response, RichText, Ui, WidgetInfo, WidgetType, Window};
+use std::collections::BTreeMap;
+
+use egui::{Event, Grid, Key, Response, RichText, ScrollArea, Ui, WidgetInfo, WidgetType, Window};
 use egui_phosphor::regular as icon;
 
-use crate::app::{Editor, told_by_system};
+use crate::action::{Action, SettingAction};
 use crate::command::{Command, Scope};
-use crate::key_map::Chord;
+use crate::context::{View, ViewContext};
+use crate::key_map::{Chord, from_clipboard_event};
 use crate::mouse::grips;
 
 const SCOPES: [(Scope, &str); 4] = [
@@ -15,114 +18,125 @@ const SCOPES: [(Scope, &str); 4] = [
     (Scope::Flat, "On the texture"),
 ];
 
-pub(super) fn show(editor: &mut Editor, ui: &Ui) {
-    if !editor.files.shows_keys {
-        editor.waits_for_key = None;
-        return;
-    }
-    let mut is_open = true;
-    let mut has_changed = false;
-    Window::new("Keys")
-        .open(&mut is_open)
-        .default_size([420.0, 520.0])
-        .show(ui.ctx(), |ui| {
-            for (chord, [one, other]) in editor.keys().clashes() {
-                let text = format!(
-                    "{} means both \"{}\" and \"{}\"",
-                    chord.text(),
-                    one.title(),
-                    other.title()
-                );
-                ui.colored_label(ui.visuals().warn_fg_color, text);
-            }
-            if ui.button("As they were at first").clicked() {
-                editor.settings.keys.clear();
-                has_changed = true;
-            }
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                for (scope, title) in SCOPES {
-                    ui.add_space(8.0);
-                    ui.strong(title);
-                    egui::Grid::new(title)
-                        .num_columns(2)
-                        .striped(true)
-                        .min_col_width(180.0)
-                        .show(ui, |ui| {
-                            for command in Command::ALL.iter().filter(|command| command.scope() == scope) {
-                                has_changed |= row(editor, ui, *command);
-                                ui.end_row();
-                            }
-                            for grip in grips(editor.settings.habit, scope) {
-                                ui.label(grip.drags.title());
-                                ui.monospace(grip.text());
-                                ui.end_row();
-                            }
-                        });
-                }
-            });
-        });
-    editor.files.shows_keys = is_open;
-    if has_changed {
-        editor.take_settings(ui.ctx());
-    }
+/// Window with the list of keys.
+#[derive(Default)]
+pub(crate) struct KeyList {
+    pub(crate) is_open: bool,
+    /// Command that takes the next pressed key.
+    waiting: Option<Command>,
 }
 
-/// One command with its keys: a click on one takes it away, and another one can be added. Says whether any changed.
-fn row(editor: &mut Editor, ui: &mut Ui, command: Command) -> bool {
-    ui.label(command.title());
-    let before: Vec<Chord> = editor.keys().chords(command).collect();
-    let mut chords = before.clone();
-    let mut is_reset = false;
-    ui.horizontal(|ui| {
-        chords.retain(|chord| {
-            let text = chord.text();
-            let button = named(ui.button(RichText::new(&text).monospace()), || {
-                format!("Take {text} from {}", command.title())
-            });
-            !button.on_hover_text("Take this key away").clicked()
-        });
-        chords.extend(added(editor, ui, command));
-        let is_own = editor.settings.keys.contains_key(command.name());
-        if is_own {
-            let button = named(ui.button(icon::ARROW_COUNTER_CLOCKWISE), || {
-                format!("The first keys of {}", command.title())
-            });
-            is_reset = button.on_hover_text("As they were at first").clicked();
+type OwnKeys = BTreeMap<String, Vec<String>>;
+
+impl View for KeyList {
+    fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        if !self.is_open {
+            self.waiting = None;
+            return Vec::new();
         }
-    });
-    let is_changed = chords != before;
-    let keys = &mut editor.settings.keys;
-    if is_reset {
-        keys.remove(command.name());
-    } else if is_changed {
-        let texts = chords.into_iter().map(Chord::text).collect();
-        keys.insert(command.name().to_owned(), texts);
+        let mut is_open = true;
+        let mut own = context.settings.keys.clone();
+        Window::new("Keys")
+            .open(&mut is_open)
+            .default_size([420.0, 520.0])
+            .show(ui.ctx(), |ui| self.contents(ui, context, &mut own));
+        self.is_open = is_open;
+        let is_changed = own != context.settings.keys;
+        let change = is_changed.then_some(Action::Setting(SettingAction::Keys(own)));
+        change.into_iter().collect()
     }
-    is_reset || is_changed
 }
 
-/// The button that waits for another key of a command, and the key that was pressed then. Escape leaves it.
-fn added(editor: &mut Editor, ui: &mut Ui, command: Command) -> Option<Chord> {
-    let is_waiting = editor.waits_for_key == Some(command);
-    let text = if is_waiting {
-        "Press a key, or Esc…"
-    } else {
-        icon::PLUS
-    };
-    let button = named(ui.button(text), || format!("Add a key for {}", command.title()));
-    if button.on_hover_text("Another key for the same").clicked() {
-        editor.waits_for_key = if is_waiting { None } else { Some(command) };
+impl KeyList {
+    /// Whether the next pressed key is taken for a command.
+    pub(crate) fn takes_keys(&self) -> bool {
+        self.waiting.is_some()
     }
-    if !is_waiting {
-        return None;
+
+    fn contents(&mut self, ui: &mut Ui, context: &ViewContext<'_>, own: &mut OwnKeys) {
+        for (chord, [one, other]) in context.keys.clashes() {
+            let text = format!(
+                "{} means both \"{}\" and \"{}\"",
+                chord.text(),
+                one.title(),
+                other.title()
+            );
+            ui.colored_label(ui.visuals().warn_fg_color, text);
+        }
+        if ui.button("As they were at first").clicked() {
+            own.clear();
+        }
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            for (scope, title) in SCOPES {
+                ui.add_space(8.0);
+                ui.strong(title);
+                let grid = Grid::new(title).num_columns(2).striped(true).min_col_width(180.0);
+                grid.show(ui, |ui| {
+                    for command in Command::ALL.iter().filter(|command| command.scope() == scope) {
+                        self.row(ui, context, *command, own);
+                        ui.end_row();
+                    }
+                    for grip in grips(context.settings.habit, scope) {
+                        ui.label(grip.drags.title());
+                        ui.monospace(grip.text());
+                        ui.end_row();
+                    }
+                });
+            }
+        });
     }
-    let chord = ui.input(|input| input.events.iter().find_map(pressed))?;
-    editor.waits_for_key = None;
-    let is_known = editor
-        .keys()
-        .chords(command)
-        .any(|known| known.is(chord.modifiers, chord.key));
-    Some(chord).filter(|chord| chord.key != Key::Escape && !is_known)
+
+    /// Row of a command with its keys: a click on one removes it, and another one can be added.
+    fn row(&mut self, ui: &mut Ui, context: &ViewContext<'_>, command: Command, own: &mut OwnKeys) {
+        ui.label(command.title());
+        let before: Vec<Chord> = context.keys.chords(command).collect();
+        let mut chords = before.clone();
+        let mut is_reset = false;
+        ui.horizontal(|ui| {
+            chords.retain(|chord| {
+                let text = chord.text();
+                let button = named(ui.button(RichText::new(&text).monospace()), || {
+                    format!("Take {text} from {}", command.title())
+                });
+                !button.on_hover_text("Take this key away").clicked()
+            });
+            chords.extend(self.added(ui, context, command));
+            if own.contains_key(command.name()) {
+                let button = named(ui.button(icon::ARROW_COUNTER_CLOCKWISE), || {
+                    format!("The first keys of {}", command.title())
+                });
+                is_reset = button.on_hover_text("As they were at first").clicked();
+            }
+        });
+        if is_reset {
+            own.remove(command.name());
+        } else if chords != before {
+            let texts = chords.into_iter().map(Chord::text).collect();
+            own.insert(command.name().to_owned(), texts);
+        }
+    }
+
+    /// Button that waits for another key of a command, and the key that was pressed then. Escape cancels.
+    fn added(&mut self, ui: &mut Ui, context: &ViewContext<'_>, command: Command) -> Option<Chord> {
+        let is_waiting = self.waiting == Some(command);
+        let text = if is_waiting {
+            "Press a key, or Esc…"
+        } else {
+            icon::PLUS
+        };
+        let button = named(ui.button(text), || format!("Add a key for {}", command.title()));
+        if button.on_hover_text("Another key for the same").clicked() {
+            self.waiting = if is_waiting { None } else { Some(command) };
+        }
+        if !is_waiting {
+            return None;
+        }
+        let chord = ui.input(|input| input.events.iter().find_map(pressed))?;
+        self.waiting = None;
+        let mut known = context.keys.chords(command);
+        let is_known = known.any(|known| known.is(chord.modifiers, chord.key));
+        Some(chord).filter(|chord| chord.key != Key::Escape && !is_known)
+    }
 }
 
 fn pressed(event: &Event) -> Option<Chord> {
@@ -136,7 +150,7 @@ fn pressed(event: &Event) -> Option<Chord> {
             modifiers: *modifiers,
             key: *key,
         }),
-        event => told_by_system(event),
+        event => from_clipboard_event(event),
     }
 }
 

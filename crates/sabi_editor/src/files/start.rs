@@ -1,82 +1,93 @@
-//! The start page: what was open, examples, and what was not saved when the program last ended.
+//! The start page: recent graphs, examples, and graphs that were not saved when the program last ended.
 
 use std::time::SystemTime;
 
-use egui::{Align2, Color32, FontId, Modal, RichText, Sense, Ui, vec2};
-
+use super::examples::EXAMPLES;
+use crate::action::{Action, FileAction, Next};
+use crate::command::{Command, FileCommand};
+use crate::context::{View, ViewContext};
+use crate::paths::file_stem;
+use crate::theme::{Theme, space, type_size};
+use egui::{Align2, Color32, FontId, Id, Modal, RichText, Sense, Ui, vec2};
 use egui_phosphor::regular as icon;
 
-use super::Next;
-use super::examples::EXAMPLES;
-use crate::action::Action;
-use crate::app::Editor;
-use crate::command::{Command, FileCommand};
-use crate::theme::{Theme, space, type_size};
+/// The start page.
+pub(crate) struct StartPage {
+    pub(crate) is_open: bool,
+}
 
-pub(super) fn show(editor: &mut Editor, ui: &Ui, actions: &mut Vec<Action>) {
-    if !editor.files.is_start || editor.question().is_some() {
-        return;
-    }
-    let theme = editor.theme().clone();
-    let mut next = None;
-    let mut is_over = false;
-    let modal = Modal::new(egui::Id::new("start")).show(ui.ctx(), |ui| {
-        ui.set_width(720.0);
-        ui.horizontal(|ui| {
-            ui.label(
-                RichText::new(icon::DIAMONDS_FOUR)
-                    .color(theme.accent)
-                    .size(type_size::TITLE),
-            );
-            ui.label(RichText::new("Sabi").size(type_size::TITLE));
-            ui.colored_label(theme.quiet, "materials that age, on real models");
+impl View for StartPage {
+    fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        let mut actions = Vec::new();
+        let modal = Modal::new(Id::new("start")).show(ui.ctx(), |ui| {
+            ui.set_width(720.0);
+            title(ui, context.theme);
+            ui.add_space(space::WIDE);
+            let recovered = recoveries(ui, context, &mut actions);
+            cards(ui, context).or(recovered)
         });
-        ui.add_space(space::WIDE);
-        recoveries(editor, ui, &theme, &mut next);
-        ui.columns(2, |columns| {
-            let [left, right] = columns else { return };
-            left.strong("Begin");
-            if card(left, &theme, "Empty graph", "Begin with nothing but a model") {
-                next = Some(Next::New);
-            }
-            if card(left, &theme, "Open…", "A graph of yours") {
-                actions.push(Action::Do(Command::File(FileCommand::Open)));
-                is_over = true;
-            }
-            left.add_space(space::USUAL);
-            if !editor.settings.recent.is_empty() {
-                left.strong("Lately");
-            }
-            for path in editor.settings.recent.iter().take(5) {
-                let name = path.file_stem().unwrap_or_default().to_string_lossy();
-                if card(left, &theme, &name, &path.display().to_string()) {
-                    next = Some(Next::Open(path.clone()));
-                }
-            }
-            right.strong("Examples");
-            for (at, example) in EXAMPLES.iter().enumerate() {
-                if card(right, &theme, example.title, example.says) {
-                    next = Some(Next::Example(at));
-                }
-            }
-        });
-    });
-    if next.is_some() || is_over || modal.should_close() {
-        editor.files.is_start = false;
-    }
-    if let Some(next) = next {
-        let Editor { files, document, .. } = editor;
-        files.ask_next(document, next);
+        let should_close = modal.should_close();
+        if let Some(chosen) = modal.inner {
+            self.is_open = false;
+            actions.push(chosen);
+        }
+        self.is_open &= !should_close;
+        actions
     }
 }
 
-fn recoveries(editor: &mut Editor, ui: &mut Ui, theme: &Theme, next: &mut Option<Next>) {
-    if editor.files.recoveries.is_empty() {
-        return;
+fn title(ui: &mut Ui, theme: &Theme) {
+    ui.horizontal(|ui| {
+        let sign = RichText::new(icon::DIAMONDS_FOUR);
+        ui.label(sign.color(theme.accent).size(type_size::TITLE));
+        ui.label(RichText::new("Sabi").size(type_size::TITLE));
+        ui.colored_label(theme.quiet, "materials that age, on real models");
+    });
+}
+
+/// Cards of graphs that can be opened; gives what the clicked one asks for.
+fn cards(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
+    let theme = context.theme;
+    let ask = |next: Next| Some(Action::File(FileAction::Ask(next)));
+    let mut chosen = None;
+    ui.columns(2, |columns| {
+        let [left, right] = columns else { return };
+        left.strong("Begin");
+        if card(left, theme, "Empty graph", "Begin with nothing but a model") {
+            chosen = ask(Next::New);
+        }
+        if card(left, theme, "Open…", "A graph of yours") {
+            chosen = Some(Action::Do(Command::File(FileCommand::Open)));
+        }
+        left.add_space(space::USUAL);
+        let recent = &context.settings.recent;
+        if !recent.is_empty() {
+            left.strong("Lately");
+        }
+        for path in recent.iter().take(5) {
+            if card(left, theme, &file_stem(path), &path.display().to_string()) {
+                chosen = ask(Next::Open(path.clone()));
+            }
+        }
+        right.strong("Examples");
+        for (at, example) in EXAMPLES.iter().enumerate() {
+            if card(right, theme, example.title, example.says) {
+                chosen = ask(Next::Example(at));
+            }
+        }
+    });
+    chosen
+}
+
+/// Rows of graphs and node files that were not saved; gives what a click on Recover asks for.
+fn recoveries(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) -> Option<Action> {
+    if context.recoveries.is_empty() {
+        return None;
     }
+    let theme = context.theme;
+    let mut chosen = None;
     ui.colored_label(theme.warning, "The program ended before this was saved:");
-    let mut gone = None;
-    for (at, recovery) in editor.files.recoveries.iter().enumerate() {
+    for (at, recovery) in context.recoveries.iter().enumerate() {
         let of = recovery
             .file()
             .map_or("a graph without a file".to_owned(), |file| file.display().to_string());
@@ -94,25 +105,23 @@ fn recoveries(editor: &mut Editor, ui: &mut Ui, theme: &Theme, next: &mut Option
                     }
                 }
             }
-            ui.colored_label(theme.quiet, recovery.when().map(told_age).unwrap_or_default());
+            ui.colored_label(theme.quiet, recovery.when().map_or_else(String::new, told_age));
             if recovery.fault().is_none() && ui.button("Recover").clicked() {
-                *next = Some(Next::Recover(at));
+                chosen = Some(Action::File(FileAction::Ask(Next::Recover(at))));
             }
             ui.menu_button("Let it go", |ui| {
                 ui.label("It cannot be brought back.");
                 if ui.button("Let it go for good").clicked() {
-                    gone = Some(at);
+                    actions.push(Action::File(FileAction::DeleteRecovery(at)));
                 }
             });
         });
     }
-    if let Some(at) = gone {
-        editor.files.recoveries.remove(at).forget();
-    }
     ui.add_space(space::WIDE);
+    chosen
 }
 
-/// How long ago something was.
+/// Age of something, for people.
 fn told_age(when: SystemTime) -> String {
     let minutes = when.elapsed().map_or(0, |age| age.as_secs() / 60);
     match minutes {
@@ -124,7 +133,7 @@ fn told_age(when: SystemTime) -> String {
     }
 }
 
-/// Something to click: a title and a sentence.
+/// Card with a title and a sentence; gives whether it was clicked.
 fn card(ui: &mut Ui, theme: &Theme, title: &str, says: &str) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 44.0), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, title));

@@ -5,12 +5,21 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use egui::Context;
 use rfd::{AsyncFileDialog, FileHandle};
-use sabi_editing::GRAPH_EXTENSION;
+use sabi_editing::{GRAPH_EXTENSION, KnobTarget};
 
-use super::PathFor;
-use crate::app::{MODELS, PICTURES};
+use crate::paths::{IMAGES, MODELS};
 
-/// A dialog that is open.
+/// What a path is asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum PathFor {
+    Open,
+    Save,
+    Model,
+    /// Parameter that names an image file.
+    Image(KnobTarget),
+}
+
+/// System dialog that is open.
 pub(crate) struct SystemDialog {
     answer: Receiver<Option<PathBuf>>,
 }
@@ -27,7 +36,7 @@ impl SystemDialog {
             PathFor::Open => SystemDialog::open(context, dialog.add_filter("Graphs", &[GRAPH_EXTENSION]).pick_file()),
             PathFor::Save => SystemDialog::open(context, dialog.add_filter("Graphs", &[GRAPH_EXTENSION]).save_file()),
             PathFor::Model => SystemDialog::open(context, dialog.add_filter("Models", &MODELS).pick_file()),
-            PathFor::Picture(_) => SystemDialog::open(context, dialog.add_filter("Pictures", &PICTURES).pick_file()),
+            PathFor::Image(_) => SystemDialog::open(context, dialog.add_filter("Pictures", &IMAGES).pick_file()),
         }
     }
 

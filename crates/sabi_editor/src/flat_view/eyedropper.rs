@@ -6,11 +6,11 @@ use sabi_engine::Inspected;
 use sabi_graph::PortType;
 
 use super::FlatView;
-use crate::app::Taken;
+use crate::action::ClickedColor;
 
 impl FlatView {
     /// The color that was clicked: that of a material whichever of its planes is looked at.
-    pub(super) fn clicked_color(&self, response: &Response, square: Rect, values: &Inspected) -> Option<Taken> {
+    pub(super) fn clicked_color(&self, response: &Response, square: Rect, values: &Inspected) -> Option<ClickedColor> {
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
         let has_color = matches!(values.ty, PortType::Color | PortType::Material);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::{Color32, ColorImage, Context, Painter, Pos2, Rect, Stroke, TextureHandle, TextureOptions, pos2, vec2};
 use sabi_engine::{LinkedModel, LiveModel, SetKey};
 
-use crate::errand::Errand;
+use crate::task::Task;
 use crate::theme::Theme;
 
 /// More lines than this are not drawn one by one: they stand closer than pixels then, and a frame would wait for them.
@@ -18,7 +18,7 @@ const SIDE: usize = 1024;
 pub(super) struct Wires {
     /// The model and the texture set that they are of, or will be.
     of: Option<(u64, SetKey)>,
-    coming: Option<Errand<Drawing>>,
+    coming: Option<Task<Drawing>>,
     edges: Vec<[Pos2; 2]>,
     /// What takes their place where they are many, and where in texture space it lies.
     picture: Option<(TextureHandle, Rect)>,
@@ -65,9 +65,9 @@ impl Wires {
         if self.of != Some(wanted) && self.coming.is_none() {
             self.of = Some(wanted);
             let linked = model.linked.clone();
-            self.coming = Some(Errand::start(context, move || Drawing::of(edges_of(&linked, set))));
+            self.coming = Some(Task::start(context, move || Drawing::of(edges_of(&linked, set))));
         }
-        let Some(come) = self.coming.as_ref().and_then(Errand::poll) else {
+        let Some(come) = self.coming.as_ref().and_then(Task::poll) else {
             return;
         };
         self.coming = None;

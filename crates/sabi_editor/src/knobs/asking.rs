@@ -3,7 +3,6 @@
 use egui::{Color32, Context, Id, Key, PointerButton, Pos2, Response, Vec2};
 use sabi_graph::Value;
 
-use super::typing::Typing;
 use super::{KnobEvent, KnobRow, Lengths};
 use crate::theme::Theme;
 
@@ -23,6 +22,17 @@ pub(crate) struct KnobMemory {
     pub(super) pasting: Option<(Id, u64)>,
     /// What of a wheel's turn was too little for a step.
     pub(super) wheel: f32,
+}
+
+/// Text field that has the keyboard.
+#[derive(Clone, Debug)]
+pub(super) struct Typing {
+    pub(super) id: Id,
+    pub(super) text: String,
+    /// Whether it still has to be given the keyboard.
+    pub(super) is_new: bool,
+    /// Whether all of its text is selected then.
+    pub(super) is_selected: bool,
 }
 
 /// What is wrong with what was typed last.

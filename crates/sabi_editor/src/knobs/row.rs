@@ -11,6 +11,7 @@ use sabi_graph::Value;
 use super::asking::Asking;
 use super::boxes::DOTS;
 use super::lettering::write;
+use super::sentence::sentence;
 use super::values::{Held, read};
 use super::{KnobEvent, KnobRow, choice, color, curve, doc, numbers, stops, text};
 use crate::theme::{space, type_size};
@@ -80,20 +81,6 @@ fn shortened(text: &str) -> String {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }
-}
-
-/// A sentence under a row.
-pub(super) fn sentence(ui: &mut Ui, id: Id, left: f32, text: &str, color: Color32) {
-    let right = ui.max_rect().right();
-    let font = FontId::proportional(type_size::SMALL);
-    let galley = ui
-        .painter()
-        .layout(text.to_owned(), font, color, (right - left).max(40.0));
-    let (_, rect) = ui.allocate_space(Vec2::new(ui.available_width(), galley.size().y));
-    let place = Pos2::new(left, rect.top());
-    let response = ui.interact(Rect::from_min_size(place, galley.size()), id, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, text));
-    ui.painter().galley(place, galley, color);
 }
 
 /// Says that a knob is not what it was at first; a click makes it so again.

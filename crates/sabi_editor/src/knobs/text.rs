@@ -7,8 +7,9 @@ use sabi_graph::Value;
 use super::asking::Asking;
 use super::boxes::cut_square;
 use super::buttons::sign_button;
+use super::sentence::sentence;
 use super::typing::{Field, Typed};
-use super::{KnobEvent, KnobRow, row};
+use super::{KnobEvent, KnobRow};
 
 pub(super) fn text(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str) {
     let typed = ask.field(
@@ -35,7 +36,7 @@ pub(super) fn file(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id,
         ask.events.push(KnobEvent::Browse { knob });
     }
     if path.is_empty() && !row.differs {
-        let sentence = "No file yet: choose one, or type its path from the folder of the graph.";
-        row::sentence(ui, id.with("empty"), rect.left(), sentence, ask.theme.warning);
+        let missing = "No file yet: choose one, or type its path from the folder of the graph.";
+        sentence(ui, id.with("empty"), rect.left(), missing, ask.theme.warning);
     }
 }

@@ -3,19 +3,8 @@
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Frame, Id, Key, Margin, Rect, Response, StrokeKind, TextEdit, Ui};
 
-use super::asking::Asking;
+use super::asking::{Asking, Typing};
 use crate::theme::{space, type_size};
-
-/// The field that is typed into.
-#[derive(Clone, Debug)]
-pub(super) struct Typing {
-    id: Id,
-    text: String,
-    /// It has to be given the keyboard yet.
-    is_new: bool,
-    /// All of its text is to be selected then.
-    is_selected: bool,
-}
 
 /// What became of a field in this frame.
 #[derive(Debug, PartialEq)]

@@ -6,8 +6,8 @@ use egui::Context;
 use sabi_engine::view::Environment;
 use sabi_engine::{EngineError, built_in_environments, load_environment};
 
-use crate::errand::{Errand, Failed};
-use crate::stage::Stage;
+use crate::evaluation::Evaluation;
+use crate::task::{Failed, Task};
 
 type Loaded = Result<(Environment, Vec<String>), EngineError>;
 
@@ -16,9 +16,9 @@ pub(super) struct Surroundings {
     choice: String,
     /// What was asked for last.
     asked: Option<String>,
-    coming: Option<Errand<Loaded>>,
+    coming: Option<Task<Loaded>>,
     /// Those that nobody waits for any more, as long as they are at work.
-    former: Vec<Errand<Loaded>>,
+    former: Vec<Task<Loaded>>,
     environment: Option<Environment>,
     number: u64,
     /// Whether one stands in for another that could not be had.
@@ -73,20 +73,20 @@ impl Surroundings {
 
     /// Begins to load what was chosen, and takes what has come. Gives the sentence for what cannot be had; while there is no
     /// environment at all, one that comes with the program takes its place.
-    pub(super) fn poll(&mut self, stage: &Stage, context: &Context) -> Option<String> {
+    pub(super) fn poll(&mut self, evaluation: &Evaluation, context: &Context) -> Option<String> {
         if self.asked.as_ref() != Some(&self.choice) {
             self.asked = Some(self.choice.clone());
             let (gpu, choice, cache) = (
-                stage.gpu().clone(),
+                evaluation.gpu().clone(),
                 self.choice.clone(),
-                stage.cache_dir().map(ToOwned::to_owned),
+                evaluation.cache_dir().map(ToOwned::to_owned),
             );
             self.former.extend(self.coming.take());
-            self.coming = Some(Errand::start(context, move || {
+            self.coming = Some(Task::start(context, move || {
                 load_environment(&gpu, &choice, cache.as_deref())
             }));
         }
-        self.former.retain(|errand| !errand.is_over());
+        self.former.retain(|task| !task.is_over());
         let loaded = match self.coming.as_ref()?.poll()? {
             Ok(loaded) => loaded.map_err(|error| error.to_string()),
             Err(Failed) => Err(format!("'{}' could not be read to its end", self.choice)),

@@ -4,8 +4,8 @@ use egui::{CursorIcon, Pos2, Rect, Response};
 use sabi_engine::view::{Background, Mode, NodeType, Shot};
 
 use super::{ModelView, Subject};
-use crate::app::Taken;
-use crate::stage::{Picture, Stage};
+use crate::action::ClickedColor;
+use crate::evaluation::{Evaluation, Picture};
 
 impl ModelView {
     /// The color that was clicked, while one is wanted.
@@ -13,31 +13,38 @@ impl ModelView {
         &mut self,
         response: &Response,
         rect: Rect,
-        stage: &Stage,
+        evaluation: &Evaluation,
         picture: &Picture,
         subject: &Subject<'_>,
-    ) -> Option<Taken> {
+    ) -> Option<ClickedColor> {
         if !subject.is_taking_color {
             return None;
         }
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
-        if stage.picture(subject.seen).is_none() {
+        if evaluation.picture(subject.seen).is_none() {
             return Some(Err(
                 "What the model shows is not evaluated yet; click again in a moment.".to_owned(),
             ));
         }
         let line = self.wipe.map(|share| rect.left() + share * rect.width());
-        let other = subject.locked.and_then(|seen| stage.picture(seen));
+        let other = subject.locked.and_then(|seen| evaluation.picture(seen));
         Some(match other.filter(|_| line.is_some_and(|line| at.x >= line)) {
-            Some(other) => self.color_at(1, at, rect, stage, &other.clone()),
-            None => self.color_at(0, at, rect, stage, picture),
+            Some(other) => self.color_at(1, at, rect, evaluation, &other.clone()),
+            None => self.color_at(0, at, rect, evaluation, picture),
         })
     }
 
     /// Draws the colors alone and reads the pixel: so every texture set, every size and every side of a seam is right.
-    fn color_at(&mut self, screen: usize, at: Pos2, rect: Rect, stage: &Stage, picture: &Picture) -> Taken {
-        let holds = picture.shown.looks.last().and_then(|look| look.node.as_ref());
+    fn color_at(
+        &mut self,
+        screen: usize,
+        at: Pos2,
+        rect: Rect,
+        evaluation: &Evaluation,
+        picture: &Picture,
+    ) -> ClickedColor {
+        let holds = picture.looks.looks.last().and_then(|look| look.node.as_ref());
         let what = match holds.map(|node| node.holds) {
             None | Some(NodeType::Color) => None,
             Some(NodeType::Mask) => Some("a mask"),
@@ -49,7 +56,7 @@ impl ModelView {
             ));
         }
         let shot = Shot {
-            mode: if picture.shown.is_lit {
+            mode: if picture.looks.is_lit {
                 Mode::BaseColor
             } else {
                 Mode::Node
@@ -61,12 +68,12 @@ impl ModelView {
         };
         let size = [rect.width(), rect.height()].map(|side| side.round().max(1.0) as u32);
         let failed = |error: &dyn std::fmt::Display| format!("The color cannot be read: {error}");
-        self.draw(screen, stage, picture, &shot, size, false)
+        self.draw(screen, evaluation, picture, &shot, size, false)
             .map_err(|error| failed(&error))?;
         let target = self.screens[screen]
             .as_ref()
             .and_then(|screen| screen.viewport.picture());
-        let pixels = target.map(|target| target.read(stage.gpu()));
+        let pixels = target.map(|target| target.read(evaluation.gpu()));
         let Some(pixels) = pixels.transpose().map_err(|error| failed(&error))? else {
             return Err("The model is not drawn yet; click again in a moment.".to_owned());
         };

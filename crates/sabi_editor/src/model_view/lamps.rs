@@ -1,95 +1,51 @@
-//! Lights besides the environment: far ones, as the sun is.
+//! Lights besides the environment: distant ones, as the sun is.
 
 use egui::{Button, DragValue, Ui};
 use egui_phosphor::regular as icon;
 use sabi_engine::view::{Light, LightPlace, MOST_LIGHTS};
 
-use super::choices::{TURN_DEGREES, within};
+use crate::settings::viewport::{LAMP_HEIGHT_DEGREES, LAMP_STRENGTH, Lamp, TURN_DEGREES};
 
-/// Limits of what the menu sets.
-const HEIGHT_DEGREES: std::ops::RangeInclusive<f32> = -90.0..=90.0;
-const STRENGTH: std::ops::RangeInclusive<f32> = 0.0..=20.0;
-
-/// One light as it is chosen and kept.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(default)]
-pub(crate) struct Lamp {
-    /// Where it comes from: around the model, and above it.
-    turn_degrees: f32,
-    height_degrees: f32,
-    /// Linear, 0..1.
-    color: [f32; 3],
-    strength: f32,
-    has_shadow: bool,
-}
-
-impl Default for Lamp {
-    /// From the left and above, as in the usual studio.
-    fn default() -> Lamp {
-        Lamp {
-            turn_degrees: -40.0,
-            height_degrees: 35.0,
-            color: [1.0; 3],
-            strength: 2.0,
-            has_shadow: true,
-        }
+fn light_of(lamp: &Lamp) -> Light {
+    Light {
+        place: LightPlace::far_at(lamp.turn_degrees, lamp.height_degrees),
+        color: lamp.color.map(|number| number * lamp.strength),
+        has_shadow: lamp.has_shadow,
     }
 }
 
-impl Lamp {
-    /// What of it can be used: files of settings may have been written by hand.
-    fn sound(self) -> Lamp {
-        let usual = Lamp::default();
-        Lamp {
-            turn_degrees: within(self.turn_degrees, &TURN_DEGREES, usual.turn_degrees),
-            height_degrees: within(self.height_degrees, &HEIGHT_DEGREES, usual.height_degrees),
-            color: self.color.map(|number| within(number, &(0.0..=1.0), 1.0)),
-            strength: within(self.strength, &STRENGTH, usual.strength),
-            has_shadow: self.has_shadow,
-        }
-    }
-
-    fn light(&self) -> Light {
-        Light {
-            place: LightPlace::far_at(self.turn_degrees, self.height_degrees),
-            color: self.color.map(|number| number * self.strength),
-            has_shadow: self.has_shadow,
-        }
-    }
-
-    /// One line of the menu; says whether the light shall go.
-    fn show(&mut self, ui: &mut Ui, name: &str) -> bool {
-        let mut is_gone = false;
-        ui.horizontal(|ui| {
-            ui.color_edit_button_rgb(&mut self.color)
-                .on_hover_text(format!("Color of {name}"));
-            let turn = DragValue::new(&mut self.turn_degrees).range(TURN_DEGREES).suffix("°");
-            ui.add(turn).on_hover_text("Around the model");
-            let height = DragValue::new(&mut self.height_degrees)
-                .range(HEIGHT_DEGREES)
-                .suffix("°");
-            ui.add(height).on_hover_text("Above the model");
-            let strength = DragValue::new(&mut self.strength).range(STRENGTH).speed(0.02);
-            ui.add(strength).on_hover_text("Strength");
-            ui.checkbox(&mut self.has_shadow, "Shadow");
-            let remove = ui.button(icon::X).on_hover_text("Remove");
-            remove.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Remove {name}")));
-            is_gone = remove.clicked();
-        });
-        is_gone
-    }
+/// Line of the menu for one light; gives whether it is to be removed.
+fn row(lamp: &mut Lamp, ui: &mut Ui, name: &str) -> bool {
+    let mut is_gone = false;
+    ui.horizontal(|ui| {
+        ui.color_edit_button_rgb(&mut lamp.color)
+            .on_hover_text(format!("Color of {name}"));
+        let turn = DragValue::new(&mut lamp.turn_degrees).range(TURN_DEGREES).suffix("°");
+        ui.add(turn).on_hover_text("Around the model");
+        let height = DragValue::new(&mut lamp.height_degrees)
+            .range(LAMP_HEIGHT_DEGREES)
+            .suffix("°");
+        ui.add(height).on_hover_text("Above the model");
+        let strength = DragValue::new(&mut lamp.strength).range(LAMP_STRENGTH).speed(0.02);
+        ui.add(strength).on_hover_text("Strength");
+        ui.checkbox(&mut lamp.has_shadow, "Shadow");
+        let remove = ui.button(icon::X).on_hover_text("Remove");
+        remove.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Remove {name}")));
+        is_gone = remove.clicked();
+    });
+    is_gone
 }
 
 /// All lights besides the environment.
 #[derive(Default)]
 pub(crate) struct Lamps {
     lamps: Vec<Lamp>,
-    /// Another number whenever one of them has changed.
+    /// Rises whenever one of them changes.
     number: u64,
 }
 
 impl Lamps {
-    /// Those that were kept, as far as they can be used.
+    /// Lights of settings, as many as the viewport can have.
     pub(super) fn new(kept: &[Lamp]) -> Lamps {
         let kept = kept.iter().take(MOST_LIGHTS);
         Lamps {
@@ -98,7 +54,7 @@ impl Lamps {
         }
     }
 
-    /// What is to be kept.
+    /// Lights for settings.
     pub(crate) fn kept(&self) -> &[Lamp] {
         &self.lamps
     }
@@ -108,15 +64,15 @@ impl Lamps {
     }
 
     pub(super) fn lights(&self) -> Vec<Light> {
-        self.lamps.iter().map(Lamp::light).collect()
+        self.lamps.iter().map(light_of).collect()
     }
 
-    /// The part of the menu that sets them.
+    /// Part of the light menu that sets them.
     pub(super) fn menu(&mut self, ui: &mut Ui) {
         let before = self.lamps.clone();
         let mut gone = None;
         for (at, lamp) in self.lamps.iter_mut().enumerate() {
-            if lamp.show(ui, &format!("light {}", at + 1)) {
+            if row(lamp, ui, &format!("light {}", at + 1)) {
                 gone = Some(at);
             }
         }
@@ -148,7 +104,7 @@ mod tests {
                 height_degrees,
                 ..Lamp::default()
             };
-            let LightPlace::Far(towards) = lamp.light().place else {
+            let LightPlace::Far(towards) = light_of(&lamp).place else {
                 panic!("a far light")
             };
             let is_near = towards.iter().zip(from).all(|(one, other)| (one - other).abs() < 1e-6);

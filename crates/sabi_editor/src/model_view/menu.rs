@@ -1,15 +1,16 @@
 //! What stands in the corner of the view: how the model is shown, and in which light.
 
-use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{PopupCloseBehavior, Rect, Ui, UiBuilder, vec2};
+use egui::containers::menu::MenuButton;
+use egui::{Rect, Ui, UiBuilder, vec2};
 use egui_phosphor::regular as icon;
 use sabi_engine::built_in_environments;
 use sabi_engine::view::{Lines, Mode};
 
-use super::choices::{BACKGROUNDS, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
 use super::{ModelView, Subject, showing};
 use crate::action::Action;
-use crate::stage::Stage;
+use crate::bars::staying;
+use crate::evaluation::Evaluation;
+use crate::settings::viewport::{BACKGROUNDS, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
 
 /// What the model can be shown as, with what it is called.
 const MODES: [(&str, Mode); 14] = [
@@ -34,7 +35,7 @@ pub(super) fn show(
     view: &mut ModelView,
     ui: &mut Ui,
     rect: Rect,
-    stage: &Stage,
+    evaluation: &Evaluation,
     subject: &Subject<'_>,
     asked: &mut Vec<Action>,
 ) -> Option<String> {
@@ -60,7 +61,7 @@ pub(super) fn show(
             let light_menu = MenuButton::new(format!("{} Light", icon::SUN)).config(staying());
             light_menu.ui(ui, |ui| chosen = light(view, ui));
             let more_menu = MenuButton::new(format!("{} Show", icon::EYE)).config(staying());
-            more_menu.ui(ui, |ui| more(view, ui, stage));
+            more_menu.ui(ui, |ui| more(view, ui, evaluation));
             if view.wipe.is_some() && subject.locked.is_none() {
                 ui.colored_label(subject.theme.warning, "Lock a node (P) to compare with it");
             }
@@ -70,11 +71,6 @@ pub(super) fn show(
         view.surroundings.choose(choice);
     }
     chosen
-}
-
-/// A menu in which one tries several things before it closes.
-pub(crate) fn staying() -> MenuConfig {
-    MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside)
 }
 
 fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
@@ -105,7 +101,7 @@ fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
     chosen
 }
 
-fn more(view: &mut ModelView, ui: &mut Ui, stage: &Stage) {
+fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
     for (name, lines) in [("Triangles", Lines::Wires), ("Seams", Lines::Seams)] {
         let mut is_shown = view.shot.lines.contains(&lines);
         if ui.checkbox(&mut is_shown, name).changed() {
@@ -117,7 +113,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, stage: &Stage) {
     for (_, name, background) in BACKGROUNDS {
         ui.selectable_value(&mut view.shot.background, background, name);
     }
-    let quality = sabi_engine::view::Quality::of(stage.gpu().summary().kind);
+    let quality = sabi_engine::view::Quality::of(evaluation.gpu().summary().kind);
     if let Some(remark) = quality.remark() {
         ui.separator();
         ui.set_max_width(260.0);

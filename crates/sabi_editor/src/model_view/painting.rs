@@ -8,7 +8,7 @@ use sabi_engine::view::{Background, Environment, Light, Mode, Pixels, Scene, Sho
 use sabi_engine::{EngineError, Gpu};
 
 use super::{ModelView, REST, Screen, Subject};
-use crate::stage::{Picture, Stage};
+use crate::evaluation::{Evaluation, Picture};
 
 impl ModelView {
     /// The picture that is shown, in memory; none while there is none.
@@ -21,7 +21,7 @@ impl ModelView {
         &mut self,
         ui: &Ui,
         rect: Rect,
-        stage: &Stage,
+        evaluation: &Evaluation,
         render: &RenderState,
         picture: &Picture,
         subject: &Subject<'_>,
@@ -31,12 +31,12 @@ impl ModelView {
             ui.ctx().request_repaint_after(REST);
         }
         let is_moving = is_turning || subject.is_moving;
-        let locked = subject.locked.and_then(|seen| stage.picture(seen)).cloned();
+        let locked = subject.locked.and_then(|seen| evaluation.picture(seen)).cloned();
         let wipe = self.wipe.zip(locked);
-        let first = self.refreshed(0, ui, rect, stage, render, picture, is_moving);
+        let first = self.refreshed(0, ui, rect, evaluation, render, picture, is_moving);
         let Some(first) = first else { return false };
         let other = wipe.and_then(|(share, locked)| {
-            let other = self.refreshed(1, ui, rect, stage, render, &locked, is_moving)?;
+            let other = self.refreshed(1, ui, rect, evaluation, render, &locked, is_moving)?;
             Some((share, other))
         });
         let painter = ui.painter();
@@ -65,7 +65,7 @@ impl ModelView {
         at: usize,
         ui: &Ui,
         rect: Rect,
-        stage: &Stage,
+        evaluation: &Evaluation,
         render: &RenderState,
         picture: &Picture,
         is_moving: bool,
@@ -74,9 +74,9 @@ impl ModelView {
         let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
         let shot = self.shot_of(picture);
         // The last picture stays until what draws the next one is made.
-        let drawn = match self.is_ready(at, ui.ctx(), stage, picture, &shot) {
+        let drawn = match self.is_ready(at, ui.ctx(), evaluation, picture, &shot) {
             Ok(true) => self
-                .draw(at, stage, picture, &shot, size, is_moving)
+                .draw(at, evaluation, picture, &shot, size, is_moving)
                 .map_err(|error| error.to_string()),
             waits => waits,
         };
@@ -119,12 +119,12 @@ impl ModelView {
     pub(super) fn shot_of(&self, picture: &Picture) -> Shot {
         Shot {
             camera: self.camera,
-            mode: if picture.shown.is_lit {
+            mode: if picture.looks.is_lit {
                 self.shot.mode
             } else {
                 Mode::Node
             },
-            height_range: picture.shown.height_range,
+            height_range: picture.looks.height_range,
             ..self.shot.clone()
         }
     }
@@ -134,11 +134,11 @@ impl ModelView {
         &mut self,
         at: usize,
         context: &Context,
-        stage: &Stage,
+        evaluation: &Evaluation,
         picture: &Picture,
         shot: &Shot,
     ) -> Result<bool, String> {
-        let gpu = stage.gpu();
+        let gpu = evaluation.gpu();
         let Some(renderer) = self.tools.renderer(context, gpu)? else {
             return Ok(false);
         };
@@ -158,7 +158,7 @@ impl ModelView {
     pub(super) fn draw(
         &mut self,
         at: usize,
-        stage: &Stage,
+        evaluation: &Evaluation,
         picture: &Picture,
         shot: &Shot,
         size: [u32; 2],
@@ -172,15 +172,15 @@ impl ModelView {
         // Light that was changed is another picture too.
         let revision = picture.number ^ (self.surroundings.number() << 48) ^ (self.lamps.number() << 32);
         let viewport = &mut screen.viewport;
-        Ok(viewport.show(stage.gpu(), &scene, revision, shot, size, is_moving)?)
+        Ok(viewport.show(evaluation.gpu(), &scene, revision, shot, size, is_moving)?)
     }
 }
 
 fn scene<'a>(picture: &'a Picture, environment: &'a Environment, lights: &'a [Light]) -> Scene<'a> {
     Scene {
         model: &picture.model.view,
-        looks: &picture.shown.looks,
-        look_of_material: &picture.shown.look_of_material,
+        looks: &picture.looks.looks,
+        look_of_material: &picture.looks.look_of_material,
         environment,
         lights,
     }

@@ -1,37 +1,67 @@
-//! What the model shows, in words: chosen in a menu, and said on the picture.
+//! What the model shows, in words: chosen in a menu, and written on the picture.
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
+use sabi_engine::ViewSubject;
+use sabi_graph::NodeRef;
 
 use super::{ModelView, Subject};
-use crate::action::{Action, LookAsk};
+use crate::action::{Action, LookAction};
 use crate::command::{Command, LookCommand, ViewportCommand};
-use crate::stage::Stage;
+use crate::context::ViewContext;
+use crate::evaluation::Evaluation;
+use crate::looks::title_of;
 use crate::theme::{Theme, space, type_size};
 
 /// What the model shows, in words.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Showing {
-    /// What is shown, and what it is compared with.
-    pub(crate) words: String,
-    pub(crate) other: Option<String>,
-    /// Why what is shown cannot be seen.
-    pub(crate) fault: Option<String>,
+pub(super) struct Showing {
+    /// Result that is shown.
+    words: String,
+    /// Result that it is compared with.
+    other: Option<String>,
+    /// Sentence about why the result cannot be shown.
+    fault: Option<String>,
     /// Whether the model follows clicks.
-    pub(crate) follows: bool,
-    /// The node that was clicked last, by name.
-    pub(crate) clicked: Option<String>,
-    /// The locked node, by name.
-    pub(crate) locked: Option<String>,
+    follows: bool,
+    /// Title of the node that was clicked last.
+    clicked: Option<String>,
+    /// Title of the locked node.
+    locked: Option<String>,
 }
 
-/// The menu that chooses it.
+impl Showing {
+    /// Words about a result and about the one beside it.
+    pub(super) fn of(context: &ViewContext<'_>, seen: &ViewSubject, beside: Option<&ViewSubject>) -> Showing {
+        let looks = context.looks;
+        let title = |result: &NodeRef| title_of(context.document, result);
+        let words = |seen: &ViewSubject| match seen {
+            ViewSubject::Outputs => "Outputs".to_owned(),
+            ViewSubject::Node(result) if looks.locked.as_ref() == Some(result) => format!("Locked: {}", title(result)),
+            ViewSubject::Node(result) => format!("Follows: {}", title(result)),
+        };
+        let fault = match seen {
+            ViewSubject::Node(result) => context.evaluation.sentence(&result.node),
+            ViewSubject::Outputs => context.fault_of_outputs(),
+        };
+        Showing {
+            words: words(seen),
+            other: beside.map(words),
+            fault: fault.cloned(),
+            follows: context.settings.follows,
+            clicked: looks.shown.as_ref().map(title),
+            locked: looks.locked.as_ref().map(title),
+        }
+    }
+}
+
+/// Menu that chooses what the model shows.
 pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Action>) {
     let showing = subject.showing;
     let is_compared = view.wipe.is_some();
     let is_locked = showing.locked.is_some() && !is_compared;
-    let mut choice = |ui: &mut Ui, is_on: bool, words: String, meant: LookAsk| {
+    let mut choice = |ui: &mut Ui, is_on: bool, words: String, meant: LookAction| {
         if ui.selectable_label(is_on, words).clicked() {
             asked.push(Action::Look(meant));
         }
@@ -40,26 +70,26 @@ pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: 
         ui,
         !showing.follows && !is_locked,
         "Outputs".to_owned(),
-        LookAsk::Outputs,
+        LookAction::Outputs,
     );
     choice(
         ui,
         showing.follows && !is_locked,
         "Follow the node that is clicked".to_owned(),
-        LookAsk::Follow,
+        LookAction::Follow,
     );
     if let Some(locked) = &showing.locked {
-        choice(ui, is_locked, format!("Locked on {locked}"), LookAsk::Release);
+        choice(ui, is_locked, format!("Locked on {locked}"), LookAction::Release);
     }
     match &showing.clicked {
         clicked if *clicked == showing.locked && clicked.is_some() => {}
-        Some(clicked) => choice(ui, false, format!("Lock on {clicked}"), LookAsk::Lock),
+        Some(clicked) => choice(ui, false, format!("Lock on {clicked}"), LookAction::Lock),
         None => drop(ui.weak("Click a node to lock on it")),
     }
     ui.separator();
     match showing.locked.as_ref().or(showing.clicked.as_ref()) {
-        Some(other) => choice(ui, is_compared, format!("Compare with {other}"), LookAsk::Compare),
-        None if is_compared => choice(ui, true, "Compare".to_owned(), LookAsk::Compare),
+        Some(other) => choice(ui, is_compared, format!("Compare with {other}"), LookAction::Compare),
+        None if is_compared => choice(ui, true, "Compare".to_owned(), LookAction::Compare),
         None => drop(ui.weak("Click a node to compare with it")),
     }
     ui.separator();
@@ -94,15 +124,15 @@ pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Act
 }
 
 /// Says on the picture what it shows; of two pictures, on either side of the line between them.
-pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, stage: &Stage, subject: &Subject<'_>) {
+pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluation, subject: &Subject<'_>) {
     let showing = subject.showing;
     let theme = subject.theme;
-    if stage.shown_model.is_none() {
+    if evaluation.shown_model.is_none() {
         return;
     }
     let state = match &showing.fault {
         Some(fault) => format!(" — {fault}"),
-        None if stage.picture(subject.seen).is_none() => " (evaluating)".to_owned(),
+        None if evaluation.picture(subject.seen).is_none() => " (evaluating)".to_owned(),
         None if view.tools.are_coming() => " (preparing)".to_owned(),
         None => String::new(),
     };

@@ -7,7 +7,7 @@ use egui::Context;
 use sabi_engine::view::{Missing, Renderer};
 use sabi_engine::{EngineError, Gpu};
 
-use crate::errand::{Errand, Failed};
+use crate::task::{Failed, Task};
 
 /// A renderer for all screens, and what it still needs.
 #[derive(Default)]
@@ -18,7 +18,7 @@ pub(super) struct Tools {
 
 /// Something that is made on a thread of its own.
 enum Making<T> {
-    Coming(Errand<Result<T, EngineError>>),
+    Coming(Task<Result<T, EngineError>>),
     Made(T),
     /// Why it could not be made, and when that was.
     Failed(String, Instant),
@@ -75,7 +75,7 @@ impl Tools {
 
 impl<T: Clone + Send + 'static> Making<T> {
     fn begin(context: &Context, make: impl FnOnce() -> Result<T, EngineError> + Send + 'static) -> Making<T> {
-        Making::Coming(Errand::start(context, make))
+        Making::Coming(Task::start(context, make))
     }
 
     /// Whether it failed long enough ago to be tried again.
@@ -85,8 +85,8 @@ impl<T: Clone + Send + 'static> Making<T> {
 
     /// What was made, once it is.
     fn poll(&mut self, context: &Context) -> Result<Option<T>, String> {
-        if let Making::Coming(errand) = self
-            && let Some(come) = errand.poll()
+        if let Making::Coming(task) = self
+            && let Some(come) = task.poll()
         {
             *self = match come {
                 Ok(Ok(made)) => Making::Made(made),

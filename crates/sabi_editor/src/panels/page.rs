@@ -11,7 +11,7 @@ use sabi_engine::NodeDraft;
 use sabi_engine::catalog::{Entry, Port, picture_of};
 
 use crate::action::Action;
-use crate::app::Editor;
+use crate::context::{View, ViewContext};
 use crate::theme::{Theme, space};
 pub(crate) use draft::Draft;
 use draft::Left;
@@ -35,6 +35,14 @@ pub(crate) struct Page {
 }
 
 impl Page {
+    /// A page with node files that are being written.
+    pub(crate) fn with_drafts(drafts: Vec<Draft>) -> Page {
+        Page {
+            drafts,
+            ..Page::default()
+        }
+    }
+
     /// Shows the selected node; what is being written is kept.
     pub(crate) fn show_node(&mut self) {
         self.shown = None;
@@ -83,11 +91,6 @@ impl Page {
         std::mem::take(&mut self.drafts)
     }
 
-    /// Goes on with these.
-    pub(crate) fn take_up(&mut self, drafts: Vec<Draft>) {
-        self.drafts = drafts;
-    }
-
     /// Shows a draft; one of the same node that is there already goes before it.
     fn open(&mut self, draft: Draft) {
         let known = self.drafts.iter().position(|known| known.is_like(&draft));
@@ -119,8 +122,42 @@ impl Page {
         }
     }
 
-    /// The ways to drafts that are not shown.
-    fn ways(&mut self, ui: &mut Ui) {
+    /// The file that defines a node, and the buttons that begin to write one; gives a sentence where that cannot be.
+    fn file(&mut self, ui: &mut Ui, context: &ViewContext<'_>, id: &str, text: &str) -> Option<String> {
+        let document = context.document;
+        let mut refused = None;
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            ui.toggle_value(&mut self.shows_source, "The file");
+            if let Some(own) = document.kinds().0.own_folder(document.session.file(), id) {
+                let change = ui
+                    .button("Change it")
+                    .on_hover_text(format!("It lies in {}", own.display()));
+                if change.clicked() {
+                    match Draft::of_own(document, id) {
+                        Ok(draft) => self.open(draft),
+                        Err(why) => refused = Some(why),
+                    }
+                }
+            }
+            let new = ui.button("New node from here");
+            if new.on_hover_text("Copies the file to a node of your own").clicked() {
+                let missing =
+                    "This system has no folder for nodes; save the graph first, so that there is one beside it.";
+                match Draft::like(document, id, text) {
+                    Some(draft) => self.open(draft),
+                    None => refused = Some(missing.to_owned()),
+                }
+            }
+        });
+        if self.shows_source {
+            code::show(ui, context.theme, text);
+        }
+        refused
+    }
+
+    /// Buttons that show the drafts.
+    fn draft_buttons(&mut self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
             for (at, draft) in self.drafts.iter().enumerate() {
                 let text = format!("{} {}", icon::PENCIL_SIMPLE, draft.id());
@@ -134,76 +171,49 @@ impl Page {
     }
 }
 
-pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
-    let Editor { document, panels, .. } = editor;
-    let page = &mut panels.page;
-    if let Some((at, draft)) = page.shown.and_then(|at| Some((at, page.drafts.get_mut(at)?))) {
-        match draft.show(ui, theme, document, actions) {
-            Left::No => {}
-            Left::Aside => page.shown = None,
-            Left::ForGood => {
-                page.revision += page.drafts.remove(at).edits() + 1;
-                page.shown = None;
-            }
-        }
-        return;
-    }
-    page.ways(ui);
-    let face = document.selected_one().and_then(|id| document.face(id)).cloned();
-    let Some(face) = face else {
-        ui.colored_label(theme.quiet, "Select a node to read what it does.");
-        return;
-    };
-    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        ui.horizontal(|ui| {
-            ui.heading(&face.label);
-            ui.colored_label(theme.quiet, RichText::new(&face.id).monospace());
-        });
-        ui.label(&face.summary);
-        if let Some(text) = &face.source {
-            file(ui, theme, document, page, &face.id, text);
-        }
-        page.picture(ui, &face);
-        if !face.description.is_empty() {
-            CommonMarkViewer::new().show(ui, &mut page.markdown, &face.description);
-        }
-        ports(ui, theme, "Takes", &face.inputs);
-        ports(ui, theme, "Gives", &face.outputs);
-        knobs(ui, theme, &face);
-        if !face.aliases.is_empty() {
-            ui.add_space(8.0);
-            ui.colored_label(theme.quiet, format!("Also called {}", face.aliases.join(", ")));
-        }
-    });
-}
-
-/// The file that a node is, and the ways to write one.
-fn file(ui: &mut Ui, theme: &Theme, document: &mut OpenDocument, page: &mut Page, id: &str, text: &str) {
-    ui.add_space(8.0);
-    ui.horizontal(|ui| {
-        ui.toggle_value(&mut page.shows_source, "The file");
-        if let Some(own) = document.kinds().0.own_folder(document.session.file(), id) {
-            let change = ui
-                .button("Change it")
-                .on_hover_text(format!("It lies in {}", own.display()));
-            if change.clicked() {
-                match Draft::of_own(document, id) {
-                    Ok(draft) => page.open(draft),
-                    Err(why) => document.say(why),
+impl View for Page {
+    fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        let (document, theme) = (context.document, context.theme);
+        let mut actions = Vec::new();
+        if let Some((at, draft)) = self.shown.and_then(|at| Some((at, self.drafts.get_mut(at)?))) {
+            match draft.show(ui, theme, document, &mut actions) {
+                Left::No => {}
+                Left::Aside => self.shown = None,
+                Left::ForGood => {
+                    self.revision += self.drafts.remove(at).edits() + 1;
+                    self.shown = None;
                 }
             }
+            return actions;
         }
-        let new = ui.button("New node from here");
-        if new.on_hover_text("Copies the file to a node of your own").clicked() {
-            let missing = "This system has no folder for nodes; save the graph first, so that there is one beside it.";
-            match Draft::like(document, id, text) {
-                Some(draft) => page.open(draft),
-                None => document.say(missing),
+        self.draft_buttons(ui);
+        let Some(face) = document.selected_one().and_then(|id| document.face(id)) else {
+            ui.colored_label(theme.quiet, "Select a node to read what it does.");
+            return actions;
+        };
+        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.heading(&face.label);
+                ui.colored_label(theme.quiet, RichText::new(&face.id).monospace());
+            });
+            ui.label(&face.summary);
+            if let Some(text) = &face.source {
+                let refused = self.file(ui, context, &face.id, text);
+                actions.extend(refused.map(Action::Notice));
             }
-        }
-    });
-    if page.shows_source {
-        code::show(ui, theme, text);
+            self.picture(ui, face);
+            if !face.description.is_empty() {
+                CommonMarkViewer::new().show(ui, &mut self.markdown, &face.description);
+            }
+            ports(ui, theme, "Takes", &face.inputs);
+            ports(ui, theme, "Gives", &face.outputs);
+            knobs(ui, theme, face);
+            if !face.aliases.is_empty() {
+                ui.add_space(8.0);
+                ui.colored_label(theme.quiet, format!("Also called {}", face.aliases.join(", ")));
+            }
+        });
+        actions
     }
 }
 

@@ -1,21 +1,35 @@
-//! What everything takes: time by node, steps, memory, frames; a click on a node goes there.
+//! Times of nodes and frames, steps and memory; a click on a node goes there.
 
 use egui::{RichText, Ui};
 
 use crate::action::Action;
-use crate::app::Editor;
-use crate::canvas::shown_time;
-use crate::theme::Theme;
+use crate::context::{View, ViewContext};
+use crate::time_text::time_text;
 
-pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
-    let last = &editor.stage.last;
-    let frames = &editor.frame_times;
+/// Panel of times and memory.
+pub(crate) struct Performance;
+
+impl View for Performance {
+    fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        summary(ui, context);
+        ui.separator();
+        node_times(ui, context)
+    }
+}
+
+fn summary(ui: &mut Ui, context: &ViewContext<'_>) {
+    let ViewContext {
+        theme,
+        frame_times: frames,
+        ..
+    } = *context;
+    let last = &context.evaluation.last;
     let middle = {
         let mut sorted: Vec<_> = frames.iter().copied().collect();
         sorted.sort_unstable();
-        sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+        sorted.get(sorted.len() / 2).copied()
     };
-    let longest = frames.iter().copied().max().unwrap_or_default();
+    let longest = frames.iter().copied().max();
     egui::Grid::new("performance")
         .num_columns(2)
         .spacing([16.0, 2.0])
@@ -27,7 +41,7 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
             };
             row(
                 "From an edit to the picture",
-                last.latency.map_or("–".to_owned(), shown_time),
+                last.latency.map_or("–".to_owned(), time_text),
             );
             row("Steps that ran", last.steps.to_string());
             row("Steps whose results were known", last.cache_hits.to_string());
@@ -36,32 +50,37 @@ pub(crate) fn show(editor: &mut Editor, ui: &mut Ui, theme: &Theme, actions: &mu
             row("Results kept", format!("{kept:.0} of {most:.0} MiB"));
             row(
                 "Window, a frame",
-                format!("{} (longest {})", shown_time(middle), shown_time(longest)),
+                middle.zip(longest).map_or("–".to_owned(), |(middle, longest)| {
+                    format!("{} (longest {})", time_text(middle), time_text(longest))
+                }),
             );
-            row("Pictures of the model", editor.model_view.drawn.to_string());
+            row("Pictures of the model", context.pictures_drawn.to_string());
         });
     let share = last.texture_bytes as f32 / last.budget_bytes.max(1) as f32;
     ui.add(egui::ProgressBar::new(share).desired_height(4.0).fill(theme.accent));
-    ui.separator();
-    let document = &editor.document;
-    // Times may come of nodes that are gone by then.
-    let mut times: Vec<_> = editor
-        .stage
-        .times()
-        .iter()
-        .filter(|(node, _)| document.has(node))
-        .collect();
+}
+
+/// Nodes by the time of their last evaluation, the slowest first.
+fn node_times(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+    let mut actions = Vec::new();
+    // A result may arrive after its node was deleted.
+    let times = context.evaluation.times().iter();
+    let mut times: Vec<_> = times.filter(|(node, _)| context.document.has(node)).collect();
     times.sort_by(|(_, one), (_, other)| other.cmp(one));
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::Grid::new("times").num_columns(2).striped(true).show(ui, |ui| {
             for (node, time) in times.into_iter().take(100) {
-                let link = ui.link(document.title_at(node));
-                if link.on_hover_text("Goes to the node").clicked() {
+                if ui
+                    .link(context.document.title_at(node))
+                    .on_hover_text("Goes to the node")
+                    .clicked()
+                {
                     actions.push(Action::GoTo(node.clone()));
                 }
-                ui.label(RichText::new(shown_time(*time)).monospace());
+                ui.label(RichText::new(time_text(*time)).monospace());
                 ui.end_row();
             }
         });
     });
+    actions
 }

@@ -7,11 +7,11 @@ use sabi_engine::catalog::Port;
 use sabi_graph::{Body, GroupInput, OutputRef, SlotRef};
 
 use super::field::Field;
-use crate::action::PortAsk;
+use crate::action::PortAction;
 use crate::theme::{Theme, space, type_size};
 
 /// Shows them and says what is asked.
-pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortAsk> {
+pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortAction> {
     let mut asked = Vec::new();
     let is_group = matches!(document.body(), Body::Group(_));
     let count = document.group_inputs().len() + document.group_outputs().len();
@@ -38,7 +38,7 @@ pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<P
     asked
 }
 
-fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, asked: &mut Vec<PortAsk>) {
+fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, asked: &mut Vec<PortAction>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "Name");
         let field = Field {
@@ -51,11 +51,11 @@ fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, ask
             held: &document.graph_name(),
             width: ui.available_width() - space::USUAL,
         };
-        asked.extend(field.show(ui, ("name of", document.body())).map(PortAsk::NameGraph));
+        asked.extend(field.show(ui, ("name of", document.body())).map(PortAction::NameGraph));
     });
 }
 
-fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAsk>) {
+fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAction>) {
     if !document.group_inputs().is_empty() {
         ui.label(RichText::new("Inputs").color(theme.quiet));
     }
@@ -72,7 +72,7 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<P
             };
             if let Some(label) = label.show(ui, ("label", name)) {
                 let name = name.clone();
-                asked.push(PortAsk::LabelInput { name, label });
+                asked.push(PortAction::LabelInput { name, label });
             }
             let own = Field {
                 name: "Input",
@@ -82,10 +82,10 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<P
             };
             if let Some(to) = own.show(ui, ("input", name)) {
                 let name = name.clone();
-                asked.push(PortAsk::RenameInput { name, to });
+                asked.push(PortAction::RenameInput { name, to });
             }
             if small(ui, icon::TRASH, &format!("Remove the input {name}")) {
-                asked.push(PortAsk::RemoveInput(name.clone()));
+                asked.push(PortAction::RemoveInput(name.clone()));
             }
         });
         fed(ui, theme, document, name, input, asked);
@@ -93,7 +93,14 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<P
 }
 
 /// What an input feeds, and what else it could.
-fn fed(ui: &mut Ui, theme: &Theme, document: &OpenDocument, name: &str, input: &GroupInput, asked: &mut Vec<PortAsk>) {
+fn fed(
+    ui: &mut Ui,
+    theme: &Theme,
+    document: &OpenDocument,
+    name: &str,
+    input: &GroupInput,
+    asked: &mut Vec<PortAction>,
+) {
     ui.horizontal_wrapped(|ui| {
         ui.add_space(space::WIDE);
         ui.colored_label(theme.quiet, icon::ARROW_BEND_DOWN_RIGHT);
@@ -101,7 +108,7 @@ fn fed(ui: &mut Ui, theme: &Theme, document: &OpenDocument, name: &str, input: &
             let title = title_of_slot(document, slot);
             let chip = egui::Button::new(format!("{title} {}", icon::X)).small();
             if ui.add(chip).on_hover_text("Feeds this no longer").clicked() {
-                asked.push(PortAsk::Unfeed(slot.clone()));
+                asked.push(PortAction::Unfeed(slot.clone()));
             }
         }
         let feedable = document.feedable(name);
@@ -111,7 +118,7 @@ fn fed(ui: &mut Ui, theme: &Theme, document: &OpenDocument, name: &str, input: &
                     ui,
                     feedable.iter().map(|slot| (title_of_slot(document, slot), slot)),
                     |slot| {
-                        asked.push(PortAsk::Feed {
+                        asked.push(PortAction::Feed {
                             name: name.to_owned(),
                             slot: slot.clone(),
                         });
@@ -130,7 +137,7 @@ fn fed(ui: &mut Ui, theme: &Theme, document: &OpenDocument, name: &str, input: &
     });
 }
 
-fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAsk>) {
+fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAction>) {
     if !document.group_outputs().is_empty() {
         ui.label(RichText::new("Outputs").color(theme.quiet));
     }
@@ -147,7 +154,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
             };
             if let Some(to) = own.show(ui, ("output", name)) {
                 let name = name.clone();
-                asked.push(PortAsk::RenameOutput { name, to });
+                asked.push(PortAction::RenameOutput { name, to });
             }
             let menu = ui.menu_button(title_of_result(document, from), |ui| {
                 let results = document.results();
@@ -155,7 +162,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
                     ui,
                     results.iter().map(|from| (title_of_result(document, from), from)),
                     |from| {
-                        asked.push(PortAsk::Retarget {
+                        asked.push(PortAction::Retarget {
                             name: name.clone(),
                             from: from.clone(),
                         });
@@ -164,7 +171,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
             });
             menu.response.on_hover_text("What it gives");
             if small(ui, icon::TRASH, &format!("Remove the output {name}")) {
-                asked.push(PortAsk::RemoveOutput(name.clone()));
+                asked.push(PortAction::RemoveOutput(name.clone()));
             }
         });
     }

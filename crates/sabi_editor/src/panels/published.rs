@@ -1,88 +1,82 @@
-//! The published knobs of the graph that is seen, for people who never open it; and, by the pen, what they say of themselves.
+//! Published parameters of the shown graph, for people who never open it; and, with the pen, their names and ranges.
 
 mod editing;
 
 use egui::{RichText, Ui};
 use egui_phosphor::regular as icon;
-use sabi_editing::{OpenDocument, PanelKnob};
+use sabi_editing::PanelKnob;
 
-use crate::action::PanelAsk;
-use crate::knobs::{KnobMemory, KnobRow, KnobSection, Lengths, published_ui};
-use crate::theme::Theme;
+use crate::action::PublishedAction;
+use crate::context::ViewContext;
+use crate::knobs::{KnobMemory, KnobRow, KnobSection, published_ui};
 
-/// What the panel needs besides the graph.
-pub(crate) struct Around<'a> {
-    pub(crate) theme: &'a Theme,
-    pub(crate) lengths: Lengths,
-    /// Whether it may only be used.
-    pub(crate) is_use: bool,
-}
-
-/// What the panel holds from frame to frame.
+/// Published parameters of the shown graph.
 #[derive(Default)]
 pub(crate) struct Published {
+    /// Whether names and ranges are shown, and not values.
     is_editing: bool,
 }
 
-/// Shows the panel and says what is asked of it.
-pub(crate) fn show(
-    ui: &mut Ui,
-    document: &OpenDocument,
-    around: &Around<'_>,
-    published: &mut Published,
-    memory: &mut KnobMemory,
-) -> Vec<PanelAsk> {
-    let theme = around.theme;
-    let panel = document.panel();
-    let mut asked = Vec::new();
-    ui.horizontal(|ui| {
-        let name = document.graph_name();
-        ui.heading(if name.is_empty() { "Untitled" } else { &name });
-        if around.is_use || panel.is_empty() {
-            published.is_editing = false;
-            return;
-        }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let pen = ui.selectable_label(published.is_editing, icon::PENCIL_SIMPLE);
-            pen.widget_info(|| {
-                let kind = egui::WidgetType::Checkbox;
-                egui::WidgetInfo::selected(kind, true, published.is_editing, "Change the panel")
+impl Published {
+    /// Shows the parameters and gives what is asked of them.
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut Ui,
+        context: &ViewContext<'_>,
+        memory: &mut KnobMemory,
+    ) -> Vec<PublishedAction> {
+        let (document, theme) = (context.document, context.theme);
+        let panel = document.panel();
+        let mut asked = Vec::new();
+        ui.horizontal(|ui| {
+            let name = document.graph_name();
+            ui.heading(if name.is_empty() { "Untitled" } else { &name });
+            if context.is_use_view || panel.is_empty() {
+                self.is_editing = false;
+                return;
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let pen = ui.selectable_label(self.is_editing, icon::PENCIL_SIMPLE);
+                pen.widget_info(|| {
+                    let kind = egui::WidgetType::Checkbox;
+                    egui::WidgetInfo::selected(kind, true, self.is_editing, "Change the panel")
+                });
+                if pen
+                    .on_hover_text("Names, sections, ranges and order of these knobs")
+                    .clicked()
+                {
+                    self.is_editing = !self.is_editing;
+                }
             });
-            if pen
-                .on_hover_text("Names, sections, ranges and order of these knobs")
-                .clicked()
-            {
-                published.is_editing = !published.is_editing;
-            }
         });
-    });
-    if panel.is_empty() {
-        let sentence = match around.is_use {
-            true => "This graph has published no knobs.",
-            false => {
-                "No knob is published yet. Right-click a knob of a node and put it on the panel: it will stand here, for \
-                 people who never open the graph."
-            }
-        };
-        ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
+        if panel.is_empty() {
+            let sentence = match context.is_use_view {
+                true => "This graph has published no knobs.",
+                false => {
+                    "No knob is published yet. Right-click a knob of a node and put it on the panel: it will stand here, for \
+                     people who never open the graph."
+                }
+            };
+            ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
+        }
+        if self.is_editing {
+            editing::show(ui, theme, &panel, &mut asked);
+            // A drag that was begun before has no row any more and ends.
+            let events = published_ui(ui, theme, memory, &[], &context.lengths());
+            asked.extend(events.into_iter().map(PublishedAction::Turn));
+            return asked;
+        }
+        let knobs: Vec<_> = panel.iter().map(shown).collect();
+        let sections = sections(&panel, &knobs);
+        ui.push_id(("published", document.body()), |ui| {
+            let events = published_ui(ui, theme, memory, &sections, &context.lengths());
+            asked.extend(events.into_iter().map(PublishedAction::Turn));
+        });
+        asked
     }
-    if published.is_editing {
-        editing::show(ui, theme, &panel, &mut asked);
-        // A drag that was begun before has no row any more and ends.
-        let events = published_ui(ui, theme, memory, &[], &around.lengths);
-        asked.extend(events.into_iter().map(PanelAsk::Turn));
-        return asked;
-    }
-    let knobs: Vec<_> = panel.iter().map(shown).collect();
-    let sections = sections(&panel, &knobs);
-    ui.push_id(("published", document.body()), |ui| {
-        let events = published_ui(ui, theme, memory, &sections, &around.lengths);
-        asked.extend(events.into_iter().map(PanelAsk::Turn));
-    });
-    asked
 }
 
-/// The knob as a row shows it: it is changed where it holds something else than when the graph was opened.
+/// A parameter as a row shows it: it counts as changed where its value is not that of when the graph was opened.
 fn shown(knob: &PanelKnob) -> sabi_engine::catalog::Knob {
     let mut shown = knob.knob.clone();
     shown.ty.default = knob.at_first.clone();

@@ -1,6 +1,4 @@
-//! Variants: named settings of the panel, as cards with the model as it looked when they were saved.
-
-use std::path::Path;
+//! Variants: named sets of values, as cards with the model as it looked when they were saved.
 
 use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
@@ -8,8 +6,8 @@ use sabi_editing::OpenDocument;
 use sabi_engine::catalog::readable;
 use sabi_graph::Value;
 
-use super::keepsakes::Keepsakes;
-use crate::action::VariantAsk;
+use crate::action::VariantAction;
+use crate::context::ViewContext;
 use crate::theme::{Theme, space, type_size};
 
 /// Width of a card, and height of its picture.
@@ -17,12 +15,12 @@ const SIDE: f32 = 84.0;
 /// Height of the name below it.
 const NAME: f32 = 18.0;
 
-/// What is held from frame to frame.
+/// Variants of the shown graph.
 #[derive(Default)]
 pub(crate) struct Variants {
-    /// The name for the next one.
+    /// Name that was typed for the next one.
     name: String,
-    /// The one that gets another name, and what was typed so far.
+    /// Variant that is being renamed.
     renaming: Option<Renaming>,
 }
 
@@ -32,53 +30,50 @@ struct Renaming {
     is_new: bool,
 }
 
-/// Shows the variants of the graph that is seen and says what is asked of them.
-pub(crate) fn show(
-    ui: &mut Ui,
-    theme: &Theme,
-    document: &OpenDocument,
-    variants: &mut Variants,
-    keepsakes: &mut Keepsakes,
-) -> Option<VariantAsk> {
-    let panel = document.panel();
-    if panel.is_empty() {
-        return None;
-    }
-    let mut asked = None;
-    ui.add_space(space::WIDE);
-    ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
-    let file = document.session.file().unwrap_or(Path::new(""));
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
-        for (name, values) in document.graph().variants() {
-            let holds = |knob: &str, value: &Value| panel.iter().any(|it| it.name == knob && it.value == *value);
-            let card = Card {
-                name,
-                picture: keepsakes.find(ui.ctx(), file, &document.variant_as_text(name)),
-                is_held: values.iter().all(|(knob, value)| holds(knob, value)),
-            };
-            asked = card.show(ui, theme, variants).or(asked.take());
+impl Variants {
+    /// Shows the variants of the shown graph and gives what is asked of them.
+    pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Option<VariantAction> {
+        let (document, theme) = (context.document, context.theme);
+        let panel = document.panel();
+        if panel.is_empty() {
+            return None;
         }
-    });
-    let renamed = rename(ui, &mut variants.renaming);
-    let saved = save(ui, document, variants);
-    renamed.or(saved).or(asked)
+        let mut asked = None;
+        ui.add_space(space::WIDE);
+        ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
+            for (name, values) in document.graph().variants() {
+                let holds = |knob: &str, value: &Value| panel.iter().any(|it| it.name == knob && it.value == *value);
+                let text = document.variant_as_text(name);
+                let card = Card {
+                    name,
+                    picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &text),
+                    is_held: values.iter().all(|(knob, value)| holds(knob, value)),
+                };
+                asked = card.show(ui, theme, self).or(asked.take());
+            }
+        });
+        let renamed = rename(ui, &mut self.renaming);
+        let saved = save(ui, document, self);
+        renamed.or(saved).or(asked)
+    }
 }
 
 /// One variant.
 struct Card<'a> {
     name: &'a str,
     picture: Option<egui::TextureId>,
-    /// Whether the panel is as it has it.
+    /// Whether the published parameters have its values.
     is_held: bool,
 }
 
 impl Card<'_> {
-    fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<VariantAsk> {
+    fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<VariantAction> {
         let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
         response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, readable(self.name)));
         self.paint(ui, theme, rect, response.hovered() || response.has_focus());
-        let mut asked = response.clicked().then(|| VariantAsk::Apply(self.name.to_owned()));
+        let mut asked = response.clicked().then(|| VariantAction::Apply(self.name.to_owned()));
         let response = response.on_hover_text(format!("Turn all knobs as in '{}'", self.name));
         response.context_menu(|ui| {
             if ui.button("Rename").clicked() {
@@ -89,10 +84,10 @@ impl Card<'_> {
                 });
             }
             if ui.button("Replace by the present values").clicked() {
-                asked = Some(VariantAsk::Save(self.name.to_owned()));
+                asked = Some(VariantAction::Save(self.name.to_owned()));
             }
             if ui.button("Remove").clicked() {
-                asked = Some(VariantAsk::Remove(self.name.to_owned()));
+                asked = Some(VariantAction::Remove(self.name.to_owned()));
             }
         });
         asked
@@ -134,7 +129,7 @@ impl Card<'_> {
     }
 }
 
-fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<VariantAsk> {
+fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<VariantAction> {
     let asked = renaming.as_mut()?;
     let edit = egui::TextEdit::singleline(&mut asked.to).desired_width(f32::INFINITY);
     let field = ui.add(edit);
@@ -147,11 +142,11 @@ fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<VariantAsk> {
     }
     let is_given_up = ui.input(|input| input.key_pressed(Key::Escape));
     let Renaming { name, to, .. } = renaming.take()?;
-    (!is_given_up && name != to).then_some(VariantAsk::Rename { name, to })
+    (!is_given_up && name != to).then_some(VariantAction::Rename { name, to })
 }
 
-/// A line to save what the panel holds now.
-fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option<VariantAsk> {
+/// Row that saves the present values.
+fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option<VariantAction> {
     let row = egui::vec2(ui.available_width(), space::ROW);
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.allocate_ui_with_layout(row, layout, |ui| {
@@ -168,7 +163,7 @@ fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option
         let field = ui.add(edit);
         field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Name of a variant"));
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        (can_save && (is_entered || is_clicked)).then(|| VariantAsk::Save(std::mem::take(name)))
+        (can_save && (is_entered || is_clicked)).then(|| VariantAction::Save(std::mem::take(name)))
     })
     .inner
 }

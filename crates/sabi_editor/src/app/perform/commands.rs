@@ -4,9 +4,10 @@ use egui::Ui;
 use sabi_editing::Align;
 
 use super::Editor;
-use crate::action::LookAsk;
+use crate::action::{FileAction, LookAction, Next};
 use crate::command::{
-    ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, LookCommand, ViewportCommand, WindowCommand,
+    ArrangeCommand, CanvasCommand, Command, Favorite, FileCommand, GraphCommand, LookCommand, ViewportCommand,
+    WindowCommand,
 };
 use crate::dock::Panel;
 
@@ -18,47 +19,47 @@ impl Editor {
     pub(super) fn command(&mut self, command: Command, ui: &Ui) {
         match command {
             Command::File(command) => self.file_command(command),
-            Command::Window(command) => self.window_command(command, ui),
+            Command::Window(command) => self.window_command(command),
             Command::Graph(command) => self.graph_command(command, ui),
             Command::Arrange(command) => self.arrange_command(command),
             Command::Canvas(command) => self.canvas_command(command, ui),
             Command::Look(command) => self.look_command(command),
             Command::Viewport(command) => self.viewport_command(command, ui),
-            Command::Texture(command) => self.flat_view.command(command),
+            Command::Texture(command) => self.views.flat.command(command),
             Command::Favorite(favorite) => self.add_favorite(favorite, ui),
         }
     }
 
     fn file_command(&mut self, command: FileCommand) {
         match command {
-            FileCommand::New => self.files.ask_new(&mut self.document),
-            FileCommand::Open => self.files.ask_open(&self.document),
+            FileCommand::New => self.perform_on_file(FileAction::Ask(Next::New)),
+            FileCommand::Open => self.views.questions.ask_to_open(&self.documents.document),
             FileCommand::Save => self.save(),
-            FileCommand::SaveAs => self.files.ask_save(&self.document),
+            FileCommand::SaveAs => self.views.questions.ask_to_save(&self.documents.document),
             FileCommand::Export => {
-                self.bring_up(Panel::Export);
-                self.export();
+                self.shell.dock.bring_up(Panel::Export);
+                self.export(false);
             }
         }
     }
 
-    fn window_command(&mut self, command: WindowCommand, ui: &Ui) {
+    fn window_command(&mut self, command: WindowCommand) {
         match command {
-            WindowCommand::NextPanel => self.step_panel(true, ui.ctx()),
-            WindowCommand::PreviousPanel => self.step_panel(false, ui.ctx()),
+            WindowCommand::NextPanel => self.shell.step_panel(true),
+            WindowCommand::PreviousPanel => self.shell.step_panel(false),
             WindowCommand::Help => {
-                self.panels.page.show_node();
-                self.bring_up(Panel::Page);
+                self.views.page.show_node();
+                self.shell.dock.bring_up(Panel::Page);
             }
-            WindowCommand::Keys => self.files.shows_keys = !self.files.shows_keys,
+            WindowCommand::Keys => self.views.key_list.is_open = !self.views.key_list.is_open,
             WindowCommand::UseView => self.toggle_use_view(),
-            WindowCommand::Larger => self.scale_by(SCALE_STEP, ui),
-            WindowCommand::Smaller => self.scale_by(1.0 / SCALE_STEP, ui),
+            WindowCommand::Larger => self.shell.scale_by(SCALE_STEP),
+            WindowCommand::Smaller => self.shell.scale_by(1.0 / SCALE_STEP),
         }
     }
 
     fn graph_command(&mut self, command: GraphCommand, ui: &Ui) {
-        let document = &mut self.document;
+        let document = &mut self.documents.document;
         match command {
             GraphCommand::Undo => document.undo(),
             GraphCommand::Redo => document.redo(),
@@ -69,13 +70,16 @@ impl Editor {
             GraphCommand::Mute => drop(document.mute()),
             GraphCommand::Duplicate => drop(document.duplicate(false)),
             GraphCommand::DuplicateWired => drop(document.duplicate(true)),
-            GraphCommand::Copy => self.copy(ui),
+            GraphCommand::Copy => match document.copied() {
+                Some(text) => ui.ctx().copy_text(text),
+                None => self.shell.say("Select the nodes to copy first"),
+            },
             GraphCommand::Cut => {
                 if let Some(text) = document.cut_out() {
                     ui.ctx().copy_text(text);
                 }
             }
-            GraphCommand::Paste => self.ask_paste(ui.ctx()),
+            GraphCommand::Paste => self.shell.keyboard.ask_paste(ui.ctx()),
             GraphCommand::Frame => drop(document.frame()),
             GraphCommand::Group => drop(document.make_group()),
             GraphCommand::Ungroup => drop(document.dissolve_groups()),
@@ -85,7 +89,7 @@ impl Editor {
                 }
             }
             GraphCommand::Leave => {
-                if !self.canvas.let_go() {
+                if !self.views.canvas.cancel_drag() {
                     document.leave();
                 }
             }
@@ -93,7 +97,7 @@ impl Editor {
     }
 
     fn arrange_command(&mut self, command: ArrangeCommand) {
-        let document = &mut self.document;
+        let document = &mut self.documents.document;
         match command {
             ArrangeCommand::AlignLeft => drop(document.align(Align::Left)),
             ArrangeCommand::AlignRight => drop(document.align(Align::Right)),
@@ -110,65 +114,70 @@ impl Editor {
     fn canvas_command(&mut self, command: CanvasCommand, ui: &Ui) {
         if matches!(command, CanvasCommand::AddMenu | CanvasCommand::Rename) {
             // The menu and the text field open on the canvas.
-            self.bring_up(Panel::Canvas);
+            self.shell.dock.bring_up(Panel::Canvas);
         }
-        for action in self.canvas.command(command, ui, &self.document) {
+        for action in self.views.canvas.command(command, ui, &self.documents.document) {
             self.perform(action, ui);
         }
     }
 
     fn look_command(&mut self, command: LookCommand) {
-        let selected = self.document.selected_one().cloned();
+        let document = &self.documents.document;
+        let settings = &mut self.shell.settings;
         match command {
-            LookCommand::FlatPictures => self.settings.is_flat = !self.settings.is_flat,
-            LookCommand::MiniMap => self.settings.has_mini_map = !self.settings.has_mini_map,
-            LookCommand::Preview => {
-                let Some(id) = selected else {
-                    self.say("Select the node to show first.");
-                    return;
-                };
-                self.look_at(&id, None);
-                self.look(LookAsk::Follow);
-            }
+            LookCommand::FlatPictures => settings.is_flat = !settings.is_flat,
+            LookCommand::MiniMap => settings.has_mini_map = !settings.has_mini_map,
+            LookCommand::Preview => match document.selected_one() {
+                Some(id) => {
+                    self.looks.show(document, id, None);
+                    self.looks.perform(LookAction::Follow, settings);
+                }
+                None => self.shell.say("Select the node to show first."),
+            },
             LookCommand::Follow => {
-                self.settings.follows = !self.settings.follows;
-                self.say(match self.settings.follows {
+                settings.follows = !settings.follows;
+                let sentence = match settings.follows {
                     true => "The model shows the node that is clicked.",
                     false => "The model shows the outputs whatever is clicked.",
-                });
-            }
-            LookCommand::Lock => {
-                let chosen = selected.map(|id| self.chosen(&id));
-                self.locked = if self.locked == chosen { None } else { chosen };
-            }
-            LookCommand::Compare => {
-                self.model_view.wipe = if self.model_view.wipe.is_some() {
-                    None
-                } else {
-                    Some(0.5)
                 };
+                self.shell.say(sentence);
             }
+            LookCommand::Lock => self.looks.toggle_lock(document, document.selected_one()),
+            LookCommand::Compare => self.looks.is_compared = !self.looks.is_compared,
         }
     }
 
     fn viewport_command(&mut self, command: ViewportCommand, ui: &Ui) {
-        let rect = self.rects.get(&Panel::Viewport).copied();
+        let Some(rect) = self.shell.dock.rects.get(&Panel::Viewport).copied() else {
+            return;
+        };
         let pointer = ui.input(|input| input.pointer.hover_pos());
-        let seen = self.seen();
-        if let Some(rect) = rect {
-            self.model_view.command(command, &self.stage, &seen, rect, pointer);
+        let seen = self.looks.on_model(&self.documents.document, &self.shell.settings);
+        self.views
+            .model
+            .command(command, &self.evaluation, &seen, rect, pointer);
+    }
+
+    /// Shows only the model and the published parameters of the whole graph, or all panels again.
+    pub(crate) fn toggle_use_view(&mut self) {
+        if self.shell.dock.toggle_use_view() {
+            self.documents.document.leave_to(0);
+            self.looks.followed = None;
+            self.shell.keyboard.active = Panel::Viewport;
         }
     }
 
-    fn scale_by(&mut self, factor: f32, ui: &Ui) {
-        self.settings.scale = (self.settings.scale * factor).clamp(0.5, 3.0);
-        ui.ctx().set_zoom_factor(self.settings.scale);
-    }
-
-    fn copy(&mut self, ui: &Ui) {
-        match self.document.copied() {
-            Some(text) => ui.ctx().copy_text(text),
-            None => self.say("Select the nodes to copy first"),
-        }
+    /// Adds a node of a favorite where the pointer is.
+    fn add_favorite(&mut self, favorite: Favorite, ui: &Ui) {
+        let key = self.shell.settings.favorites.get(favorite.index());
+        let mut candidates = self.documents.candidates().iter();
+        let found = key.and_then(|key| candidates.find(|known| known.new.key() == *key));
+        let Some(new) = found.map(|found| found.new.clone()) else {
+            let number = favorite.index() + 1;
+            return self.shell.say(format!(
+                "There is no favorite {number}; a star in the library makes one."
+            ));
+        };
+        self.add(&new, self.views.canvas.place_for_new(ui), None, None);
     }
 }

@@ -11,12 +11,12 @@ fn the_start_page_begins_opens_and_unpacks() {
     let mut window = Window::opened(CLOUDS);
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text("")).expect("a graph");
-    window.harness.state_mut().settings.remember(&other);
+    window.harness.state_mut().shell.settings.remember(&other);
     let mut choose = |card: &str| {
-        window.harness.state_mut().files.is_start = true;
+        window.harness.state_mut().views.start.is_open = true;
         window.settle();
         window.press(card);
-        assert!(!window.editor().files.is_start, "{card}");
+        assert!(!window.editor().views.start.is_open, "{card}");
         let file = window.document().session.file();
         let name = file.map(|file| file.file_name().unwrap_or_default().to_string_lossy().into_owned());
         (name.unwrap_or_default(), window.document().graph().len())
@@ -37,8 +37,11 @@ fn a_graph_and_a_model_are_taken_where_they_are_dropped() {
     fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a model");
     window.dropped(&model);
     let model = model.canonicalize().expect("a file");
-    assert_eq!(window.editor().stage.model_file(), model);
-    assert!(window.editor().settings.models.contains(&model), "it is on the strip");
+    assert_eq!(window.editor().evaluation.model_file(), model);
+    assert!(
+        window.editor().shell.settings.models.contains(&model),
+        "it is on the strip"
+    );
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text("")).expect("a graph");
     window.mute();
@@ -52,14 +55,14 @@ fn a_graph_and_a_model_are_taken_where_they_are_dropped() {
 fn panels_stay_where_they_were_put_until_they_are_put_back() {
     let mut window = Window::opened(CLOUDS);
     window.open(Panel::History);
-    window.harness.state_mut().keep_settings();
+    window.harness.state_mut().save_settings();
     let mut window = window.after_a_crash();
-    window.harness.state_mut().files.is_start = false;
+    window.harness.state_mut().views.start.is_open = false;
     window.settle();
-    assert!(window.editor().rects.contains_key(&Panel::History));
+    assert!(window.editor().shell.dock.rects.contains_key(&Panel::History));
     window.press("Window");
     window.press("All panels where they were at first");
-    assert!(!window.editor().rects.contains_key(&Panel::History));
+    assert!(!window.editor().shell.dock.rects.contains_key(&Panel::History));
 }
 
 #[test]
@@ -70,14 +73,14 @@ fn settings_that_could_not_be_kept_are_kept_with_the_next_ones() {
     // A folder stands where the file goes.
     fs::create_dir_all(folder.join("settings.json")).expect("a folder");
     let editor = window.harness.state_mut();
-    editor.settings.has_mini_map = true;
-    editor.keep_settings();
+    editor.shell.settings.has_mini_map = true;
+    editor.save_settings();
     window.settle();
     assert!(window.says("the settings cannot be kept in"));
     fs::remove_dir(folder.join("settings.json")).expect("an empty folder");
     let editor = window.harness.state_mut();
-    editor.settings.follows = false;
-    editor.keep_settings();
+    editor.shell.settings.follows = false;
+    editor.save_settings();
     let (kept, _) = crate::settings::Settings::load(Some(&folder));
     assert!(kept.has_mini_map && !kept.follows);
 }
@@ -92,7 +95,7 @@ fn a_model_behind_a_link_is_read_where_the_link_is() {
     std::os::unix::fs::symlink(&real, &link).expect("a link");
     let mut window = window;
     window.dropped(&link);
-    let model = window.editor().stage.model_file();
+    let model = window.editor().evaluation.model_file();
     assert_eq!(
         model.file_name(),
         link.file_name(),

@@ -17,7 +17,12 @@ const WIRED: &str = r#"
 fn bent() -> (Window, NodeId, [f32; 2]) {
     let mut window = Window::opened(WIRED);
     let gap = between(window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source"));
-    let place = window.editor().canvas.place_at(gap).expect("a place on the canvas");
+    let place = window
+        .editor()
+        .views
+        .canvas
+        .place_at(gap)
+        .expect("a place on the canvas");
     window.double_click(gap);
     let mut nodes = window.document().graph().nodes();
     let bend = nodes.find(|(_, node)| node.kind == "graph/reroute");
@@ -97,8 +102,8 @@ impl Window {
 #[test]
 fn titles_knobs_cards_and_bends_say_what_they_are_and_what_is_wrong() {
     let (mut window, bend, _) = bent();
-    window.until("the fault", |editor| editor.stage.fault("blur").is_some());
-    let fault = window.editor().stage.fault("blur").expect("a sentence").clone();
+    window.until("the fault", |editor| editor.evaluation.fault("blur").is_some());
+    let fault = window.editor().evaluation.fault("blur").expect("a sentence").clone();
     let face = |window: &Window, node: &str| window.document().face(&id(node)).expect("a node").clone();
     let summary = face(&window, "invert").summary.clone();
     assert!(!window.says(&summary));
@@ -128,14 +133,14 @@ fn titles_knobs_cards_and_bends_say_what_they_are_and_what_is_wrong() {
 #[test]
 fn the_time_of_a_node_stands_on_its_title() {
     let mut window = Window::opened(WIRED);
-    window.until("a time", |editor| editor.stage.time("clouds").is_some());
+    window.until("a time", |editor| editor.evaluation.time("clouds").is_some());
     window.settle();
-    let time = window.editor().stage.time("clouds").expect("a time");
+    let time = window.editor().evaluation.time("clouds").expect("a time");
     let title = window
         .rect(&id("clouds"))
         .with_max_y(window.port(&id("clouds"), "mask").y);
     let painted = window.painted();
-    let shown = crate::canvas::shown_time(time);
+    let shown = crate::time_text::time_text(time);
     let found = painted.iter().any(|(text, at)| *text == shown && title.contains(*at));
     assert!(found, "'{shown}' in {painted:?}");
 }
@@ -162,7 +167,7 @@ fn a_muted_node_shows_what_it_passes_on() {
     let pixels = |window: &Window, node: &str| {
         let editor = window.editor();
         let result = editor.reference(&id(node), None);
-        editor.stage.thumbnail_pixels(&result).cloned()
+        editor.evaluation.thumbnail_pixels(&result).cloned()
     };
     window.until("pictures", |editor| {
         ["clouds", "invert"]
@@ -175,7 +180,7 @@ fn a_muted_node_shows_what_it_passes_on() {
     let passed = pixels(&window, "clouds");
     window.until("the picture of the clouds", |editor| {
         let result = editor.reference(&id("invert"), None);
-        editor.stage.thumbnail_pixels(&result).cloned() == passed
+        editor.evaluation.thumbnail_pixels(&result).cloned() == passed
     });
 }
 

@@ -31,9 +31,9 @@ fn maps_in(folder: &Path) -> Vec<PathBuf> {
 /// The window with the export panel in front and a folder named.
 fn ready() -> Window {
     let mut window = Window::opened(LAYERED);
-    window.harness.state_mut().settings.export.size = 64;
+    window.harness.state_mut().shell.settings.export.size = 64;
     window.open(Panel::Export);
-    let panel = window.editor().rects[&Panel::Export];
+    let panel = window.editor().shell.dock.rects[&Panel::Export];
     let found = window.harness.query_all_by_label("Folder").map(|node| node.rect());
     let field = found
         .filter(|rect| panel.contains(rect.center()))
@@ -49,7 +49,7 @@ fn maps_are_written_to_the_folder_that_was_named() {
     let mut window = ready();
     let folder = window.path("maps");
     window.press("Export");
-    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    window.until("the maps", |editor| editor.exports.running.is_none());
     assert!(window.says("Written:"), "{:?}", window.labels());
     let maps = maps_in(&folder);
     assert!(
@@ -67,13 +67,13 @@ fn maps_are_written_to_the_folder_that_was_named() {
         .rect()
         .center();
     window.click_at(switch);
-    assert!(window.editor().panels.export.place.again);
+    assert!(window.editor().exports.place.again);
     window.open(Panel::Parameters);
     for detail in ["3", "4"] {
         window.click_at(window.title(&id("clouds")));
         window.set_number("Detail", detail);
         window.keys(Modifiers::COMMAND, Key::S);
-        window.until("the maps again", |editor| editor.panels.export.running.is_none());
+        window.until("the maps again", |editor| editor.exports.running.is_none());
         assert!(!maps_in(&folder).is_empty(), "after a save with {detail}");
         fs::remove_dir_all(&folder).expect("removed");
     }
@@ -82,10 +82,10 @@ fn maps_are_written_to_the_folder_that_was_named() {
 #[test]
 fn a_material_without_any_pattern_says_why_there_are_no_maps() {
     let mut window = ready();
-    window.harness.state_mut().document.select([id("clouds")]);
-    window.harness.state_mut().document.delete(false);
+    window.harness.state_mut().documents.document.select([id("clouds")]);
+    window.harness.state_mut().documents.document.delete(false);
     window.press("Export");
-    window.until("the end", |editor| editor.panels.export.running.is_none());
+    window.until("the end", |editor| editor.exports.running.is_none());
     assert!(
         window.says("Every channel is the same everywhere"),
         "{:?}",
@@ -97,11 +97,11 @@ fn a_material_without_any_pattern_says_why_there_are_no_maps() {
 #[test]
 fn an_export_is_canceled_and_leaves_nothing() {
     let mut window = ready();
-    window.harness.state_mut().settings.export.size = 4096;
+    window.harness.state_mut().shell.settings.export.size = 4096;
     window.press("Export");
-    assert!(window.editor().panels.export.running.is_some());
+    assert!(window.editor().exports.running.is_some());
     window.press("Cancel");
-    window.until("the end", |editor| editor.panels.export.running.is_none());
+    window.until("the end", |editor| editor.exports.running.is_none());
     assert!(maps_in(&window.path("maps")).is_empty());
     assert!(!window.says("Written:"));
 }
@@ -112,25 +112,25 @@ fn what_cannot_be_exported_says_why() {
     window.open(Panel::Export);
     window.press("Export");
     assert!(window.says("Name the folder for the textures first"));
-    window.harness.state_mut().panels.export.place.folder = "maps".to_owned();
+    window.harness.state_mut().exports.place.folder = "maps".to_owned();
     window.press("Export");
-    window.until("the end", |editor| editor.panels.export.running.is_none());
+    window.until("the end", |editor| editor.exports.running.is_none());
     assert!(window.says("output"), "{:?}", window.labels());
 }
 
 #[test]
 fn chosen_channels_are_written_under_the_names_that_were_asked_for() {
     let mut window = ready();
-    let export = &mut window.harness.state_mut().settings.export;
+    let export = &mut window.harness.state_mut().shell.settings.export;
     export.channels = vec!["base_color".to_owned()];
     export.names = "{channel".to_owned();
     window.settle();
     assert!(window.says("a brace is opened and not closed"), "{:?}", window.labels());
-    window.harness.state_mut().settings.export.names = "T_{graph}_{channel}_{size}".to_owned();
+    window.harness.state_mut().shell.settings.export.names = "T_{graph}_{channel}_{size}".to_owned();
     window.settle();
     assert!(!window.says("a brace is opened"));
     window.press("Export");
-    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    window.until("the maps", |editor| editor.exports.running.is_none());
     let file = window.path("maps").join("T_graph_base_color_64.png");
     assert_eq!(maps_in(&window.path("maps")), [file]);
 }
@@ -147,21 +147,21 @@ fn a_folder_with_files_of_somebody_else_is_asked_about() {
         "{:?}",
         window.labels()
     );
-    assert!(window.editor().panels.export.running.is_none());
+    assert!(window.editor().exports.running.is_none());
     window.press("Put the textures there all the same");
-    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    window.until("the maps", |editor| editor.exports.running.is_none());
     assert!(!maps_in(&folder).is_empty());
     assert!(folder.join("thesis.doc").exists());
     window.press("Export");
-    assert!(window.editor().panels.export.running.is_some(), "now there are maps");
-    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    assert!(window.editor().exports.running.is_some(), "now there are maps");
+    window.until("the maps", |editor| editor.exports.running.is_none());
 }
 
 #[test]
 fn the_window_writes_the_bytes_that_a_bake_without_it_writes() {
     let mut window = ready();
     window.press("Export");
-    window.until("the maps", |editor| editor.panels.export.running.is_none());
+    window.until("the maps", |editor| editor.exports.running.is_none());
     let mut alone = window.editor().bake_request(window.path("alone"), false);
     alone.graph = window.path("graph.sabi");
     alone.evaluator.adapter = sabi_engine::AdapterChoice::Cpu;
@@ -177,19 +177,17 @@ fn the_window_writes_the_bytes_that_a_bake_without_it_writes() {
 fn textures_of_another_model_are_not_put_in_the_place_of_those_that_are_there() {
     let mut window = ready();
     window.press("Export");
-    window.until("the maps", |editor| editor.panels.export.running.is_none());
-    window.harness.state_mut().panels.export.place.again = true;
+    window.until("the maps", |editor| editor.exports.running.is_none());
+    window.harness.state_mut().exports.place.again = true;
     let other = window.path("other.glb");
-    fs::copy(window.editor().stage.model_file(), &other).expect("a model");
+    fs::copy(window.editor().evaluation.model_file(), &other).expect("a model");
     window.harness.state_mut().take_model(&other);
     window.settle();
     window.keys(Modifiers::COMMAND, Key::S);
-    assert!(window.editor().panels.export.running.is_none());
+    assert!(window.editor().exports.running.is_none());
     assert!(window.says("were not written again"), "{:?}", window.labels());
     window.press("Export");
-    window.until("the maps of the other model", |editor| {
-        editor.panels.export.running.is_none()
-    });
-    let place = &window.editor().panels.export.place;
+    window.until("the maps of the other model", |editor| editor.exports.running.is_none());
+    let place = &window.editor().exports.place;
     assert_eq!(place.model.as_deref(), Some(other.as_path()));
 }

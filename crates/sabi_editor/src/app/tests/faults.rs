@@ -26,9 +26,9 @@ fn told_of(window: &Window, node: &str) -> String {
 #[test]
 fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictures() {
     let mut window = Window::opened(BROKEN);
-    window.until("the fault", |editor| editor.stage.fault("blur").is_some());
+    window.until("the fault", |editor| editor.evaluation.fault("blur").is_some());
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
-    let fault = window.editor().stage.fault("blur").expect("a sentence").clone();
+    let fault = window.editor().evaluation.fault("blur").expect("a sentence").clone();
     assert!(fault.contains("source"), "{fault}");
     assert_eq!(told_of(&window, "blur"), fault);
     assert_eq!(told_of(&window, "invert"), "waiting for blur");
@@ -62,13 +62,13 @@ fn a_click_in_problems_goes_to_the_node_whatever_group_it_is_in() {
     });
     window.until("the fault", |editor| editor.problem_count() == 1);
     window.open(Panel::Problems);
-    let fault = window.editor().stage.faults.faults[0].sentence.clone();
+    let fault = window.editor().evaluation.faults.faults[0].sentence.clone();
     let at = window.harness.get_by_label_contains(&fault).rect().center();
     window.click_at(at);
     assert_eq!(window.document().path().len(), 1);
     assert_eq!(window.document().selected_one(), Some(&id("blur")));
     assert!(
-        window.editor().rects[&Panel::Canvas].contains(window.rect(&id("blur")).center()),
+        window.editor().shell.dock.rects[&Panel::Canvas].contains(window.rect(&id("blur")).center()),
         "it is in sight"
     );
 }
@@ -84,13 +84,13 @@ fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
     );
     let before = window.text();
     window.until("both faults", |editor| {
-        editor.stage.fault("lost").is_some() && editor.stage.fault("odd").is_some()
+        editor.evaluation.fault("lost").is_some() && editor.evaluation.fault("odd").is_some()
     });
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
     assert!(
         window
             .editor()
-            .stage
+            .evaluation
             .fault("lost")
             .expect("a fault")
             .contains("nowhere.png")
@@ -98,7 +98,7 @@ fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
     assert!(
         window
             .editor()
-            .stage
+            .evaluation
             .fault("odd")
             .expect("a fault")
             .contains("noise/of_tomorrow")
@@ -128,8 +128,13 @@ fn a_fault_in_a_group_is_told_on_it_too_and_so_is_how_long_its_nodes_take() {
         std::fs::write(&file, text).expect("a graph");
         sabi_engine::Session::open(&file, None).unwrap_or_else(|error| panic!("{error}"))
     });
-    window.until("the fault", |editor| editor.stage.fault("worn").is_some());
-    let fault = window.editor().stage.fault("worn/blur").expect("a sentence").clone();
+    window.until("the fault", |editor| editor.evaluation.fault("worn").is_some());
+    let fault = window
+        .editor()
+        .evaluation
+        .fault("worn/blur")
+        .expect("a sentence")
+        .clone();
     assert_eq!(told_of(&window, "worn"), fault);
     assert_eq!(told_of(&window, "after"), "waiting for worn/blur");
     window.click_at(window.title(&id("worn")));
@@ -138,11 +143,11 @@ fn a_fault_in_a_group_is_told_on_it_too_and_so_is_how_long_its_nodes_take() {
         .harness
         .state_mut()
         .look_at(&id("worn"), Some("plain".to_owned()));
-    window.until("its other result", |editor| editor.stage.inspected.is_some());
-    window.until("its time", |editor| editor.stage.time("worn").is_some());
+    window.until("its other result", |editor| editor.evaluation.inspected.is_some());
+    window.until("its time", |editor| editor.evaluation.time("worn").is_some());
     assert_eq!(
-        window.editor().stage.time("worn"),
-        window.editor().stage.time("worn/clouds")
+        window.editor().evaluation.time("worn"),
+        window.editor().evaluation.time("worn/clouds")
     );
 }
 
@@ -156,10 +161,10 @@ fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
     "#,
     );
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
-    let fault = window.editor().stage.fault("gone").expect("a sentence").clone();
+    let fault = window.editor().evaluation.fault("gone").expect("a sentence").clone();
     assert!(fault.contains("needs the group file \"gone.sabi\""), "{fault}");
     assert_eq!(
-        window.editor().stage.waits("after").map(String::as_str),
+        window.editor().evaluation.waits("after").map(String::as_str),
         Some("waiting for gone")
     );
     window.open(Panel::Problems);

@@ -122,7 +122,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
     let field = window.harness.get_by_label("Search the library").rect().center();
     window.click_at(field);
     window.typed("group");
-    let library = window.editor().rects[&Panel::Library];
+    let library = window.editor().shell.dock.rects[&Panel::Library];
     let entry = window
         .harness
         .query_all_by_label("group")
@@ -130,7 +130,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
         .find(|at| library.contains(*at))
         .expect("the group in the list");
     let at = window.on_canvas([0.5, 0.4]);
-    let there = window.editor().canvas.place_at(at).expect("a place");
+    let there = window.editor().views.canvas.place_at(at).expect("a place");
     window.drag_from(entry, at);
     let added = window.document().selected_one().expect("an instance").clone();
     let pos = window.document().node(&added).expect("a node").pos;
@@ -164,7 +164,7 @@ fn what_fits_a_wire_is_found_in_the_library_panel_by_a_click_too() {
     let field = window.harness.get_by_label("Search the library").rect().center();
     window.click_at(field);
     window.typed("clouds");
-    let library = window.editor().rects[&Panel::Library];
+    let library = window.editor().shell.dock.rects[&Panel::Library];
     let found = window
         .harness
         .query_all_by_label("Clouds")
@@ -199,7 +199,7 @@ fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
     window.key(Key::Escape);
     assert_eq!(window.document().path().len(), inside, "it closed the menu");
     // An entry of the library that is being dragged.
-    let library = window.editor().rects[&Panel::Library];
+    let library = window.editor().shell.dock.rects[&Panel::Library];
     let entries = window.harness.query_all_by_label("Clouds");
     let entry = entries
         .map(|node| node.rect().center())

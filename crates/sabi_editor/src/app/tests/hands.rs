@@ -154,14 +154,14 @@ impl Window {
 impl Window {
     /// Where an empty place of the canvas is: `[0, 0]` is its upper left corner, `[1, 1]` the lower right one.
     pub(super) fn on_canvas(&self, share: [f32; 2]) -> Pos2 {
-        let rect = self.editor().rects[&Panel::Canvas];
+        let rect = self.editor().shell.dock.rects[&Panel::Canvas];
         rect.min + vec2(share[0] * rect.width(), share[1] * rect.height())
     }
 
     /// Screen points in a canvas point.
     pub(super) fn zoom(&self) -> f32 {
         let middle = self.on_canvas([0.5, 0.5]);
-        let place = |at| self.editor().canvas.place_at(at).expect("a place on the canvas");
+        let place = |at| self.editor().views.canvas.place_at(at).expect("a place on the canvas");
         let [one, other] = [place(middle), place(middle + vec2(100.0, 0.0))];
         100.0 / (other[0] - one[0])
     }
@@ -169,7 +169,12 @@ impl Window {
     /// Where a place of the canvas is on the screen.
     pub(super) fn screen(&self, place: [f32; 2]) -> Pos2 {
         let middle = self.on_canvas([0.5, 0.5]);
-        let there = self.editor().canvas.place_at(middle).expect("a place on the canvas");
+        let there = self
+            .editor()
+            .views
+            .canvas
+            .place_at(middle)
+            .expect("a place on the canvas");
         middle + vec2(place[0] - there[0], place[1] - there[1]) * self.zoom()
     }
 
@@ -274,7 +279,11 @@ impl Window {
             .center();
         drop(tabs);
         self.click_at(at);
-        assert!(self.editor().rects.contains_key(&panel), "{} is shown", panel.title());
+        assert!(
+            self.editor().shell.dock.rects.contains_key(&panel),
+            "{} is shown",
+            panel.title()
+        );
     }
 
     /// Names of everything that can be seen.
@@ -310,7 +319,7 @@ pub(super) fn between(one: Pos2, other: Pos2) -> Pos2 {
 impl Window {
     /// Where the widget of that name is in the panel of parameters.
     pub(super) fn knob(&self, name: &str) -> Pos2 {
-        let panel = self.editor().rects[&Panel::Parameters];
+        let panel = self.editor().shell.dock.rects[&Panel::Parameters];
         let mut found = self.harness.query_all_by_label(name).map(|node| node.rect().center());
         found
             .find(|at| panel.contains(*at))

@@ -41,7 +41,7 @@ fn a_graph_is_built_turned_and_taken_back_by_keys_alone() {
     assert_eq!(window.reads(&layer, "mask"), noise.to_string());
     assert_eq!(window.steps(), 3);
     // A knob of the noise.
-    while window.editor().active != Panel::Parameters {
+    while window.editor().shell.keyboard.active != Panel::Parameters {
         window.key(Key::F6);
     }
     let mut names = vec![focused(&window)];
@@ -84,12 +84,12 @@ fn ports_are_stepped_through_both_ways_and_escape_drops_the_wire() {
 fn f6_goes_round_the_panels_and_says_where_it_is() {
     let mut window = Window::empty();
     window.settle();
-    assert_eq!(window.editor().active, Panel::Canvas);
-    let shown = window.editor().rects.len();
+    assert_eq!(window.editor().shell.keyboard.active, Panel::Canvas);
+    let shown = window.editor().shell.dock.rects.len();
     let mut seen = Vec::new();
     for _ in 0..shown {
         window.key(Key::F6);
-        let active = window.editor().active;
+        let active = window.editor().shell.keyboard.active;
         assert!(window.says(&format!("Keys are for: {}", active.title())));
         let focused = focused(&window);
         assert_eq!(
@@ -106,7 +106,7 @@ fn f6_goes_round_the_panels_and_says_where_it_is() {
     let mut back = Vec::new();
     for _ in 0..shown {
         window.keys(Modifiers::SHIFT, Key::F6);
-        back.push(window.editor().active);
+        back.push(window.editor().shell.keyboard.active);
     }
     seen.rotate_right(1);
     back.reverse();
@@ -197,10 +197,10 @@ fn asked_about_masks() -> Window {
         "invert": { "kind": "adjust/invert", "inputs": { "source": "clouds" }, "pos": [300, 0] }
         "#,
     );
-    window.harness.state_mut().document.select([id("dots")]);
+    window.harness.state_mut().documents.document.select([id("dots")]);
     window.key(Key::K);
     window.key(Key::W);
-    window.harness.state_mut().document.select([id("invert")]);
+    window.harness.state_mut().documents.document.select([id("invert")]);
     window.key(Key::J);
     window.key(Key::W);
     assert!(window.says("There is a mask already"));
@@ -254,11 +254,11 @@ fn arrows_step_through_ports_follow_wires_and_leave_no_focus_behind() {
         "#,
     );
     let port = |window: &Window| {
-        let place = window.editor().canvas.focused_port();
+        let place = window.editor().views.canvas.focused_port();
         place.unwrap_or_default()
     };
     let selected = |window: &Window| window.document().selected_one().expect("a node").to_string();
-    window.harness.state_mut().document.select([id("mix")]);
+    window.harness.state_mut().documents.document.select([id("mix")]);
     window.settle();
     window.key(Key::J);
     let first = port(&window);

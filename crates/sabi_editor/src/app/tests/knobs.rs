@@ -23,12 +23,15 @@ fn a_drag_in_the_panel_is_one_step_and_the_window_knows_that_it_moves() {
         PointerButton::Primary,
         Modifiers::NONE,
     );
-    assert!(window.editor().is_moving, "pictures are quick while it is dragged");
+    assert!(
+        window.editor().documents.is_dragging,
+        "pictures are quick while it is dragged"
+    );
     window.point(beside(bar, [34.0, 0.0]));
     window.keys(Modifiers::COMMAND, Key::Z);
     window.button(beside(bar, [34.0, 0.0]), PointerButton::Primary, false);
     window.settle();
-    assert!(!window.editor().is_moving);
+    assert!(!window.editor().documents.is_dragging);
     assert_eq!(
         window.steps(),
         1,
@@ -43,7 +46,7 @@ fn a_drag_in_the_panel_is_one_step_and_the_window_knows_that_it_moves() {
 #[test]
 fn a_drag_on_the_node_itself_turns_its_knob_and_does_not_move_it() {
     let mut window = Window::opened(TWO);
-    let panel = window.editor().rects[&crate::dock::Panel::Canvas];
+    let panel = window.editor().shell.dock.rects[&crate::dock::Panel::Canvas];
     let near = window.rect(&id("dots"));
     let found = window
         .harness
@@ -170,15 +173,15 @@ fn a_drag_whose_node_is_gone_ends_with_the_button_outside_of_the_window() {
         PointerButton::Primary,
         Modifiers::NONE,
     );
-    assert!(window.editor().is_moving);
+    assert!(window.editor().documents.is_dragging);
     // Nodes are cards from so far.
     window.wheel(beside(bar, [25.0, 0.0]), -900.0);
     let outside = egui::pos2(-40.0, -40.0);
     window.point(outside);
     window.button(outside, PointerButton::Primary, false);
     window.settle();
-    assert!(!window.editor().is_moving);
-    window.harness.state_mut().document.select([id("clouds")]);
+    assert!(!window.editor().documents.is_dragging);
+    window.harness.state_mut().documents.document.select([id("clouds")]);
     let empty = window.on_canvas([0.98, 0.02]);
     window.point(empty);
     window.key(Key::M);

@@ -4,7 +4,7 @@ use egui::{Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 
 use super::Window;
-use crate::dock::{self, Panel};
+use crate::dock::{Layout, Panel};
 
 const LAYERED: &str = r#"{
   "format": "sabi", "version": 1, "name": "Worn paint",
@@ -19,19 +19,19 @@ const LAYERED: &str = r#"{
 
 fn layered(text: &str) -> Window {
     let mut window = Window::of(text);
-    dock::bring_up(&mut window.harness.state_mut().layout, Panel::Stack);
+    window.harness.state_mut().shell.dock.bring_up(Panel::Stack);
     window.settle();
     window
 }
 
 fn titles(window: &Window) -> Vec<String> {
-    let stacks = window.editor().document.stacks();
+    let stacks = window.editor().documents.document.stacks();
     stacks[0].layers.iter().map(|layer| layer.title.clone()).collect()
 }
 
 /// The picture in the row of a layer; the canvas shows a node of the same name.
 fn row(window: &Window, title: &str) -> egui::Pos2 {
-    let panel = window.editor().rects[&Panel::Stack];
+    let panel = window.editor().shell.dock.rects[&Panel::Stack];
     let mut rows = window.harness.get_all_by_label(title).map(|node| node.rect());
     let row = rows.find(|rect| panel.contains(rect.center()));
     row.expect("a row").left_center() + vec2(50.0, 0.0)
@@ -59,13 +59,13 @@ fn a_layer_is_dragged_to_another_place_and_what_cannot_be_says_why() {
 fn eyes_bars_and_bins_of_layers_do_what_they_say_as_one_step_each() {
     let mut window = layered(LAYERED);
     window.click("Show Rust");
-    assert!(window.editor().document.stacks()[0].layers[0].is_muted);
+    assert!(window.editor().documents.document.stacks()[0].layers[0].is_muted);
     let bars: Vec<egui::Rect> = window
         .harness
         .get_all_by_label("Opacity")
         .map(|bar| bar.rect())
         .collect();
-    let panel = window.editor().rects[&Panel::Stack];
+    let panel = window.editor().shell.dock.rects[&Panel::Stack];
     let bar = *bars.iter().find(|bar| panel.contains_rect(**bar)).expect("a bar");
     let middle = bar.center();
     window.drag(
@@ -74,7 +74,7 @@ fn eyes_bars_and_bins_of_layers_do_what_they_say_as_one_step_each() {
         PointerButton::Primary,
         Modifiers::NONE,
     );
-    let opacity = window.editor().document.stacks()[0].layers[0]
+    let opacity = window.editor().documents.document.stacks()[0].layers[0]
         .opacity
         .expect("an opacity");
     assert!((0.0..1.0).contains(&opacity), "{opacity}");
@@ -109,11 +109,12 @@ fn a_layer_that_is_read_elsewhere_is_locked_and_says_by_what() {
 #[test]
 fn masks_and_layers_have_pictures_although_the_canvas_does_not_show_their_nodes() {
     let mut window = layered(LAYERED);
-    window.harness.state_mut().layout = {
+    let layout = {
         let mut tiles = egui_tiles::Tiles::default();
         let root = tiles.insert_pane(Panel::Stack);
-        dock::Layout::new("panels", root, tiles)
+        Layout::new("panels", root, tiles)
     };
+    window.harness.state_mut().shell.dock.set_layout(layout);
     let noise = "n".parse().expect("an id");
     window.until("a picture of the mask", |editor| {
         editor.picture_of(&editor.reference(&noise, None)).is_some()

@@ -17,7 +17,7 @@ fn a_recent_file_is_opened_only_once_it_is_said_what_becomes_of_changes() {
     let mut window = Window::opened(CLOUDS);
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text("")).expect("a graph");
-    window.harness.state_mut().settings.remember(&other);
+    window.harness.state_mut().shell.settings.remember(&other);
     window.mute();
     window.press("File");
     let recent = window.harness.get_by_label_contains("Recent").rect().center();
@@ -36,13 +36,15 @@ fn a_recent_file_is_opened_only_once_it_is_said_what_becomes_of_changes() {
 #[test]
 fn another_graph_is_evaluated_as_soon_as_it_is_opened() {
     let mut window = Window::opened("");
-    window.until("rest", |editor| !editor.stage.is_busy() && editor.model_view.drawn > 0);
+    window.until("rest", |editor| {
+        !editor.evaluation.is_busy() && editor.views.model.drawn > 0
+    });
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text(CLOUDS)).expect("a graph");
     window.harness.state_mut().open_file(&other);
     let clouds = window.editor().reference(&super::hands::id("clouds"), None);
     window.until("a picture of its node", |editor| {
-        editor.stage.thumbnail(&clouds).is_some()
+        editor.evaluation.thumbnail(&clouds).is_some()
     });
 }
 
@@ -50,10 +52,12 @@ fn another_graph_is_evaluated_as_soon_as_it_is_opened() {
 fn a_graph_that_is_opened_again_shows_its_pictures_again() {
     let mut window = Window::opened(CLOUDS);
     let clouds = window.editor().reference(&super::hands::id("clouds"), None);
-    window.until("a picture", |editor| editor.stage.thumbnail(&clouds).is_some());
+    window.until("a picture", |editor| editor.evaluation.thumbnail(&clouds).is_some());
     let file = window.path("graph.sabi");
     window.harness.state_mut().open_file(&file);
-    window.until("the picture again", |editor| editor.stage.thumbnail(&clouds).is_some());
+    window.until("the picture again", |editor| {
+        editor.evaluation.thumbnail(&clouds).is_some()
+    });
 }
 
 #[test]
@@ -96,21 +100,26 @@ fn a_graph_never_takes_the_place_of_a_picture_by_its_name() {
 #[test]
 fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().document.select([super::hands::id("clouds")]);
+    window
+        .harness
+        .state_mut()
+        .documents
+        .document
+        .select([super::hands::id("clouds")]);
     window.keys(Modifiers::COMMAND, Key::G);
     let keep = |window: &mut Window| {
-        window.harness.state_mut().shelve_selected(Shelf::User);
+        window.harness.state_mut().shelve(Shelf::User);
         window.settle();
         fs::read_dir(window.path("library")).expect("a library").count()
     };
     assert_eq!(keep(&mut window), 1);
     assert_eq!(keep(&mut window), 1, "the same is kept once");
     let instance = window.document().selected_one().cloned().expect("the group");
-    assert!(window.harness.state_mut().document.enter(&instance));
-    window.harness.state_mut().document.select_all();
-    window.harness.state_mut().document.mute();
-    window.harness.state_mut().document.leave();
-    window.harness.state_mut().document.select([instance]);
+    assert!(window.harness.state_mut().documents.document.enter(&instance));
+    window.harness.state_mut().documents.document.select_all();
+    window.harness.state_mut().documents.document.mute();
+    window.harness.state_mut().documents.document.leave();
+    window.harness.state_mut().documents.document.select([instance]);
     assert_eq!(keep(&mut window), 2);
 }
 
@@ -121,15 +130,15 @@ fn the_window_stays_until_textures_are_written() {
             "params": { "color": "#6b3a1e" } }, "out": { "kind": "output/material", "inputs": { "material": "layer" } }"##,
     );
     let editor = window.harness.state_mut();
-    editor.settings.export.size = 512;
-    editor.panels.export.place.folder = "maps".to_owned();
-    editor.export();
+    editor.shell.settings.export.size = 512;
+    editor.exports.place.folder = "maps".to_owned();
+    editor.export(false);
     assert!(!window.asks_to_close());
     assert!(window.says("Textures are being written"));
     window.press("Stay");
-    assert!(!window.editor().files.may_close);
+    assert!(!window.editor().may_close);
     assert!(!window.asks_to_close());
-    window.until("the end", |editor| editor.files.may_close);
+    window.until("the end", |editor| editor.may_close);
     assert!(window.asks_to_close());
     assert!(window.path("maps").is_dir());
 }
@@ -141,10 +150,10 @@ fn exporting_at_every_save() -> Window {
         "out": { "kind": "output/mask", "inputs": { "source": "clouds" }, "params": { "name": "clouds" } }"#,
     );
     let editor = window.harness.state_mut();
-    editor.settings.export.size = 512;
-    editor.panels.export.place.folder = "maps".to_owned();
-    editor.panels.export.place.again = true;
-    editor.export();
+    editor.shell.settings.export.size = 512;
+    editor.exports.place.folder = "maps".to_owned();
+    editor.exports.place.again = true;
+    editor.export(false);
     window
 }
 
@@ -153,9 +162,9 @@ fn a_save_while_textures_are_written_has_them_written_once_more() {
     let mut window = exporting_at_every_save();
     let editor = window.harness.state_mut();
     editor.save();
-    assert!(!window.editor().panels.export.queued.is_empty());
+    assert!(!window.editor().exports.queued.is_empty());
     window.until("both", |editor| {
-        editor.panels.export.running.is_none() && editor.panels.export.queued.is_empty()
+        editor.exports.running.is_none() && editor.exports.queued.is_empty()
     });
 }
 
@@ -165,25 +174,30 @@ fn where_textures_go_is_known_for_each_graph_and_in_the_next_window() {
     let first = window.path("graph.sabi");
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text("")).expect("a graph");
-    let place = &mut window.harness.state_mut().panels.export.place;
+    let place = &mut window.harness.state_mut().exports.place;
     (place.folder, place.again) = ("maps".to_owned(), true);
     window.harness.state_mut().open_file(&other);
-    let place = &window.editor().panels.export.place;
+    let place = &window.editor().exports.place;
     assert!(place.folder.is_empty() && !place.again, "{place:?}");
     window.harness.state_mut().open_file(&first);
-    assert_eq!(window.editor().panels.export.place.folder, "maps");
-    window.harness.state_mut().keeping.every = Duration::ZERO;
+    assert_eq!(window.editor().exports.place.folder, "maps");
+    window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.settle();
     let folder = window.folder;
     drop(window.harness);
     let window = Window::in_folder(folder, |_| Session::open(&first, None).expect("a graph"));
-    assert_eq!(window.editor().panels.export.place.folder, "maps");
+    assert_eq!(window.editor().exports.place.folder, "maps");
 }
 
 #[test]
 fn a_window_with_the_unsaved_text_of_a_node_stays() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().document.select([super::hands::id("clouds")]);
+    window
+        .harness
+        .state_mut()
+        .documents
+        .document
+        .select([super::hands::id("clouds")]);
     window.key(Key::F1);
     window.press("New node from here");
     assert!(window.asks_to_close(), "nothing was written yet");
@@ -195,8 +209,13 @@ fn a_window_with_the_unsaved_text_of_a_node_stays() {
 #[test]
 fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_without_changes_of_it() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().keeping.every = Duration::ZERO;
-    window.harness.state_mut().document.select([super::hands::id("clouds")]);
+    window.harness.state_mut().documents.autosave.every = Duration::ZERO;
+    window
+        .harness
+        .state_mut()
+        .documents
+        .document
+        .select([super::hands::id("clouds")]);
     window.key(Key::F1);
     window.press("New node from here");
     window.fill("Id of the node", "noise/mine");
@@ -204,14 +223,14 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
     // A save lets go of the graph's own changes alone.
     window.keys(Modifiers::COMMAND, Key::S);
     window.settle();
-    let unsaved = window.editor().panels.page.unsaved();
+    let unsaved = window.editor().views.page.unsaved();
     assert_eq!(unsaved.len(), 1);
     let mut window = window.after_a_crash();
     assert!(window.says("the node file noise/mine"));
     window.press("Recover");
-    assert_eq!(window.editor().panels.page.unsaved(), unsaved);
-    window.harness.state_mut().bring_up(Panel::Page);
-    window.harness.state_mut().keeping.every = Duration::ZERO;
+    assert_eq!(window.editor().views.page.unsaved(), unsaved);
+    window.harness.state_mut().shell.dock.bring_up(Panel::Page);
+    window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.settle();
     assert!(!window.asks_to_close(), "it is still in no file");
     window.press("Save node");
@@ -232,18 +251,19 @@ fn a_recovered_node_file_stands_beside_one_that_is_being_written_and_takes_the_p
     };
     let (first, second) = (draft("//! First"), draft("//! Second"));
     first.save().expect("a file");
-    let Editor { panels, document, .. } = window.harness.state_mut();
-    panels.page.recover(vec![first.clone()], document);
-    panels.page.recover(vec![second.clone()], document);
-    assert_eq!(panels.page.unsaved(), [first.clone(), second.clone()], "both are kept");
-    panels.page.saved(&first);
+    let Editor { views, documents, .. } = window.harness.state_mut();
+    let (page, document) = (&mut views.page, &documents.document);
+    page.recover(vec![first.clone()], document);
+    page.recover(vec![second.clone()], document);
+    assert_eq!(page.unsaved(), [first.clone(), second.clone()], "both are kept");
+    page.saved(&first);
     assert_eq!(
-        panels.page.unsaved(),
+        page.unsaved(),
         std::slice::from_ref(&second),
         "the other one is in no file"
     );
-    panels.page.recover(vec![second.clone()], document);
-    assert_eq!(panels.page.unsaved(), [second.clone(), second]);
+    page.recover(vec![second.clone()], document);
+    assert_eq!(page.unsaved(), [second.clone(), second]);
 }
 
 #[test]
@@ -268,7 +288,7 @@ fn keys_of_the_window_are_heard_while_a_text_is_typed_and_letters_are_not() {
     window.mute();
     let text = window.text();
     window.open(Panel::Library);
-    let field = window.editor().rects[&Panel::Library];
+    let field = window.editor().shell.dock.rects[&Panel::Library];
     let at = window.harness.get_by_label("Search the library").rect().center();
     assert!(field.contains(at));
     window.click_at(at);
@@ -283,17 +303,17 @@ fn asking_for_a_panel_that_the_use_view_lacks_leaves_it() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().toggle_use_view();
     window.settle();
-    window.harness.state_mut().bring_up(Panel::Export);
+    window.harness.state_mut().shell.dock.bring_up(Panel::Export);
     assert!(window.editor().is_use_view());
     window.keys(Modifiers::NONE, Key::F1);
     assert!(!window.editor().is_use_view());
-    assert!(window.editor().rects.contains_key(&Panel::Page));
+    assert!(window.editor().shell.dock.rects.contains_key(&Panel::Page));
 }
 
 #[test]
 fn what_was_kept_can_be_let_go_and_a_window_that_uses_it_keeps_it() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().keeping.every = Duration::ZERO;
+    window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.mute();
     let unsaved = window.path("unsaved");
     assert!(sabi_engine::recoveries(&unsaved).is_empty(), "it is in use");
@@ -324,9 +344,9 @@ fn settings_that_cannot_be_read_are_put_aside() {
 fn the_window_is_called_after_its_graph() {
     let mut window = Window::opened(CLOUDS);
     window.settle();
-    assert_eq!(window.editor().named, "graph.sabi – Sabi");
+    assert_eq!(window.editor().shell.title, "graph.sabi – Sabi");
     window.mute();
-    assert_eq!(window.editor().named, "graph.sabi • – Sabi");
+    assert_eq!(window.editor().shell.title, "graph.sabi • – Sabi");
 }
 
 #[test]
@@ -334,14 +354,14 @@ fn textures_of_a_saved_graph_are_written_although_another_one_is_opened_meanwhil
     let mut window = exporting_at_every_save();
     let editor = window.harness.state_mut();
     // What the save writes has names of its own, so that it is seen which of the two is there.
-    editor.settings.export.names = "saved_{channel}".to_owned();
+    editor.shell.settings.export.names = "saved_{channel}".to_owned();
     editor.save();
     let other = window.path("deeper").join("other.sabi");
     fs::create_dir_all(window.path("deeper")).expect("a folder");
     fs::write(&other, super::graph_text("")).expect("a graph");
     window.harness.state_mut().open_file(&other);
     window.until("both", |editor| {
-        editor.panels.export.running.is_none() && editor.panels.export.queued.is_empty()
+        editor.exports.running.is_none() && editor.exports.queued.is_empty()
     });
     let written = fs::read_dir(window.path("maps")).expect("a folder").flatten();
     let names: Vec<_> = written

@@ -15,14 +15,22 @@ const GROUPED: &str = r#"{
 }"#;
 
 fn kinds(window: &Window) -> Vec<String> {
-    let nodes = window.editor().document.graph().nodes();
+    let nodes = window.editor().documents.document.graph().nodes();
     nodes.map(|(_, node)| node.kind.clone()).collect()
 }
 
 /// Selects the only node that there is.
 fn select_only(window: &mut Window) -> NodeId {
-    let id = window.editor().document.graph().ids().next().cloned().expect("a node");
-    window.harness.state_mut().document.select([id.clone()]);
+    let id = window
+        .editor()
+        .documents
+        .document
+        .graph()
+        .ids()
+        .next()
+        .cloned()
+        .expect("a node");
+    window.harness.state_mut().documents.document.select([id.clone()]);
     window.settle();
     id
 }
@@ -30,15 +38,27 @@ fn select_only(window: &mut Window) -> NodeId {
 #[test]
 fn the_first_favorites_are_added_by_number_where_the_pointer_is() {
     let mut window = Window::empty();
-    window.harness.state_mut().settings.favorites = vec!["noise/cells".to_owned(), "filter/blur".to_owned()];
+    window.harness.state_mut().shell.settings.favorites = vec!["noise/cells".to_owned(), "filter/blur".to_owned()];
     window.settle();
     let at = window.on_canvas([0.3, 0.4]);
     window.point(at);
     window.key(Key::Num2);
     assert_eq!(kinds(&window), ["filter/blur"]);
-    let place = window.editor().canvas.place_at(at).expect("on the canvas");
-    let id = window.editor().document.selected_one().cloned().expect("the new node");
-    let pos = window.editor().document.node(&id).map(|node| node.pos).expect("a node");
+    let place = window.editor().views.canvas.place_at(at).expect("on the canvas");
+    let id = window
+        .editor()
+        .documents
+        .document
+        .selected_one()
+        .cloned()
+        .expect("the new node");
+    let pos = window
+        .editor()
+        .documents
+        .document
+        .node(&id)
+        .map(|node| node.pos)
+        .expect("a node");
     assert!(
         (pos[0] - place[0]).abs() <= 1.0 && (pos[1] - place[1]).abs() <= 1.0,
         "{pos:?} {place:?}"
@@ -54,9 +74,9 @@ fn a_star_makes_a_favorite_and_takes_it_back() {
     let mut window = Window::empty();
     window.settle();
     window.click("Levels is a favorite");
-    assert_eq!(window.editor().settings.favorites, ["adjust/levels"]);
+    assert_eq!(window.editor().shell.settings.favorites, ["adjust/levels"]);
     window.click("Levels is a favorite");
-    assert!(window.editor().settings.favorites.is_empty());
+    assert!(window.editor().shell.settings.favorites.is_empty());
 }
 
 #[test]
@@ -67,7 +87,7 @@ fn an_entry_is_dragged_to_where_it_is_dropped_and_nowhere_beside_the_canvas() {
     let at = window.on_canvas([0.5, 0.5]);
     window.drag(entry, at, PointerButton::Primary, Modifiers::NONE);
     assert_eq!(kinds(&window), ["adjust/levels"]);
-    let model = window.editor().rects[&Panel::Viewport].center();
+    let model = window.editor().shell.dock.rects[&Panel::Viewport].center();
     window.drag(entry, model, PointerButton::Primary, Modifiers::NONE);
     assert_eq!(window.steps(), 1);
 }
@@ -88,6 +108,7 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
     window.settle();
     let sections: Vec<String> = window
         .editor()
+        .documents
         .candidates()
         .iter()
         .filter(|candidate| candidate.face.label == "Wear")
@@ -102,17 +123,17 @@ fn the_library_follows_its_folder_and_says_what_there_cannot_be_read() {
     let library = window.path("library");
     std::fs::create_dir_all(&library).expect("a folder");
     let is_there = |editor: &Editor| {
-        let mut found = editor.candidates().iter();
+        let mut found = editor.documents.candidates().iter();
         found.any(|candidate| candidate.section == "project library")
     };
-    window.until("the watch", |editor| editor.watching.is_watching());
+    window.until("the watch", |editor| editor.documents.watching.is_watching());
     // As another program puts it there.
     let group = r#"{ "format": "sabi", "version": 1, "outputs": { "mask": "n" },
         "nodes": { "n": { "kind": "noise/cells" } } }"#;
     let file = library.join("wear.sabi");
     std::fs::write(&file, group).expect("a file");
     window.until("the group", is_there);
-    window.until("the watch", |editor| editor.watching.is_watching());
+    window.until("the watch", |editor| editor.documents.watching.is_watching());
     std::fs::write(&file, "half of").expect("a file");
     window.until("its end", |editor| !is_there(editor));
     assert!(window.says("wear.sabi"), "{:?}", window.labels());
@@ -128,7 +149,7 @@ fn a_graph_without_a_file_has_no_library_beside_it() {
     window.click("Keep group");
     window.click("Beside this graph");
     assert!(!window.path("library").exists(), "the entry cannot be chosen");
-    window.harness.state_mut().shelve_selected(Shelf::Project);
+    window.harness.state_mut().shelve(Shelf::Project);
     window.settle();
     let said = "Save the graph first, so that there is a folder beside it.";
     assert!(window.harness.query_by_label(said).is_some());
@@ -139,7 +160,7 @@ fn f1_opens_the_page_of_a_node() {
     let mut window = Window::empty();
     window.add([0.3, 0.3], "levels");
     window.key(Key::F1);
-    assert!(window.editor().rects.contains_key(&Panel::Page));
+    assert!(window.editor().shell.dock.rects.contains_key(&Panel::Page));
     assert!(window.harness.query_by_label("adjust/levels").is_some());
     assert!(
         window.harness.query_by_label("What Levels gives").is_some(),
@@ -151,10 +172,10 @@ fn f1_opens_the_page_of_a_node() {
 fn nodes_that_come_with_the_program_have_pictures_in_the_library() {
     let mut window = Window::empty();
     window.until("the pictures", |editor| {
-        editor.panels.library.has_picture("adjust/levels")
+        editor.views.library.has_picture("adjust/levels")
     });
-    assert!(window.editor().panels.library.has_picture("noise/cells"));
-    assert!(!window.editor().panels.library.has_picture("graph/reroute"));
+    assert!(window.editor().views.library.has_picture("noise/cells"));
+    assert!(!window.editor().views.library.has_picture("graph/reroute"));
 }
 
 #[test]
@@ -164,7 +185,8 @@ fn a_group_of_the_graph_has_the_picture_of_an_instance_in_the_library() {
     window.until("a picture", |editor| editor.thumbnail_of(&instance).is_some());
     let context = window.harness.ctx.clone();
     let group = New::Group("Wear".to_owned());
-    assert!(crate::panels::library::picture(window.harness.state_mut(), &context, &group).is_some());
+    let (read, views, _) = window.harness.state_mut().parts();
+    assert!(views.library.picture(&context, &read, &group).is_some());
 }
 
 #[test]
@@ -179,7 +201,7 @@ fn a_node_of_ones_own_begins_as_another_one_and_its_faults_are_told_as_it_is_typ
     assert!(window.harness.query_by_label(why).is_some());
     window.fill("Id of the node", "adjust/mine");
     let text = window.harness.get_by_label("Text of the node").rect();
-    window.click_at(text.intersect(window.editor().rects[&Panel::Page]).center());
+    window.click_at(text.intersect(window.editor().shell.dock.rects[&Panel::Page]).center());
     window.keys(Modifiers::COMMAND, Key::End);
     window
         .harness
@@ -196,10 +218,16 @@ fn a_node_of_ones_own_begins_as_another_one_and_its_faults_are_told_as_it_is_typ
     assert!(window.harness.query_by_label("Saved; nothing is wrong.").is_some());
     window.click("Close");
     assert!(
-        window.editor().document.catalog().entry("adjust/mine").is_some(),
+        window
+            .editor()
+            .documents
+            .document
+            .catalog()
+            .entry("adjust/mine")
+            .is_some(),
         "it can be added at once"
     );
-    assert_eq!(window.editor().document.selected_one(), Some(&added));
+    assert_eq!(window.editor().documents.document.selected_one(), Some(&added));
 }
 
 #[test]
@@ -231,7 +259,13 @@ fn a_dropped_picture_is_a_node_in_one_step() {
     let mut window = Window::of(GROUPED);
     let before = window.text();
     window.dropped(&window.path("rust.png"));
-    let added = window.editor().document.selected_one().cloned().expect("the picture");
+    let added = window
+        .editor()
+        .documents
+        .document
+        .selected_one()
+        .cloned()
+        .expect("the picture");
     assert_eq!(window.param(&added, "file").as_deref(), Some("\"rust.png\""));
     assert_eq!(window.steps(), 1);
     window.undo(1);
@@ -250,15 +284,22 @@ fn an_entry_that_is_dropped_on_a_wire_is_put_into_it_where_it_fits() {
     let middle = super::hands::between(window.port(&clouds, "mask"), window.port(&invert, "source"));
     let entry = window.harness.get_by_label("Levels").rect().center();
     window.drag(entry, middle, PointerButton::Primary, Modifiers::NONE);
-    let added = window.editor().document.selected_one().cloned().expect("the node");
+    let added = window
+        .editor()
+        .documents
+        .document
+        .selected_one()
+        .cloned()
+        .expect("the node");
     assert_eq!(window.reads(&added, "source"), "clouds");
     assert_eq!(window.reads(&invert, "source"), added.to_string());
     assert_eq!(window.steps(), 1);
     window.undo(1);
-    window.harness.state_mut().settings.favorites = vec!["source/material".to_owned()];
+    window.harness.state_mut().shell.settings.favorites = vec!["source/material".to_owned()];
     window.settle();
     let paint = window
         .editor()
+        .documents
         .document
         .catalog()
         .entry("source/material")

@@ -23,7 +23,7 @@ const TWO: &str = r#"
 fn the_wheel_zooms_around_the_pointer_from_10_to_300_percent() {
     let mut window = Window::opened(TWO);
     let at = window.on_canvas([0.3, 0.6]);
-    let held = window.editor().canvas.place_at(at).expect("a place");
+    let held = window.editor().views.canvas.place_at(at).expect("a place");
     for points in [150.0, -400.0, 90.0] {
         let before = window.zoom();
         window.wheel(at, points);

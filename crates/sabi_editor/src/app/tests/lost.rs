@@ -8,9 +8,9 @@ impl Window {
     /// Destroys the device while nobody uploads to it: wgpu 29 would let the two wait for each other.
     pub(super) fn destroy_device(&mut self) {
         self.until("rest", |editor| {
-            editor.model_view.is_ready_made() && editor.model_view.drawn > 0 && !editor.stage.is_busy()
+            editor.views.model.is_ready_made() && editor.views.model.drawn > 0 && !editor.evaluation.is_busy()
         });
-        self.editor().stage.gpu().device().destroy();
+        self.editor().evaluation.gpu().device().destroy();
     }
 }
 
@@ -22,7 +22,7 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     window.add([0.2, 0.2], "clouds");
     let added = window.text();
     window.destroy_device();
-    window.harness.state_mut().document.mute();
+    window.harness.state_mut().documents.document.mute();
     let muted = window.text();
     assert_ne!(muted, added);
     let handover = window.handover.clone();
@@ -36,9 +36,9 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     assert_eq!(window.text(), muted);
     assert!(window.says("The textures were not written, since the graphics device was lost"));
     assert!(!window.says("Examples"), "no start page stands before the work");
-    window.until("pictures on another device", |editor| editor.model_view.drawn > 0);
+    window.until("pictures on another device", |editor| editor.views.model.drawn > 0);
     for expected in [&added, &empty] {
-        window.harness.state_mut().document.undo();
+        window.harness.state_mut().documents.document.undo();
         assert_eq!(&window.text(), expected);
     }
     window.redo(2);

@@ -21,7 +21,7 @@ fn field() -> String {
 }
 
 fn inverts(window: &Window) -> usize {
-    let canvas = window.editor().rects[&crate::dock::Panel::Canvas];
+    let canvas = window.editor().shell.dock.rects[&crate::dock::Panel::Canvas];
     let found = window.harness.query_all(by().label("Invert"));
     found.filter(|node| canvas.intersects(node.rect())).count()
 }
@@ -33,11 +33,11 @@ fn of_five_hundred_nodes_only_those_that_are_seen_are_drawn() {
     let at = window.on_canvas([0.5, 0.5]);
     window.wheel(at, 5000.0);
     window.wheel(at, -300.0);
-    let seen = window.editor().canvas.visible(window.document()).len();
+    let seen = window.editor().views.canvas.visible(window.document()).len();
     assert!((1..30).contains(&seen), "{seen}");
     assert_eq!(inverts(&window), seen);
     window.wheel(at, -5000.0);
-    let seen = window.editor().canvas.visible(window.document()).len();
+    let seen = window.editor().views.canvas.visible(window.document()).len();
     assert_eq!(inverts(&window), seen);
     assert!(seen > 300, "from afar {seen} are seen");
 }
@@ -48,7 +48,7 @@ fn nothing_is_drawn_while_nothing_changes() {
     let wants = |window: &Window| window.harness.output().viewport_output[&ViewportId::ROOT].repaint_delay;
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
     window.until("the model", |editor| {
-        editor.model_view.drawn > 0 && !editor.stage.is_busy()
+        editor.views.model.drawn > 0 && !editor.evaluation.is_busy()
     });
     for _ in 0..400 {
         if wants(&window) > Duration::from_secs(60) {
@@ -62,7 +62,7 @@ fn nothing_is_drawn_while_nothing_changes() {
         "{:?}",
         window.harness.ctx.repaint_causes()
     );
-    let drawn = window.editor().model_view.drawn;
+    let drawn = window.editor().views.model.drawn;
     window.harness.run_steps(5);
-    assert_eq!(window.editor().model_view.drawn, drawn, "the model is not drawn anew");
+    assert_eq!(window.editor().views.model.drawn, drawn, "the model is not drawn anew");
 }

@@ -10,10 +10,10 @@ fn the_size_that_is_worked_at_is_chosen_in_the_status_bar() {
     let mut window = Window::opened("");
     window.click("64 texels");
     window.click("256 × 256");
-    window.until("another size", |editor| editor.stage.size() == 256);
+    window.until("another size", |editor| editor.evaluation.size() == 256);
     assert!(window.text().contains("\"size\": 256"));
     window.undo(1);
-    window.until("the size before", |editor| editor.stage.size() == 64);
+    window.until("the size before", |editor| editor.evaluation.size() == 64);
 }
 
 #[test]
@@ -31,33 +31,36 @@ fn what_a_length_of_one_is_can_be_chosen_and_taken_back() {
 #[test]
 fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     let mut window = Window::opened("");
-    let is_there = |editor: &super::Editor| editor.stage.loaded_model().1;
+    let is_there = |editor: &super::Editor| editor.evaluation.loaded_model().1;
     window.until("the model", is_there);
     window.click("How the model is read");
     window.click("+Z");
     window.click("the mean of all");
     window.until("the model", is_there);
-    let reading = window.editor().stage.reading();
+    let reading = window.editor().evaluation.reading();
     assert_eq!((reading.up, reading.overlap), (Up::Z, Overlap::Merge));
     let request = window.editor().bake_request("maps".into(), false);
     assert_eq!(request.evaluator.model.up, Up::Z);
     assert_eq!(request.evaluator.model.overlap, Overlap::Merge);
     window.fill("UV set", "3");
-    window.until("why not", |editor| editor.stage.model_failure.is_some());
-    let why = window.editor().stage.model_failure.clone().unwrap_or_default();
+    window.until("why not", |editor| editor.evaluation.model_failure.is_some());
+    let why = window.editor().evaluation.model_failure.clone().unwrap_or_default();
     assert!(why.contains("UV set 3"), "{why}");
-    assert!(window.editor().stage.shown_model.is_some(), "the last good one stays");
+    assert!(
+        window.editor().evaluation.shown_model.is_some(),
+        "the last good one stays"
+    );
     window.click("As the file has it");
     window.until("the model", is_there);
-    assert!(window.editor().settings.readings.is_empty());
+    assert!(window.editor().shell.settings.readings.is_empty());
     window.click("+X");
-    window.harness.state_mut().keeping.every = std::time::Duration::ZERO;
+    window.harness.state_mut().documents.autosave.every = std::time::Duration::ZERO;
     window.settle();
     let Window { harness, folder, .. } = window;
     drop(harness);
     let window = Window::in_folder(folder, |_| Session::new(None));
     assert_eq!(
-        window.editor().stage.reading().up,
+        window.editor().evaluation.reading().up,
         Up::X,
         "another window reads it so, too"
     );

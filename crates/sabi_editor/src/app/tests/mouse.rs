@@ -13,12 +13,12 @@ const NONE: Modifiers = Modifiers::NONE;
 /// What of the view of the model a drag changes: where it is seen from, what is looked at, and how much is seen.
 fn turned(window: &mut Window, button: PointerButton, modifiers: Modifiers) -> [bool; 3] {
     let seen = |window: &Window| {
-        let camera = window.editor().model_view.camera;
+        let camera = window.editor().views.model.camera;
         let [eye, target] = [camera.eye(), camera.target];
         ((eye - target).normalize(), target, camera.height_at_target())
     };
     let before = seen(window);
-    let middle = window.editor().rects[&Panel::Viewport].center();
+    let middle = window.editor().shell.dock.rects[&Panel::Viewport].center();
     window.drag(middle, beside(middle, [40.0, 25.0]), button, modifiers);
     let after = seen(window);
     [
@@ -35,7 +35,7 @@ const NOTHING: [bool; 3] = [false; 3];
 
 fn looking_at_the_model(habit: Habit) -> Window {
     let mut window = window_with(habit);
-    window.until("the model", |editor| editor.model_view.drawn > 0);
+    window.until("the model", |editor| editor.views.model.drawn > 0);
     window
 }
 
@@ -71,7 +71,7 @@ fn the_model_is_turned_by_the_usual_drags() {
 /// How far a drag over an empty place moves the canvas, and whether it comes nearer.
 fn moved(window: &mut Window, button: PointerButton, modifiers: Modifiers) -> (egui::Vec2, bool) {
     let from = window.on_canvas([0.9, 0.9]);
-    let held = window.editor().canvas.place_at(from).expect("a place");
+    let held = window.editor().views.canvas.place_at(from).expect("a place");
     let zoom = window.zoom();
     window.drag(from, beside(from, [-30.0, -50.0]), button, modifiers);
     let way: egui::Vec2 = window.screen(held) - from;
@@ -122,7 +122,7 @@ fn in_blender_a_box_selects_and_a_selects_all() {
 fn the_list_of_keys_shows_the_drags_of_the_habit() {
     let mut window = window_with(Habit::Blender);
     window.key(egui::Key::F1);
-    window.harness.state_mut().files.shows_keys = true;
+    window.harness.state_mut().views.key_list.is_open = true;
     window.settle();
     assert!(window.has("Select in a box"));
     assert!(window.has("Left drag") && window.has("Ctrl+Middle drag"));

@@ -48,7 +48,7 @@ impl Window {
 
     /// Clicks something of which a panel has another one of that name.
     pub(super) fn click_beside(&mut self, panel: Panel, name: &str) {
-        let rect = self.editor().rects[&panel];
+        let rect = self.editor().shell.dock.rects[&panel];
         let mut all = self.harness.get_all_by_label(name);
         let other = all.find(|node| !rect.contains(node.rect().center()));
         other.expect("another one").click();
@@ -74,11 +74,11 @@ impl Window {
     }
 
     pub(super) fn steps(&self) -> usize {
-        self.editor().document.session.undo_names().count()
+        self.editor().documents.document.session.undo_names().count()
     }
 
     pub(super) fn held(&self, knob: &str) -> Option<Value> {
-        let panel = self.editor().document.panel();
+        let panel = self.editor().documents.document.panel();
         panel
             .into_iter()
             .find(|known| known.name == knob)
@@ -105,6 +105,7 @@ fn a_drag_of_a_published_knob_is_one_step_and_turns_what_it_stands_for() {
     let layer = "l".parse().expect("an id");
     let own = window
         .editor()
+        .documents
         .document
         .node(&layer)
         .and_then(|node| node.params.get("opacity").cloned());
@@ -117,14 +118,14 @@ fn a_drag_of_a_published_knob_is_one_step_and_turns_what_it_stands_for() {
 fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_else() {
     let mut window = Window::of(PUBLISHED);
     let noise = "n".parse().expect("an id");
-    window.harness.state_mut().document.select([noise]);
+    window.harness.state_mut().documents.document.select([noise]);
     window.settle();
     assert!(
         window.harness.query_by_label("Grain size").is_none(),
         "those of the node are shown"
     );
     window.keys(Modifiers::COMMAND, Key::Space);
-    let shown: BTreeSet<Panel> = window.editor().rects.keys().copied().collect();
+    let shown: BTreeSet<Panel> = window.editor().shell.dock.rects.keys().copied().collect();
     assert_eq!(
         shown,
         BTreeSet::from([Panel::Viewport, Panel::Parameters, Panel::Export])
@@ -133,7 +134,7 @@ fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_els
     assert!(window.harness.query_by_label("Faint").is_some(), "variants are there");
     assert!(window.harness.query_by_label("Change the panel").is_none());
     window.keys(Modifiers::COMMAND, Key::Space);
-    assert!(window.editor().rects.contains_key(&Panel::Canvas));
+    assert!(window.editor().shell.dock.rects.contains_key(&Panel::Canvas));
 }
 
 #[test]
@@ -157,7 +158,7 @@ fn the_pen_changes_what_published_knobs_say_of_themselves() {
     window.fill("Section", "Looks");
     window.fill("Name in files", "wear");
     window.click(&format!("{} Start here", egui_phosphor::regular::PUSH_PIN));
-    let exposed = window.editor().document.graph().exposed().clone();
+    let exposed = window.editor().documents.document.graph().exposed().clone();
     let wear = &exposed["wear"];
     assert_eq!(exposed.len(), 1);
     assert_eq!(
@@ -166,7 +167,7 @@ fn the_pen_changes_what_published_knobs_say_of_themselves() {
     );
     assert_eq!(window.steps(), 5, "each is one step");
     assert!(
-        window.editor().document.graph().variants()["faint"].contains_key("wear"),
+        window.editor().documents.document.graph().variants()["faint"].contains_key("wear"),
         "variants follow"
     );
 }
@@ -185,6 +186,7 @@ fn published_knobs_are_put_into_order_by_dragging() {
     );
     let names: Vec<String> = window
         .editor()
+        .documents
         .document
         .panel()
         .into_iter()
@@ -197,26 +199,34 @@ fn published_knobs_are_put_into_order_by_dragging() {
 #[test]
 fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() {
     let mut window = Window::of(PUBLISHED);
-    window.until("a picture of the model", |editor| editor.model_view.drawn > 0);
+    window.until("a picture of the model", |editor| editor.views.model.drawn > 0);
     window.click("Faint");
     assert_eq!(window.held("amount"), Some(Value::Number(0.25)));
     window.fill("Name of a variant", "as bought");
-    let variants = window.editor().document.graph().variants().clone();
+    let variants = window.editor().documents.document.graph().variants().clone();
     assert_eq!(variants["as bought"]["amount"], Value::Number(0.25));
-    let what = window.editor().document.variant_as_text("as bought");
+    let what = window.editor().documents.document.variant_as_text("as bought");
     let file = window.path("worn.sabi");
-    let cache = window.editor().stage.cache_dir().expect("a cache");
+    let cache = window.editor().evaluation.cache_dir().expect("a cache");
     let kept = sabi_engine::find_thumbnail(cache, &[&file.to_string_lossy(), &what]).expect("a picture");
     assert_eq!(kept.size, [128, 128]);
     window.choose("As bought", "Rename");
     window.fill("New name of the variant", "new");
-    assert!(window.editor().document.graph().variants().contains_key("new"));
+    assert!(
+        window
+            .editor()
+            .documents
+            .document
+            .graph()
+            .variants()
+            .contains_key("new")
+    );
     assert_eq!(
-        window.editor().document.variant_as_text("new"),
+        window.editor().documents.document.variant_as_text("new"),
         what,
         "the picture is found under the new name"
     );
     window.choose("New", "Remove");
-    assert_eq!(window.editor().document.graph().variants().len(), 1);
+    assert_eq!(window.editor().documents.document.graph().variants().len(), 1);
     assert_eq!(window.steps(), 4);
 }

@@ -28,9 +28,9 @@ fn the_model_and_the_pictures_on_nodes_are_on_the_screen() {
         editor.thumbnail_of(&id("clouds")).is_some()
     });
     window.until("the model", |editor| {
-        editor.model_view.drawn > 0 && !editor.stage.is_busy()
+        editor.views.model.drawn > 0 && !editor.evaluation.is_busy()
     });
-    let viewport = window.editor().rects[&Panel::Viewport].shrink(60.0);
+    let viewport = window.editor().shell.dock.rects[&Panel::Viewport].shrink(60.0);
     let shown = colors(&mut window, viewport).len();
     assert!(shown > 100, "{shown} colors where the model is");
     let node = window.rect(&id("clouds"));

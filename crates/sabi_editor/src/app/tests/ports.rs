@@ -21,7 +21,7 @@ const GROUPED: &str = r#"{
 fn inside() -> Window {
     let mut window = Window::of(GROUPED);
     let instance = "g".parse().expect("an id");
-    assert!(window.harness.state_mut().document.enter(&instance));
+    assert!(window.harness.state_mut().documents.document.enter(&instance));
     window.settle();
     window
 }
@@ -31,7 +31,7 @@ fn ports_are_published_and_taken_back_by_their_menus() {
     let mut window = inside();
     window.choose("Cells, input Position, vector", "Publish as input of the group");
     window.choose("Cells, output Mask, mask", "Publish as output of the group");
-    let document = &window.editor().document;
+    let document = &window.editor().documents.document;
     assert_eq!(
         document.group_inputs()["position"].to,
         ["n.position".parse().expect("an input")]
@@ -39,7 +39,7 @@ fn ports_are_published_and_taken_back_by_their_menus() {
     assert_eq!(document.group_outputs()["mask_2"].to_string(), "n");
     window.choose("Cells, output Mask, mask", "Take back the output 'mask_2'");
     window.choose("Levels, input Source, mask", "Take off the input 'where'");
-    let document = &window.editor().document;
+    let document = &window.editor().documents.document;
     assert!(!document.group_outputs().contains_key("mask_2"));
     assert!(document.group_inputs()["where"].to.is_empty());
     assert_eq!(window.steps(), 4);
@@ -56,7 +56,12 @@ fn a_port_is_disconnected_and_gets_a_new_node_by_its_menu() {
     window.settle();
     window.key(egui::Key::Enter);
     let added = window.wire_into(&out, "source").expect("a wire");
-    let kind = window.editor().document.node(&added.node).map(|node| node.kind.clone());
+    let kind = window
+        .editor()
+        .documents
+        .document
+        .node(&added.node)
+        .map(|node| node.kind.clone());
     assert_eq!(kind.as_deref(), Some("noise/simplex"));
 }
 
@@ -68,7 +73,7 @@ fn inputs_and_outputs_of_the_group_that_is_open_are_changed_in_a_list() {
     window.fill("Output", "worn");
     window.click("Levels · Mask");
     window.click("Cells · Id");
-    let document = &window.editor().document;
+    let document = &window.editor().documents.document;
     assert_eq!(
         document.group_inputs()["place"].label.as_deref(),
         Some("Where it is worn")
@@ -77,9 +82,12 @@ fn inputs_and_outputs_of_the_group_that_is_open_are_changed_in_a_list() {
     let instance = document.contents().graph.node("g").expect("the instance");
     assert!(instance.inputs.contains_key("place"), "instances follow");
     window.fill("Name of the group", "Wear and tear");
-    assert_eq!(window.editor().document.body(), Body::Group("Wear and tear".to_owned()));
+    assert_eq!(
+        window.editor().documents.document.body(),
+        Body::Group("Wear and tear".to_owned())
+    );
     window.click("Remove the input place");
-    assert!(window.editor().document.group_inputs().is_empty());
+    assert!(window.editor().documents.document.group_inputs().is_empty());
     assert_eq!(window.steps(), 6);
 }
 
@@ -92,9 +100,12 @@ fn the_main_graph_is_named_and_can_be_a_group_for_others() {
     );
     window.click("AS A GROUP");
     window.fill("Name of the graph", "Old edges");
-    assert_eq!(window.editor().document.contents().name, "Old edges");
+    assert_eq!(window.editor().documents.document.contents().name, "Old edges");
     window.choose("wear, output Mask, mask", "Publish as output of the graph");
-    assert_eq!(window.editor().document.group_outputs()["mask"].to_string(), "g.mask");
+    assert_eq!(
+        window.editor().documents.document.group_outputs()["mask"].to_string(),
+        "g.mask"
+    );
 }
 
 #[test]
@@ -102,7 +113,7 @@ fn a_click_on_an_input_is_one_on_its_node() {
     let mut window = Window::of(GROUPED);
     let group = "g".parse().expect("an id");
     window.click_at(window.port(&group, "where"));
-    assert_eq!(window.editor().document.selected_one(), Some(&group));
-    let shown = window.editor().inspected().map(|shown| shown.node.clone());
+    assert_eq!(window.editor().documents.document.selected_one(), Some(&group));
+    let shown = window.editor().looks.inspected().map(|shown| shown.node.clone());
     assert_eq!(shown.as_deref(), Some("g"));
 }

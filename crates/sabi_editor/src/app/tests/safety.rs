@@ -25,16 +25,16 @@ impl Window {
     /// Opens a dialog that is answered as this says.
     fn opens_dialog(&mut self, answers: impl FnOnce() -> Option<PathBuf> + Send + 'static) {
         let dialog = SystemDialog::waiting(&self.harness.ctx, answers);
-        self.harness.state_mut().files.dialog = Some(dialog);
+        self.harness.state_mut().views.questions.dialog = Some(dialog);
         self.settle();
     }
 
     fn is_dirty(&mut self) -> bool {
-        self.harness.state_mut().document.session.is_dirty()
+        self.harness.state_mut().documents.document.session.is_dirty()
     }
 
     pub(super) fn mute(&mut self) {
-        self.harness.state_mut().document.select([id("clouds")]);
+        self.harness.state_mut().documents.document.select([id("clouds")]);
         self.point(self.on_canvas([0.9, 0.9]));
         self.key(Key::M);
     }
@@ -61,7 +61,7 @@ fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
     assert!(window.says("The system's dialog is open"));
     let file = window.path("chosen.sabi");
     answers.send(Some(file.clone())).expect("somebody who waits");
-    window.until("the answer", |editor| editor.question().is_none());
+    window.until("the answer", |editor| editor.views.questions.open.is_none());
     assert_eq!(window.document().session.file(), Some(&*file));
     assert!(file.exists());
     // One that is closed without an answer leaves the question as it was, and so does one that cannot be opened.
@@ -73,7 +73,7 @@ fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
             answers.send(None).expect("somebody who waits");
         }
         drop(answers);
-        window.until("the end of it", |editor| editor.files.dialog.is_none());
+        window.until("the end of it", |editor| editor.views.questions.dialog.is_none());
         assert!(window.says("Save the graph") && window.has("System dialog…"));
     }
 }
@@ -99,7 +99,7 @@ fn a_graph_is_saved_under_a_name_and_opens_again_as_it_was() {
     window.keys(Modifiers::COMMAND, Key::O);
     window.answer_path(&file);
     assert_eq!(window.text(), text);
-    let recent = &window.editor().settings.recent;
+    let recent = &window.editor().shell.settings.recent;
     let names: Vec<_> = recent.iter().filter_map(|path| path.file_name()).collect();
     assert_eq!(names, ["first.sabi", "second.sabi"], "the last one first");
 }
@@ -201,14 +201,14 @@ fn a_window_with_changes_asks_before_it_closes() {
     assert!(!window.asks_to_close());
     window.press("Save");
     assert!(!window.is_dirty());
-    assert!(window.editor().files.may_close);
+    assert!(window.editor().may_close);
     assert!(window.asks_to_close());
 }
 
 #[test]
 fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().keeping.every = Duration::ZERO;
+    window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.mute();
     let text = window.text();
     let unsaved = window.path("unsaved");
@@ -232,22 +232,22 @@ fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
 #[test]
 fn settings_and_recent_files_are_there_in_the_next_window() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().keeping.every = Duration::ZERO;
+    window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.keys(Modifiers::COMMAND, Key::Equals);
     window.keys(Modifiers::COMMAND, Key::S);
     window.settle();
     let folder = window.folder;
     drop(window.harness);
     let window = Window::in_folder(folder, |_| Session::new(None));
-    assert!((window.editor().settings.scale - 1.1).abs() < 1e-3);
-    assert_eq!(window.editor().settings.recent.len(), 1);
+    assert!((window.editor().shell.settings.scale - 1.1).abs() < 1e-3);
+    assert_eq!(window.editor().shell.settings.recent.len(), 1);
 }
 
 #[test]
 fn a_saved_graph_opens_again_on_the_model_that_it_was_worked_on() {
     let mut window = Window::opened(CLOUDS);
     let model = window.path("hero.glb");
-    std::fs::copy(window.editor().stage.model_file(), &model).expect("a model");
+    std::fs::copy(window.editor().evaluation.model_file(), &model).expect("a model");
     window.keys(Modifiers::COMMAND, Key::S);
     let named = |window: &Window| {
         let session = Session::open(&window.path("graph.sabi"), None).expect("a graph");
@@ -272,7 +272,7 @@ fn an_end_that_nobody_asked_for_keeps_what_is_not_saved() {
     window.press("Recover");
     assert_eq!(window.text(), text);
     // What was let go is not kept.
-    window.harness.state_mut().files.may_close = true;
+    window.harness.state_mut().may_close = true;
     eframe::App::on_exit(window.harness.state_mut());
     assert!(sabi_engine::recoveries(&window.path("unsaved")).is_empty());
 }

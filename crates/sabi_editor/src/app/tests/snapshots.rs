@@ -25,23 +25,23 @@ impl Window {
         let mut window = Window::opened(NODES);
         let context = window.harness.ctx.clone();
         let editor = window.harness.state_mut();
-        editor.settings.shade = shade;
-        editor.take_settings(&context);
+        editor.shell.settings.shade = shade;
+        editor.shell.apply_settings();
         editor.look_at(&id(node), None);
-        editor.document.select([id(node)]);
+        editor.documents.document.select([id(node)]);
         context.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
         window.harness.event(egui::Event::PointerGone);
         window.until("rest", |editor| {
             let has_picture = |id: &str| editor.thumbnail_of(&id.parse().expect("an id")).is_some();
-            let is_drawn = has_picture(node) && editor.model_view.drawn > 0;
-            is_drawn && editor.stage.inspected.is_some() && !editor.stage.is_busy()
+            let is_drawn = has_picture(node) && editor.views.model.drawn > 0;
+            is_drawn && editor.evaluation.inspected.is_some() && !editor.evaluation.is_busy()
         });
         window
     }
 
     /// The upper left of a panel, at most so large.
     fn part_of(&self, panel: Panel, largest: [f32; 2]) -> Rect {
-        let panel = self.editor().rects[&panel];
+        let panel = self.editor().shell.dock.rects[&panel];
         Rect::from_min_size(panel.min, panel.size().min(largest.into()))
     }
 
@@ -101,10 +101,10 @@ fn the_add_menu_looks_as_it_did() {
 fn a_texture_with_its_histogram_looks_as_it_did() {
     let mut window = Window::on("clouds", Shade::Dark);
     window.until("its picture", |editor| {
-        let inspected = editor.stage.inspected.as_ref();
-        inspected.is_some_and(|(node, values)| node.node == "clouds" && editor.flat_view.shows(values))
+        let inspected = editor.evaluation.inspected.as_ref();
+        inspected.is_some_and(|(node, values)| node.node == "clouds" && editor.views.flat.shows(values))
     });
-    let panel = window.editor().rects[&Panel::Flat];
+    let panel = window.editor().shell.dock.rects[&Panel::Flat];
     let part = Rect::from_min_max(panel.max - vec2(300.0, 200.0), panel.max);
     window.compare("texture", part).expect("the same picture");
 }

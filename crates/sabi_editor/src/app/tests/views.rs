@@ -34,7 +34,7 @@ impl Window {
 #[test]
 fn the_model_follows_its_keys() {
     let mut window = window_with(Habit::Default);
-    window.until("a picture of the model", |editor| editor.model_view.drawn > 0);
+    window.until("a picture of the model", |editor| editor.views.model.drawn > 0);
     for (command, keys) in [
         (Command::Viewport(ViewportCommand::Front), "1"),
         (Command::Viewport(ViewportCommand::Right), "3"),
@@ -43,20 +43,20 @@ fn the_model_follows_its_keys() {
         (Command::Viewport(ViewportCommand::ShowAll), "A"),
     ] {
         window.prepare(&[], Scope::Viewport);
-        let camera = window.editor().model_view.camera;
+        let camera = window.editor().views.model.camera;
         window.chord(keys);
-        assert_ne!(window.editor().model_view.camera, camera, "{}", command.title());
+        assert_ne!(window.editor().views.model.camera, camera, "{}", command.title());
     }
     window.prepare(&["clouds"], Scope::Viewport);
     for (key, lines) in [("W", "Triangles"), ("S", "Seams")] {
-        let before = window.editor().model_view.shot.lines.len();
+        let before = window.editor().views.model.shot.lines.len();
         window.chord(key);
-        assert_eq!(window.editor().model_view.shot.lines.len(), before + 1, "{lines}");
+        assert_eq!(window.editor().views.model.shot.lines.len(), before + 1, "{lines}");
     }
     window.chord("C");
-    assert!(window.editor().model_view.wipe.is_some() && window.says("Lock a node (P) to compare with it"));
+    assert!(window.editor().views.model.wipe.is_some() && window.says("Lock a node (P) to compare with it"));
     window.chord("C");
-    assert!(window.editor().model_view.wipe.is_none());
+    assert!(window.editor().views.model.wipe.is_none());
     assert_eq!(
         window.steps(),
         0,
@@ -68,7 +68,7 @@ fn the_model_follows_its_keys() {
 fn the_texture_follows_its_keys() {
     let mut window = window_with(Habit::Default);
     window.click_at(window.title(&id("clouds")));
-    window.until("the texture", |editor| editor.stage.inspected.is_some());
+    window.until("the texture", |editor| editor.evaluation.inspected.is_some());
     window.prepare(&["clouds"], Scope::Flat);
     for (key, label) in [("T", "Tile"), ("W", "UV")] {
         assert!(!window.is_on(label));
@@ -78,11 +78,11 @@ fn the_texture_follows_its_keys() {
         assert!(!window.is_on(label), "{key} again");
     }
     window.chord("Z");
-    assert_eq!(window.editor().flat_view.zoom, Some(1.0));
+    assert_eq!(window.editor().views.flat.zoom, Some(1.0));
     for key in ["A", "F"] {
         window.chord("Z");
         window.chord(key);
-        assert_eq!(window.editor().flat_view.zoom, None);
+        assert_eq!(window.editor().views.flat.zoom, None);
     }
 }
 
@@ -102,12 +102,12 @@ fn a_key_is_added_to_those_of_a_command_and_taken_away_from_it() {
     window.press("Add a key for New graph");
     window.key(Key::M);
     assert_eq!(window.steps(), 0, "the key that is chosen does nothing else");
-    assert_eq!(window.editor().settings.keys["new"], ["Ctrl+N", "M"]);
+    assert_eq!(window.editor().shell.settings.keys["new"], ["Ctrl+N", "M"]);
     assert!(window.says(clash), "what now means two things is told");
     window.press("Take Ctrl+N from New graph");
-    assert_eq!(window.editor().settings.keys["new"], ["M"]);
+    assert_eq!(window.editor().shell.settings.keys["new"], ["M"]);
     window.press("The first keys of New graph");
-    assert!(window.editor().settings.keys.is_empty() && !window.says(clash));
+    assert!(window.editor().shell.settings.keys.is_empty() && !window.says(clash));
     assert!(window.has("Take Ctrl+N from New graph"));
     window.press("Add a key for New graph");
     window.key(Key::M);
@@ -124,29 +124,32 @@ fn escape_leaves_the_list_of_keys_as_it_was_and_a_known_key_is_not_added_twice()
     let mut window = with_keys();
     for (modifiers, key) in [(Modifiers::NONE, Key::Escape), (Modifiers::COMMAND, Key::N)] {
         window.press("Add a key for New graph");
-        assert!(window.editor().waits_for_key.is_some());
+        assert!(window.editor().views.key_list.takes_keys());
         window.keys(modifiers, key);
-        assert!(window.editor().settings.keys.is_empty(), "{key:?}");
-        assert!(window.editor().waits_for_key.is_none(), "{key:?}");
+        assert!(window.editor().shell.settings.keys.is_empty(), "{key:?}");
+        assert!(!window.editor().views.key_list.takes_keys(), "{key:?}");
     }
     assert!(window.has("Add a key for New graph"), "the list is still open");
-    assert!(window.editor().question().is_none(), "the keys do nothing else");
+    assert!(
+        window.editor().views.questions.open.is_none(),
+        "the keys do nothing else"
+    );
 }
 
 #[test]
 fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
     let mut window = window_with(Habit::Default);
     window.prepare(&["mix"], Scope::Canvas);
-    let copied = window.harness.state_mut().document.copied().expect("a copy");
+    let copied = window.harness.state_mut().documents.document.copied().expect("a copy");
     let count = window.document().graph().len();
-    let context = window.harness.ctx.clone();
     let editor = window.harness.state_mut();
-    editor.settings.keys.insert("paste".to_owned(), Vec::new());
+    editor.shell.settings.keys.insert("paste".to_owned(), Vec::new());
     editor
+        .shell
         .settings
         .keys
         .insert("mute".to_owned(), vec!["Ctrl+V".to_owned()]);
-    editor.take_settings(&context);
+    editor.shell.apply_settings();
     window.harness.event(egui::Event::Paste(copied));
     window.settle();
     assert_eq!(window.document().graph().len(), count, "nothing is pasted");
@@ -157,14 +160,14 @@ fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
 fn paste_works_by_the_menu_and_by_any_key_wherever_the_pointer_is() {
     let mut window = window_with(Habit::Default);
     window.prepare(&["mix"], Scope::Canvas);
-    let copied = window.harness.state_mut().document.copied().expect("a copy");
+    let copied = window.harness.state_mut().documents.document.copied().expect("a copy");
     let count = window.document().graph().len();
     window.press_entry("Edit", "Paste");
     // The system answers.
     window.harness.event(egui::Event::Paste(copied.clone()));
     window.settle();
     assert_eq!(window.document().graph().len(), count + 1);
-    window.point(window.editor().rects[&Panel::Viewport].center());
+    window.point(window.editor().shell.dock.rects[&Panel::Viewport].center());
     window.harness.event(egui::Event::Paste(copied));
     window.settle();
     assert_eq!(window.document().graph().len(), count + 1, "nobody asked");
@@ -180,17 +183,17 @@ fn what_the_menu_opens_on_the_canvas_brings_the_canvas_up_and_no_hidden_menu_hol
         assert!(window.editor().is_use_view());
         window.press_entry("Edit", entry);
         assert!(
-            !window.editor().is_use_view() && window.editor().canvas.holds_keys(),
+            !window.editor().is_use_view() && window.editor().views.canvas.holds_keys(),
             "{entry}"
         );
         window.key(Key::Escape);
-        assert!(!window.editor().canvas.holds_keys(), "{entry}");
+        assert!(!window.editor().views.canvas.holds_keys(), "{entry}");
     }
     // By the mouse the view can be changed while a menu is open.
     window.prepare(&["mix"], Scope::Canvas);
     window.key(Key::Tab);
-    assert!(window.editor().canvas.holds_keys());
+    assert!(window.editor().views.canvas.holds_keys());
     window.press("Only model and knobs");
-    assert!(window.editor().is_use_view() && !window.editor().canvas.holds_keys());
+    assert!(window.editor().is_use_view() && !window.editor().views.canvas.holds_keys());
     window.keys(Modifiers::COMMAND, Key::Z);
 }

@@ -62,14 +62,16 @@ impl Watched {
     /// Waits until nothing is on its way, and all that is named is watched.
     fn rest(&mut self) {
         self.window.until("rest", |editor| {
-            editor.stage.loaded_model().1 && !editor.stage.is_busy() && editor.watching.is_watching()
+            editor.evaluation.loaded_model().1
+                && !editor.evaluation.is_busy()
+                && editor.documents.watching.is_watching()
         });
     }
 }
 
 /// What the node that is looked at gives.
 fn value_of(editor: &Editor) -> Option<f32> {
-    let (_, values) = editor.stage.inspected.as_ref()?;
+    let (_, values) = editor.evaluation.inspected.as_ref()?;
     let at = values.is_on_surface.iter().position(|is_there| *is_there)?;
     let plane = values.planes.first()?;
     plane.values.get(at * plane.components).copied()
@@ -97,7 +99,7 @@ fn a_node_file_that_changes_changes_what_is_shown_and_a_broken_one_leaves_it() {
         Some(0.5),
         "the last good version stays"
     );
-    let faults = &watched.window.editor().document.kinds().0.faults;
+    let faults = &watched.window.editor().documents.document.kinds().0.faults;
     assert!(faults[0].path.ends_with("nodes/own/level.wgsl"), "{faults:?}");
     watched.write("nodes/own/level.wgsl", level(0.75));
     watched.until_value(0.75);
@@ -109,7 +111,7 @@ fn a_first_node_file_of_ones_own_is_found() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     watched.write("nodes/own/level.wgsl", level(0.5));
     watched.window.until("another kind", |editor| {
-        editor.document.kinds().0.library.kind("own/level").is_some()
+        editor.documents.document.kinds().0.library.kind("own/level").is_some()
     });
 }
 
@@ -117,7 +119,7 @@ fn a_first_node_file_of_ones_own_is_found() {
 fn a_model_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     let triangles = |editor: &Editor| {
-        let model = editor.stage.shown_model.as_ref().expect("a model");
+        let model = editor.evaluation.shown_model.as_ref().expect("a model");
         model.linked.model.mesh.triangles.len()
     };
     let of_cube = triangles(watched.window.editor());
@@ -131,12 +133,12 @@ fn a_model_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
     watched.write("cube.glb", &sphere[..100]);
     watched
         .window
-        .until("a failure", |editor| editor.stage.model_failure.is_some());
+        .until("a failure", |editor| editor.evaluation.model_failure.is_some());
     assert_eq!(triangles(watched.window.editor()), of_sphere, "the last good one stays");
     watched.write("cube.glb", include_bytes!("../../../../../assets/meshes/cube.glb"));
     watched.window.until("a model", |editor| triangles(editor) == of_cube);
     watched.rest();
-    assert_eq!(watched.window.editor().stage.model_failure, None);
+    assert_eq!(watched.window.editor().evaluation.model_failure, None);
 }
 
 /// A picture of one gray pixel, as a BMP file.
@@ -184,7 +186,9 @@ const PLAIN: &str = r##""seen": { "kind": "color/constant", "params": { "color":
 fn a_graph_that_another_program_writes_is_asked_about_and_can_be_opened_anew() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     watched.write("graph.sabi", graph_of(&PLAIN.replace("#ffffff", "#000000")));
-    watched.window.until("a question", |editor| editor.watching.is_asked);
+    watched
+        .window
+        .until("a question", |editor| editor.documents.is_file_foreign);
     watched.rest();
     assert_eq!(
         value_of(watched.window.editor()),
@@ -193,8 +197,8 @@ fn a_graph_that_another_program_writes_is_asked_about_and_can_be_opened_anew() {
     );
     watched.window.harness.get_by_label("Open it anew").click();
     watched.until_value(0.0);
-    assert!(!watched.window.editor().watching.is_asked);
-    let document = &mut watched.window.harness.state_mut().document;
+    assert!(!watched.window.editor().documents.is_file_foreign);
+    let document = &mut watched.window.harness.state_mut().documents.document;
     assert!(!document.session.is_dirty());
     document.undo();
     watched.until_value(1.0);
@@ -205,10 +209,14 @@ fn what_is_here_can_be_kept_when_another_program_writes_the_graph() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     let theirs = graph_of(&PLAIN.replace("#ffffff", "#000000"));
     watched.write("graph.sabi", &theirs);
-    watched.window.until("a question", |editor| editor.watching.is_asked);
+    watched
+        .window
+        .until("a question", |editor| editor.documents.is_file_foreign);
     watched.window.harness.run_steps(2);
     watched.window.harness.get_by_label("Keep what is here").click();
-    watched.window.until("an answer", |editor| !editor.watching.is_asked);
+    watched
+        .window
+        .until("an answer", |editor| !editor.documents.is_file_foreign);
     assert!(!watched.window.asks_to_close(), "what is here is in no file");
     watched.window.press("Save");
     assert_eq!(fs::read_to_string(watched.path("graph.sabi.bak")).ok(), Some(theirs));
@@ -222,7 +230,7 @@ fn saving_is_no_news() {
     let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
     let editor = watched.window.harness.state_mut();
     let seen = "seen".parse().expect("an id");
-    editor.document.set_knob(
+    editor.documents.document.set_knob(
         &seen,
         "projection",
         Some(sabi_graph::Value::Text("triplanar".to_owned())),
@@ -231,7 +239,7 @@ fn saving_is_no_news() {
     // What is written later is told later.
     watched.write("gray.bmp", picture(255));
     watched.until_value(1.0);
-    assert!(!watched.window.editor().watching.is_asked);
+    assert!(!watched.window.editor().documents.is_file_foreign);
 }
 
 #[test]
@@ -256,9 +264,9 @@ fn light(value: u8) -> Vec<u8> {
 fn an_environment_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
     let mut watched = Watched::of(PLAIN, &[("sky.hdr", &light(40))], 1.0);
     let sky = watched.path("sky.hdr");
-    let number = |watched: &Watched| watched.window.editor().model_view.environment_number();
+    let number = |watched: &Watched| watched.window.editor().views.model.environment_number();
     let comes = |watched: &mut Watched, after: u64| {
-        let is_other = move |editor: &Editor| editor.model_view.environment_number() > after;
+        let is_other = move |editor: &Editor| editor.views.model.environment_number() > after;
         watched.window.until("the environment", is_other);
     };
     comes(&mut watched, 0);
@@ -270,7 +278,10 @@ fn an_environment_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last
     watched.write("sky.hdr", light(200));
     comes(&mut watched, before);
     watched.write("sky.hdr", "nothing");
-    let is_said = |editor: &Editor| editor.notices.iter().any(|(_, said)| said.contains("sky.hdr"));
+    let is_said = |editor: &Editor| editor.shell.notices.has("sky.hdr");
     watched.window.until("the sentence", is_said);
-    assert!(watched.window.editor().model_view.is_ready_made(), "the last one stays");
+    assert!(
+        watched.window.editor().views.model.is_ready_made(),
+        "the last one stays"
+    );
 }

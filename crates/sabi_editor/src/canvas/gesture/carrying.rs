@@ -7,9 +7,9 @@ use sabi_editing::{GRID, OpenDocument};
 use sabi_graph::{NodeId, SlotRef};
 
 use super::super::wires::{self, Wire};
-use super::super::{Around, Canvas, frames, node_rect};
+use super::super::{Around, Canvas, frame_rects, node_rect};
 use super::{Gesture, pull};
-use crate::action::{Action, FrameAsk, WireAsk};
+use crate::action::{Action, FrameAction, MoveAction, WireAction};
 
 impl Gesture {
     /// The wire that would take the dragged node; or, with nothing in hand, the one under the pointer.
@@ -60,7 +60,7 @@ impl Canvas {
             let Some(node) = around.document.node(id) else { return };
             from = BTreeMap::from([(id.clone(), node.pos)]);
         }
-        actions.push(Action::BeginMove);
+        actions.push(Action::Move(MoveAction::Begin));
         if modifiers.alt {
             actions.push(Action::TakeOut);
         }
@@ -83,7 +83,7 @@ pub(super) fn drag(
     actions: &mut Vec<Action>,
 ) {
     if ui.input(|input| input.key_pressed(Key::Escape)) {
-        actions.push(Action::TakeBack);
+        actions.push(Action::Move(MoveAction::Cancel));
         canvas.gesture = Gesture::Idle;
         return;
     }
@@ -113,7 +113,7 @@ pub(super) fn drag(
             [0, 1].map(|axis| (f64::from(pos[axis]) + offset[axis]) as f32),
         )
     });
-    actions.push(Action::Move(places.collect()));
+    actions.push(Action::Move(MoveAction::To(places.collect())));
     if is_down {
         return;
     }
@@ -125,11 +125,11 @@ pub(super) fn drag(
         && let Some(id) = from.keys().next()
     {
         let node = id.clone();
-        actions.push(Action::Wire(WireAsk::Insert { node, into }));
+        actions.push(Action::Wire(WireAction::Insert { node, into }));
     }
-    if !is_frame && let Some(frame) = frames::under(canvas, around.document, pointer) {
-        actions.push(Action::Frame(FrameAsk::Fill(Some(frame))));
+    if !is_frame && let Some(frame) = frame_rects::under(canvas, around.document, pointer) {
+        actions.push(Action::Frame(FrameAction::Fill(Some(frame))));
     }
-    actions.push(Action::EndMove);
+    actions.push(Action::Move(MoveAction::End));
     canvas.gesture = Gesture::Idle;
 }

@@ -6,7 +6,7 @@ use sabi_graph::{NodeId, SlotRef};
 use super::super::wires::Wire;
 use super::super::{Around, Canvas, node_rect};
 use super::Gesture;
-use crate::action::{Action, WireAsk};
+use crate::action::{Action, WireAction};
 
 pub(super) fn end_box(
     canvas: &mut Canvas,
@@ -64,7 +64,7 @@ pub(super) fn end_line(
         .map(|wire| wire.to.clone())
         .collect();
     if !cut.is_empty() {
-        actions.push(Action::Wire(WireAsk::Cut(cut)));
+        actions.push(Action::Wire(WireAction::Cut(cut)));
     }
 }
 

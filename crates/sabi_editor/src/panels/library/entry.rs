@@ -4,38 +4,31 @@ use egui::epaint::RectShape;
 use egui::{Align2, Color32, FontId, Key, Pos2, Rect, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
 use egui_phosphor::regular as icon;
 
-use crate::action::Action;
-use crate::app::Editor;
+use crate::action::{Action, SettingAction};
 use crate::command::{Command, Favorite};
+use crate::context::ViewContext;
 use crate::search::Candidate;
-use crate::theme::{Theme, space, type_size};
+use crate::theme::{space, type_size};
 
 /// Heights of entries without and with a picture.
 const HEIGHT: f32 = 22.0;
 const WITH_PICTURE: f32 = 40.0;
-/// Room for the star and what it is added by.
+/// Width of the star and the key.
 const STAR: f32 = 34.0;
 
-/// What is shown of an entry.
-pub(super) struct Shown<'a> {
+/// One entry of the library.
+pub(super) struct Entry<'a> {
     pub(super) candidate: &'a Candidate,
     /// Its place among the favorites.
     pub(super) number: Option<usize>,
     pub(super) picture: Option<TextureId>,
 }
 
-/// What is done with an entry.
-pub(super) struct Touched {
-    /// It becomes a favorite, or is one no longer.
-    pub(super) is_starred: bool,
-    /// Where it is dragged.
-    pub(super) dragged: Option<Pos2>,
-}
-
-impl Shown<'_> {
-    /// Shows it; says what is done with it besides adding it.
-    pub(super) fn show(&self, ui: &mut Ui, theme: &Theme, editor: &Editor, actions: &mut Vec<Action>) -> Touched {
-        let face = &self.candidate.face;
+impl Entry<'_> {
+    /// Shows the entry and gives what is asked for.
+    pub(super) fn show(&self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        let mut actions = Vec::new();
+        let Candidate { new, face, .. } = self.candidate;
         let height = if self.picture.is_some() { WITH_PICTURE } else { HEIGHT };
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &face.label));
@@ -46,28 +39,17 @@ impl Shown<'_> {
             WidgetInfo::selected(WidgetType::Checkbox, true, self.number.is_some(), name)
         });
         if ui.is_rect_visible(rect) {
-            self.paint(ui, theme, editor, rect, response.hovered(), star.hovered());
+            self.paint(ui, context, rect, response.hovered(), star.hovered());
         }
-        let (at, is_given_up) = ui.input(|input| (input.pointer.latest_pos(), input.key_pressed(Key::Escape)));
-        let dragged = at.filter(|_| response.dragged());
-        if let Some(at) = dragged {
-            editor.canvas.ghost(ui, theme, &editor.document, face, at);
-        }
-        let (place, into) = if response.clicked() {
-            (Some(editor.canvas.middle()), None)
-        } else if let Some(at) = at.filter(|_| response.drag_stopped() && !is_given_up) {
-            let wire = editor.canvas.wire_for(&editor.document, face, at);
-            (editor.canvas.place_at(at), wire.map(|wire| wire.to))
-        } else {
-            (None, None)
-        };
-        if let Some(place) = place {
-            actions.push(Action::Add {
-                kind: self.candidate.new.clone(),
-                place,
-                loose: None,
-                into,
-            });
+        let (at, is_canceled) = ui.input(|input| (input.pointer.latest_pos(), input.key_pressed(Key::Escape)));
+        if response.clicked() {
+            actions.push(Action::AddInMiddle(new.clone()));
+        } else if let Some(at) = at.filter(|_| response.dragged()) {
+            let face = face.clone();
+            actions.push(Action::DragNew { face, at });
+        } else if let Some(at) = at.filter(|_| response.drag_stopped() && !is_canceled) {
+            let (new, face) = (new.clone(), face.clone());
+            actions.push(Action::DropNew { new, face, at });
         }
         if !response.dragged() {
             response.on_hover_text(&face.summary);
@@ -76,13 +58,15 @@ impl Shown<'_> {
             Some(_) => "No favorite any more",
             None => "A favorite; the first nine are added by the keys 1 to 9",
         };
-        Touched {
-            is_starred: star.on_hover_text(told).clicked(),
-            dragged,
+        if star.on_hover_text(told).clicked() {
+            let favorite = SettingAction::ToggleFavorite(new.key());
+            actions.push(Action::Setting(favorite));
         }
+        actions
     }
 
-    fn paint(&self, ui: &Ui, theme: &Theme, editor: &Editor, rect: Rect, is_hovered: bool, is_on_star: bool) {
+    fn paint(&self, ui: &Ui, context: &ViewContext<'_>, rect: Rect, is_hovered: bool, is_on_star: bool) {
+        let theme = context.theme;
         let painter = ui.painter();
         if is_hovered || is_on_star {
             painter.rect_filled(rect, space::CORNER, theme.raised);
@@ -102,7 +86,7 @@ impl Shown<'_> {
         let favorite = self.number.and_then(|number| Favorite::ALL.get(number));
         if let Some(favorite) = favorite {
             let at = pos2(rect.left() + 20.0, rect.center().y);
-            let keys = editor.keys().shown(Command::Favorite(*favorite));
+            let keys = context.keys.shown(Command::Favorite(*favorite));
             write(at, Align2::LEFT_CENTER, &keys, type_size::SMALL, theme.quiet);
         }
         let mut left = rect.left() + STAR;

@@ -1,33 +1,33 @@
-//! What nodes that come with the program do, in small pictures, made ready beside the window.
+//! Small pictures of what built-in nodes do, loaded on a thread of their own.
 
 use std::collections::BTreeMap;
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use sabi_engine::catalog::{Catalog, picture_of};
 
-use crate::errand::Errand;
+use crate::task::Task;
 
 /// Pixels along a side.
 const SIDE: u32 = 72;
 
-/// Small pictures of nodes.
+/// Small pictures of what built-in nodes do.
 #[derive(Default)]
 pub(super) struct Pictures {
-    coming: Option<Errand<Vec<(String, ColorImage)>>>,
+    coming: Option<Task<Vec<(String, ColorImage)>>>,
     textures: BTreeMap<String, TextureHandle>,
 }
 
 impl Pictures {
-    /// Begins to make them where that was not begun, and takes them once they are there.
+    /// Starts loading the pictures, and takes them over once they are loaded.
     pub(super) fn poll(&mut self, context: &Context, catalog: &Catalog) {
         if self.coming.is_none() {
             let kinds: Vec<String> = catalog.entries().map(|entry| entry.id.clone()).collect();
-            self.coming = Some(Errand::start(context, move || {
+            self.coming = Some(Task::start(context, move || {
                 kinds.into_iter().filter_map(drawn).collect()
             }));
         }
-        // A mistake in the making leaves the entries without pictures.
-        let Some(Ok(come)) = self.coming.as_ref().and_then(Errand::poll) else {
+        // Where loading fails, entries have no pictures.
+        let Some(Ok(come)) = self.coming.as_ref().and_then(Task::poll) else {
             return;
         };
         for (kind, image) in come {

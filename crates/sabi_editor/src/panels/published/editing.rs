@@ -5,7 +5,7 @@ use egui_phosphor::regular as icon;
 use sabi_editing::PanelKnob;
 use sabi_graph::Value;
 
-use crate::action::PanelAsk;
+use crate::action::PublishedAction;
 use crate::panels::field::Field;
 use crate::panels::order;
 use crate::theme::{Theme, space};
@@ -13,7 +13,7 @@ use crate::theme::{Theme, space};
 /// The knob that is dragged, by its name.
 struct Dragged(String);
 
-pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut Vec<PanelAsk>) {
+pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut Vec<PublishedAction>) {
     let rows: Vec<Rect> = panel.iter().map(|knob| card(ui, theme, knob, asked)).collect();
     let title = |dragged: &Dragged| {
         let knob = panel.iter().find(|knob| knob.name == dragged.0)?;
@@ -22,11 +22,11 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut 
     if let Some((dragged, gap)) = order::dropped(ui, theme, &rows, title) {
         let before = panel.get(gap).map(|knob| knob.name.clone());
         let name = dragged.0.clone();
-        asked.push(PanelAsk::Move { name, before });
+        asked.push(PublishedAction::Move { name, before });
     }
 }
 
-fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) -> Rect {
+fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) -> Rect {
     let frame = egui::Frame::new()
         .fill(theme.raised)
         .corner_radius(space::CORNER)
@@ -45,7 +45,7 @@ fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>)
 }
 
 /// The handle by which it is dragged, the name that artists see, and the way off the panel.
-fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
+fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     ui.horizontal(|ui| {
         let sign = RichText::new(icon::DOTS_SIX_VERTICAL).color(theme.quiet);
         let handle = ui.add(egui::Label::new(sign).sense(Sense::drag()));
@@ -61,7 +61,7 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>)
         };
         if let Some(label) = label.show(ui, ("label", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PanelAsk::Label { name, label });
+            asked.push(PublishedAction::Label { name, label });
         }
         let off = ui.small_button(icon::TRASH);
         off.widget_info(|| {
@@ -69,13 +69,13 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>)
             WidgetInfo::labeled(WidgetType::Button, true, name)
         });
         if off.on_hover_text("Take off the panel").clicked() {
-            asked.push(PanelAsk::TakeOff(knob.name.clone()));
+            asked.push(PublishedAction::TakeOff(knob.name.clone()));
         }
     });
 }
 
 /// The name in files, and the section.
-fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
+fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     ui.horizontal(|ui| {
         let half = ((ui.available_width() - space::USUAL) / 2.0 - space::USUAL).floor();
         let name = Field {
@@ -86,7 +86,7 @@ fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
         };
         if let Some(to) = name.show(ui, ("name", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PanelAsk::Rename { name, to });
+            asked.push(PublishedAction::Rename { name, to });
         }
         let section = Field {
             name: "Section",
@@ -96,13 +96,13 @@ fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
         };
         if let Some(section) = section.show(ui, ("section", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PanelAsk::Section { name, section });
+            asked.push(PublishedAction::Section { name, section });
         }
     });
 }
 
 /// The ends between which it may be turned.
-fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
+fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "From");
         let own = knob.exposed.range;
@@ -119,22 +119,22 @@ fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>
         let name = knob.name.clone();
         if has_changed {
             let range = Some([low.min(high), high.max(low)]);
-            asked.push(PanelAsk::Range { name, range });
+            asked.push(PublishedAction::Range { name, range });
         } else if own.is_some() && sign(ui, icon::X, "The range of its node").clicked() {
-            asked.push(PanelAsk::Range { name, range: None });
+            asked.push(PublishedAction::Range { name, range: None });
         }
     });
 }
 
 /// What it holds while nobody sets it.
-fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>) {
+fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     ui.horizontal(|ui| {
         let name = knob.name.clone();
         match &knob.exposed.default {
             Some(held) => {
                 ui.colored_label(theme.quiet, format!("Starts at {}", held.to_json()));
                 if sign(ui, icon::X, "Start as its nodes are set").clicked() {
-                    asked.push(PanelAsk::Default { name, default: None });
+                    asked.push(PublishedAction::Default { name, default: None });
                 }
             }
             None => {
@@ -142,7 +142,7 @@ fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelAsk>
                 let told = "Keeps the present value as what it starts from, whatever its nodes are set to";
                 if keep.on_hover_text(told).clicked() {
                     let default = Some(knob.value.clone());
-                    asked.push(PanelAsk::Default { name, default });
+                    asked.push(PublishedAction::Default { name, default });
                 }
             }
         }

@@ -8,9 +8,10 @@ use egui_phosphor::regular as icon;
 use sabi_editing::Layer;
 use sabi_graph::Value;
 
-use crate::action::{Action, LayerAsk};
-use crate::app::Editor;
+use crate::action::{Action, LayerAction};
+use crate::context::ViewContext;
 use crate::knobs::{KnobEvent, KnobRow, knob_inline};
+use crate::looks::result_of;
 use crate::theme::{Theme, space, type_size};
 
 /// Height of a row.
@@ -30,15 +31,15 @@ pub(super) enum Ask {
 
 /// Shows a layer; what comes back is what a drag takes.
 pub(super) fn show(
-    editor: &Editor,
     ui: &mut Ui,
-    theme: &Theme,
+    context: &ViewContext<'_>,
     layer: &Layer,
-    asked: impl Fn(Ask) -> LayerAsk,
+    asked: impl Fn(Ask) -> LayerAction,
     actions: &mut Vec<Action>,
 ) -> Response {
+    let (document, theme) = (context.document, context.theme);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click_and_drag());
-    let is_selected = editor.document.is_selected(&layer.node);
+    let is_selected = document.is_selected(&layer.node);
     response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, &layer.title));
     let fill = match (is_selected, response.hovered()) {
         (true, _) => theme.raised.lerp_to_gamma(theme.accent, 0.25),
@@ -62,19 +63,19 @@ pub(super) fn show(
         actions.push(Action::Layer(asked(Ask::Toggle)));
     }
     let tint = Color32::from_white_alpha(if layer.is_muted { 90 } else { 255 });
-    let own = editor.thumbnail_of(&layer.node);
+    let own = context.node_picture(&layer.node);
     picture(ui, theme, left(&mut room, PICTURE), own, tint);
     if let Some(mask) = &layer.mask {
         left(&mut room, space::TIGHT);
         let place = left(&mut room, MASK);
         let place = Align2::CENTER_CENTER.align_size_within_rect(Vec2::splat(MASK), place);
-        let shown = editor.picture_of(&editor.reference(&mask.node, mask.port.clone()));
+        let shown = context.result_picture(&result_of(document, &mask.node, mask.port.clone()));
         picture(ui, theme, place, shown, tint);
-        mask_of(editor, ui, layer, place, actions);
+        mask_of(ui, context, layer, place, actions);
     }
     left(&mut room, space::USUAL);
     end(ui, theme, layer, &mut room, &asked, actions);
-    name_and_opacity(editor, ui, theme, layer, room, &asked, actions);
+    name_and_opacity(ui, context, layer, room, &asked, actions);
     if response.clicked() {
         actions.push(Action::Select(vec![layer.node.clone()]));
         actions.push(Action::Show {
@@ -110,13 +111,13 @@ fn picture(ui: &Ui, theme: &Theme, rect: Rect, picture: Option<TextureId>, tint:
 }
 
 /// A click on the mask goes to where it comes from.
-fn mask_of(editor: &Editor, ui: &Ui, layer: &Layer, rect: Rect, actions: &mut Vec<Action>) {
+fn mask_of(ui: &Ui, context: &ViewContext<'_>, layer: &Layer, rect: Rect, actions: &mut Vec<Action>) {
     let Some(mask) = &layer.mask else { return };
-    let title = editor.document.title(&mask.node);
+    let title = context.document.title(&mask.node);
     let response = ui.interact(rect, ui.id().with(("mask", &layer.node)), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Mask of {}", layer.title)));
     if response.hovered() {
-        let line = Stroke::new(1.0, editor.theme().accent);
+        let line = Stroke::new(1.0, context.theme.accent);
         ui.painter().rect_stroke(rect, space::CORNER, line, StrokeKind::Inside);
     }
     if response.on_hover_text(format!("Where: {title}")).clicked() {
@@ -134,7 +135,7 @@ fn end(
     theme: &Theme,
     layer: &Layer,
     room: &mut Rect,
-    asked: &impl Fn(Ask) -> LayerAsk,
+    asked: &impl Fn(Ask) -> LayerAction,
     actions: &mut Vec<Action>,
 ) {
     let (rest, place) = room.split_left_right_at_x((room.right() - SIGN).max(room.left()));
@@ -157,15 +158,15 @@ fn end(
 }
 
 fn name_and_opacity(
-    editor: &Editor,
     ui: &mut Ui,
-    theme: &Theme,
+    context: &ViewContext<'_>,
     layer: &Layer,
     room: Rect,
-    asked: &impl Fn(Ask) -> LayerAsk,
+    asked: &impl Fn(Ask) -> LayerAction,
     actions: &mut Vec<Action>,
 ) {
-    let knob = editor.document.face(&layer.node).and_then(|face| face.knob("opacity"));
+    let theme = context.theme;
+    let knob = context.document.face(&layer.node).and_then(|face| face.knob("opacity"));
     let bar = knob.zip(layer.opacity).filter(|_| layer.opacity.is_some());
     let (name, below) = match bar {
         Some(_) => room.split_top_bottom_at_y(room.center().y - 2.0),

@@ -20,7 +20,7 @@ impl Window {
 
     /// Names on the strip of models.
     fn strip(&self) -> Vec<String> {
-        let models = self.editor().settings.models.iter();
+        let models = self.editor().shell.settings.models.iter();
         models
             .map(|model| model.file_stem().unwrap_or_default().to_string_lossy().into_owned())
             .collect()
@@ -41,12 +41,12 @@ fn models_are_added_to_the_strip_switched_and_taken_off() {
     std::fs::write(&sphere, include_bytes!("../../../../../../assets/meshes/sphere.glb")).expect("a model");
     window.add_model(&sphere.display().to_string());
     assert_eq!(window.strip(), ["cube", "sphere"]);
-    let file = |editor: &crate::app::Editor| editor.stage.model_file().to_owned();
+    let file = |editor: &crate::app::Editor| editor.evaluation.model_file().to_owned();
     assert_eq!(file(window.editor()), sphere);
-    window.until("the sphere", |editor| editor.stage.loaded_model().1);
+    window.until("the sphere", |editor| editor.evaluation.loaded_model().1);
     window.click_at(window.entry("cube"));
     assert!(file(window.editor()).ends_with("cube.glb"));
-    window.until("the cube", |editor| editor.stage.loaded_model().1);
+    window.until("the cube", |editor| editor.evaluation.loaded_model().1);
     window.click_with(window.entry("sphere"), PointerButton::Secondary, egui::Modifiers::NONE);
     window.press("Take off the strip");
     assert_eq!(window.strip(), ["cube"]);
@@ -70,12 +70,12 @@ fn an_environment_that_is_gone_is_told_and_another_stands_in_for_it() {
     let gone = window.path("gone.hdr").display().to_string();
     let environment = gone.clone();
     let editor = window.harness.state_mut();
-    editor.settings.environment.clone_from(&environment);
-    editor.model_view = crate::model_view::ModelView::new(&environment, &editor.settings.view);
-    window.until("a picture", |editor| editor.model_view.drawn > 0);
+    editor.shell.settings.environment.clone_from(&environment);
+    editor.views.model = crate::model_view::ModelView::new(&environment, &editor.shell.settings.view);
+    window.until("a picture", |editor| editor.views.model.drawn > 0);
     assert!(window.says("gone.hdr"), "{:?}", window.labels());
     assert_eq!(
-        window.editor().settings.environment,
+        window.editor().shell.settings.environment,
         gone,
         "it may be there the next time"
     );
@@ -87,27 +87,27 @@ fn menus_choose_the_mode_the_environment_and_the_light() {
     window.until_model();
     window.open_menu(icon::SPHERE, "Material");
     window.press("Roughness");
-    assert_eq!(window.editor().model_view.shot.mode, Mode::Roughness);
+    assert_eq!(window.editor().views.model.shot.mode, Mode::Roughness);
     window.key(Key::Escape);
     window.open_menu(icon::SUN, "Light");
     let other = sabi_engine::built_in_environments()
-        .find(|name| *name != window.editor().settings.environment)
+        .find(|name| *name != window.editor().shell.settings.environment)
         .expect("another environment");
     window.press(&other.replace('_', " "));
-    assert_eq!(window.editor().settings.environment, other);
+    assert_eq!(window.editor().shell.settings.environment, other);
     window.press("ACES");
-    assert_eq!(window.editor().model_view.shot.transform, ViewTransform::Aces);
+    assert_eq!(window.editor().views.model.shot.transform, ViewTransform::Aces);
     let bar = window.harness.get_by_role_and_label(Role::Slider, "Exposure").rect();
     window.click_at(pos2(bar.right() - 2.0, bar.center().y));
-    assert!(window.editor().model_view.shot.exposure_stops > 5.0);
+    assert!(window.editor().views.model.shot.exposure_stops > 5.0);
     window.key(Key::Escape);
     window.open_menu(icon::EYE, "Show");
     window.harness.get_by_role_and_label(Role::CheckBox, "Relief").click();
     window.settle();
-    assert!(window.editor().model_view.shot.has_relief);
+    assert!(window.editor().views.model.shot.has_relief);
     window.press("Plain");
     assert!(matches!(
-        window.editor().model_view.shot.background,
+        window.editor().views.model.shot.background,
         sabi_engine::view::Background::Plain(_)
     ));
 }
@@ -116,25 +116,25 @@ fn menus_choose_the_mode_the_environment_and_the_light() {
 fn lights_are_added_shown_kept_and_removed() {
     let mut window = Window::empty();
     window.until_model();
-    window.until("a picture", |editor| editor.model_view.drawn > 0);
+    window.until("a picture", |editor| editor.views.model.drawn > 0);
     window.open_menu(icon::SUN, "Light");
     window.settle();
     let editor = window.editor();
-    let without = editor.model_view.picture(editor.stage.gpu()).expect("a picture");
+    let without = editor.views.model.picture(editor.evaluation.gpu()).expect("a picture");
     for count in 1..=4 {
         window.press("Add a light");
         window.settle();
-        assert_eq!(window.editor().model_view.lights(), count);
+        assert_eq!(window.editor().views.model.lights(), count);
     }
     window.until("the light of them", |editor| {
-        let now = editor.model_view.picture(editor.stage.gpu());
+        let now = editor.views.model.picture(editor.evaluation.gpu());
         now.is_some_and(|now| now != without)
     });
     window.press("Add a light");
-    assert_eq!(window.editor().model_view.lights(), 4, "there is room for no more");
+    assert_eq!(window.editor().views.model.lights(), 4, "there is room for no more");
     window.press("Remove light 2");
-    assert_eq!(window.editor().model_view.lights(), 3);
-    let kept = serde_json::to_string(&window.editor().model_view.choices()).expect("text");
+    assert_eq!(window.editor().views.model.lights(), 3);
+    let kept = serde_json::to_string(&window.editor().views.model.choices()).expect("text");
     assert_eq!(kept.matches("has_shadow").count(), 3, "{kept}");
 }
 
@@ -152,14 +152,14 @@ fn a_length_that_is_pointed_at_is_a_bar_on_the_model_with_its_length_in_both_uni
     assert!(!says(&window));
     window.point(window.knob("Radius"));
     window.settle();
-    assert!(says(&window) && window.editor().model_view.length == Some(0.05));
+    assert!(says(&window) && window.editor().views.model.length == Some(0.05));
     // What is told on the picture comes and goes, and the menus beside it are the same.
     window.open_menu(icon::EYE, "Show");
     window.harness.get_by_role_and_label(Role::CheckBox, "Relief");
     window.key(Key::Escape);
     window.point(window.on_canvas([0.5, 0.97]));
     window.settle();
-    assert!(!says(&window) && window.editor().model_view.length.is_none());
+    assert!(!says(&window) && window.editor().views.model.length.is_none());
 }
 
 #[test]
@@ -178,8 +178,8 @@ fn a_length_on_a_node_is_shown_too_while_another_panel_is_in_front() {
         .expect("a knob on the node");
     window.point(bar);
     window.settle();
-    assert_eq!(window.editor().model_view.length, Some(0.25));
+    assert_eq!(window.editor().views.model.length, Some(0.25));
     window.point(window.on_canvas([0.5, 0.97]));
     window.settle();
-    assert_eq!(window.editor().model_view.length, None);
+    assert_eq!(window.editor().views.model.length, None);
 }

@@ -20,9 +20,9 @@ impl Window {
     fn take_dropper(&mut self, node: &NodeId) {
         self.click_at(self.title(node));
         self.press("Color: take from the model or the texture");
-        assert!(self.editor().is_taking_color());
+        assert!(self.editor().looks.color_target.is_some());
         self.until("what is seen", |editor| {
-            editor.stage.picture(&editor.seen()).is_some() && !editor.stage.is_busy()
+            editor.evaluation.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
         });
     }
 
@@ -56,7 +56,7 @@ fn a_click_on_the_model_takes_the_color_that_is_seen_there_and_not_the_nodes_own
     );
     window.click_at(middle);
     assert_eq!(window.color("tint"), "#c04020");
-    assert!(!window.editor().is_taking_color());
+    assert!(!window.editor().looks.color_target.is_some());
     assert_eq!(window.steps(), 1);
 }
 
@@ -67,7 +67,7 @@ fn a_click_on_the_texture_takes_a_color_too() {
     window.click_at(window.title(&id("paint")));
     window.until("the texture", |editor| {
         editor
-            .stage
+            .evaluation
             .inspected
             .as_ref()
             .is_some_and(|(node, _)| node.node == "paint")
@@ -82,7 +82,7 @@ fn escape_gives_it_up_and_leaves_no_group() {
     window.take_dropper(&id("tint"));
     window.point(window.on_canvas([0.9, 0.5]));
     window.key(Key::Escape);
-    assert!(!window.editor().is_taking_color());
+    assert!(!window.editor().looks.color_target.is_some());
     window.click_at(window.at_model([0.5, 0.5]));
     assert_eq!((window.color("tint").as_str(), window.steps()), ("#336699", 0));
 }
@@ -95,11 +95,11 @@ fn where_there_is_no_color_it_says_so_and_waits() {
     assert!(window.says("There is no surface under the pointer"));
     window.click_at(window.title(&id("clouds")));
     window.until("the mask", |editor| {
-        editor.stage.picture(&editor.seen()).is_some() && !editor.stage.is_busy()
+        editor.evaluation.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
     });
     window.click_at(window.at_model([0.5, 0.5]));
     assert!(window.says("The model shows a mask, which has no color"));
-    assert!(window.editor().is_taking_color());
+    assert!(window.editor().looks.color_target.is_some());
     assert_eq!(window.color("tint"), "#336699");
 }
 

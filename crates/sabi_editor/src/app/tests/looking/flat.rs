@@ -15,7 +15,7 @@ const COLOR: &str = r##"
 fn painted() -> Window {
     let mut window = Window::opened(COLOR);
     window.click_at(window.title(&id("paint")));
-    window.until("the texture", |editor| editor.stage.inspected.is_some());
+    window.until("the texture", |editor| editor.evaluation.inspected.is_some());
     window
 }
 
@@ -30,7 +30,7 @@ impl Window {
         let panel = self.texture();
         let side = panel.width().min(panel.height()) - 2.0 * space::USUAL;
         let square = Rect::from_center_size(panel.center(), vec2(side, side));
-        let color = self.editor().theme().accent.gamma_multiply(0.5);
+        let color = self.editor().shell.theme.accent.gamma_multiply(0.5);
         let share = |at: Pos2| ((at - square.min) / side).into();
         let shapes = self.harness.output().shapes.iter();
         let lines = shapes.filter_map(|clipped| match &clipped.shape {
@@ -86,7 +86,7 @@ fn the_wheel_zooms_into_the_texel_under_the_pointer_and_a_drag_moves_the_texture
     let place = |told: String| told.split("   ").next().unwrap_or_default().to_owned();
     let before = place(window.probed(at));
     window.wheel(at, 300.0);
-    assert!(window.editor().flat_view.zoom.is_some_and(|zoom| zoom > 4.0));
+    assert!(window.editor().views.flat.zoom.is_some_and(|zoom| zoom > 4.0));
     assert_eq!(place(window.probed(at)), before, "it stays under the pointer");
     let end = at + vec2(40.0, 25.0);
     window.drag_from(at, end);
@@ -111,10 +111,10 @@ fn each_texture_set_of_the_model_is_seen_with_its_own_edges() {
             window.press("steel");
         }
         window.until("the set", |editor| {
-            let inspected = editor.stage.inspected.as_ref();
-            inspected.is_some_and(|(_, values)| values.set.title() == name) && !editor.stage.is_busy()
+            let inspected = editor.evaluation.inspected.as_ref();
+            inspected.is_some_and(|(_, values)| values.set.title() == name) && !editor.evaluation.is_busy()
         });
-        let (_, values) = window.editor().stage.inspected.clone().expect("values");
+        let (_, values) = window.editor().evaluation.inspected.clone().expect("values");
         let texels = values.is_on_surface.iter().filter(|is_on| **is_on).count() as f32;
         let side = 64.0 * (to - from);
         assert!((texels - side * side).abs() < 4.0 * side, "{name}: {texels} texels");

@@ -24,19 +24,19 @@ fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
     for at in 0..COUNT {
         window.harness.state_mut().look_at(&id(&format!("n{at}")), None);
         window.until("its picture", |editor| {
-            editor.stage.picture(&editor.seen()).is_some() && !editor.stage.is_busy()
+            editor.evaluation.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
         });
     }
-    let [pictures, thumbnails, times] = window.editor().stage.held();
+    let [pictures, thumbnails, times] = window.editor().evaluation.held();
     assert!(pictures <= 8, "{pictures} pictures of the model");
     assert!(thumbnails <= COUNT && times <= COUNT, "{thumbnails} {times}");
     let all = (0..COUNT).map(|at| id(&format!("n{at}")));
-    let document = &mut window.harness.state_mut().document;
+    let document = &mut window.harness.state_mut().documents.document;
     document.select(all.skip(1));
     document.delete(false);
     window.until("the end of it", |editor| {
-        let [pictures, thumbnails, times] = editor.stage.held();
-        pictures <= 2 && thumbnails <= 1 && times <= 1 && !editor.stage.is_busy()
+        let [pictures, thumbnails, times] = editor.evaluation.held();
+        pictures <= 2 && thumbnails <= 1 && times <= 1 && !editor.evaluation.is_busy()
     });
     window.undo(1);
     window.until("the pictures that were let go of", |editor| {
@@ -48,7 +48,7 @@ fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
 fn choices_of_looking_are_there_again_in_the_next_run() {
     let mut window = Window::untitled();
     let editor = window.harness.state_mut();
-    let shot = &mut editor.model_view.shot;
+    let shot = &mut editor.views.model.shot;
     shot.exposure_stops = 1.5;
     shot.transform = ViewTransform::Standard;
     shot.background = Background::Environment;
@@ -56,13 +56,13 @@ fn choices_of_looking_are_there_again_in_the_next_run() {
     window.point(window.on_canvas([0.5, 0.5]));
     window.key(egui::Key::N);
     window.keys(Modifiers::SHIFT, egui::Key::V);
-    window.harness.state_mut().keep_settings();
+    window.harness.state_mut().save_settings();
     let Window { harness, folder, .. } = window;
     drop(harness);
     let again = Window::in_folder(folder, |folders| Session::new(folders.recovery.as_deref()));
     let editor = again.editor();
-    let shot = &editor.model_view.shot;
+    let shot = &editor.views.model.shot;
     assert_eq!((shot.exposure_stops, shot.transform), (1.5, ViewTransform::Standard));
     assert!(shot.background == Background::Environment && shot.has_relief);
-    assert!(editor.settings.has_mini_map && !editor.settings.follows);
+    assert!(editor.shell.settings.has_mini_map && !editor.shell.settings.follows);
 }

@@ -11,10 +11,12 @@ use crate::dock::Panel;
 fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
     let mut window = Window::opened(NODES);
     window.until("times of both", |editor| {
-        ["cells", "dots"].iter().all(|node| editor.stage.time(node).is_some())
+        ["cells", "dots"]
+            .iter()
+            .all(|node| editor.evaluation.time(node).is_some())
     });
     window.open(Panel::Performance);
-    let panel = window.editor().rects[&Panel::Performance];
+    let panel = window.editor().shell.dock.rects[&Panel::Performance];
     let row = |window: &Window, title: &str| {
         let found = window
             .harness
@@ -29,7 +31,7 @@ fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
     assert!(times.iter().any(is_beside), "its time");
     window.click_at(at);
     assert_eq!(window.document().selected_one(), Some(&id("dots")));
-    window.harness.state_mut().document.delete(false);
+    window.harness.state_mut().documents.document.delete(false);
     window.settle();
     assert!(row(&window, "Spots").is_none() && row(&window, "Tiles").is_some());
 }

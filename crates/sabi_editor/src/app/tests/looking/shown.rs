@@ -35,7 +35,7 @@ impl Window {
     }
 
     fn in_flat(&self) -> String {
-        self.editor().inspected().map(named).unwrap_or_default()
+        self.editor().looks.inspected().map(named).unwrap_or_default()
     }
 
     /// Opens a menu on the picture of the model.
@@ -46,7 +46,7 @@ impl Window {
     /// Waits until the model is there, so that there is something to say of it.
     pub(super) fn until_model(&mut self) {
         self.until("the model", |editor| {
-            editor.model_view.drawn > 0 && editor.stage.loaded_model().1 && !editor.stage.is_busy()
+            editor.views.model.drawn > 0 && editor.evaluation.loaded_model().1 && !editor.evaluation.is_busy()
         });
     }
 }
@@ -81,7 +81,7 @@ fn a_locked_node_stays_on_the_model_whatever_is_clicked() {
 fn a_second_node_that_is_shown_takes_the_place_of_the_first() {
     let mut window = Window::opened(NODES);
     for node in ["cells", "dots", "dots"] {
-        window.harness.state_mut().document.select([id(node)]);
+        window.harness.state_mut().documents.document.select([id(node)]);
         window.point(window.on_canvas([0.9, 0.9]));
         window.key(Key::V);
         assert_eq!(window.on_model(), node);
@@ -140,11 +140,11 @@ fn the_menu_of_views_looks_from_where_its_entries_say() {
         "Perspective or parallel",
         "Show all of the model",
     ] {
-        window.harness.state_mut().model_view.camera.zoom(1.1);
-        let before = window.editor().model_view.camera;
+        window.harness.state_mut().views.model.camera.zoom(1.1);
+        let before = window.editor().views.model.camera;
         window.open_menu(icon::VIDEO_CAMERA, "View");
         window.press(entry);
-        let camera = window.editor().model_view.camera;
+        let camera = window.editor().views.model.camera;
         assert_ne!(camera, before, "{entry}");
         looks.push((camera.yaw_degrees, camera.pitch_degrees));
     }
@@ -177,7 +177,7 @@ fn a_pin_is_seen_on_its_node_and_above_the_texture_where_it_is_taken_off() {
     window.click_with(window.title(&id("cells")), PointerButton::Primary, both);
     window.click_at(window.title(&id("dots")));
     assert_eq!(window.in_flat(), "cells");
-    let panel = window.editor().rects[&Panel::Canvas];
+    let panel = window.editor().shell.dock.rects[&Panel::Canvas];
     let pinned = |window: &Window| {
         let nodes = window.harness.query_all_by_label("Tiles");
         let mut nodes = nodes.filter(|node| panel.contains(node.rect().center()));
@@ -194,7 +194,7 @@ fn what_cannot_be_shown_says_why_on_the_picture() {
     let mut window = Window::opened(r#""blur": { "kind": "filter/blur", "pos": [0, 0] }"#);
     window.until_model();
     window.click_at(window.title(&id("blur")));
-    window.until("the fault", |editor| editor.stage.fault("blur").is_some());
-    let fault = window.editor().stage.fault("blur").expect("a sentence").clone();
+    window.until("the fault", |editor| editor.evaluation.fault("blur").is_some());
+    let fault = window.editor().evaluation.fault("blur").expect("a sentence").clone();
     assert!(window.says(&format!("Follows: Blur — {fault}")));
 }

@@ -1,31 +1,31 @@
-//! Pictures that are let go of.
+//! Results that are dropped to bound memory.
 
 use sabi_editing::OpenDocument;
 use sabi_engine::ViewSubject;
 use sabi_graph::NodeRef;
 
-use super::{Picture, Stage, Wanted};
+use super::{Evaluation, Picture, Wanted};
 
-/// Pictures of the model that are kept besides those that are wanted, since one goes back to what one has just seen.
+/// Results on the model that are kept besides the wanted ones, since artists switch back to what they have just seen.
 const KEPT_PICTURES: usize = 6;
 
-impl Stage {
-    /// Lets go of what nobody wants and nobody will want soon: of nodes that are gone, of other models, of long ago.
-    pub(super) fn let_go(&mut self, document: &OpenDocument, wanted: &Wanted) {
+impl Evaluation {
+    /// Drops results that are not wanted and are of deleted nodes, of another model, or old.
+    pub(super) fn evict(&mut self, document: &OpenDocument, wanted: &Wanted) {
         let mut numbers: Vec<u64> = self.pictures.values().map(|picture| picture.number).collect();
         numbers.sort_unstable();
-        let oldest = numbers.len().saturating_sub(KEPT_PICTURES + wanted.seen.len());
-        let oldest = numbers.get(oldest).copied().unwrap_or_default();
+        let oldest = numbers.len().saturating_sub(KEPT_PICTURES + wanted.subjects.len());
+        let oldest = numbers.get(oldest).copied();
         let revision = self.model_revision;
         let is_kept = |seen: &ViewSubject, picture: &Picture| {
             let is_there = match seen {
                 ViewSubject::Outputs => true,
                 ViewSubject::Node(node) => document.has(&node.node),
             };
-            is_there && picture.number >= oldest && picture.model.model_revision == revision
+            is_there && oldest.is_none_or(|oldest| picture.number >= oldest) && picture.model.model_revision == revision
         };
         let gone = self.pictures.iter();
-        let gone = gone.filter(|(seen, picture)| !wanted.seen.contains(seen) && !is_kept(seen, picture));
+        let gone = gone.filter(|(seen, picture)| !wanted.subjects.contains(seen) && !is_kept(seen, picture));
         let gone: Vec<ViewSubject> = gone.map(|(seen, _)| seen.clone()).collect();
         let nodes = self.thumbnails.keys();
         let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !document.has(&node.node));
@@ -34,7 +34,7 @@ impl Stage {
         self.forget(gone, nodes);
     }
 
-    /// Lets go of all pictures of nodes, since another graph is opened.
+    /// Drops all results of nodes, since another graph is opened.
     pub(crate) fn forget_nodes(&mut self) {
         let seen = self.pictures.keys().filter(|seen| **seen != ViewSubject::Outputs);
         let (seen, nodes) = (seen.cloned().collect(), self.thumbnails.keys().cloned().collect());
@@ -42,7 +42,7 @@ impl Stage {
         self.forget(seen, nodes);
     }
 
-    /// Lets go of pictures, which come again once they are wanted again.
+    /// Drops results here and in the engine, which evaluates them again when they are wanted.
     fn forget(&mut self, seen: Vec<ViewSubject>, nodes: Vec<NodeRef>) {
         for seen in &seen {
             self.pictures.remove(seen);

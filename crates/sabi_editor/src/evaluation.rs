@@ -1,6 +1,6 @@
-//! The evaluation as the window sees it: what is wished for, and what has come of it.
+//! Client of the engine's evaluation thread: what the window asks for, and the newest results.
 
-mod letting_go;
+mod eviction;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -23,19 +23,19 @@ const COARSE: u32 = 256;
 /// Texels of full pictures where the graph names no size: what software drivers do in a blink, and what graphics cards do.
 const FULL: [u32; 2] = [512, 1024];
 
-/// What a viewport shows of one thing.
+/// Maps of one result on the model.
 #[derive(Clone)]
 pub(crate) struct Picture {
     pub(crate) model: Arc<LiveModel>,
-    pub(crate) shown: Arc<ModelLooks>,
-    /// Another number for every picture.
+    pub(crate) looks: Arc<ModelLooks>,
+    /// Rises with every picture.
     pub(crate) number: u64,
 }
 
-/// What the window wishes to see besides the graph itself.
+/// Results of the graph that the window shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Wanted {
-    pub(crate) seen: Vec<ViewSubject>,
+    pub(crate) subjects: Vec<ViewSubject>,
     pub(crate) inspected: Option<NodeRef>,
     pub(crate) set: Option<SetKey>,
     pub(crate) thumbnails: Vec<NodeRef>,
@@ -43,8 +43,8 @@ pub(crate) struct Wanted {
     pub(crate) is_moving: bool,
 }
 
-/// The evaluation as the window sees it.
-pub(crate) struct Stage {
+/// Client of the engine's evaluation thread.
+pub(crate) struct Evaluation {
     gpu: Arc<Gpu>,
     live: Live,
     cache_dir: Option<PathBuf>,
@@ -55,31 +55,32 @@ pub(crate) struct Stage {
     graph: Arc<OpenGraph>,
     /// Rises with the graph.
     graph_number: u64,
-    /// The graph's document without what no result hangs on.
+    /// Document without node positions and frames, which no result depends on.
     bare: Document,
-    /// Revisions of the graph and of its files that were looked at last.
+    /// Revisions of the graph and of its files that `bare` was made from.
     taken: Option<(u64, u64)>,
-    wishes: u64,
+    requests: u64,
     pictures: BTreeMap<ViewSubject, Picture>,
     thumbnails: BTreeMap<NodeRef, (TextureHandle, Pixels)>,
     pub(crate) inspected: Option<(NodeRef, Arc<Inspected>)>,
-    /// The finest model that came.
+    /// Highest-resolution model received so far.
     pub(crate) shown_model: Option<Arc<LiveModel>>,
     pub(crate) faults: Faults,
-    /// Pictures and group files that the graph names.
+    /// Images and group files that the graph names.
     pub(crate) files: Arc<BTreeSet<PathBuf>>,
     by_node: BTreeMap<String, String>,
     waiting: BTreeMap<String, String>,
     times: BTreeMap<String, Duration>,
     pub(crate) last: LiveTimes,
-    /// Why the last evaluation, or the model, failed.
+    /// Error of the last evaluation.
     pub(crate) failure: Option<String>,
+    /// Error of the last attempt to read the model.
     pub(crate) model_failure: Option<String>,
     pub(crate) lost: Option<EngineError>,
     numbers: u64,
 }
 
-/// What the graph and the model were when something was asked for.
+/// Revisions that a request was made for.
 #[derive(Clone, Debug, PartialEq)]
 struct Asked {
     document: u64,
@@ -88,21 +89,21 @@ struct Asked {
     files: u64,
 }
 
-impl Stage {
-    /// An evaluation on a device; `context` is woken when something comes.
+impl Evaluation {
+    /// Starts the evaluation on a device; `context` draws a frame when a result arrives.
     pub(crate) fn new(
         gpu: Arc<Gpu>,
         (model, reading): (&Path, Reading),
         cache_dir: Option<PathBuf>,
         context: &Context,
-    ) -> Stage {
+    ) -> Evaluation {
         let woken = context.clone();
         let options = LiveOptions {
             cache_dir: cache_dir.clone(),
             ..LiveOptions::default()
         };
         let live = Live::start(gpu.clone(), options, move || woken.request_repaint());
-        Stage {
+        Evaluation {
             live,
             model: Arc::new(reading.options(model, FULL[0], cache_dir.as_deref())),
             reading,
@@ -114,7 +115,7 @@ impl Stage {
             graph_number: 0,
             bare: Document::default(),
             taken: None,
-            wishes: 0,
+            requests: 0,
             pictures: BTreeMap::new(),
             thumbnails: BTreeMap::new(),
             inspected: None,
@@ -132,7 +133,7 @@ impl Stage {
         }
     }
 
-    /// Where what takes long is kept between runs.
+    /// Folder of results that are kept between runs.
     pub(crate) fn cache_dir(&self) -> Option<&Path> {
         self.cache_dir.as_deref()
     }
@@ -146,28 +147,28 @@ impl Stage {
         &self.model.path
     }
 
-    /// The model that is there, and whether it is the one that is wanted.
+    /// Revision of the received model, and whether it is the requested one.
     pub(crate) fn loaded_model(&self) -> (Option<u64>, bool) {
         let loaded = self.shown_model.as_ref().map(|model| model.model_revision);
         (loaded, loaded == Some(self.model_revision))
     }
 
-    /// Texels along a side that full pictures have.
+    /// Texels along a side of full-resolution results.
     pub(crate) fn size(&self) -> u32 {
         self.model.size
     }
 
-    /// Whether more is to come.
+    /// Whether results are still to arrive.
     pub(crate) fn is_busy(&self) -> bool {
         self.live.is_busy()
     }
 
-    /// How the model's file is read.
+    /// Options for reading the model's file.
     pub(crate) fn reading(&self) -> Reading {
         self.reading
     }
 
-    /// Takes another model, or the same one otherwise.
+    /// Evaluates on another model, or on the same one with other options.
     pub(crate) fn take_model(&mut self, file: &Path, reading: Reading) {
         self.reading = reading;
         self.model = Arc::new(self.model_at(file, self.model.size));
@@ -175,13 +176,13 @@ impl Stage {
         self.model_failure = None;
     }
 
-    /// Takes the same model anew, since its file changed.
+    /// Reads the model again, since its file changed.
     pub(crate) fn reread_model(&mut self) {
         let file = self.model_file().to_owned();
         self.take_model(&file, self.reading);
     }
 
-    /// The model as it is read, at a size.
+    /// Options for reading the model at a size.
     pub(crate) fn model_of_size(&self, size: u32) -> ModelOptions {
         self.model_at(self.model_file(), size)
     }
@@ -190,7 +191,7 @@ impl Stage {
         self.reading.options(file, size, self.cache_dir.as_deref())
     }
 
-    /// Asks for what is wanted of the graph, if it is anything new.
+    /// Sends a request if the graph or the wanted results changed since the last one.
     pub(crate) fn ask(&mut self, document: &OpenDocument, wanted: Wanted) {
         let size = self.wanted_size(document);
         if size != self.model.size {
@@ -212,17 +213,17 @@ impl Stage {
         {
             return;
         }
-        self.let_go(document, &wanted);
-        self.wishes += 1;
+        self.evict(document, &wanted);
+        self.requests += 1;
         self.live.submit(LiveRequest {
-            revision: self.wishes,
+            revision: self.requests,
             graph: self.graph.clone(),
             kinds: kinds.clone(),
             kinds_revision,
             model: self.model.clone(),
             model_revision: self.model_revision,
             coarse_size: COARSE,
-            subjects: wanted.seen.clone(),
+            subjects: wanted.subjects.clone(),
             inspected: wanted.inspected.clone(),
             set: wanted.set,
             thumbnails: wanted.thumbnails.clone(),
@@ -232,7 +233,7 @@ impl Stage {
         self.asked = Some((asked, wanted));
     }
 
-    /// Takes the graph where something changed that results hang on; where nodes stand is nothing of that.
+    /// Takes over the graph if something changed that results depend on, which node positions are not.
     fn take_graph(&mut self, document: &OpenDocument) {
         let now = (document.session.revision(), document.files_revision());
         if self.taken == Some(now) {
@@ -258,14 +259,14 @@ impl Stage {
         named.unwrap_or(usual).clamp(64, 4096)
     }
 
-    /// Takes what has come.
-    pub(crate) fn take_news(&mut self, context: &Context) {
-        // While nothing is evaluated nobody else asks.
+    /// Takes over the results that arrived.
+    pub(crate) fn take_events(&mut self, context: &Context) {
+        // The evaluation reports a loss only while it runs.
         if let Some(loss) = self.gpu.loss() {
             self.lost = Some(loss.into());
         }
-        for news in self.live.take_events() {
-            match news {
+        for event in self.live.take_events() {
+            match event {
                 LiveEvent::Model {
                     model, model_revision, ..
                 } if model_revision == self.model_revision => {
@@ -276,16 +277,13 @@ impl Stage {
                     self.model_failure = Some(error.to_string());
                 }
                 LiveEvent::Looks {
-                    subject: seen,
-                    model,
-                    looks: shown,
-                    ..
+                    subject, model, looks, ..
                 } => {
                     self.numbers += 1;
-                    tracing::info!(?seen, texels = model.size, "a picture came");
+                    tracing::info!(?subject, texels = model.size, "a picture came");
                     self.failure = None;
                     let number = self.numbers;
-                    self.pictures.insert(seen, Picture { model, shown, number });
+                    self.pictures.insert(subject, Picture { model, looks, number });
                 }
                 LiveEvent::Inspected { node, values, .. } => self.inspected = Some((node, values)),
                 LiveEvent::Thumbnail { node, picture, .. } => self.take_thumbnail(context, node, picture),
@@ -319,37 +317,48 @@ impl Stage {
 
     fn take_faults(&mut self, faults: Faults) {
         let at_fault = faults.faults.iter();
-        self.by_node = told_at_groups_too(at_fault.map(|fault| (&*fault.node, fault.sentence.clone())));
+        self.by_node = with_group_instances(at_fault.map(|fault| (&*fault.node, fault.sentence.clone())));
         let waiting = faults.blocked.iter();
-        self.waiting = told_at_groups_too(waiting.map(|it| (&*it.node, format!("waiting for {}", it.blocked_by))));
+        self.waiting = with_group_instances(waiting.map(|it| (&*it.node, format!("waiting for {}", it.blocked_by))));
         self.faults = faults;
     }
 
-    /// What a viewport shows; while nothing came of it yet, nothing.
-    pub(crate) fn picture(&self, seen: &ViewSubject) -> Option<&Picture> {
-        self.pictures.get(seen)
+    /// Newest maps of a result, if any have arrived.
+    pub(crate) fn picture(&self, subject: &ViewSubject) -> Option<&Picture> {
+        self.pictures.get(subject)
     }
 
     pub(crate) fn thumbnail(&self, node: &NodeRef) -> Option<&TextureHandle> {
         self.thumbnails.get(node).map(|(handle, _)| handle)
     }
 
-    /// The same in memory, to be kept.
+    /// Pixels of a node picture.
     pub(crate) fn thumbnail_pixels(&self, node: &NodeRef) -> Option<&Pixels> {
         self.thumbnails.get(node).map(|(_, picture)| picture)
     }
 
-    /// Why a node, or one in a group instance, has no result.
+    /// Error of a node, or of the first one in a group instance.
     pub(crate) fn fault(&self, node: &str) -> Option<&String> {
         self.by_node.get(node)
     }
 
-    /// What a node, or one in a group instance, waits for.
+    /// Sentence about what a node, or the first one in a group instance, waits for.
     pub(crate) fn waits(&self, node: &str) -> Option<&String> {
         self.waiting.get(node)
     }
 
-    /// How long a node took when it was last evaluated, or all nodes in a group instance.
+    /// Number of errors of the graph and of the model.
+    pub(crate) fn problem_count(&self) -> usize {
+        let failures = usize::from(self.failure.is_some()) + usize::from(self.model_failure.is_some());
+        self.faults.faults.len() + self.faults.other.len() + failures
+    }
+
+    /// Sentence about why a node has no result: its error, or what it waits for.
+    pub(crate) fn sentence(&self, node: &str) -> Option<&String> {
+        self.fault(node).or_else(|| self.waits(node))
+    }
+
+    /// Time of a node's last evaluation; of a group instance, that of all nodes in it.
     pub(crate) fn time(&self, node: &str) -> Option<Duration> {
         let inner = format!("{node}/");
         let inside = self.times.range(inner.clone()..);
@@ -360,20 +369,20 @@ impl Stage {
         own.into_iter().chain(inside).reduce(|sum, time| sum + time)
     }
 
-    /// How many pictures of the model, pictures of nodes and times are held.
+    /// Numbers of held results on the model, node pictures and times.
     #[cfg(test)]
     pub(crate) fn held(&self) -> [usize; 3] {
         [self.pictures.len(), self.thumbnails.len(), self.times.len()]
     }
 
-    /// How long each node took when it was last evaluated.
+    /// Time of each node's last evaluation.
     pub(crate) fn times(&self) -> &BTreeMap<String, Duration> {
         &self.times
     }
 }
 
-/// What is told of nodes, also at the group instances that they stand in, where the first is told: of `a/b/c` at `a/b` and `a`.
-fn told_at_groups_too<'n>(told: impl Iterator<Item = (&'n str, String)>) -> BTreeMap<String, String> {
+/// Sentences by node, also at the group instances around it: one at `a/b/c` is also at `a/b` and `a`, unless another is there.
+fn with_group_instances<'n>(told: impl Iterator<Item = (&'n str, String)>) -> BTreeMap<String, String> {
     let mut at_nodes = BTreeMap::new();
     for (node, sentence) in told {
         let nodes = std::iter::successors(Some(node), |inner| inner.rsplit_once('/').map(|(outer, _)| outer));

@@ -1,29 +1,73 @@
-//! What was chosen about light and picture of the view, to be kept between runs.
+//! Light and picture of the viewport, as they are kept between runs.
+
+use std::ops::RangeInclusive;
 
 use sabi_engine::view::{Background, Shot, ViewTransform};
 
-use super::lamps::Lamp;
+/// Limits of the menus.
+pub(crate) const TURN_DEGREES: RangeInclusive<f32> = -180.0..=180.0;
+pub(crate) const STRENGTH: RangeInclusive<f32> = 0.0..=4.0;
+pub(crate) const EXPOSURE_STOPS: RangeInclusive<f32> = -6.0..=6.0;
 
-/// Limits of what the menus set.
-pub(super) const TURN_DEGREES: std::ops::RangeInclusive<f32> = -180.0..=180.0;
-pub(super) const STRENGTH: std::ops::RangeInclusive<f32> = 0.0..=4.0;
-pub(super) const EXPOSURE_STOPS: std::ops::RangeInclusive<f32> = -6.0..=6.0;
-
-/// What is behind the model: its name in settings, what it is called, and what it is.
-pub(super) const BACKGROUNDS: [(&str, &str, Background); 3] = [
+/// Backgrounds, with their names in settings and their titles.
+pub(crate) const BACKGROUNDS: [(&str, &str, Background); 3] = [
     ("blurred", "Out of focus", Background::Blurred),
     ("environment", "Sharp", Background::Environment),
     ("plain", "Plain", Background::Plain([0.028, 0.029, 0.032])),
 ];
 
-/// From light to what a display shows, likewise.
-pub(super) const TRANSFORMS: [(&str, &str, ViewTransform); 3] = [
+/// View transforms, with their names in settings and their titles.
+pub(crate) const TRANSFORMS: [(&str, &str, ViewTransform); 3] = [
     ("agx", "AgX", ViewTransform::AgX),
     ("aces", "ACES", ViewTransform::Aces),
     ("standard", "Standard", ViewTransform::Standard),
 ];
 
-/// What was chosen about light and picture.
+/// Limits of a light besides the environment.
+pub(crate) const LAMP_HEIGHT_DEGREES: RangeInclusive<f32> = -90.0..=90.0;
+pub(crate) const LAMP_STRENGTH: RangeInclusive<f32> = 0.0..=20.0;
+
+/// A light besides the environment.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct Lamp {
+    /// Direction that it comes from: around the model, and above it.
+    pub(crate) turn_degrees: f32,
+    pub(crate) height_degrees: f32,
+    /// Linear, 0..1.
+    pub(crate) color: [f32; 3],
+    pub(crate) strength: f32,
+    pub(crate) has_shadow: bool,
+}
+
+impl Default for Lamp {
+    /// From the left and above, as in the usual studio.
+    fn default() -> Lamp {
+        Lamp {
+            turn_degrees: -40.0,
+            height_degrees: 35.0,
+            color: [1.0; 3],
+            strength: 2.0,
+            has_shadow: true,
+        }
+    }
+}
+
+impl Lamp {
+    /// The light with what is out of range brought into it, since settings may have been edited by hand.
+    pub(crate) fn sound(self) -> Lamp {
+        let usual = Lamp::default();
+        Lamp {
+            turn_degrees: within(self.turn_degrees, &TURN_DEGREES, usual.turn_degrees),
+            height_degrees: within(self.height_degrees, &LAMP_HEIGHT_DEGREES, usual.height_degrees),
+            color: self.color.map(|number| within(number, &(0.0..=1.0), 1.0)),
+            strength: within(self.strength, &LAMP_STRENGTH, usual.strength),
+            has_shadow: self.has_shadow,
+        }
+    }
+}
+
+/// Light and picture of the viewport.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub(crate) struct ViewChoices {
@@ -34,7 +78,7 @@ pub(crate) struct ViewChoices {
     background: String,
     has_relief: bool,
     /// Lights besides the environment.
-    pub(super) lights: Vec<Lamp>,
+    pub(crate) lights: Vec<Lamp>,
 }
 
 impl Default for ViewChoices {
@@ -52,13 +96,13 @@ impl Default for ViewChoices {
 }
 
 impl ViewChoices {
-    /// What a shot has of it, and lights besides.
-    pub(super) fn of(shot: &Shot, lights: &[Lamp]) -> ViewChoices {
+    /// Choices that a shot and these lights show.
+    pub(crate) fn of(shot: &Shot, lights: &[Lamp]) -> ViewChoices {
         let transform = TRANSFORMS.iter().find(|(.., known)| *known == shot.transform);
         let background = BACKGROUNDS.iter().find(|(.., known)| *known == shot.background);
         let usual = ViewChoices::default();
         ViewChoices {
-            // The pointer turns it round and round.
+            // A drag may turn it by more than a whole turn.
             environment_turn_degrees: (shot.environment_turn_degrees + 180.0).rem_euclid(360.0) - 180.0,
             environment_strength: shot.environment_strength,
             exposure_stops: shot.exposure_stops,
@@ -70,8 +114,8 @@ impl ViewChoices {
         .sound()
     }
 
-    /// Gives a shot all of it.
-    pub(super) fn give(&self, shot: &mut Shot) {
+    /// Applies the choices to a shot, except for the lights.
+    pub(crate) fn apply(&self, shot: &mut Shot) {
         shot.environment_turn_degrees = self.environment_turn_degrees;
         shot.environment_strength = self.environment_strength;
         shot.exposure_stops = self.exposure_stops;
@@ -88,7 +132,7 @@ impl ViewChoices {
         }
     }
 
-    /// What of it can be used: files of settings may have been written by hand.
+    /// Choices with what is out of range brought into it, since settings may have been edited by hand.
     pub(crate) fn sound(mut self) -> ViewChoices {
         let usual = ViewChoices::default();
         for (number, limits, usual) in [
@@ -112,8 +156,8 @@ impl ViewChoices {
     }
 }
 
-/// A number brought into its limits; what is no number is as usual.
-pub(super) fn within(number: f32, limits: &std::ops::RangeInclusive<f32>, usual: f32) -> f32 {
+/// A number clamped to its limits; the default for one that is not finite.
+pub(crate) fn within(number: f32, limits: &RangeInclusive<f32>, usual: f32) -> f32 {
     match number.is_finite() {
         true => number.clamp(*limits.start(), *limits.end()),
         false => usual,
@@ -139,7 +183,7 @@ mod tests {
         let text = serde_json::to_string(&kept).expect("text");
         let read: ViewChoices = serde_json::from_str(&text).expect("choices");
         let mut other = Shot::new(Camera::default());
-        read.sound().give(&mut other);
+        read.sound().apply(&mut other);
         shot.environment_turn_degrees = 40.0;
         assert_eq!(other, shot);
         let nonsense =

@@ -1,40 +1,40 @@
-//! Work that is done beside the window, on a thread of its own.
+//! Work on a thread of its own, which the window does not wait for.
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread::{Builder, JoinHandle};
 
 use egui::Context;
 
-/// A piece of work that the window does not wait for. Dropping it waits for its end: a driver that is still at work when the
-/// program ends takes it down.
-pub(crate) struct Errand<T> {
-    coming: Receiver<T>,
+/// Work on a thread of its own. Dropping it waits for its end, since a graphics driver that is still at work when the program
+/// exits crashes it.
+pub(crate) struct Task<T> {
+    result: Receiver<T>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// The work ended without a result: it panicked, or the system gave no thread for it.
+/// The work gave no result: it panicked, or the system gave no thread for it.
 pub(crate) struct Failed;
 
-impl<T: Send + 'static> Errand<T> {
-    /// Begins the work, and draws the window anew when it is done.
-    pub(crate) fn start(context: &Context, work: impl FnOnce() -> T + Send + 'static) -> Errand<T> {
-        let (sender, coming) = channel();
+impl<T: Send + 'static> Task<T> {
+    /// Starts the work; `context` draws a frame when it is done.
+    pub(crate) fn start(context: &Context, work: impl FnOnce() -> T + Send + 'static) -> Task<T> {
+        let (sender, result) = channel();
         let woken = context.clone();
-        let started = Builder::new().name("sabi errand".to_owned()).spawn(move || {
-            // Who was told to let go of it does not listen any more.
+        let started = Builder::new().name("sabi task".to_owned()).spawn(move || {
+            // Fails where the task was dropped, and its result is not wanted.
             let _ = sender.send(work());
             drop(sender);
             woken.request_repaint();
         });
-        Errand {
-            coming,
+        Task {
+            result,
             thread: started.ok(),
         }
     }
 
-    /// What came of it, once.
+    /// Result of the work, once.
     pub(crate) fn poll(&self) -> Option<Result<T, Failed>> {
-        match self.coming.try_recv() {
+        match self.result.try_recv() {
             Ok(result) => Some(Ok(result)),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => Some(Err(Failed)),
@@ -42,17 +42,17 @@ impl<T: Send + 'static> Errand<T> {
     }
 }
 
-impl<T> Errand<T> {
-    /// Whether nothing is left to wait for.
+impl<T> Task<T> {
+    /// Whether the thread has ended.
     pub(crate) fn is_over(&self) -> bool {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 }
 
-impl<T> Drop for Errand<T> {
+impl<T> Drop for Task<T> {
     fn drop(&mut self) {
         if let Some(thread) = self.thread.take() {
-            // A panic was told as a result that did not come.
+            // `poll` reports a panic as a missing result.
             let _ = thread.join();
         }
     }
@@ -67,22 +67,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn letting_go_of_an_errand_waits_for_its_end() {
+    fn dropping_a_task_waits_for_its_end() {
         let is_done = Arc::new(AtomicBool::new(false));
         let told = is_done.clone();
-        let errand = Errand::start(&Context::default(), move || {
+        let task = Task::start(&Context::default(), move || {
             std::thread::sleep(Duration::from_millis(50));
             told.store(true, Ordering::SeqCst);
         });
-        drop(errand);
+        drop(task);
         assert!(is_done.load(Ordering::SeqCst));
     }
 
     #[test]
-    fn an_errand_that_panics_says_that_it_failed() {
-        let errand: Errand<()> = Errand::start(&Context::default(), || panic!("as this test wants"));
+    fn a_task_that_panics_is_reported_as_failed() {
+        let task: Task<()> = Task::start(&Context::default(), || panic!("as this test wants"));
         let result = loop {
-            if let Some(result) = errand.poll() {
+            if let Some(result) = task.poll() {
                 break result;
             }
             std::thread::yield_now();

@@ -1,0 +1,75 @@
+//! Files and folders that are dropped on the window.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use egui::Ui;
+use sabi_graph::Value;
+
+use super::super::Editor;
+use crate::action::Next;
+use crate::dock::Panel;
+use crate::paths::{IMAGES, MODELS, canonical_if_present, lowercase_ending};
+
+impl Editor {
+    /// Takes a file by what it is: a graph is opened, a model shown, an environment used as light, an image added as a node.
+    pub(in crate::app) fn take_dropped(&mut self, path: &Path, ui: &Ui) {
+        if path.is_dir() {
+            return self.take_dropped_folder(path, ui);
+        }
+        let is_on_canvas = self.shell.keyboard.active == Panel::Canvas;
+        match lowercase_ending(path).as_deref() {
+            Some("sabi") => {
+                let is_dirty = self.documents.document.session.is_dirty();
+                self.views.questions.ask_next(is_dirty, Next::Open(path.to_owned()));
+            }
+            Some(ending) if MODELS.contains(&ending) => self.take_model(path),
+            Some("hdr") => self.take_environment(path),
+            Some("exr") if !is_on_canvas => self.take_environment(path),
+            Some(ending) if IMAGES.contains(&ending) => self.add_image(path, ui),
+            _ => self.shell.say(format!(
+                "{} is nothing that can be taken; drop graphs, models, pictures and environments",
+                path.display()
+            )),
+        }
+    }
+
+    /// Adds the texture sets that the images of a folder are.
+    fn take_dropped_folder(&mut self, folder: &Path, ui: &Ui) {
+        let entries = match fs::read_dir(folder) {
+            Ok(entries) => entries,
+            Err(error) => {
+                return self.shell.say(format!("{} cannot be read: {error}", folder.display()));
+            }
+        };
+        let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        let is_image = |file: &PathBuf| lowercase_ending(file).is_some_and(|ending| IMAGES.contains(&ending.as_str()));
+        let files: Vec<PathBuf> = files.filter(is_image).collect();
+        if files.is_empty() {
+            return self.shell.say(format!("{} holds no pictures", folder.display()));
+        }
+        let place = self.views.canvas.place_for_new(ui);
+        self.documents.document.add_texture_sets(&files, place);
+    }
+
+    fn take_environment(&mut self, path: &Path) {
+        let choice = canonical_if_present(path).display().to_string();
+        self.views.model.choose_environment(&choice);
+        self.shell.settings.environment = choice;
+    }
+
+    fn add_image(&mut self, path: &Path, ui: &Ui) {
+        let place = self.views.canvas.place_for_new(ui);
+        let document = &mut self.documents.document;
+        let text = document.relative(path);
+        document.session.begin("Add picture");
+        let added = document.add("source/image", place, None);
+        if let Some(id) = &added {
+            document.set_knob(id, "file", Some(Value::Text(text)));
+        }
+        document.session.end();
+        if let Some(id) = added {
+            self.looks.show(&self.documents.document, &id, None);
+        }
+    }
+}

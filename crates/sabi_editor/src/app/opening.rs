@@ -1,0 +1,103 @@
+//! State of a window in its first frame.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+use egui::Context;
+use sabi_editing::OpenDocument;
+use sabi_engine::Session;
+
+use super::documents::{Documents, Folders};
+use crate::canvas::Canvas;
+use crate::files::Questions;
+use crate::files::key_list::KeyList;
+use crate::files::start::StartPage;
+use crate::flat_view::FlatView;
+use crate::model_view::ModelView;
+use crate::panels::export::ExportPanel;
+use crate::panels::history::History;
+use crate::panels::library::LibraryPanel;
+use crate::panels::page::{Draft, Page};
+use crate::panels::parameters::Parameters;
+use crate::panels::performance::Performance;
+use crate::panels::problems::Problems;
+use crate::panels::stack::Layers;
+use crate::settings::Settings;
+use crate::views::Views;
+use crate::watching::Watching;
+
+const NOT_WRITTEN: &str = "The textures were not written, since the graphics device was lost; export them again.";
+
+/// What a window is opened with.
+pub(crate) struct InitialState {
+    pub(crate) session: Session,
+    pub(crate) model: PathBuf,
+    pub(crate) folders: Folders,
+    /// Whether the start page is shown.
+    pub(crate) is_start: bool,
+}
+
+/// What outlives a window whose device was lost.
+pub(crate) struct LostWindow {
+    pub(crate) document: OpenDocument,
+    pub(crate) canvas: Canvas,
+    pub(crate) model: PathBuf,
+    /// Node files that were being written.
+    pub(crate) drafts: Vec<Draft>,
+    /// Whether an export was running, which ended with the device.
+    pub(crate) was_exporting: bool,
+}
+
+/// Slot in which a window leaves what outlives it.
+pub(crate) type Handover = Arc<Mutex<Option<LostWindow>>>;
+
+/// Parts of a window that depend on how it was opened.
+pub(super) struct Opened {
+    pub(super) documents: Documents,
+    pub(super) views: Views,
+    pub(super) model: PathBuf,
+    /// Sentences about what could not be opened or taken over.
+    pub(super) fault: Vec<String>,
+}
+
+impl Opened {
+    /// Takes over what a window on a lost device left, or else opens the initial state with a start page where there is
+    /// something to recover.
+    pub(super) fn new(initial: InitialState, settings: &Settings, context: &Context, handover: &Handover) -> Opened {
+        let (watching, fault) = Watching::new(context);
+        let mut fault: Vec<String> = fault.map(|error| error.to_string()).into_iter().collect();
+        let lost = handover.lock().ok().and_then(|mut lost| lost.take());
+        let is_new = lost.is_none();
+        let lost = lost.unwrap_or_else(|| LostWindow {
+            document: OpenDocument::new(initial.session),
+            canvas: Canvas::default(),
+            model: initial.model,
+            drafts: Vec::new(),
+            was_exporting: false,
+        });
+        fault.extend(lost.was_exporting.then(|| NOT_WRITTEN.to_owned()));
+        let documents = Documents::new(lost.document, initial.folders, watching, is_new);
+        let is_start = is_new && initial.is_start || !documents.recoveries.is_empty();
+        Opened {
+            views: Views {
+                canvas: lost.canvas,
+                model: ModelView::new(&settings.environment, &settings.view),
+                flat: FlatView::default(),
+                parameters: Parameters::default(),
+                layers: Layers::default(),
+                library: LibraryPanel::default(),
+                export: ExportPanel::default(),
+                history: History,
+                problems: Problems,
+                performance: Performance,
+                page: Page::with_drafts(lost.drafts),
+                questions: Questions::default(),
+                start: StartPage { is_open: is_start },
+                key_list: KeyList::default(),
+            },
+            documents,
+            model: lost.model,
+            fault,
+        }
+    }
+}

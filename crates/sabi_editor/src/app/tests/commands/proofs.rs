@@ -1,0 +1,224 @@
+//! What each command does to a graph, as far as one key shows it.
+
+use egui::{Key, Modifiers};
+use sabi_engine::ViewSubject;
+use sabi_graph::NodeId;
+
+use super::super::Window;
+use super::super::hands::id;
+use super::Before;
+use crate::command::{ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, LookCommand, WindowCommand};
+use crate::dock::Panel;
+use crate::files::Question;
+use crate::files::system_dialog::PathFor;
+
+/// Nodes that are selected for a command, and whether it did what its title says.
+pub(super) type Proof = (&'static [&'static str], fn(&mut Window, &Before) -> bool);
+
+/// Proof of a command; none where another test has it.
+pub(super) fn proof(command: Command) -> Option<Proof> {
+    match command {
+        Command::File(command) => of_file(command),
+        Command::Window(command) => of_window(command),
+        Command::Graph(command) => of_graph(command),
+        Command::Arrange(command) => Some(of_arrange(command)),
+        Command::Canvas(command) => of_canvas(command),
+        Command::Look(command) => of_look(command),
+        Command::Viewport(_) | Command::Texture(_) | Command::Favorite(_) => None,
+    }
+}
+
+fn of_file(command: FileCommand) -> Option<Proof> {
+    let proof: Proof = match command {
+        FileCommand::Open => (&[], |window, _| window.is_asked_for(&PathFor::Open)),
+        FileCommand::SaveAs => (&[], |window, _| window.is_asked_for(&PathFor::Save)),
+        FileCommand::Export => (&[], |window, _| {
+            window.editor().shell.dock.rects.contains_key(&Panel::Export)
+                && window.says("Name the folder for the textures")
+        }),
+        FileCommand::New | FileCommand::Save => return None,
+    };
+    Some(proof)
+}
+
+fn of_window(command: WindowCommand) -> Option<Proof> {
+    let proof: Proof = match command {
+        WindowCommand::NextPanel | WindowCommand::PreviousPanel => {
+            (&[], |window, _| window.editor().shell.keyboard.active != Panel::Canvas)
+        }
+        WindowCommand::Help => (&["mix"], |window, _| {
+            window.editor().shell.dock.rects.contains_key(&Panel::Page) && window.has("blend/mask")
+        }),
+        WindowCommand::UseView => (&[], |window, _| {
+            let is_use = !window.editor().shell.dock.rects.contains_key(&Panel::Canvas);
+            window.keys(Modifiers::COMMAND, Key::Space);
+            is_use && window.editor().shell.dock.rects.contains_key(&Panel::Canvas)
+        }),
+        WindowCommand::Larger => (&[], |window, _| window.is_scaled(1.1)),
+        WindowCommand::Smaller => (&[], |window, _| window.is_scaled(1.0 / 1.1)),
+        WindowCommand::Keys => return None,
+    };
+    Some(proof)
+}
+
+fn of_graph(command: GraphCommand) -> Option<Proof> {
+    let proof: Proof = match command {
+        GraphCommand::Delete => (&["mix"], |window, _| {
+            window.document().graph().len() == 5 && window.reads(&id("layer"), "mask").is_empty()
+        }),
+        GraphCommand::Heal => (&["mix"], |window, _| {
+            window.document().graph().len() == 5 && window.reads(&id("layer"), "mask") == "clouds"
+        }),
+        GraphCommand::Cut => (&["mix"], |window, _| window.document().graph().len() == 5),
+        GraphCommand::TakeOut => (&["mix"], |window, _| {
+            window.document().graph().len() == 6
+                && window.reads(&id("layer"), "mask") == "clouds"
+                && window.reads(&id("mix"), "below").is_empty()
+        }),
+        GraphCommand::SwapInputs => (&["mix"], |window, _| {
+            window.reads(&id("mix"), "below") == "dots" && window.reads(&id("mix"), "above") == "clouds"
+        }),
+        GraphCommand::Mute => (&["mix"], |window, _| {
+            window.document().node(&id("mix")).expect("a node").muted
+        }),
+        GraphCommand::Duplicate => (&["mix"], |window, _| {
+            let copy = window.document().selected_one().expect("the copy").clone();
+            window.document().graph().len() == 7 && window.reads(&copy, "below").is_empty()
+        }),
+        GraphCommand::DuplicateWired => (&["mix"], |window, _| {
+            let copy = window.document().selected_one().expect("the copy").clone();
+            copy != id("mix") && window.reads(&copy, "below") == "clouds"
+        }),
+        GraphCommand::Frame => (&["clouds", "dots"], |window, _| {
+            window.document().graph().frames().len() == 1
+        }),
+        GraphCommand::Group => (&["mix", "clouds"], |window, _| {
+            window.document().contents().groups.len() == 1
+        }),
+        GraphCommand::Undo
+        | GraphCommand::Redo
+        | GraphCommand::Copy
+        | GraphCommand::Paste
+        | GraphCommand::Ungroup
+        | GraphCommand::Enter
+        | GraphCommand::Leave => return None,
+    };
+    Some(proof)
+}
+
+fn of_arrange(command: ArrangeCommand) -> Proof {
+    match command {
+        ArrangeCommand::AlignLeft => (&["clouds", "dots"], |window, _| window.place("dots")[0] == 0.0),
+        ArrangeCommand::AlignRight => (&["clouds", "dots"], |window, _| window.place("clouds")[0] == 10.0),
+        ArrangeCommand::AlignTop => (&["clouds", "mix"], |window, _| window.place("mix")[1] == 0.0),
+        ArrangeCommand::AlignBottom => (&["clouds", "mix"], |window, before| {
+            let bottom = |node: &str| window.place(node)[1] + window.document().size(&id(node))[1];
+            (bottom("clouds") - bottom("mix")).abs() < 1.0 && window.places() != before.places
+        }),
+        ArrangeCommand::Straighten => (&["clouds", "mix"], |window, _| {
+            let [one, other] = [window.port(&id("clouds"), "mask"), window.port(&id("mix"), "below")];
+            (one.y - other.y).abs() < 1.0
+        }),
+        ArrangeCommand::LayOut => (&[], |window, before| {
+            window.places() != before.places && window.place("mix")[0] < window.place("layer")[0]
+        }),
+        ArrangeCommand::SelectAll => (&[], |window, _| window.document().selection().len() == 6),
+        ArrangeCommand::SelectUp => (&["mix"], |window, _| {
+            window
+                .document()
+                .selection()
+                .iter()
+                .map(NodeId::as_str)
+                .eq(["clouds", "dots", "mix"])
+        }),
+        ArrangeCommand::SelectDown => (&["mix"], |window, _| {
+            window
+                .document()
+                .selection()
+                .iter()
+                .map(NodeId::as_str)
+                .eq(["layer", "mix", "out"])
+        }),
+    }
+}
+
+fn of_canvas(command: CanvasCommand) -> Option<Proof> {
+    let proof: Proof = match command {
+        CanvasCommand::AddMenu => (&[], |window, _| {
+            let is_open = window.has("Find a node");
+            window.key(Key::Escape);
+            is_open && !window.has("Find a node")
+        }),
+        CanvasCommand::Rename => (&["mix"], |window, _| {
+            window.keys(Modifiers::COMMAND, Key::A);
+            window.typed("Worn");
+            window.key(Key::Enter);
+            window.document().title(&id("mix")) == "Worn"
+        }),
+        CanvasCommand::ShowSelected => (&["clouds"], |window, before| {
+            let rect = window.rect(&id("clouds"));
+            window.zoom() >= before.zoom && (rect.center() - window.on_canvas([0.5, 0.5])).length() < 2.0
+        }),
+        CanvasCommand::ShowAll => (&[], |window, before| {
+            let at = window.on_canvas([0.5, 0.5]);
+            window.wheel(at, 300.0);
+            let key = window
+                .editor()
+                .shell
+                .keys
+                .shown(Command::Canvas(CanvasCommand::ShowAll));
+            window.chord(&key);
+            (window.screen([0.0, 0.0]) - before.screen).length() < 1.0
+        }),
+        CanvasCommand::NextPort | CanvasCommand::PreviousPort | CanvasCommand::Wire => return None,
+    };
+    Some(proof)
+}
+
+fn of_look(command: LookCommand) -> Option<Proof> {
+    let proof: Proof = match command {
+        LookCommand::Preview => (&["mix"], |window, _| {
+            let editor = window.harness.state_mut();
+            let is_shown = editor.looks.shown.as_ref().is_some_and(|node| node.node == "mix");
+            is_shown && editor.shell.settings.follows && editor.seen() == ViewSubject::Node(editor.chosen(&id("mix")))
+        }),
+        LookCommand::Follow => (&["mix"], |window, _| {
+            let follows = window.editor().shell.settings.follows;
+            window.harness.state_mut().shell.settings.follows = true;
+            !follows
+        }),
+        LookCommand::Lock => (&["mix"], |window, _| {
+            let locked = window.harness.state_mut().looks.locked.take();
+            locked.is_some_and(|node| node.node == "mix")
+        }),
+        LookCommand::FlatPictures => (&[], |window, _| {
+            std::mem::take(&mut window.harness.state_mut().shell.settings.is_flat)
+        }),
+        LookCommand::MiniMap => (&[], |window, _| {
+            let is_shown = window.has("Mini map");
+            window.key(Key::N);
+            is_shown && !window.has("Mini map")
+        }),
+        LookCommand::Compare => return None,
+    };
+    Some(proof)
+}
+
+impl Window {
+    fn is_scaled(&mut self, by: f32) -> bool {
+        let editor = self.harness.state_mut();
+        let is_scaled = (editor.shell.settings.scale - by).abs() < 1e-3;
+        editor.shell.settings.scale = 1.0;
+        let is_shown = (self.harness.ctx.zoom_factor() - by).abs() < 1e-3;
+        self.harness.ctx.set_zoom_factor(1.0);
+        self.settle();
+        is_scaled && is_shown
+    }
+
+    fn is_asked_for(&mut self, meant: &PathFor) -> bool {
+        let is_asked =
+            matches!(&self.editor().views.questions.open, Some(Question::Path { what, .. }) if what == meant);
+        self.key(Key::Escape);
+        is_asked && self.editor().views.questions.open.is_none()
+    }
+}

@@ -1,0 +1,84 @@
+//! The bars around the panels: menus, models, the path into groups, and what is going on.
+
+mod document;
+mod menus;
+mod models;
+mod status;
+
+use egui::containers::menu::MenuConfig;
+use egui::{Color32, Frame, Margin, PopupCloseBehavior, RichText, Ui};
+use egui_phosphor::regular as icon;
+
+use crate::action::{Action, FileAction};
+use crate::context::ViewContext;
+use crate::paths::file_name;
+#[cfg(test)]
+pub(crate) use menus::{ARRANGE, EDIT};
+pub(crate) use menus::{marked_name, top};
+pub(crate) use models::models;
+pub(crate) use status::status;
+
+/// Path into groups above the canvas, while a group is shown.
+pub(crate) fn path(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+    let mut actions = Vec::new();
+    let path = context.document.path();
+    if path.is_empty() {
+        return actions;
+    }
+    egui::Panel::top("path")
+        .frame(bar(context.theme.panel, Margin::symmetric(8, 3)))
+        .show_separator_line(false)
+        .show(ui, |ui| {
+            ui.horizontal(|ui| {
+                if ui.link("Graph").clicked() {
+                    actions.push(Action::LeaveTo(0));
+                }
+                for (depth, (_, title)) in path.iter().enumerate() {
+                    ui.label(icon::CARET_RIGHT);
+                    if depth + 1 == path.len() {
+                        ui.strong(title);
+                    } else if ui.link(title).clicked() {
+                        actions.push(Action::LeaveTo(depth + 1));
+                    }
+                }
+            });
+        });
+    actions
+}
+
+/// Question about which graph to keep, while another program has written the file of the open one.
+pub(crate) fn foreign_file(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+    let mut actions = Vec::new();
+    let Some(file) = context.document.session.file().filter(|_| context.is_file_foreign) else {
+        return actions;
+    };
+    let name = file_name(file);
+    egui::Panel::top("outside")
+        .frame(bar(context.theme.panel, Margin::symmetric(8, 4)))
+        .show_separator_line(false)
+        .show(ui, |ui| {
+            ui.horizontal_wrapped(|ui| {
+                let sentence = format!("{} Another program has written {name}.", icon::WARNING);
+                ui.label(RichText::new(sentence).color(context.theme.warning));
+                let reload = ui.button("Open it anew");
+                if reload.on_hover_text("Undo brings back what is here now").clicked() {
+                    actions.push(Action::File(FileAction::Reload));
+                }
+                let keep = ui.button("Keep what is here");
+                let backup = format!("Saving puts it in the place of the other, which stays beside it as {name}.bak");
+                if keep.on_hover_text(backup).clicked() {
+                    actions.push(Action::File(FileAction::KeepOpen));
+                }
+            });
+        });
+    actions
+}
+
+/// Menu that stays open after a click in it, since several things are tried in a row.
+pub(crate) fn staying() -> MenuConfig {
+    MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+}
+
+fn bar(fill: Color32, margin: Margin) -> Frame {
+    Frame::new().fill(fill).inner_margin(margin)
+}

@@ -1,0 +1,76 @@
+//! The menu of what holds for the whole document: size, lengths and seed.
+
+use egui::containers::menu::MenuButton;
+use egui::{Button, DragValue, Id, RichText, Ui, UiBuilder};
+use sabi_graph::Fit;
+
+use super::staying;
+use crate::action::{Action, DocumentAction};
+use crate::context::ViewContext;
+use crate::theme::type_size;
+
+/// Sizes that are offered to work at.
+const SIZES: [u32; 5] = [256, 512, 1024, 2048, 4096];
+
+/// Button with the size at which the graph is worked on; a click opens the menu.
+pub(super) fn menu(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
+    // With an id of its own, the menu stays open whatever appears and disappears beside the button.
+    let named = UiBuilder::new().id(Id::new("measures of the graph"));
+    let size = context.evaluation.size();
+    let words = RichText::new(format!("{size} texels"))
+        .size(type_size::SMALL)
+        .color(context.theme.quiet);
+    let mut asked = None;
+    ui.scope_builder(named, |ui| {
+        let button = MenuButton::from_button(Button::new(words).frame(false));
+        button.config(staying()).ui(ui, |ui| {
+            let document = context.document.contents();
+            let sized = sizes(ui, size);
+            ui.separator();
+            let fitted = fits(ui, document.fit);
+            ui.separator();
+            let seeded = seed(ui, document.seed);
+            asked = sized.or(fitted).or(seeded);
+        });
+    });
+    asked.map(Action::Document)
+}
+
+fn sizes(ui: &mut Ui, size: u32) -> Option<DocumentAction> {
+    ui.label("Texels along a side while working");
+    let mut chosen = None;
+    for offered in SIZES {
+        if ui.radio(offered == size, format!("{offered} × {offered}")).clicked() {
+            chosen = Some(DocumentAction::Size(offered));
+            ui.close();
+        }
+    }
+    chosen
+}
+
+fn fits(ui: &mut Ui, fit: Fit) -> Option<DocumentAction> {
+    ui.label("A length of 1 in the graph is");
+    let mut wanted = fit;
+    ui.radio_value(&mut wanted, Fit::Unit, "the largest side of the model");
+    ui.radio_value(&mut wanted, Fit::Metres, "a metre");
+    ui.horizontal(|ui| {
+        let mut length = if let Fit::Length(length) = fit { length } else { 0.1 };
+        let is_length = matches!(fit, Fit::Length(_));
+        let chosen = ui.radio(is_length, "as many metres as").clicked();
+        let field = DragValue::new(&mut length).speed(0.01).range(1e-4..=1e4);
+        let is_changed = ui.add_enabled(is_length, field).changed();
+        if chosen || is_changed {
+            wanted = Fit::Length(length);
+        }
+    });
+    (wanted != fit).then_some(DocumentAction::Fit(wanted))
+}
+
+fn seed(ui: &mut Ui, mut seed: u32) -> Option<DocumentAction> {
+    ui.horizontal(|ui| {
+        let label = ui.label("Seed of the graph");
+        let field = ui.add(DragValue::new(&mut seed)).labelled_by(label.id);
+        field.changed().then_some(DocumentAction::Seed(seed))
+    })
+    .inner
+}

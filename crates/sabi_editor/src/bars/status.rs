@@ -1,0 +1,49 @@
+//! The bar at the bottom of the window.
+
+use egui::{Align, Layout, Margin, RichText, Ui};
+use egui_phosphor::regular as icon;
+
+use super::{bar, document};
+use crate::action::Action;
+use crate::context::ViewContext;
+use crate::dock::Panel;
+use crate::theme::type_size;
+use crate::time_text::time_text;
+
+/// Bar at the bottom: the device, what is being evaluated, problems, and the menu of the whole document.
+pub(crate) fn status(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+    let mut actions = Vec::new();
+    egui::Panel::bottom("status")
+        .frame(bar(context.theme.ground, Margin::symmetric(8, 2)))
+        .show_separator_line(false)
+        .show(ui, |ui| {
+            ui.horizontal(|ui| contents(ui, context, &mut actions));
+        });
+    actions
+}
+
+fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
+    let theme = context.theme;
+    let quiet = |text: String| RichText::new(text).size(type_size::SMALL).color(theme.quiet);
+    let summary = context.evaluation.gpu().summary();
+    ui.label(quiet(format!("{} ({})", summary.name, summary.kind)));
+    if context.evaluation.is_busy() {
+        // A sign that does not move: an animation would draw the whole window in every frame, at the cost of the evaluation.
+        ui.label(quiet(format!("{} evaluating", icon::HOURGLASS_MEDIUM)));
+    }
+    if let Some(latency) = context.evaluation.last.latency {
+        ui.label(quiet(time_text(latency)));
+    }
+    let count = context.problem_count();
+    if count > 0 {
+        let text = format!("{} {count}", icon::WARNING);
+        let problems = ui.link(RichText::new(text).color(theme.fault).size(type_size::SMALL));
+        if problems.clicked() {
+            actions.push(Action::ShowPanel(Panel::Problems));
+        }
+    }
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        actions.extend(document::menu(ui, context));
+        ui.label(quiet(format!("{} nodes", context.document.graph().len())));
+    });
+}

@@ -1,0 +1,26 @@
+//! Where frames are.
+
+use egui::{Pos2, Rect, vec2};
+use sabi_editing::{FRAME_AROUND, FRAME_STRIP, OpenDocument};
+
+use super::{Canvas, node_rect};
+
+/// Rectangle of a frame on the canvas; none where none of its nodes exists.
+pub(super) fn rect_of(document: &OpenDocument, id: &str) -> Option<Rect> {
+    let frame = document.graph().frames().get(id)?;
+    let rects = frame.nodes.iter().filter_map(|id| node_rect(document, id));
+    let all = rects.reduce(|all, rect| all.union(rect))?.expand(FRAME_AROUND);
+    Some(Rect::from_min_max(all.min - vec2(0.0, FRAME_STRIP), all.max))
+}
+
+/// Frame at a place of the screen that the selected nodes can be dropped into: one that holds none of them yet.
+pub(super) fn under(canvas: &Canvas, document: &OpenDocument, pointer: Pos2) -> Option<String> {
+    let panel = canvas.panel?;
+    let frames = document.graph().frames().iter();
+    let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| document.is_selected(id)));
+    let mut under = others.filter(|(id, _)| {
+        let rect = rect_of(document, id).map(|rect| canvas.view.screen_rect(panel, rect));
+        rect.is_some_and(|rect| rect.contains(pointer))
+    });
+    under.next().map(|(id, _)| id.clone())
+}

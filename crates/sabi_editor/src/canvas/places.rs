@@ -1,0 +1,88 @@
+//! Ports of the shown graph, and where they are.
+
+use egui::{Pos2, Rect};
+use sabi_editing::{OpenDocument, PendingWire};
+use sabi_engine::catalog::Port;
+use sabi_graph::{NodeId, OutputRef, SlotRef};
+
+use super::{Canvas, node_rect, wires};
+
+/// Half the width of a dot, canvas points.
+pub(super) const DOT: f32 = 5.0;
+/// Least distance at which the pointer takes a port, screen points.
+const REACH: f32 = 9.0;
+
+/// Distance at which the pointer takes a port, screen points.
+pub(super) fn reach_of(zoom: f32) -> f32 {
+    (DOT * 1.6 * zoom).max(REACH)
+}
+
+/// Port of a node of the shown graph.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Input(SlotRef),
+    Output(OutputRef),
+}
+
+impl Place {
+    /// Position on the canvas.
+    pub(super) fn on_canvas(&self, document: &OpenDocument) -> Option<[f32; 2]> {
+        match self {
+            Place::Input(slot) => wires::end_of(document, slot),
+            Place::Output(from) => wires::start_of(document, from),
+        }
+    }
+
+    pub(super) fn node(&self) -> &NodeId {
+        match self {
+            Place::Input(slot) => &slot.node,
+            Place::Output(from) => &from.node,
+        }
+    }
+
+    /// Wire that is dragged from this port.
+    pub(super) fn loose(&self) -> PendingWire {
+        match self {
+            Place::Input(slot) => PendingWire::Into(slot.clone()),
+            Place::Output(from) => PendingWire::From(from.clone()),
+        }
+    }
+}
+
+/// All ports of a node, in order.
+pub(super) fn places(document: &OpenDocument, id: &NodeId) -> Vec<(Place, Port)> {
+    let Some(face) = document.face(id) else {
+        return Vec::new();
+    };
+    let inputs = face.inputs.iter().map(|port| {
+        let slot = SlotRef {
+            node: id.clone(),
+            name: port.name.clone(),
+        };
+        (Place::Input(slot), port.clone())
+    });
+    let outputs = face.outputs.iter().map(|port| {
+        let from = OutputRef {
+            node: id.clone(),
+            port: Some(port.name.clone()),
+        };
+        (Place::Output(from), port.clone())
+    });
+    inputs.chain(outputs).collect()
+}
+
+/// Port under a place of the screen.
+pub(super) fn at(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2) -> Option<Place> {
+    let reach = reach_of(canvas.view.zoom);
+    let near = |id: &&NodeId| {
+        let rect = node_rect(document, id).map(|rect| canvas.view.screen_rect(panel, rect));
+        rect.is_some_and(|rect| rect.expand(reach).contains(pointer))
+    };
+    let places = document.graph().ids().filter(near).flat_map(|id| places(document, id));
+    let found = places.filter_map(|(place, _)| {
+        let center = canvas.view.screen(panel, place.on_canvas(document)?);
+        Some((center.distance(pointer), place)).filter(|(distance, _)| *distance < reach)
+    });
+    let nearest = found.min_by(|(one, _), (other, _)| one.total_cmp(other));
+    nearest.map(|(_, place)| place)
+}

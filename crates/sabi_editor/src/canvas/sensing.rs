@@ -1,0 +1,15 @@
+//! Ids and rectangles under which whole nodes react to the pointer.
+
+use egui::{Id, Rect, Response, Sense, Ui};
+
+use super::snapshot::Key;
+
+/// Id under which the canvas crate's widget senses clicks and drags of a whole node.
+pub(super) fn window_id(ui: &Ui, key: Key) -> Id {
+    ui.id().with(key).with((key, "window"))
+}
+
+/// Response of a whole node that has no widget of the canvas crate: a card or a bend.
+pub(super) fn sensed(ui: &Ui, key: Key, rect: Rect) -> Response {
+    ui.interact(rect, window_id(ui, key), Sense::click_and_drag())
+}

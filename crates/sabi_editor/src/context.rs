@@ -1,0 +1,98 @@
+//! What views read while a frame is drawn, and the shape that all of them have.
+
+use std::collections::VecDeque;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use eframe::egui_wgpu::RenderState;
+use egui::{TextureHandle, TextureId, Ui};
+use sabi_editing::OpenDocument;
+use sabi_engine::Recovery;
+use sabi_graph::{NodeId, NodeRef};
+
+use crate::action::Action;
+use crate::evaluation::Evaluation;
+use crate::exports::Exports;
+use crate::key_map::KeyMap;
+use crate::knobs::Lengths;
+use crate::library::Library;
+use crate::looks::Looks;
+use crate::saved_pictures::SavedPictures;
+use crate::search::Candidate;
+use crate::settings::Settings;
+use crate::theme::Theme;
+
+/// A part of the window. It owns its state, reads the context, and answers with actions.
+pub(crate) trait View {
+    /// Draws the view and gives what is asked for in it.
+    fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action>;
+}
+
+/// What views read while a frame is drawn.
+#[derive(Clone, Copy)]
+pub(crate) struct ViewContext<'a> {
+    pub(crate) document: &'a OpenDocument,
+    pub(crate) evaluation: &'a Evaluation,
+    pub(crate) looks: &'a Looks,
+    pub(crate) exports: &'a Exports,
+    pub(crate) library: &'a Library,
+    pub(crate) pictures: &'a SavedPictures,
+    /// Nodes and groups that can be added.
+    pub(crate) candidates: &'a [Candidate],
+    /// Graphs and node files that were not saved when the program ended.
+    pub(crate) recoveries: &'a [Recovery],
+    pub(crate) settings: &'a Settings,
+    pub(crate) theme: &'a Arc<Theme>,
+    pub(crate) keys: &'a KeyMap,
+    /// Device that the window is drawn with; none where it is only laid out.
+    pub(crate) render: Option<&'a RenderState>,
+    /// Times of the last frames, without the drawing by the device.
+    pub(crate) frame_times: &'a VecDeque<Duration>,
+    /// Pictures of the model that were drawn so far.
+    pub(crate) pictures_drawn: u64,
+    /// Whether the open graph has changes that its file does not have.
+    pub(crate) is_dirty: bool,
+    /// Whether another program has written the graph's file, and the artist has not said yet which one to keep.
+    pub(crate) is_file_foreign: bool,
+    /// Whether only the model and the published parameters are shown.
+    pub(crate) is_use_view: bool,
+    /// Whether a parameter is being dragged.
+    pub(crate) is_dragging: bool,
+}
+
+impl ViewContext<'_> {
+    /// File of the open graph; empty while it has none.
+    pub(crate) fn file_or_empty(&self) -> &Path {
+        self.document.session.file().unwrap_or(Path::new(""))
+    }
+
+    /// Units of lengths on the model that is shown.
+    pub(crate) fn lengths(&self) -> Lengths {
+        Lengths::on(self.evaluation.shown_model.as_deref())
+    }
+
+    /// Picture of a node's result, if it has arrived.
+    pub(crate) fn node_picture(&self, id: &NodeId) -> Option<TextureId> {
+        self.result_picture(&self.looks.chosen(self.document, id))
+    }
+
+    /// Picture of a result, if it has arrived.
+    pub(crate) fn result_picture(&self, result: &NodeRef) -> Option<TextureId> {
+        self.evaluation.thumbnail(result).map(TextureHandle::id)
+    }
+
+    /// Number of errors, without warnings.
+    pub(crate) fn problem_count(&self) -> usize {
+        self.evaluation.problem_count() + self.document.kinds().0.faults.len()
+    }
+
+    /// Sentence about why the outputs do not show the graph as it is.
+    pub(crate) fn fault_of_outputs(&self) -> Option<&String> {
+        let evaluation = self.evaluation;
+        let outputs = self.document.contents().graph.nodes();
+        let mut outputs = outputs.filter(|(_, node)| node.kind.starts_with("output/"));
+        let failure = evaluation.model_failure.as_ref().or(evaluation.failure.as_ref());
+        failure.or_else(|| outputs.find_map(|(id, _)| evaluation.sentence(id.as_str())))
+    }
+}

@@ -1,0 +1,85 @@
+//! An export on a thread of its own.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+
+use egui::Context;
+use sabi_engine::{BakeReport, EngineError, Phase, Progress};
+
+use crate::task::{Failed, Task};
+
+/// An export on a thread of its own. Dropping it cancels it and waits for its end.
+pub(crate) struct Running {
+    watch: Arc<Watch>,
+    task: Task<Result<BakeReport, EngineError>>,
+    /// Folder that it writes to.
+    pub(crate) folder: PathBuf,
+}
+
+/// Progress of an export, shared with its thread.
+#[derive(Default)]
+struct Watch {
+    is_canceled: AtomicBool,
+    done: AtomicUsize,
+    of: AtomicUsize,
+    phase: Mutex<Option<Phase>>,
+}
+
+impl Progress for Watch {
+    fn advance(&self, phase: Phase, done: usize, of: usize) {
+        if let Ok(mut known) = self.phase.lock() {
+            *known = Some(phase);
+        }
+        self.done.store(done, Ordering::Relaxed);
+        self.of.store(of, Ordering::Relaxed);
+    }
+
+    fn is_canceled(&self) -> bool {
+        self.is_canceled.load(Ordering::Relaxed)
+    }
+}
+
+type BakeWork = dyn FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + Send;
+
+/// An export that can be started.
+pub(crate) struct Bake {
+    /// Folder that it writes to.
+    pub(crate) folder: PathBuf,
+    pub(crate) work: Box<BakeWork>,
+}
+
+impl Running {
+    /// Starts an export; `context` draws a frame when it is done.
+    pub(crate) fn start(context: &Context, bake: Bake) -> Running {
+        let watch = Arc::new(Watch::default());
+        let watched = watch.clone();
+        let Bake { folder, work } = bake;
+        let task = Task::start(context, move || work(watched.as_ref()));
+        Running { watch, task, folder }
+    }
+
+    /// Title of the step that runs, and the share of it that is done.
+    pub(crate) fn progress(&self) -> (&'static str, f32) {
+        let watch = &self.watch;
+        let phase = watch.phase.lock().ok().and_then(|phase| *phase);
+        let share = watch.done.load(Ordering::Relaxed) as f32 / watch.of.load(Ordering::Relaxed).max(1) as f32;
+        (phase.map_or("Reading", Phase::label), share)
+    }
+
+    /// Asks the export to end; [`Running::poll`] says when it has.
+    pub(crate) fn cancel(&self) {
+        self.watch.is_canceled.store(true, Ordering::Relaxed);
+    }
+
+    /// Result of the export, once.
+    pub(crate) fn poll(&self) -> Option<Result<Result<BakeReport, EngineError>, Failed>> {
+        self.task.poll()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.cancel();
+    }
+}

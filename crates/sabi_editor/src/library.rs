@@ -1,0 +1,110 @@
+//! The library: groups in files of their own, which every graph can use.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use sabi_editing::GRAPH_EXTENSION;
+use sabi_engine::OpenGraph;
+use sabi_engine::catalog::{Catalog, Faces};
+
+use crate::action::Shelf;
+use crate::paths::file_stem;
+use crate::search::Shelved;
+
+/// Groups in the folders of the library, read again when a file changes.
+#[derive(Default)]
+pub(crate) struct Library {
+    /// Whether files may have changed since they were read.
+    is_stale: bool,
+    groups: Vec<Shelved>,
+    /// Sentences about files that cannot be used.
+    faults: Vec<String>,
+    /// Folders and files that were read.
+    files: Arc<[PathBuf]>,
+    /// Folders that were read.
+    folders: Option<Vec<(Shelf, PathBuf)>>,
+}
+
+impl Library {
+    /// Has the files read again, since they may have changed.
+    pub(crate) fn invalidate(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Folders and files that were read.
+    pub(crate) fn files(&self) -> &Arc<[PathBuf]> {
+        &self.files
+    }
+
+    /// Sentences about files that cannot be used.
+    pub(crate) fn faults(&self) -> &[String] {
+        &self.faults
+    }
+
+    /// Whether these folders have to be read.
+    pub(crate) fn has_changed(&self, folders: &[(Shelf, PathBuf)]) -> bool {
+        self.is_stale || self.folders.as_deref() != Some(folders)
+    }
+
+    /// Groups in these folders, which are read if they have to be.
+    pub(crate) fn groups(&mut self, folders: Vec<(Shelf, PathBuf)>, catalog: &Catalog) -> &[Shelved] {
+        if self.has_changed(&folders) {
+            self.is_stale = false;
+            self.groups.clear();
+            self.faults.clear();
+            let mut files = Vec::new();
+            for (shelf, folder) in &folders {
+                files.push(folder.clone());
+                files.extend(self.read(*shelf, folder, catalog));
+            }
+            self.files = files.into();
+            self.folders = Some(folders);
+        }
+        &self.groups
+    }
+
+    /// Adds the groups of a folder; gives its graph files.
+    fn read(&mut self, shelf: Shelf, folder: &Path, catalog: &Catalog) -> Vec<PathBuf> {
+        let entries = match fs::read_dir(folder) {
+            Ok(entries) => entries,
+            Err(error) => {
+                if error.kind() != ErrorKind::NotFound {
+                    self.faults
+                        .push(format!("{} cannot be read: {error}", folder.display()));
+                }
+                return Vec::new();
+            }
+        };
+        let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        files.retain(|file| file.extension().is_some_and(|ending| ending == GRAPH_EXTENSION));
+        files.sort();
+        for file in &files {
+            match group_of(shelf, file, catalog) {
+                Ok(group) => self.groups.push(group),
+                Err(why) => self.faults.push(why),
+            }
+        }
+        files
+    }
+}
+
+/// A file as a group that other graphs can use, or a sentence about why it is none.
+fn group_of(shelf: Shelf, file: &Path, catalog: &Catalog) -> Result<Shelved, String> {
+    let open = OpenGraph::open(file).map_err(|error| error.to_string())?;
+    let faces = Faces::new(catalog, &open.document, &mut |_| None);
+    let whole = faces.of_whole().ok_or_else(|| {
+        let why = "is in the library, and gives nothing that other graphs could use; add an output to it";
+        format!("{} {why}", file.display())
+    })?;
+    let mut face = whole.as_ref().clone();
+    if face.label == "Group" {
+        face.label = file_stem(file).into_owned();
+    }
+    Ok(Shelved {
+        shelf,
+        file: file.to_owned(),
+        face: Arc::new(face),
+    })
+}

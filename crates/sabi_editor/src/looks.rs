@@ -1,0 +1,170 @@
+//! Which results are shown where: in the 2D view, on the model, and beside it for comparison.
+
+use std::collections::BTreeMap;
+
+use sabi_editing::{KnobTarget, OpenDocument};
+use sabi_engine::ViewSubject;
+use sabi_graph::{NodeId, NodeRef};
+
+use crate::action::LookAction;
+use crate::settings::Settings;
+
+/// Which results are shown where.
+#[derive(Default)]
+pub(crate) struct Looks {
+    /// Result of the node that was clicked last.
+    pub(crate) shown: Option<NodeRef>,
+    /// Result that the model shows while it follows clicks; none after a click beside all nodes.
+    pub(crate) followed: Option<NodeRef>,
+    /// Result that the 2D view keeps whatever is clicked.
+    pub(crate) pinned: Option<NodeRef>,
+    /// Result that the model keeps whatever is clicked.
+    pub(crate) locked: Option<NodeRef>,
+    /// Outputs other than the first that were chosen for node pictures, by the full id of the node.
+    outputs: BTreeMap<String, String>,
+    /// Whether the model shows the locked result beside another one.
+    pub(crate) is_compared: bool,
+    /// Parameter that the next clicked color is for.
+    pub(crate) color_target: Option<KnobTarget>,
+    /// Length parameter under the pointer or in a drag, in working units: the viewport draws it as a bar.
+    pub(crate) length: Option<f64>,
+}
+
+impl Looks {
+    /// What the model shows: the locked result, or else the followed one, or else the outputs.
+    pub(crate) fn on_model(&self, document: &OpenDocument, settings: &Settings) -> ViewSubject {
+        // In a comparison the locked result has its own side.
+        let locked = self.locked.as_ref().filter(|_| !self.is_compared);
+        // A node that a color is being taken for would only offer its own.
+        let is_color_target = |result: &NodeRef| match &self.color_target {
+            Some(KnobTarget::Node { node, .. }) => document.full_id(node) == result.node,
+            Some(KnobTarget::Panel(_)) | None => false,
+        };
+        let followed = self
+            .followed
+            .as_ref()
+            .filter(|result| settings.follows && !is_color_target(result));
+        locked
+            .or(followed)
+            .map_or(ViewSubject::Outputs, |result| ViewSubject::Node(result.clone()))
+    }
+
+    /// What the model is compared with.
+    pub(crate) fn beside_model(&self) -> Option<ViewSubject> {
+        self.locked.clone().filter(|_| self.is_compared).map(ViewSubject::Node)
+    }
+
+    /// Result that the 2D view shows.
+    pub(crate) fn inspected(&self) -> Option<&NodeRef> {
+        self.pinned.as_ref().or(self.shown.as_ref())
+    }
+
+    /// Result of a node at the output that was chosen last, or at its first one.
+    pub(crate) fn chosen(&self, document: &OpenDocument, id: &NodeId) -> NodeRef {
+        let output = self.outputs.get(&document.full_id(id)).cloned();
+        result_of(document, id, output)
+    }
+
+    /// Shows a node's result, at an output or at the one that was chosen last.
+    pub(crate) fn show(&mut self, document: &OpenDocument, id: &NodeId, output: Option<String>) {
+        let result = match output {
+            Some(output) => result_of(document, id, Some(output)),
+            None => self.chosen(document, id),
+        };
+        match &result.port {
+            Some(output) => self.outputs.insert(result.node.clone(), output.clone()),
+            None => self.outputs.remove(&result.node),
+        };
+        self.followed = Some(result.clone());
+        self.shown = Some(result);
+    }
+
+    /// Shows no result of any node, since another graph is opened.
+    pub(crate) fn clear(&mut self) {
+        [self.shown, self.followed, self.pinned, self.locked] = [const { None }; 4];
+        self.outputs.clear();
+        self.color_target = None;
+    }
+
+    /// Shows results of deleted nodes no longer.
+    pub(crate) fn forget_deleted(&mut self, document: &OpenDocument) {
+        for result in self.results() {
+            result.take_if(|result| !document.has(&result.node));
+        }
+        self.outputs.retain(|node, _| document.has(node));
+    }
+
+    /// Shows the result of one node wherever that of another one was shown, whose full id is `before`.
+    pub(crate) fn replace(&mut self, before: &str, by: &NodeRef) {
+        for result in self.results() {
+            if result.as_ref().is_some_and(|result| result.node == before) {
+                *result = Some(by.clone());
+            }
+        }
+    }
+
+    /// Keeps a node's result in the 2D view, or releases it where it is kept.
+    pub(crate) fn toggle_pin(&mut self, document: &OpenDocument, id: &NodeId) {
+        let result = Some(self.chosen(document, id));
+        self.pinned = if self.pinned == result { None } else { result };
+    }
+
+    /// Keeps a node's result on the model, or releases it where it is kept.
+    pub(crate) fn toggle_lock(&mut self, document: &OpenDocument, id: Option<&NodeId>) {
+        let result = id.map(|id| self.chosen(document, id));
+        self.locked = if self.locked == result { None } else { result };
+    }
+
+    /// Takes a color for a parameter from the next click, or no longer where that is so already; gives whether it does.
+    pub(crate) fn toggle_color_target(&mut self, parameter: KnobTarget) -> bool {
+        let was_target = self.color_target.take_if(|known| *known == parameter).is_some();
+        if !was_target {
+            self.color_target = Some(parameter);
+        }
+        !was_target
+    }
+
+    /// Performs what a menu asks for.
+    pub(crate) fn perform(&mut self, action: LookAction, settings: &mut Settings) {
+        match action {
+            LookAction::Outputs | LookAction::Follow => {
+                settings.follows = action == LookAction::Follow;
+                if !self.is_compared {
+                    self.locked = None;
+                }
+            }
+            LookAction::Lock => self.locked = self.shown.clone(),
+            LookAction::Release => self.locked = None,
+            LookAction::Compare => {
+                if !self.is_compared && self.locked.is_none() {
+                    self.locked = self.shown.clone();
+                }
+                self.is_compared = !self.is_compared;
+            }
+            LookAction::Unpin => self.pinned = None,
+        }
+    }
+
+    fn results(&mut self) -> [&mut Option<NodeRef>; 4] {
+        [&mut self.shown, &mut self.followed, &mut self.pinned, &mut self.locked]
+    }
+}
+
+/// A node's result at an output, as the evaluation names it: the first output has no name.
+pub(crate) fn result_of(document: &OpenDocument, id: &NodeId, output: Option<String>) -> NodeRef {
+    let outputs = document.face(id).map_or(&[][..], |face| &face.outputs);
+    let others = outputs.iter().skip(1).map(|port| &port.name);
+    NodeRef {
+        node: document.full_id(id),
+        port: output.filter(|output| others.clone().any(|other| other == output)),
+    }
+}
+
+/// Title of a node, with the output of a result where it is not the first.
+pub(crate) fn title_of(document: &OpenDocument, result: &NodeRef) -> String {
+    let title = document.title_at(&result.node);
+    match &result.port {
+        Some(output) => format!("{title} · {output}"),
+        None => title,
+    }
+}

@@ -1,0 +1,61 @@
+//! File paths as the window compares and shows them, and the endings that tell what a file is.
+
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+use sabi_editing::GRAPH_EXTENSION;
+use sabi_engine::{Session, canonical};
+
+/// Endings of models.
+pub(crate) const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
+/// Endings of images that nodes read.
+pub(crate) const IMAGES: [&str; 8] = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
+
+/// Canonical path of a file, or the path as it is where there is no such file.
+pub(crate) fn canonical_if_present(file: &Path) -> PathBuf {
+    canonical(file).unwrap_or_else(|_| file.to_owned())
+}
+
+/// Path of a file in the canonical path of its folder. The file's own name stays: the target of a link may have another
+/// name, and other files beside it.
+pub(crate) fn in_canonical_folder(file: &Path) -> PathBuf {
+    match (file.parent(), file.file_name()) {
+        (Some(folder), Some(name)) => canonical_if_present(folder).join(name),
+        _ => file.to_owned(),
+    }
+}
+
+/// Name of a file for people. Of a path that ends in `..`, all of it.
+pub(crate) fn file_name(file: &Path) -> Cow<'_, str> {
+    file.file_name().unwrap_or(file.as_os_str()).to_string_lossy()
+}
+
+/// Name of a file without its ending, for people.
+pub(crate) fn file_stem(file: &Path) -> Cow<'_, str> {
+    file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy()
+}
+
+/// Ending of a file in lower case, if it has one.
+pub(crate) fn lowercase_ending(file: &Path) -> Option<String> {
+    file.extension().map(|ending| ending.to_string_lossy().to_lowercase())
+}
+
+/// A graph file's path, with the ending of graph files whatever was typed.
+pub(crate) fn with_graph_ending(path: PathBuf) -> PathBuf {
+    let is_graph = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case(GRAPH_EXTENSION));
+    let Some(name) = path.file_name().filter(|_| !is_graph) else {
+        return path;
+    };
+    let mut name = name.to_owned();
+    name.push(".");
+    name.push(GRAPH_EXTENSION);
+    path.with_file_name(name)
+}
+
+/// File of the model that a graph names.
+pub(crate) fn model_of(session: &Session) -> Option<PathBuf> {
+    let named = session.document().preview.as_ref()?.mesh.clone()?;
+    Some(session.graph().folder().join(named))
+}

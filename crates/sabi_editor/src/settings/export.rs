@@ -1,0 +1,85 @@
+//! Choices of the export panel, as they are kept between runs.
+
+use std::path::PathBuf;
+
+use sabi_engine::{export_channels, export_presets};
+
+/// Sizes that the panel offers.
+pub(crate) const SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
+
+/// Choices of the export panel, kept between runs.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct ExportChoices {
+    pub(crate) preset: String,
+    /// Texels along a side.
+    pub(crate) size: u32,
+    /// Pattern of file names; empty for the default.
+    pub(crate) names: String,
+    /// Channels that are exported; empty for all.
+    pub(crate) channels: Vec<String>,
+    pub(crate) has_model: bool,
+    pub(crate) all_maps: bool,
+}
+
+impl Default for ExportChoices {
+    fn default() -> ExportChoices {
+        ExportChoices {
+            // The engine has built-in presets, whose first is the default.
+            preset: export_presets().next().unwrap_or_default().to_owned(),
+            size: 2048,
+            names: String::new(),
+            channels: Vec::new(),
+            has_model: false,
+            all_maps: false,
+        }
+    }
+}
+
+impl ExportChoices {
+    /// Choices with what is not known replaced by the default, since settings may have been edited by hand.
+    pub(crate) fn sound(mut self) -> ExportChoices {
+        let usual = ExportChoices::default();
+        if !export_presets().any(|preset| preset == self.preset) {
+            self.preset = usual.preset;
+        }
+        if !SIZES.contains(&self.size) {
+            self.size = usual.size;
+        }
+        let known = export_channels();
+        self.channels.retain(|channel| known.contains(channel));
+        self
+    }
+}
+
+/// Target of the textures of a graph, kept between runs.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct ExportPlace {
+    pub(crate) folder: String,
+    /// Whether they are exported again at every save.
+    pub(crate) again: bool,
+    /// Model that the textures in the folder were exported for.
+    pub(crate) model: Option<PathBuf>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unknown_choices_are_replaced_by_the_default() {
+        let choices = ExportChoices {
+            preset: "mine".to_owned(),
+            size: 1000,
+            channels: vec!["normal".to_owned(), "smell".to_owned()],
+            ..ExportChoices::default()
+        };
+        let channels = vec!["normal".to_owned()];
+        let expected = ExportChoices {
+            channels,
+            ..ExportChoices::default()
+        };
+        assert_eq!(choices.sound(), expected);
+    }
+}

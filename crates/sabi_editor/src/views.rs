@@ -1,0 +1,55 @@
+//! The views of the window, each with its own state.
+
+use crate::canvas::Canvas;
+use crate::context::View;
+use crate::dock::Panel;
+use crate::files::Questions;
+use crate::files::key_list::KeyList;
+use crate::files::start::StartPage;
+use crate::flat_view::FlatView;
+use crate::model_view::ModelView;
+use crate::panels::export::ExportPanel;
+use crate::panels::history::History;
+use crate::panels::library::LibraryPanel;
+use crate::panels::page::Page;
+use crate::panels::parameters::Parameters;
+use crate::panels::performance::Performance;
+use crate::panels::problems::Problems;
+use crate::panels::stack::Layers;
+
+/// The views of the window, each with its own state.
+pub(crate) struct Views {
+    pub(crate) canvas: Canvas,
+    pub(crate) model: ModelView,
+    pub(crate) flat: FlatView,
+    pub(crate) parameters: Parameters,
+    pub(crate) layers: Layers,
+    pub(crate) library: LibraryPanel,
+    pub(crate) export: ExportPanel,
+    pub(crate) history: History,
+    pub(crate) problems: Problems,
+    pub(crate) performance: Performance,
+    pub(crate) page: Page,
+    pub(crate) questions: Questions,
+    pub(crate) start: StartPage,
+    pub(crate) key_list: KeyList,
+}
+
+impl Views {
+    /// View in a panel.
+    pub(crate) fn in_panel(&mut self, panel: Panel) -> &mut dyn View {
+        match panel {
+            Panel::Canvas => &mut self.canvas,
+            Panel::Viewport => &mut self.model,
+            Panel::Flat => &mut self.flat,
+            Panel::Parameters => &mut self.parameters,
+            Panel::Stack => &mut self.layers,
+            Panel::Library => &mut self.library,
+            Panel::Export => &mut self.export,
+            Panel::History => &mut self.history,
+            Panel::Problems => &mut self.problems,
+            Panel::Performance => &mut self.performance,
+            Panel::Page => &mut self.page,
+        }
+    }
+}
