@@ -10,10 +10,10 @@ use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
 use sabi_graph::{Fit, NodeId, OutputRef, SlotRef, Value};
 
-use crate::command::{Command, Habit};
+use crate::command::{Command, InputPreset};
 use crate::dock::Panel;
+use crate::import_options::ImportOptions;
 use crate::knobs::KnobEvent;
-use crate::reading::Reading;
 use crate::settings::export::{ExportChoices, ExportPlace};
 use crate::theme::Shade;
 
@@ -29,23 +29,23 @@ pub(crate) enum Action {
     Notice(String),
     /// Add a node, connected to a loose wire or put into a wire.
     Add {
-        new: New,
+        new: NewNode,
         place: [f32; 2],
         loose: Option<PendingWire>,
         into: Option<SlotRef>,
     },
     /// Add a node in the middle of the canvas.
-    AddInMiddle(New),
+    AddInMiddle(NewNode),
     /// Draw a node that is dragged to the canvas from another panel.
     DragNew { face: Arc<Entry>, at: Pos2 },
     /// Add a dragged node where it was dropped, if that is on the canvas.
-    DropNew { new: New, face: Arc<Entry>, at: Pos2 },
+    DropNew { new: NewNode, face: Arc<Entry>, at: Pos2 },
     /// Put the selected group into a library.
-    Shelve(Shelf),
+    AddToLibrary(LibraryKind),
     /// Write the file of a node of the artist's own.
     SaveNode(NodeDraft),
     /// Replace a node by one of another kind.
-    Replace { node: NodeId, by: New },
+    Replace { node: NodeId, by: NewNode },
     /// Change wires.
     Wire(WireAction),
     /// Move nodes.
@@ -205,7 +205,7 @@ pub(crate) enum ModelAction {
     /// Show another model.
     Show(PathBuf),
     /// Read the shown model with other options.
-    Read(Reading),
+    Read(ImportOptions),
     /// Remove a model from the strip.
     Remove(PathBuf),
 }
@@ -227,7 +227,7 @@ pub(crate) enum ExportAction {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum SettingAction {
     Shade(Shade),
-    Habit(Habit),
+    InputPreset(InputPreset),
     /// Keys of commands that have others than the habit's, by the command's name.
     Keys(BTreeMap<String, Vec<String>>),
     /// Environment of the viewport: a built-in name, or a file.
@@ -352,7 +352,7 @@ pub(crate) enum LayerAction {
 
 /// Library of groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Shelf {
+pub(crate) enum LibraryKind {
     /// Folder `library` beside the graph.
     Project,
     /// Library of the user.
@@ -361,7 +361,7 @@ pub(crate) enum Shelf {
 
 /// What is added to a graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum New {
+pub(crate) enum NewNode {
     /// Node of a kind.
     Kind(String),
     /// Instance of one of the document's groups.
@@ -370,13 +370,13 @@ pub(crate) enum New {
     Library(PathBuf),
 }
 
-impl New {
+impl NewNode {
     /// Key of a favorite in settings.
     pub(crate) fn key(&self) -> String {
         match self {
-            New::Kind(kind) => kind.clone(),
-            New::Group(group) => format!("group {group}"),
-            New::Library(file) => file.display().to_string(),
+            NewNode::Kind(kind) => kind.clone(),
+            NewNode::Group(group) => format!("group {group}"),
+            NewNode::Library(file) => file.display().to_string(),
         }
     }
 }

@@ -265,7 +265,7 @@ impl eframe::App for Editor {
     }
 
     fn clear_color(&self, _: &egui::Visuals) -> [f32; 4] {
-        self.shell.theme.ground.to_normalized_gamma_f32()
+        self.shell.theme.background.to_normalized_gamma_f32()
     }
 
     fn on_exit(&mut self) {

@@ -1,24 +1,24 @@
-//! The canvas: it draws a snapshot of the graph and answers with what is asked for. It holds no truth, only how one looks at
-//! it and what is in hand. This module alone names the canvas crate, of which it takes the graph types and the node widget;
-//! zoom, wires, selection and menus are its own.
+//! The canvas: it draws a copy of the shown graph and answers with actions. Its state is that of the view: pan and zoom, the
+//! current drag, and open menus. This module alone names the canvas crate, of which it takes the graph types and the node
+//! widget; zoom, wires, selection and menus are its own.
 
 mod add_menu;
-mod bend;
 mod body;
 mod card;
+mod dragged_node;
 mod focus;
 mod frame_rects;
 mod frames;
 mod gesture;
-mod ghost;
 mod mini_map;
+mod node_summary;
 mod nodes;
-mod places;
 mod port_menu;
+mod port_refs;
 mod ports;
 mod questions;
+mod reroute;
 mod sensing;
-mod shown;
 mod sides;
 mod snapshot;
 mod tips;
@@ -34,65 +34,65 @@ use sabi_graph::{NodeId, NodeRef};
 
 use crate::action::Action;
 use crate::bars;
-use crate::command::{CanvasCommand, Habit};
+use crate::command::{CanvasCommand, InputPreset};
 use crate::context::ViewContext;
 use crate::search::Candidate;
 use crate::theme::Theme;
 use add_menu::{AddMenu, Outcome, Purpose};
 use gesture::Gesture;
+use node_summary::NodeState;
 use questions::{MergeQuestion, Renaming};
-use shown::NodeState;
 use snapshot::Snapshot;
 use view::View;
 use wires::Wire;
 
-/// Below this zoom nodes are cards with a picture and a name, whose sides are taken for their ports.
+/// Zoom below which nodes are drawn as cards with a picture and a name, and wires are dragged from their sides.
 const CARD_ZOOM: f32 = 0.5;
-/// Between lines of the grid, canvas points.
+/// Distance between lines of the grid, canvas points.
 const GRID_STEP: f32 = 40.0;
 
-/// How one looks at the graph, and what is in hand.
+/// View of the graph: what part is shown, what is dragged, and which menu is open.
 #[derive(Default)]
 pub(crate) struct Canvas {
     view: View,
-    /// Of graphs that were left, by the path to them.
+    /// Views of other groups, by the path to them.
     views: BTreeMap<Vec<NodeId>, View>,
     path: Vec<NodeId>,
     snapshot: Snapshot,
-    /// What the pointer holds.
+    /// Current drag.
     gesture: Gesture,
     menu: Option<AddMenu>,
     merge: Option<MergeQuestion>,
     renaming: Option<Renaming>,
-    /// The port that keys are about.
-    port: Option<focus::PortAt>,
-    /// The same, as a place.
-    focused: Option<places::Place>,
-    /// Nodes in the order in which they were touched: later ones lie above.
+    /// Port that has the keyboard.
+    port: Option<focus::FocusedPort>,
+    /// The same port by its name.
+    focused: Option<port_refs::PortRef>,
+    /// Nodes in the order of their last click or drag: later ones are drawn above.
     touched: Vec<NodeId>,
-    /// What is dragged here from another panel has been away from the edges.
+    /// Whether a drag from another panel has been away from the edges, and so may scroll the canvas.
     is_brought: bool,
-    /// The panel as it was last drawn.
+    /// Rectangle of the panel in the last frame.
     panel: Option<Rect>,
-    /// Framed once there is something to frame.
+    /// Whether all nodes were zoomed to once.
     was_framed: bool,
 }
 
 /// What the canvas is drawn from.
-struct Around<'a> {
+struct CanvasContext<'a> {
     pub(crate) document: &'a OpenDocument,
     pub(crate) theme: &'a Arc<Theme>,
-    /// What is known of a node's result.
+    /// State of a node's result.
     pub(crate) state_of: &'a dyn Fn(&NodeId) -> NodeState,
-    /// What may be added.
+    /// Nodes and groups that can be added.
     pub(crate) candidates: &'a [Candidate],
-    /// The node that the 2D view shows.
+    /// Node that the 2D view shows.
     pub(crate) previewed: Option<&'a NodeId>,
-    /// What drags mean.
-    pub(crate) habit: Habit,
-    /// The node that the 2D view shows whatever is clicked.
+    /// Preset that gives drags their meaning.
+    pub(crate) habit: InputPreset,
+    /// Node that the 2D view keeps.
     pub(crate) pinned: Option<&'a NodeId>,
-    /// Whether the whole graph is shown in a corner.
+    /// Whether the mini map is shown.
     pub(crate) has_map: bool,
 }
 
@@ -118,7 +118,7 @@ impl crate::context::View for Canvas {
         let here = |result: &NodeRef| document.seen_at(&result.node);
         let previewed = looks.inspected().and_then(here);
         let pinned = looks.pinned.as_ref().and_then(here);
-        let around = Around {
+        let around = CanvasContext {
             document,
             theme: context.theme,
             state_of: &state_of,
@@ -135,15 +135,15 @@ impl crate::context::View for Canvas {
 
 impl Canvas {
     /// Draws the graph and gives what is asked for.
-    fn draw(&mut self, ui: &mut Ui, around: &Around<'_>) -> Vec<Action> {
+    fn draw(&mut self, ui: &mut Ui, around: &CanvasContext<'_>) -> Vec<Action> {
         let panel = ui.available_rect_before_wrap();
         if !panel.is_positive() {
             return Vec::new();
         }
         ui.set_clip_rect(panel.intersect(ui.clip_rect()));
         ui.advance_cursor_after_rect(panel);
-        let ground = ui.interact(panel, focus_id(), Sense::click_and_drag());
-        ground.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Canvas"));
+        let background = ui.interact(panel, focus_id(), Sense::click_and_drag());
+        background.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Canvas"));
         self.panel = Some(panel);
         self.is_brought &= ui.input(|input| input.pointer.any_down());
         self.follow_path(around.document);
@@ -159,7 +159,7 @@ impl Canvas {
         let wires = wires::visible(around.document, &self.view, panel);
         self.draw_wires(ui, around, &wires);
         nodes::show(self, ui, panel, around, &mut actions);
-        gesture::advance(self, ui, &ground, around, &wires, &mut actions);
+        gesture::advance(self, ui, &background, around, &wires, &mut actions);
         gesture::draw(self, ui, panel, around);
         if around.has_map {
             mini_map::show(self, ui, panel, around);
@@ -186,7 +186,7 @@ impl Canvas {
         Vec::new()
     }
 
-    /// Where something new stands: under the pointer, or in the middle of what is seen.
+    /// Place for a new node: under the pointer, or in the middle of the panel.
     pub(crate) fn place_for_new(&self, ui: &Ui) -> [f32; 2] {
         let panel = self.panel.unwrap_or(Rect::from_min_size(Pos2::ZERO, vec2(1.0, 1.0)));
         self.view.place(panel, self.screen_for_new(ui))
@@ -198,7 +198,7 @@ impl Canvas {
             .map_or([0.0; 2], |panel| self.view.place(panel, panel.center()))
     }
 
-    /// Which place of the canvas is there on the screen; none beside the panel.
+    /// Place on the canvas at a place of the screen; none beside the panel.
     pub(crate) fn place_at(&self, at: Pos2) -> Option<[f32; 2]> {
         let panel = self.panel.filter(|panel| panel.contains(at))?;
         Some(self.view.place(panel, at))
@@ -210,7 +210,7 @@ impl Canvas {
         pointer.filter(|at| panel.contains(*at)).unwrap_or(panel.center())
     }
 
-    /// Opens the menu of nodes, to put one in the place of another where there is one.
+    /// Opens the menu of nodes, to add one or to replace the node `instead`.
     pub(crate) fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>) {
         let purpose = Purpose {
             place: self.place_for_new(ui),
@@ -220,7 +220,7 @@ impl Canvas {
         self.menu = Some(AddMenu::new(self.screen_for_new(ui), purpose));
     }
 
-    /// Whether a menu or a field has the keys.
+    /// Whether a menu or a text field of the canvas has the keyboard.
     pub(crate) fn holds_keys(&self) -> bool {
         self.menu.is_some() || self.renaming.is_some() || self.merge.is_some()
     }
@@ -266,13 +266,13 @@ impl Canvas {
         self.leave_port();
     }
 
-    /// Shows all nodes.
+    /// Zooms to all nodes.
     pub(crate) fn frame_all(&mut self, document: &OpenDocument) {
         self.frame_nodes(document, document.graph().ids());
         self.was_framed = true;
     }
 
-    /// Shows these nodes.
+    /// Zooms to these nodes.
     pub(crate) fn frame_nodes<'i>(&mut self, document: &OpenDocument, ids: impl Iterator<Item = &'i NodeId>) {
         let rects = ids.filter_map(|id| node_rect(document, id));
         let all = rects.fold(Rect::NOTHING, |all, rect| all.union(rect));
@@ -281,7 +281,7 @@ impl Canvas {
         }
     }
 
-    /// Nodes that are seen, those in the middle first.
+    /// Nodes in the panel, those near its middle first.
     pub(crate) fn visible(&self, document: &OpenDocument) -> Vec<NodeId> {
         let Some(panel) = self.panel else {
             return Vec::new();
@@ -322,7 +322,7 @@ impl Canvas {
         }
     }
 
-    fn draw_wires(&self, ui: &Ui, around: &Around<'_>, wires: &[Wire]) {
+    fn draw_wires(&self, ui: &Ui, around: &CanvasContext<'_>, wires: &[Wire]) {
         let pointer = ui.input(|input| input.pointer.hover_pos());
         let hot = self.gesture.hot_wire(self, around.document, wires, pointer);
         for wire in wires {
@@ -339,7 +339,7 @@ impl Canvas {
         }
     }
 
-    fn show_questions(&mut self, ui: &mut Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
+    fn show_questions(&mut self, ui: &mut Ui, around: &CanvasContext<'_>, actions: &mut Vec<Action>) {
         if let Some(menu) = &mut self.menu {
             match menu.show(ui, around.document, around.theme, around.candidates) {
                 Outcome::Open => {}
@@ -355,12 +355,12 @@ impl Canvas {
     }
 }
 
-/// What has the focus while keys are for the canvas.
+/// Id that has the keyboard focus while keys act on the canvas.
 pub(crate) fn focus_id() -> egui::Id {
     egui::Id::new("keys are for the canvas")
 }
 
-/// The rectangle of a node on the canvas.
+/// Rectangle of a node on the canvas.
 fn node_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
     let pos = document.node(id)?.pos;
     Some(Rect::from_min_size(pos2(pos[0], pos[1]), document.size(id).into()))
@@ -369,7 +369,7 @@ fn node_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
 fn draw_grid(ui: &Ui, panel: Rect, view: &View, theme: &Theme) {
     ui.painter().rect_filled(panel, 0.0, theme.canvas);
     let step = GRID_STEP * view.zoom;
-    // Lines that lie close are a gray veil and cost most.
+    // Lines this close look like a gray area and take long to draw.
     if step < 14.0 {
         return;
     }

@@ -18,19 +18,19 @@ pub(crate) enum Scope {
 /// Program whose keys and drags are followed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum Habit {
+pub(crate) enum InputPreset {
     #[default]
     Default,
     Blender,
     Substance,
 }
 
-impl Habit {
+impl InputPreset {
     /// All habits with their titles.
-    pub(crate) const ALL: [(Habit, &'static str); 3] = [
-        (Habit::Default, "Default"),
-        (Habit::Blender, "Blender"),
-        (Habit::Substance, "Substance"),
+    pub(crate) const ALL: [(InputPreset, &'static str); 3] = [
+        (InputPreset::Default, "Default"),
+        (InputPreset::Blender, "Blender"),
+        (InputPreset::Substance, "Substance"),
     ];
 }
 

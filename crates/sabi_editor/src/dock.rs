@@ -319,7 +319,7 @@ impl egui_tiles::Behavior<Panel> for Docked<'_> {
     }
 
     fn tab_bar_color(&self, _: &egui::Visuals) -> egui::Color32 {
-        self.theme.ground
+        self.theme.background
     }
 
     fn tab_bg_color(
@@ -332,7 +332,7 @@ impl egui_tiles::Behavior<Panel> for Docked<'_> {
         if state.active {
             self.theme.panel
         } else {
-            self.theme.ground
+            self.theme.background
         }
     }
 

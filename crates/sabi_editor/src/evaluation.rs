@@ -16,7 +16,7 @@ use sabi_engine::{
 };
 use sabi_graph::{Document, NodeRef};
 
-use crate::reading::Reading;
+use crate::import_options::ImportOptions;
 
 /// Texels for one unit of UV of a first picture.
 const COARSE: u32 = 256;
@@ -49,7 +49,7 @@ pub(crate) struct Evaluation {
     live: Live,
     cache_dir: Option<PathBuf>,
     model: Arc<ModelOptions>,
-    reading: Reading,
+    reading: ImportOptions,
     model_revision: u64,
     asked: Option<(Asked, Wanted)>,
     graph: Arc<OpenGraph>,
@@ -93,7 +93,7 @@ impl Evaluation {
     /// Starts the evaluation on a device; `context` draws a frame when a result arrives.
     pub(crate) fn new(
         gpu: Arc<Gpu>,
-        (model, reading): (&Path, Reading),
+        (model, reading): (&Path, ImportOptions),
         cache_dir: Option<PathBuf>,
         context: &Context,
     ) -> Evaluation {
@@ -164,12 +164,12 @@ impl Evaluation {
     }
 
     /// Options for reading the model's file.
-    pub(crate) fn reading(&self) -> Reading {
+    pub(crate) fn import_options(&self) -> ImportOptions {
         self.reading
     }
 
     /// Evaluates on another model, or on the same one with other options.
-    pub(crate) fn take_model(&mut self, file: &Path, reading: Reading) {
+    pub(crate) fn take_model(&mut self, file: &Path, reading: ImportOptions) {
         self.reading = reading;
         self.model = Arc::new(self.model_at(file, self.model.size));
         self.model_revision += 1;

@@ -1,4 +1,4 @@
-//! One result in texture space: exact values, channels, how they are spread.
+//! The 2D view: one result in texture space, with exact values, channels and a histogram.
 
 mod eyedropper;
 mod picture;
@@ -27,57 +27,57 @@ use wires::Wires;
 /// Columns of a histogram.
 const BINS: usize = 128;
 
-/// How one looks at a texture.
+/// View of one result in texture space.
 pub(crate) struct FlatView {
-    /// From the middle of the panel to the middle of the texture, points.
+    /// Middle of the texture relative to the middle of the panel, points.
     pan: Vec2,
-    /// Points in one texel; none to show all of it.
+    /// Points in one texel; none to fit the texture to the panel.
     pub(crate) zoom: Option<f32>,
-    /// Which of the model's texture sets; the first where it does not have this one.
+    /// Texture set of the model that is shown; the first where the model does not have this one.
     pub(crate) set: Option<SetKey>,
-    /// Which of the planes.
+    /// Index of the plane that is shown.
     plane: usize,
-    /// Which number of it alone; none for all as a color.
+    /// Component of the plane that is shown alone; none for all as a color.
     component: Option<usize>,
     is_tiled: bool,
     has_wires: bool,
-    /// The picture of what was last shown, and of what it is.
-    shown: Option<Shown>,
-    /// What no picture could be made of.
-    failed: Option<Part>,
-    /// What will be shown next.
-    coming: Option<(Part, Task<(ColorImage, Histogram)>)>,
+    /// Picture that is shown until another one is made.
+    shown: Option<ShownPicture>,
+    /// Source of which no picture could be made.
+    failed: Option<PictureSource>,
+    /// Picture that is being made.
+    loading: Option<(PictureSource, Task<(ColorImage, Histogram)>)>,
     wires: Wires,
 }
 
-/// What a picture is of: a plane of some values, and which number of it.
-type Part = (Arc<Inspected>, usize, Option<usize>);
+/// Source of a picture: values, the index of a plane, and a component of it.
+type PictureSource = (Arc<Inspected>, usize, Option<usize>);
 
-struct Shown {
-    of: Part,
+struct ShownPicture {
+    of: PictureSource,
     texture: TextureHandle,
     histogram: Histogram,
 }
 
 /// What is shown.
 struct Subject<'a> {
-    /// The result; none where none was clicked yet.
+    /// Result to show; none before a node is clicked.
     wanted: Option<&'a NodeRef>,
-    /// What it is called.
+    /// Title of the result.
     title: &'a str,
-    /// Whether it is shown whatever is clicked.
+    /// Whether the result is pinned.
     is_pinned: bool,
-    /// Whether a click takes the color that is seen.
+    /// Whether a click takes a color.
     is_taking_color: bool,
     theme: &'a Theme,
 }
 
-/// What was done in the view.
+/// What was asked for in the view.
 #[derive(Default)]
-struct Done {
-    /// Whether what is pinned shall be no longer.
+struct Outcome {
+    /// Whether the pin was clicked.
     unpins: bool,
-    /// The color that was clicked, where one is wanted.
+    /// Clicked color.
     taken: Option<ClickedColor>,
 }
 
@@ -93,7 +93,7 @@ impl Default for FlatView {
             has_wires: false,
             shown: None,
             failed: None,
-            coming: None,
+            loading: None,
             wires: Wires::default(),
         }
     }
@@ -119,8 +119,8 @@ impl View for FlatView {
 
 impl FlatView {
     /// Draws the result of the inspected node.
-    fn draw(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>) -> Done {
-        let mut done = Done::default();
+    fn draw(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>) -> Outcome {
+        let mut done = Outcome::default();
         let Subject {
             wanted, theme, title, ..
         } = *subject;
@@ -145,7 +145,7 @@ impl FlatView {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Image, true, format!("Texture of {title}")));
         let painter = ui.painter().with_clip_rect(rect);
-        painter.rect_filled(rect, 0.0, theme.ground);
+        painter.rect_filled(rect, 0.0, theme.background);
         let Some(shown) = &self.shown else {
             if self.failed.is_some() {
                 let sentence = "No picture could be made of this result, which is a mistake of the program.";
@@ -172,8 +172,8 @@ impl FlatView {
         done
     }
 
-    /// Paints the picture where it is looked at, with its neighbors where it is tiled; gives the picture's own place.
-    fn paint(&self, painter: &egui::Painter, shown: &Shown, rect: Rect, size: u32) -> Rect {
+    /// Paints the picture, with copies around it where it is tiled; gives its rectangle.
+    fn paint(&self, painter: &egui::Painter, shown: &ShownPicture, rect: Rect, size: u32) -> Rect {
         let side = size as f32 * self.scale(rect, size);
         let square = Rect::from_center_size(rect.center() + self.pan, Vec2::splat(side));
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -209,7 +209,7 @@ impl FlatView {
         }
     }
 
-    /// What stands above the picture; says whether it shall not be pinned any more.
+    /// Shows the bar above the picture; gives whether the pin was clicked.
     fn bar(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>, values: Option<&Inspected>) -> bool {
         let mut unpins = false;
         ui.horizontal(|ui| {
@@ -224,7 +224,7 @@ impl FlatView {
                 self.sets(ui, model);
             }
             let Some(values) = values else { return };
-            // By names of their own: a click on them counts whatever comes and goes beside them meanwhile.
+            // With ids of their own, they take clicks whatever appears and disappears beside them.
             let named = |name: &str| UiBuilder::new().id(egui::Id::new(("texture", name)));
             ui.scope_builder(named("planes"), |ui| self.planes(ui, values));
             let right = named("switches").layout(egui::Layout::right_to_left(egui::Align::Center));
@@ -237,7 +237,7 @@ impl FlatView {
         unpins
     }
 
-    /// Which of several texture sets is shown.
+    /// Menu of the texture sets.
     fn sets(&mut self, ui: &mut Ui, model: &LiveModel) {
         let Some(shown) = model.set(self.set).filter(|_| model.sets.len() > 1) else {
             return;
@@ -256,7 +256,7 @@ impl FlatView {
         menu.widget_info(|| WidgetInfo::labeled(WidgetType::ComboBox, true, &words));
     }
 
-    /// Which plane is shown, and which number of it.
+    /// Menus of the planes and of the components.
     fn planes(&mut self, ui: &mut Ui, values: &Inspected) {
         self.plane = self.plane.min(values.planes.len().saturating_sub(1));
         if values.planes.len() > 1 {
@@ -281,7 +281,7 @@ impl FlatView {
         }
     }
 
-    /// Makes the picture anew where it is of something else: beside the window, which shows the last one meanwhile.
+    /// Makes a picture on a thread of its own where another one is needed, with the last one shown meanwhile.
     fn refresh(&mut self, ui: &Ui, values: &Arc<Inspected>) {
         let Some(plane) = values.planes.get(self.plane) else {
             self.shown = None;
@@ -289,9 +289,9 @@ impl FlatView {
         };
         let component = self.component.filter(|at| *at < plane.components);
         let wanted = (values.clone(), self.plane, component);
-        let is_wanted = |of: &Part| Arc::ptr_eq(&of.0, &wanted.0) && (of.1, of.2) == (wanted.1, wanted.2);
-        if let Some(come) = self.coming.as_ref().and_then(|(_, task)| task.poll())
-            && let Some((of, _)) = self.coming.take()
+        let is_wanted = |of: &PictureSource| Arc::ptr_eq(&of.0, &wanted.0) && (of.1, of.2) == (wanted.1, wanted.2);
+        if let Some(come) = self.loading.as_ref().and_then(|(_, task)| task.poll())
+            && let Some((of, _)) = self.loading.take()
         {
             match come {
                 Ok((image, histogram)) => self.take(ui, of, image, histogram),
@@ -305,7 +305,7 @@ impl FlatView {
             .into_iter()
             .chain(&self.failed);
         let is_there = known.any(is_wanted);
-        if is_there || self.coming.is_some() {
+        if is_there || self.loading.is_some() {
             return;
         }
         let (values, at, component) = wanted.clone();
@@ -316,10 +316,10 @@ impl FlatView {
                 Histogram::of(&values, plane, component, BINS),
             )
         });
-        self.coming = Some((wanted, task));
+        self.loading = Some((wanted, task));
     }
 
-    fn take(&mut self, ui: &Ui, of: Part, image: ColorImage, histogram: Histogram) {
+    fn take(&mut self, ui: &Ui, of: PictureSource, image: ColorImage, histogram: Histogram) {
         let options = TextureOptions {
             magnification: egui::TextureFilter::Nearest,
             ..TextureOptions::LINEAR
@@ -327,9 +327,9 @@ impl FlatView {
         self.shown = Some(match self.shown.take() {
             Some(mut shown) => {
                 shown.texture.set(image, options);
-                Shown { of, histogram, ..shown }
+                ShownPicture { of, histogram, ..shown }
             }
-            None => Shown {
+            None => ShownPicture {
                 of,
                 histogram,
                 texture: ui.ctx().load_texture("texture of a result", image, options),
@@ -357,7 +357,7 @@ impl FlatView {
         self.zoom = Some(after);
     }
 
-    /// The exact values under the pointer.
+    /// Shows the exact values under the pointer.
     fn probe(&self, ui: &Ui, response: &egui::Response, square: Rect, values: &Inspected, theme: &Theme) {
         let Some(at) = response.hover_pos() else { return };
         let Some(([x, y], texel)) = self.texel_at(at, square, values.size) else {
@@ -384,7 +384,7 @@ impl FlatView {
         told.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &text));
     }
 
-    /// The texel under a place, by column and row and by its place in the values; none beside the picture.
+    /// Texel under a place, by column and row and by its index; none beside the picture.
     fn texel_at(&self, at: Pos2, square: Rect, size: u32) -> Option<([usize; 2], usize)> {
         let share = (at - square.min) / square.size();
         let inside = |share: f32| if self.is_tiled { share.rem_euclid(1.0) } else { share };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use egui::{Event, Key, Modifiers};
 
-use crate::command::{Command, Habit, Scope};
+use crate::command::{Command, InputPreset, Scope};
 
 /// Key with the modifiers held down; `Ctrl` is Command on a Mac.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +80,7 @@ pub(crate) struct KeyMap {
 impl KeyMap {
     /// Keys of a habit, with the keys that settings give to some commands by name. Gives a sentence for each key that cannot
     /// be read.
-    pub(crate) fn new(habit: Habit, own: &BTreeMap<String, Vec<String>>) -> (KeyMap, Vec<String>) {
+    pub(crate) fn new(habit: InputPreset, own: &BTreeMap<String, Vec<String>>) -> (KeyMap, Vec<String>) {
         let mut faults = Vec::new();
         let mut bound = Vec::new();
         for command in Command::ALL {
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn every_preset_can_be_read_and_no_key_means_two_things_in_one_place() {
-        for (habit, name) in Habit::ALL {
+        for (habit, name) in InputPreset::ALL {
             let (keys, faults) = KeyMap::new(habit, &BTreeMap::new());
             assert_eq!(faults, Vec::<String>::new(), "{name}");
             assert_eq!(keys.clashes(), [], "{name}");
@@ -157,7 +157,7 @@ mod tests {
 
     #[test]
     fn nine_favorites_have_a_key_each_in_every_preset() {
-        for (habit, name) in Habit::ALL {
+        for (habit, name) in InputPreset::ALL {
             let (keys, _) = KeyMap::new(habit, &BTreeMap::new());
             for favorite in Favorite::ALL {
                 let number = (favorite.index() + 1).to_string();
@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn a_key_can_be_bound_anew() {
         let own = BTreeMap::from([("mute".to_owned(), vec!["B".to_owned()])]);
-        let (keys, _) = KeyMap::new(Habit::Default, &own);
+        let (keys, _) = KeyMap::new(InputPreset::Default, &own);
         assert_eq!(
             keys.command(Scope::Canvas, Modifiers::NONE, Key::B),
             Some(Command::Graph(GraphCommand::Mute))

@@ -1,7 +1,5 @@
-//! The widgets of parameters: every role of a knob has one. They show what is and ask for what should be, and decide
-//! nothing.
+//! Widgets of parameters, one for each role. They show values and ask for changes.
 
-mod asking;
 mod bar;
 mod boxes;
 mod buttons;
@@ -13,8 +11,8 @@ mod doc;
 mod expression;
 mod inline;
 mod keys;
+mod knob_ui;
 mod length;
-mod lettering;
 mod numbers;
 mod row;
 mod sentence;
@@ -22,6 +20,7 @@ mod stops;
 #[cfg(test)]
 mod tests;
 mod text;
+mod text_painting;
 mod typing;
 mod values;
 
@@ -29,76 +28,76 @@ use egui::{RichText, Ui};
 use sabi_engine::catalog::Knob;
 use sabi_graph::Value;
 
-use self::asking::Asking;
-pub(crate) use self::asking::KnobMemory;
 pub(crate) use self::inline::knob_inline;
+pub(crate) use self::knob_ui::KnobMemory;
+use self::knob_ui::KnobUi;
 pub(crate) use self::length::Lengths;
 use crate::theme::{Theme, space, type_size};
 
 /// Points between rows.
 const BETWEEN: f32 = 3.0;
 
-/// A knob as it is shown.
+/// Row of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct KnobRow<'a> {
     pub(crate) knob: &'a Knob,
-    /// What is set, as a file has it; nothing where the default holds.
+    /// Value as a file has it; none where the default holds.
     pub(crate) value: Option<&'a Value>,
-    /// What is connected, for knobs of inputs.
+    /// Title of the node that is connected, for parameters of inputs.
     pub(crate) wired: Option<&'a str>,
-    /// The name under which it is published.
+    /// Name under which the parameter is published.
     pub(crate) exposed: Option<&'a str>,
     /// Whether several nodes are selected that hold different values; `value` is that of one of them.
     pub(crate) differs: bool,
 }
 
 impl KnobRow<'_> {
-    /// What is set, or the default.
+    /// Value, or the default.
     fn held(&self) -> &Value {
         self.value.unwrap_or(&self.knob.ty.default)
     }
 
-    /// Whether anything but the default holds.
+    /// Whether the value differs from the default.
     fn is_changed(&self) -> bool {
         self.differs || *self.held() != self.knob.ty.default
     }
 }
 
-/// What is asked for. Knobs go by their name in graph files.
+/// What a row asks for. Parameters go by their name in graph files.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum KnobEvent {
-    /// To hold this value, which is one that a file may hold.
+    /// Set a value that a file can hold.
     Set { knob: String, value: Value },
-    /// To hold the default.
+    /// Reset to the default.
     Reset { knob: String },
-    /// To be published.
+    /// Publish the parameter.
     Expose { knob: String },
-    /// To be published no longer.
+    /// Publish the parameter no longer.
     Unexpose { knob: String },
-    /// A drag begins: everything up to [`KnobEvent::Ended`] is one step to undo.
+    /// Begin a drag: everything until [`KnobEvent::Ended`] is one step to undo.
     Began,
-    /// The drag ends.
+    /// End the drag.
     Ended,
-    /// The drag is given up: nothing that was asked for since it began was meant.
+    /// Cancel the drag, and everything that was asked for since it began.
     GivenUp,
-    /// To take a color from where it is seen.
+    /// Take a color from the model or the 2D view.
     Eyedropper { knob: String },
-    /// To have a file chosen.
+    /// Ask for a file.
     Browse { knob: String },
-    /// To show how long this is, in working units; asked for in every frame in which a length is pointed at or dragged.
+    /// Show this length on the model, in working units; sent in every frame in which a length is pointed at or dragged.
     ShowLength(f64),
 }
 
-/// Knobs of a panel that stand together, under a title where they have one.
+/// Parameters of a panel in one section, with its title if it has one.
 pub(crate) struct KnobSection<'a> {
     pub(crate) title: Option<&'a str>,
     pub(crate) rows: Vec<KnobRow<'a>>,
 }
 
-/// Shows rows of knobs and says what is asked for, in order.
+/// Shows rows of parameters, and gives what they ask for in order.
 ///
-/// To be called in every frame, without rows where there are none: a drag ends here too when its row has gone. The `ui` of
-/// other nodes needs another id, so that what was begun on one node is not taken by another.
+/// Has to be called in every frame, also without rows, since it ends drags whose row is gone. The `ui` of different nodes needs
+/// different ids, so that a drag does not go on at another node.
 pub(crate) fn knobs_ui(
     ui: &mut Ui,
     theme: &Theme,
@@ -106,7 +105,7 @@ pub(crate) fn knobs_ui(
     rows: &[KnobRow<'_>],
     lengths: &Lengths,
 ) -> Vec<KnobEvent> {
-    let mut ask = Asking::new(theme, memory, lengths);
+    let mut ask = KnobUi::new(theme, memory, lengths);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = BETWEEN;
         for row in rows {
@@ -117,7 +116,7 @@ pub(crate) fn knobs_ui(
     ask.events
 }
 
-/// Shows knobs that are published, as [`knobs_ui`] does: all are, so that no row says it.
+/// Shows published parameters as [`knobs_ui`] does, without marks that they are published.
 pub(crate) fn published_ui(
     ui: &mut Ui,
     theme: &Theme,
@@ -125,7 +124,7 @@ pub(crate) fn published_ui(
     sections: &[KnobSection<'_>],
     lengths: &Lengths,
 ) -> Vec<KnobEvent> {
-    let mut ask = Asking::new(theme, memory, lengths);
+    let mut ask = KnobUi::new(theme, memory, lengths);
     ask.is_panel = true;
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = BETWEEN;

@@ -9,22 +9,22 @@ use sabi_editing::GRAPH_EXTENSION;
 use sabi_engine::OpenGraph;
 use sabi_engine::catalog::{Catalog, Faces};
 
-use crate::action::Shelf;
+use crate::action::LibraryKind;
 use crate::paths::file_stem;
-use crate::search::Shelved;
+use crate::search::LibraryGroup;
 
 /// Groups in the folders of the library, read again when a file changes.
 #[derive(Default)]
 pub(crate) struct Library {
     /// Whether files may have changed since they were read.
     is_stale: bool,
-    groups: Vec<Shelved>,
+    groups: Vec<LibraryGroup>,
     /// Sentences about files that cannot be used.
     faults: Vec<String>,
     /// Folders and files that were read.
     files: Arc<[PathBuf]>,
     /// Folders that were read.
-    folders: Option<Vec<(Shelf, PathBuf)>>,
+    folders: Option<Vec<(LibraryKind, PathBuf)>>,
 }
 
 impl Library {
@@ -44,12 +44,12 @@ impl Library {
     }
 
     /// Whether these folders have to be read.
-    pub(crate) fn has_changed(&self, folders: &[(Shelf, PathBuf)]) -> bool {
+    pub(crate) fn has_changed(&self, folders: &[(LibraryKind, PathBuf)]) -> bool {
         self.is_stale || self.folders.as_deref() != Some(folders)
     }
 
     /// Groups in these folders, which are read if they have to be.
-    pub(crate) fn groups(&mut self, folders: Vec<(Shelf, PathBuf)>, catalog: &Catalog) -> &[Shelved] {
+    pub(crate) fn groups(&mut self, folders: Vec<(LibraryKind, PathBuf)>, catalog: &Catalog) -> &[LibraryGroup] {
         if self.has_changed(&folders) {
             self.is_stale = false;
             self.groups.clear();
@@ -66,7 +66,7 @@ impl Library {
     }
 
     /// Adds the groups of a folder; gives its graph files.
-    fn read(&mut self, shelf: Shelf, folder: &Path, catalog: &Catalog) -> Vec<PathBuf> {
+    fn read(&mut self, shelf: LibraryKind, folder: &Path, catalog: &Catalog) -> Vec<PathBuf> {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(error) => {
@@ -91,7 +91,7 @@ impl Library {
 }
 
 /// A file as a group that other graphs can use, or a sentence about why it is none.
-fn group_of(shelf: Shelf, file: &Path, catalog: &Catalog) -> Result<Shelved, String> {
+fn group_of(shelf: LibraryKind, file: &Path, catalog: &Catalog) -> Result<LibraryGroup, String> {
     let open = OpenGraph::open(file).map_err(|error| error.to_string())?;
     let faces = Faces::new(catalog, &open.document, &mut |_| None);
     let whole = faces.of_whole().ok_or_else(|| {
@@ -102,7 +102,7 @@ fn group_of(shelf: Shelf, file: &Path, catalog: &Catalog) -> Result<Shelved, Str
     if face.label == "Group" {
         face.label = file_stem(file).into_owned();
     }
-    Ok(Shelved {
+    Ok(LibraryGroup {
         shelf,
         file: file.to_owned(),
         face: Arc::new(face),

@@ -1,15 +1,15 @@
 //! The viewport: the model in its light, turned by drags.
 
-mod environment;
+mod environment_loader;
 mod eyedropper;
-mod lamps;
+mod lights;
 mod menu;
 mod painting;
+mod renderer_loader;
 mod showing;
 mod subject;
-mod tools;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::RenderState;
@@ -24,55 +24,55 @@ use sabi_engine::{LiveModel, ViewSubject};
 use crate::command::{Scope, ViewportCommand};
 use crate::evaluation::{Evaluation, Picture};
 use crate::knobs::Lengths;
-use crate::mouse::{self, Drags};
+use crate::mouse::{self, DragAction};
 use crate::settings::viewport::ViewChoices;
 use crate::theme::{Theme, type_size};
-use environment::Surroundings;
-use lamps::Lamps;
-use subject::{Done, Subject};
-use tools::Tools;
+use environment_loader::EnvironmentLoader;
+use lights::Lights;
+use renderer_loader::RendererLoader;
+use subject::{Outcome, Subject};
 
-/// After the last movement the picture rests.
+/// Time after the last movement until the picture is drawn at full quality.
 const REST: Duration = Duration::from_millis(180);
-/// Samples of a picture at rest.
+/// Samples of a picture at full quality.
 const SAMPLES: u32 = 8;
-/// So near the line between two pictures the line is taken, points.
+/// Distance at which the pointer takes the line between two pictures, points.
 const REACH: f32 = 8.0;
 
-/// One picture on the screen: what draws it, and by which name the window knows it.
+/// Picture on the screen, with the texture that the window knows it by.
 struct Screen {
     viewport: Viewport,
     texture: Option<(TextureId, wgpu::Texture)>,
 }
 
-/// The model in the light.
+/// View of the model in its light.
 pub(crate) struct ModelView {
-    /// What the knobs or the graph show, and what is locked for comparison.
+    /// The shown result, and the locked one beside it.
     screens: [Option<Screen>; 2],
-    tools: Tools,
+    renderer_loader: RendererLoader,
     pub(crate) camera: Camera,
-    /// The model that the camera was set up for.
-    framed: Option<(u64, std::path::PathBuf)>,
-    surroundings: Surroundings,
-    lamps: Lamps,
+    /// File of the model that the camera was set up for.
+    framed: Option<PathBuf>,
+    environment_loader: EnvironmentLoader,
+    lights: Lights,
     pub(crate) shot: Shot,
-    /// Where the picture of the locked node begins, as a share of the width; none without comparison.
+    /// Left edge of the locked result's picture as a share of the width; none without a comparison.
     pub(crate) wipe: Option<f32>,
-    /// Whether the drag that goes on took the line between two pictures.
+    /// Whether the current drag moves the line between two pictures.
     holds_wipe: bool,
-    /// What was shown last, until what is wanted has come.
+    /// Result that is shown until the wanted one arrives.
     last: Option<Picture>,
     moved: Option<Instant>,
-    /// Why there is no picture.
+    /// Error sentence, where there is no picture.
     fault: Option<String>,
-    /// A length that is shown as a bar, working units.
+    /// Length that is shown as a bar, working units.
     pub(crate) length: Option<f64>,
-    /// Pictures that were drawn, for counting.
+    /// Number of pictures that were drawn.
     pub(crate) drawn: u64,
 }
 
 impl ModelView {
-    /// A view in this environment, as it was chosen to be.
+    /// A view with the environment and choices of settings.
     pub(crate) fn new(environment: &str, choices: &ViewChoices) -> ModelView {
         let camera = Camera::seen_from(
             Viewpoint::THREE_QUARTER,
@@ -86,12 +86,12 @@ impl ModelView {
         choices.apply(&mut shot);
         ModelView {
             screens: [None, None],
-            tools: Tools::default(),
+            renderer_loader: RendererLoader::default(),
             shot,
             camera,
             framed: None,
-            surroundings: Surroundings::new(environment),
-            lamps: Lamps::new(&choices.lights),
+            environment_loader: EnvironmentLoader::new(environment),
+            lights: Lights::new(&choices.lights),
             wipe: None,
             holds_wipe: false,
             last: None,
@@ -102,43 +102,43 @@ impl ModelView {
         }
     }
 
-    /// What was chosen of light and picture.
+    /// Choices for settings.
     pub(crate) fn choices(&self) -> ViewChoices {
-        ViewChoices::of(&self.shot, self.lamps.kept())
+        ViewChoices::of(&self.shot, self.lights.kept())
     }
 
-    /// How many lights there are besides the environment.
+    /// Number of lights besides the environment.
     #[cfg(test)]
     pub(crate) fn lights(&self) -> usize {
-        self.lamps.kept().len()
+        self.lights.kept().len()
     }
 
-    /// Whether nothing is made ready for drawing beside the window.
+    /// Whether everything that drawing needs is loaded.
     #[cfg(test)]
     pub(crate) fn is_ready_made(&self) -> bool {
-        self.surroundings.environment().is_some() && !self.tools.are_coming()
+        self.environment_loader.environment().is_some() && !self.renderer_loader.is_loading()
     }
 
-    /// The file of the environment, if it is in one of its own.
+    /// File of the environment; none for a built-in one.
     pub(crate) fn environment_file(&self) -> Option<&Path> {
-        self.surroundings.file()
+        self.environment_loader.file()
     }
 
-    /// Loads the environment once more, since its file has changed.
+    /// Reads the environment again, since its file has changed.
     pub(crate) fn reread_environment(&mut self) {
-        self.surroundings.read_again();
+        self.environment_loader.read_again();
     }
 
     /// Rises with every environment that is shown.
     #[cfg(test)]
     pub(crate) fn environment_number(&self) -> u64 {
-        self.surroundings.number()
+        self.environment_loader.number()
     }
 
-    /// Takes another environment: a built-in name, or a file, which is read anew if it was chosen already.
+    /// Shows an environment: a built-in name, or a file, which is read again if it is shown already.
     pub(crate) fn choose_environment(&mut self, choice: &str) {
-        self.surroundings.choose(choice);
-        self.surroundings.read_again();
+        self.environment_loader.choose(choice);
+        self.environment_loader.read_again();
     }
 
     /// Puts the line between two pictures in the middle when a comparison begins.
@@ -157,10 +157,10 @@ impl ModelView {
         evaluation: &Evaluation,
         render: Option<&RenderState>,
         subject: &Subject<'_>,
-    ) -> Done {
-        let mut done = Done {
-            fault: self.surroundings.poll(evaluation, ui.ctx()),
-            ..Done::default()
+    ) -> Outcome {
+        let mut done = Outcome {
+            fault: self.environment_loader.poll(evaluation, ui.ctx()),
+            ..Outcome::default()
         };
         let rect = ui.available_rect_before_wrap();
         if !rect.is_positive() {
@@ -169,7 +169,7 @@ impl ModelView {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Model"));
         let ground = ui.painter().add(Shape::Noop);
-        // What is evaluated for the first time takes a while, and an empty view in between would be a flash.
+        // The last result stays until a new one arrives, so that the view does not flicker.
         let picture = evaluation.picture(subject.seen).or(self.last.as_ref()).cloned();
         if let Some(picture) = &picture {
             self.frame_new(&picture.model, rect);
@@ -189,7 +189,7 @@ impl ModelView {
             }
         };
         if !is_covered {
-            let painted = Shape::rect_filled(rect, 0.0, subject.theme.ground);
+            let painted = Shape::rect_filled(rect, 0.0, subject.theme.background);
             ui.painter().set(ground, painted);
         }
         self.last = picture;
@@ -211,31 +211,29 @@ impl ModelView {
         ui.painter().galley(at.min, text, theme.quiet);
     }
 
-    /// Looks at a model that is new from the usual side.
+    /// Sets up the camera for a new model.
     fn frame_new(&mut self, model: &LiveModel, rect: Rect) {
-        let file = model.linked.model.files.first().cloned().unwrap_or_default();
-        let now = (model.model_revision, file);
-        let is_same = self.framed.as_ref().is_some_and(|(_, known)| *known == now.1);
-        if !is_same {
+        let file = model.linked.model.files.first();
+        if file.is_none() || self.framed.as_ref() != file {
             let bounds = model.placement.box_in_view(&model.linked.model.mesh);
             self.camera = Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, aspect(rect));
+            self.framed = file.cloned();
         }
-        self.framed = Some(now);
     }
 
-    /// Turns, moves and zooms as the pointer wants.
-    fn turn(&mut self, ui: &Ui, response: &Response, rect: Rect, drags: Option<Drags>) {
+    /// Moves the camera or the light as a drag and the wheel ask.
+    fn turn(&mut self, ui: &Ui, response: &Response, rect: Rect, drags: Option<DragAction>) {
         let (delta, scroll) = ui.input(|input| (input.pointer.delta(), input.smooth_scroll_delta().y));
         let size = Vec2::new(rect.width(), rect.height());
         let drag = Vec2::new(delta.x, delta.y);
         let before = (self.camera, self.shot.environment_turn_degrees);
-        // While the line between two pictures goes with the pointer, the model stays.
+        // A drag of the line between two pictures does not turn the model.
         let is_free = !self.moves_wipe(ui, response, rect) && delta != egui::Vec2::ZERO;
         match drags.filter(|_| is_free) {
-            Some(Drags::Orbit) => self.camera.orbit(drag, size),
-            Some(Drags::Pan) => self.camera.pan(drag, size),
-            Some(Drags::Zoom) => self.camera.zoom((-delta.y * 0.01).exp()),
-            Some(Drags::Light) => {
+            Some(DragAction::Orbit) => self.camera.orbit(drag, size),
+            Some(DragAction::Pan) => self.camera.pan(drag, size),
+            Some(DragAction::Zoom) => self.camera.zoom((-delta.y * 0.01).exp()),
+            Some(DragAction::Light) => {
                 self.shot.environment_turn_degrees += delta.x / rect.width().max(1.0) * 360.0;
             }
             _ => {}
@@ -250,8 +248,7 @@ impl ModelView {
         }
     }
 
-    /// Moves the line between two pictures, where the drag that goes on took it when it began; the cursor says what would be
-    /// taken.
+    /// Moves the line between two pictures, where the drag began on it; the cursor shows whether a drag would.
     fn moves_wipe(&mut self, ui: &Ui, response: &Response, rect: Rect) -> bool {
         let Some(line) = self.wipe.map(|wipe| rect.left() + wipe * rect.width()) else {
             self.holds_wipe = false;
@@ -272,7 +269,7 @@ impl ModelView {
         self.holds_wipe
     }
 
-    /// What is under a place of the screen.
+    /// Surface point under a place of the screen.
     fn picked(&self, model: &LiveModel, rect: Rect, at: egui::Pos2) -> Option<Picked> {
         let linked = &model.linked;
         let bvh = linked.bvh.get()?;
@@ -326,7 +323,7 @@ impl ModelView {
         }
     }
 
-    /// A bar as long as a length on the model, at the distance that is looked at, and how long that is.
+    /// Draws a bar as long as a length on the model at the camera's target, with the length in words.
     fn draw_length(&self, ui: &Ui, rect: Rect, evaluation: &Evaluation, theme: &Theme) {
         let (Some(length), Some(model)) = (self.length, &evaluation.shown_model) else {
             return;
@@ -352,7 +349,7 @@ fn aspect(rect: Rect) -> f32 {
     aspect_of(Vec2::new(rect.width(), rect.height()))
 }
 
-/// A place of the screen as a share of the picture.
+/// Place on the screen as a share of the picture.
 fn share(rect: Rect, at: egui::Pos2) -> Vec2 {
     let share = (at - rect.min) / rect.size();
     Vec2::new(share.x, share.y)

@@ -1,52 +1,52 @@
-//! What is dragged with which button, by habit.
+//! Mouse drags, by preset.
 
 use egui::{Modifiers, PointerButton};
 
-use crate::command::{Habit, Scope};
+use crate::command::{InputPreset, Scope};
 
-/// What a drag does.
+/// Effect of a drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Drags {
-    /// Moves what is seen.
+pub(crate) enum DragAction {
+    /// Moves the view.
     Pan,
-    /// Comes nearer or goes away.
+    /// Zooms.
     Zoom,
-    /// Turns the model about.
+    /// Turns the model.
     Orbit,
     /// Turns the light.
     Light,
-    /// Selects what is in a box.
+    /// Selects in a box.
     Box,
-    /// Selects what is in a line.
+    /// Selects in a closed line.
     Lasso,
     /// Cuts wires.
     Cut,
 }
 
-impl Drags {
-    /// What it is called in the list of keys.
+impl DragAction {
+    /// Title in the list of keys.
     pub(crate) fn title(self) -> &'static str {
         match self {
-            Drags::Pan => "Move what is seen",
-            Drags::Zoom => "Come nearer or go away",
-            Drags::Orbit => "Turn the model",
-            Drags::Light => "Turn the light",
-            Drags::Box => "Select in a box",
-            Drags::Lasso => "Select in a line",
-            Drags::Cut => "Cut wires",
+            DragAction::Pan => "Move what is seen",
+            DragAction::Zoom => "Come nearer or go away",
+            DragAction::Orbit => "Turn the model",
+            DragAction::Light => "Turn the light",
+            DragAction::Box => "Select in a box",
+            DragAction::Lasso => "Select in a line",
+            DragAction::Cut => "Cut wires",
         }
     }
 }
 
-/// A button with what is held down with it, and what a drag with it does there.
+/// Button with held keys, and the effect of a drag with it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grip {
-    pub(crate) drags: Drags,
+pub(crate) struct DragBinding {
+    pub(crate) drags: DragAction,
     held: &'static [Held],
     button: PointerButton,
 }
 
-/// A key that is held while a button is.
+/// Key that is held with a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Held {
     Ctrl,
@@ -54,8 +54,8 @@ enum Held {
     Alt,
 }
 
-impl Grip {
-    /// How it is written.
+impl DragBinding {
+    /// Text in the list of keys.
     pub(crate) fn text(&self) -> String {
         let held: String = self.held.iter().map(|key| format!("{key:?}+")).collect();
         let button = match self.button {
@@ -66,7 +66,7 @@ impl Grip {
         format!("{held}{button} drag")
     }
 
-    /// Whether everything is held that it asks for.
+    /// Whether a button and at least its keys are held.
     fn is(&self, modifiers: Modifiers, button: PointerButton) -> bool {
         let is_held = |key: &Held| match key {
             Held::Ctrl => modifiers.command || modifiers.ctrl,
@@ -77,18 +77,18 @@ impl Grip {
     }
 }
 
-/// Grips: what they do, what is held, the button. The first that fits is meant, so that those with more keys go first.
+/// Rows of an effect, held keys and the button. The first that fits counts, so that those with more keys go first.
 macro_rules! grips {
     ($($drags:ident [$($held:ident)*] $button:ident;)*) => {
-        &[$(Grip {
-            drags: Drags::$drags,
+        &[$(DragBinding {
+            drags: DragAction::$drags,
             held: &[$(Held::$held),*],
             button: PointerButton::$button,
         },)*]
     };
 }
 
-const CANVAS: &[Grip] = grips! {
+const CANVAS: &[DragBinding] = grips! {
     Pan [] Middle;
     Pan [Ctrl Shift] Primary;
     Zoom [Alt] Secondary;
@@ -97,7 +97,7 @@ const CANVAS: &[Grip] = grips! {
     Box [] Primary;
 };
 
-const CANVAS_OF_BLENDER: &[Grip] = grips! {
+const CANVAS_OF_BLENDER: &[DragBinding] = grips! {
     Zoom [Ctrl] Middle;
     Pan [] Middle;
     Cut [Ctrl] Secondary;
@@ -105,7 +105,7 @@ const CANVAS_OF_BLENDER: &[Grip] = grips! {
     Box [] Primary;
 };
 
-const VIEWPORT: &[Grip] = grips! {
+const VIEWPORT: &[DragBinding] = grips! {
     Pan [Shift] Primary;
     Orbit [] Primary;
     Orbit [Shift] Middle;
@@ -115,17 +115,17 @@ const VIEWPORT: &[Grip] = grips! {
     Zoom [] Secondary;
 };
 
-const VIEWPORT_OF_BLENDER: &[Grip] = grips! {
+const VIEWPORT_OF_BLENDER: &[DragBinding] = grips! {
     Pan [Shift] Middle;
     Zoom [Ctrl] Middle;
     Orbit [] Middle;
-    // For those whose mouse has two buttons.
+    // For mice with two buttons.
     Pan [Shift Alt] Primary;
     Orbit [Alt] Primary;
     Light [Shift] Secondary;
 };
 
-const VIEWPORT_OF_SUBSTANCE: &[Grip] = grips! {
+const VIEWPORT_OF_SUBSTANCE: &[DragBinding] = grips! {
     Orbit [Alt] Primary;
     Orbit [] Primary;
     Pan [Alt] Middle;
@@ -134,27 +134,32 @@ const VIEWPORT_OF_SUBSTANCE: &[Grip] = grips! {
     Zoom [Alt] Secondary;
 };
 
-/// The grips of a habit in a place, in the order in which they are tried.
-pub(crate) fn grips(habit: Habit, scope: Scope) -> &'static [Grip] {
+/// Bindings of a preset in a scope, in the order in which they are tried.
+pub(crate) fn grips(habit: InputPreset, scope: Scope) -> &'static [DragBinding] {
     match (scope, habit) {
-        (Scope::Canvas, Habit::Blender) => CANVAS_OF_BLENDER,
+        (Scope::Canvas, InputPreset::Blender) => CANVAS_OF_BLENDER,
         (Scope::Canvas, _) => CANVAS,
-        (Scope::Viewport, Habit::Default) => VIEWPORT,
-        (Scope::Viewport, Habit::Blender) => VIEWPORT_OF_BLENDER,
-        (Scope::Viewport, Habit::Substance) => VIEWPORT_OF_SUBSTANCE,
+        (Scope::Viewport, InputPreset::Default) => VIEWPORT,
+        (Scope::Viewport, InputPreset::Blender) => VIEWPORT_OF_BLENDER,
+        (Scope::Viewport, InputPreset::Substance) => VIEWPORT_OF_SUBSTANCE,
         (Scope::Window | Scope::Flat, _) => &[],
     }
 }
 
-/// What a drag with a button means in a place; none where it means nothing.
-pub(crate) fn meant(habit: Habit, scope: Scope, modifiers: Modifiers, button: PointerButton) -> Option<Drags> {
+/// Effect of a drag with a button in a scope, if it has any.
+pub(crate) fn meant(
+    habit: InputPreset,
+    scope: Scope,
+    modifiers: Modifiers,
+    button: PointerButton,
+) -> Option<DragAction> {
     let grips = grips(habit, scope).iter();
     let mut meant = grips.filter(|grip| grip.is(modifiers, button));
     meant.next().map(|grip| grip.drags)
 }
 
-/// What the drag of something in a place means; none where it is not dragged.
-pub(crate) fn dragged(habit: Habit, scope: Scope, response: &egui::Response) -> Option<Drags> {
+/// Effect of the current drag of a widget in a scope; none where it is not dragged.
+pub(crate) fn dragged(habit: InputPreset, scope: Scope, response: &egui::Response) -> Option<DragAction> {
     let buttons = [PointerButton::Primary, PointerButton::Middle, PointerButton::Secondary];
     let held = buttons.into_iter().find(|button| response.dragged_by(*button))?;
     meant(habit, scope, response.ctx.input(|input| input.modifiers), held)
@@ -165,39 +170,35 @@ mod tests {
     use super::*;
 
     const CTRL: Modifiers = Modifiers::COMMAND;
+    const NONE: Modifiers = Modifiers::NONE;
     const SHIFT: Modifiers = Modifiers::SHIFT;
     const ALT: Modifiers = Modifiers::ALT;
 
     #[test]
-    fn drags_mean_what_they_mean_in_the_tools_that_the_habit_is_of() {
-        use Drags::{Cut, Lasso, Orbit, Pan, Zoom};
+    fn drags_mean_what_they_mean_in_the_program_of_the_preset() {
+        use DragAction::{Cut, Lasso, Orbit, Pan, Zoom};
+        use InputPreset::{Blender, Default, Substance};
         use PointerButton::{Middle, Primary, Secondary};
         let expected = [
-            (Habit::Blender, Scope::Viewport, Modifiers::NONE, Middle, Some(Orbit)),
-            (Habit::Blender, Scope::Viewport, SHIFT, Middle, Some(Pan)),
-            (Habit::Blender, Scope::Viewport, CTRL, Middle, Some(Zoom)),
-            (Habit::Blender, Scope::Viewport, Modifiers::NONE, Primary, None),
-            (Habit::Blender, Scope::Canvas, Modifiers::NONE, Middle, Some(Pan)),
-            (
-                Habit::Blender,
-                Scope::Canvas,
-                Modifiers::NONE,
-                Primary,
-                Some(Drags::Box),
-            ),
-            (Habit::Substance, Scope::Viewport, ALT, Primary, Some(Orbit)),
-            (Habit::Substance, Scope::Viewport, ALT, Middle, Some(Pan)),
-            (Habit::Substance, Scope::Viewport, ALT, Secondary, Some(Zoom)),
-            (Habit::Substance, Scope::Viewport, Modifiers::NONE, Secondary, None),
-            (Habit::Default, Scope::Viewport, Modifiers::NONE, Primary, Some(Orbit)),
-            (Habit::Default, Scope::Viewport, SHIFT, Primary, Some(Pan)),
-            (Habit::Default, Scope::Viewport, Modifiers::NONE, Secondary, Some(Zoom)),
-            (Habit::Default, Scope::Canvas, CTRL | SHIFT, Primary, Some(Pan)),
-            (Habit::Default, Scope::Canvas, ALT, Secondary, Some(Zoom)),
-            (Habit::Default, Scope::Canvas, CTRL, Secondary, Some(Cut)),
-            (Habit::Default, Scope::Canvas, ALT, Primary, Some(Lasso)),
-            (Habit::Default, Scope::Canvas, SHIFT, Primary, Some(Drags::Box)),
-            (Habit::Default, Scope::Canvas, Modifiers::NONE, Secondary, None),
+            (Blender, Scope::Viewport, NONE, Middle, Some(Orbit)),
+            (Blender, Scope::Viewport, SHIFT, Middle, Some(Pan)),
+            (Blender, Scope::Viewport, CTRL, Middle, Some(Zoom)),
+            (Blender, Scope::Viewport, NONE, Primary, None),
+            (Blender, Scope::Canvas, NONE, Middle, Some(Pan)),
+            (Blender, Scope::Canvas, NONE, Primary, Some(DragAction::Box)),
+            (Substance, Scope::Viewport, ALT, Primary, Some(Orbit)),
+            (Substance, Scope::Viewport, ALT, Middle, Some(Pan)),
+            (Substance, Scope::Viewport, ALT, Secondary, Some(Zoom)),
+            (Substance, Scope::Viewport, NONE, Secondary, None),
+            (Default, Scope::Viewport, NONE, Primary, Some(Orbit)),
+            (Default, Scope::Viewport, SHIFT, Primary, Some(Pan)),
+            (Default, Scope::Viewport, NONE, Secondary, Some(Zoom)),
+            (Default, Scope::Canvas, CTRL | SHIFT, Primary, Some(Pan)),
+            (Default, Scope::Canvas, ALT, Secondary, Some(Zoom)),
+            (Default, Scope::Canvas, CTRL, Secondary, Some(Cut)),
+            (Default, Scope::Canvas, ALT, Primary, Some(Lasso)),
+            (Default, Scope::Canvas, SHIFT, Primary, Some(DragAction::Box)),
+            (Default, Scope::Canvas, NONE, Secondary, None),
         ];
         for (habit, scope, modifiers, button, drags) in expected {
             assert_eq!(
@@ -209,8 +210,8 @@ mod tests {
     }
 
     #[test]
-    fn no_grip_is_hidden_by_one_before_it() {
-        for (habit, name) in Habit::ALL {
+    fn no_binding_is_hidden_by_one_before_it() {
+        for (habit, name) in InputPreset::ALL {
             for scope in [Scope::Canvas, Scope::Viewport] {
                 for grip in grips(habit, scope) {
                     let mut modifiers = Modifiers::NONE;

@@ -1,5 +1,5 @@
-//! The window without a screen, for those who measure it: frames are laid out and cut into triangles, and the model is drawn,
-//! but nothing is put on a screen.
+//! The window without a screen, for benchmarks: frames are laid out and tessellated, and the model is drawn, but nothing is
+//! presented.
 
 mod painter;
 
@@ -24,44 +24,44 @@ pub struct Offscreen {
     editor: Editor,
     size: Vec2,
     opened: Instant,
-    /// Something has come that a frame would show.
+    /// Receives a message when a frame is requested.
     woken: Receiver<()>,
     painter: Painter,
 }
 
-/// What a frame took of the processor.
+/// CPU time of a frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FrameTime {
-    /// To lay everything out, and to do what was asked for.
+    /// Time for layout and actions.
     pub layout: Duration,
-    /// To cut what is seen into triangles.
+    /// Time for tessellation.
     pub tessellation: Duration,
-    /// How many triangles those are.
+    /// Number of triangles.
     pub triangles: usize,
 }
 
-/// A frame that is laid out and cut into triangles.
+/// A frame after layout and tessellation.
 struct Cut {
     time: FrameTime,
     primitives: Vec<ClippedPrimitive>,
-    /// Textures that nobody needs any more once it is painted.
+    /// Textures to free after painting.
     free: Vec<TextureId>,
 }
 
 impl FrameTime {
-    /// All of it.
+    /// Sum of both times.
     pub fn whole(&self) -> Duration {
         self.layout + self.tessellation
     }
 }
 
 impl Offscreen {
-    /// What a device for it is made with.
+    /// Setup of a device for it.
     pub fn setup(adapter: &AdapterChoice) -> WgpuSetup {
         configuration(adapter).wgpu_setup
     }
 
-    /// Opens a graph on a model, on a device that [`Offscreen::setup`] made. Nothing is kept but what evaluations keep.
+    /// Opens a graph on a model, on a device made with [`Offscreen::setup`]. Only the cache of evaluations is kept on disk.
     ///
     /// # Errors
     /// A graph that cannot be read, or a device that cannot run Sabi.
@@ -70,9 +70,9 @@ impl Offscreen {
         let context = Context::default();
         let (wake, woken) = channel();
         context.set_request_repaint_callback(move |asked| {
-            // What is asked for later is not waited for: a window sleeps until then.
+            // Frames that are requested for later are not waited for.
             if asked.delay.is_zero() {
-                // Nobody listens once the window is closed.
+                // Fails once the window is closed.
                 let _ = wake.send(());
             }
         });
@@ -98,14 +98,14 @@ impl Offscreen {
         })
     }
 
-    /// Lays out a frame in which this happens, and draws what has to be drawn of the model.
+    /// Lays out a frame with these events, and draws the model where it has changed.
     pub fn frame(&mut self, events: Vec<Event>) -> FrameTime {
         let Cut { time, free, .. } = self.cut_frame(events);
         self.painter.free(&free);
         time
     }
 
-    /// The same, painted as on a screen. Waits until that is done, and gives the time that all of it took.
+    /// Lays out and paints a frame with these events as on a screen; waits for the device and gives the whole time.
     ///
     /// # Errors
     /// The device is gone.
@@ -149,7 +149,7 @@ impl Offscreen {
         }
     }
 
-    /// Draws frames as they are asked for, until nothing is on its way any more.
+    /// Draws frames as they are requested, until no result is outstanding.
     pub fn rest(&mut self) {
         loop {
             while self.woken.try_recv().is_ok() {}
@@ -161,18 +161,18 @@ impl Offscreen {
         }
     }
 
-    /// Waits until there is something to show, at most so long.
+    /// Waits until a frame is requested, at most this long.
     pub fn wait(&self, longest: Duration) {
         let _ = self.woken.recv_timeout(longest);
         while self.woken.try_recv().is_ok() {}
     }
 
-    /// Whether results are on their way.
+    /// Whether results are outstanding.
     pub fn is_busy(&self) -> bool {
         self.editor.evaluation.is_busy()
     }
 
-    /// Sets a knob as a drag of it does, or as a click does that is not followed by another.
+    /// Sets a parameter, as a drag or as a single click does.
     pub fn turn(&mut self, node: &str, knob: &str, value: f64, is_drag: bool) {
         let Ok(node) = node.parse::<NodeId>() else { return };
         self.editor.documents.is_dragging = is_drag;
@@ -182,14 +182,14 @@ impl Offscreen {
             .set_knob(&node, knob, Some(Value::Number(value)));
     }
 
-    /// Looks at a node's result, as a click on it does.
+    /// Shows a node's result, as a click on it does.
     pub fn look_at(&mut self, node: &str) {
         let Ok(node) = node.parse::<NodeId>() else { return };
         let Editor { looks, documents, .. } = &mut self.editor;
         looks.show(&documents.document, &node, None);
     }
 
-    /// The graph as it is.
+    /// The open document.
     pub fn document(&self) -> &Document {
         self.editor.documents.document.contents()
     }
@@ -199,17 +199,17 @@ impl Offscreen {
         self.editor.documents.document.edit("Edit", vec![edit]);
     }
 
-    /// Takes the last step back.
+    /// Undoes the last step.
     pub fn undo(&mut self) {
         self.editor.documents.document.undo();
     }
 
-    /// Does the last step again that was taken back.
+    /// Redoes the last step that was undone.
     pub fn redo(&mut self) {
         self.editor.documents.document.redo();
     }
 
-    /// How many pictures of the model were drawn, and at how many texels the last one that came is.
+    /// Number of pictures of the model that were drawn, and the size of the last result in texels.
     pub fn drawn(&self) -> (u64, u32) {
         let picture = self.editor.evaluation.picture(&sabi_engine::ViewSubject::Outputs);
         (
@@ -218,7 +218,7 @@ impl Offscreen {
         )
     }
 
-    /// Bytes of results that are kept, and that may be kept.
+    /// Bytes of cached results, and their limit.
     pub fn kept_bytes(&self) -> [u64; 2] {
         let last = &self.editor.evaluation.last;
         [last.texture_bytes, last.budget_bytes]
@@ -232,7 +232,7 @@ impl Offscreen {
         Ok(self.editor.evaluation.gpu().wait()?)
     }
 
-    /// Where on the screen the canvas is.
+    /// Rectangle of the canvas on the screen.
     pub fn canvas(&self) -> Option<Rect> {
         self.editor.shell.dock.rects.get(&Panel::Canvas).copied()
     }

@@ -1,4 +1,4 @@
-//! Finding a node by what somebody calls it: fuzzy over names, other tools' names and descriptions.
+//! Search for nodes: fuzzy over names, aliases from other tools, and descriptions.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,61 +7,66 @@ use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 use sabi_engine::catalog::{Catalog, Entry, Faces};
 
-use crate::action::{New, Shelf};
+use crate::action::{LibraryKind, NewNode};
 
-/// What may be added.
+/// Node or group that can be added.
 #[derive(Clone, Debug)]
 pub(crate) struct Candidate {
-    pub(crate) new: New,
+    pub(crate) new: NewNode,
     pub(crate) face: Arc<Entry>,
-    /// Where it stands in a menu: a category, or where a group comes from.
+    /// Section of menus: a category, or the origin of a group.
     pub(crate) section: String,
 }
 
-/// A group in a library folder.
+/// Group in a library file.
 #[derive(Clone, Debug)]
-pub(crate) struct Shelved {
-    pub(crate) shelf: Shelf,
+pub(crate) struct LibraryGroup {
+    pub(crate) shelf: LibraryKind,
     pub(crate) file: PathBuf,
     pub(crate) face: Arc<Entry>,
 }
 
-/// Everything that may be added, by section.
-pub(crate) fn candidates(catalog: &Catalog, faces: &Faces, groups: &[String], shelf: &[Shelved]) -> Vec<Candidate> {
+/// Everything that can be added, by section.
+pub(crate) fn candidates(
+    catalog: &Catalog,
+    faces: &Faces,
+    groups: &[String],
+    shelf: &[LibraryGroup],
+) -> Vec<Candidate> {
     let kinds = catalog.entries().map(|entry| Candidate {
-        new: New::Kind(entry.id.clone()),
+        new: NewNode::Kind(entry.id.clone()),
         section: entry.category().to_owned(),
         face: entry.clone(),
     });
     let own = groups.iter().filter_map(|name| {
         Some(Candidate {
-            new: New::Group(name.clone()),
+            new: NewNode::Group(name.clone()),
             face: faces.of_group(name)?.clone(),
             section: "groups here".to_owned(),
         })
     });
     let shelved = shelf.iter().map(|shelved| Candidate {
-        new: New::Library(shelved.file.clone()),
+        new: NewNode::Library(shelved.file.clone()),
         face: shelved.face.clone(),
         section: match shelved.shelf {
-            Shelf::Project => "project library".to_owned(),
-            Shelf::User => "library".to_owned(),
+            LibraryKind::Project => "project library".to_owned(),
+            LibraryKind::User => "library".to_owned(),
         },
     });
     kinds.chain(own).chain(shelved).collect()
 }
 
-/// How much a match counts by where it is: what a thing is called before what is said of it.
+/// Weights of matches: names count more than descriptions.
 const LABEL: u32 = 8;
 const ALIAS: u32 = 6;
 const ID: u32 = 5;
 const SUMMARY: u32 = 2;
-/// A word in the longer explanation.
+/// Weight of a word in the description.
 const DESCRIPTION: u32 = 1;
-/// A description is only found by words as they stand there: fuzzily, any text has any few letters.
+/// Score of a whole word in a text: fuzzy matches in texts mean little.
 const SUMMARY_SCORE: u32 = 40;
 
-/// Those that match every word of a query, the best first; all of them in order for an empty one.
+/// Candidates that match every word of a query, the best first; all of them in order for an empty query.
 pub(crate) fn ranked<'c>(candidates: &'c [Candidate], query: &str) -> Vec<&'c Candidate> {
     let words: Vec<&str> = query.split_whitespace().collect();
     if words.is_empty() {
@@ -83,7 +88,7 @@ pub(crate) fn ranked<'c>(candidates: &'c [Candidate], query: &str) -> Vec<&'c Ca
     scored.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// The sum of the best matches of all words; none where one does not match at all.
+/// Sum of the best matches of all words; none where a word does not match.
 fn score(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Candidate) -> Option<u32> {
     let face = &candidate.face;
     let mut sum = 0;
@@ -93,7 +98,7 @@ fn score(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Cand
         let mut try_text = |text: &str, weight: u32, best: &mut u32| {
             letters.clear();
             let found = pattern.score(Utf32Str::new(text, &mut letters), matcher);
-            // Shorter names are meant before longer ones that begin alike.
+            // Shorter names rank before longer ones that begin alike.
             let found = found.map_or(0, |found| found * weight * 100 / (100 + text.chars().count() as u32));
             *best = (*best).max(found);
         };

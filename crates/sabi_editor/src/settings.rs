@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 use sabi_engine::write_whole;
 use serde_json::Value as Json;
 
-use crate::command::Habit;
+use crate::command::InputPreset;
 use crate::dock::Layout;
+use crate::import_options::ImportOptions;
 use crate::paths::canonical_if_present;
-use crate::reading::Reading;
 use crate::theme::Shade;
 use export::{ExportChoices, ExportPlace};
 use viewport::ViewChoices;
@@ -33,7 +33,7 @@ pub(crate) struct Settings {
     pub(crate) shade: Shade,
     /// Factor of the size of everything.
     pub(crate) scale: f32,
-    pub(crate) habit: Habit,
+    pub(crate) habit: InputPreset,
     /// Keys of commands that have others than the habit's, by the command's name.
     pub(crate) keys: BTreeMap<String, Vec<String>>,
     /// Recent graph files, the last one first.
@@ -41,7 +41,7 @@ pub(crate) struct Settings {
     /// Models on the strip above the viewport.
     pub(crate) models: Vec<PathBuf>,
     /// Options for reading models that differ from the default.
-    pub(crate) readings: BTreeMap<PathBuf, Reading>,
+    pub(crate) readings: BTreeMap<PathBuf, ImportOptions>,
     /// Whether node pictures show texture space.
     pub(crate) is_flat: bool,
     pub(crate) export: ExportChoices,
@@ -64,7 +64,7 @@ impl Default for Settings {
         Settings {
             shade: Shade::Dark,
             scale: 1.0,
-            habit: Habit::Default,
+            habit: InputPreset::Default,
             keys: BTreeMap::new(),
             recent: Vec::new(),
             models: Vec::new(),
@@ -147,6 +147,7 @@ impl Settings {
     /// Export target of a graph.
     pub(crate) fn export_place(&self, graph: &Path) -> ExportPlace {
         let file = canonical_if_present(graph);
+        // A graph that was never exported has an empty target.
         self.export_places.get(&file).cloned().unwrap_or_default()
     }
 
@@ -160,17 +161,16 @@ impl Settings {
     }
 
     /// Options for reading a model.
-    pub(crate) fn reading(&self, model: &Path) -> Reading {
-        self.readings
-            .get(&canonical_if_present(model))
-            .copied()
-            .unwrap_or_default()
+    pub(crate) fn reading(&self, model: &Path) -> ImportOptions {
+        let known = self.readings.get(&canonical_if_present(model)).copied();
+        // A model without options of its own is read with the default.
+        known.unwrap_or_default()
     }
 
     /// Remembers the options for reading a model.
-    pub(crate) fn remember_reading(&mut self, model: &Path, reading: Reading) {
+    pub(crate) fn remember_reading(&mut self, model: &Path, reading: ImportOptions) {
         let model = canonical_if_present(model);
-        if reading == Reading::default() {
+        if reading == ImportOptions::default() {
             self.readings.remove(&model);
         } else {
             self.readings.insert(model, reading);
@@ -221,7 +221,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mut kept = Settings {
             scale: 1.5,
-            habit: Habit::Blender,
+            habit: InputPreset::Blender,
             ..Settings::default()
         };
         kept.remember(Path::new("one.sabi"));
@@ -230,7 +230,7 @@ mod tests {
         kept.save(folder.path(), &Json::Null).expect("saved");
         let (read, fault) = Settings::load(Some(folder.path()));
         assert_eq!(fault, None);
-        assert_eq!((read.scale, read.habit), (1.5, Habit::Blender));
+        assert_eq!((read.scale, read.habit), (1.5, InputPreset::Blender));
         assert_eq!(read.recent, [PathBuf::from("one.sabi"), PathBuf::from("two.sabi")]);
     }
 
@@ -251,12 +251,12 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let began = Settings::default();
         let (mut one, mut other) = (began.clone(), began.clone());
-        one.habit = Habit::Blender;
+        one.habit = InputPreset::Blender;
         one.save(folder.path(), &began.to_json()).expect("saved");
         other.scale = 1.5;
         other.save(folder.path(), &began.to_json()).expect("saved");
         let (read, _) = Settings::load(Some(folder.path()));
-        assert_eq!((read.scale, read.habit), (1.5, Habit::Blender));
+        assert_eq!((read.scale, read.habit), (1.5, InputPreset::Blender));
     }
 
     #[test]

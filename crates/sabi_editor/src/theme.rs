@@ -1,4 +1,4 @@
-//! All colors, distances and type of the window: the only place that says what it looks like.
+//! Colors, distances and type sizes of the window.
 
 use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Visuals};
 use sabi_graph::PortType;
@@ -7,7 +7,7 @@ use sabi_graph::PortType;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Shade {
-    /// Light on dark, as most tools for pictures are.
+    /// Light on dark, as in most image tools.
     #[default]
     Dark,
     /// Dark on light.
@@ -16,15 +16,15 @@ pub(crate) enum Shade {
 
 /// Distances in points.
 pub(crate) mod space {
-    /// Between things that belong together.
+    /// Distance between things that belong together.
     pub(crate) const TIGHT: f32 = 4.0;
-    /// Between things.
+    /// Usual distance.
     pub(crate) const USUAL: f32 = 8.0;
-    /// Between groups of things.
+    /// Distance between groups.
     pub(crate) const WIDE: f32 = 16.0;
-    /// Corners of everything.
+    /// Radius of corners.
     pub(crate) const CORNER: u8 = 4;
-    /// Height of rows that are clicked.
+    /// Height of rows that can be clicked.
     pub(crate) const ROW: f32 = 22.0;
 }
 
@@ -36,48 +36,48 @@ pub(crate) mod type_size {
     pub(crate) const TITLE: f32 = 24.0;
 }
 
-/// The colors of one shade.
+/// Colors of one shade.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Theme {
-    /// Which shade this is.
+    /// Shade that the colors are of.
     pub(crate) shade: Shade,
-    /// Behind everything.
-    pub(crate) ground: Color32,
-    /// Behind nodes.
+    /// Background of the window.
+    pub(crate) background: Color32,
+    /// Background of the canvas.
     pub(crate) canvas: Color32,
-    /// Lines of the canvas.
+    /// Lines of the canvas' grid.
     pub(crate) grid: Color32,
-    /// Panels.
+    /// Background of panels.
     pub(crate) panel: Color32,
-    /// What stands on panels: fields, nodes.
+    /// Background of fields, nodes and rows on panels.
     pub(crate) raised: Color32,
-    /// The same under the pointer.
+    /// Background of a row or field under the pointer.
     pub(crate) hovered: Color32,
-    /// Lines between things.
+    /// Lines.
     pub(crate) line: Color32,
     /// Text.
     pub(crate) text: Color32,
-    /// Text that explains.
+    /// Explaining text.
     pub(crate) quiet: Color32,
-    /// The one color that says: this.
+    /// Accent: selection and focus.
     pub(crate) accent: Color32,
-    /// What stands on the accent.
+    /// Text on the accent.
     pub(crate) on_accent: Color32,
-    /// Something is wrong.
+    /// Errors.
     pub(crate) fault: Color32,
-    /// Something may be wrong, or waits.
+    /// Warnings, and nodes that wait.
     pub(crate) warning: Color32,
-    /// Something is well.
+    /// Success.
     pub(crate) good: Color32,
 }
 
 impl Theme {
-    /// The theme of a shade.
+    /// Theme of a shade.
     pub(crate) fn of(shade: Shade) -> Theme {
         match shade {
             Shade::Dark => Theme {
                 shade,
-                ground: rgb(0x17181a),
+                background: rgb(0x17181a),
                 canvas: rgb(0x1c1d20),
                 grid: rgb(0x27292d),
                 panel: rgb(0x212327),
@@ -94,7 +94,7 @@ impl Theme {
             },
             Shade::Light => Theme {
                 shade,
-                ground: rgb(0xd4d6d9),
+                background: rgb(0xd4d6d9),
                 canvas: rgb(0xe3e5e8),
                 grid: rgb(0xd3d6da),
                 panel: rgb(0xf1f2f4),
@@ -112,7 +112,7 @@ impl Theme {
         }
     }
 
-    /// The color of wires and ports; the hues are far apart for color-blind eyes too, and ports differ in form besides.
+    /// Color of wires and ports. The hues differ for color-blind eyes as well, and ports also differ in shape.
     pub(crate) fn port(&self, ty: Option<PortType>) -> Color32 {
         let [dark, light] = match ty {
             Some(PortType::Mask) => [0xc4c9d1, 0x2f343b],
@@ -127,7 +127,7 @@ impl Theme {
         })
     }
 
-    /// The color of a node's title, by the category it is of.
+    /// Color of a node's title, by category.
     pub(crate) fn category(&self, category: &str) -> Color32 {
         let [dark, light] = match category {
             "noise" => [0x3d4f73, 0xb9c8ea],
@@ -150,7 +150,7 @@ impl Theme {
         })
     }
 
-    /// Gives the window this look.
+    /// Applies the theme to the window.
     pub(crate) fn apply(&self, context: &egui::Context) {
         let theme = match self.shade {
             Shade::Dark => egui::Theme::Dark,
@@ -193,7 +193,7 @@ impl Theme {
         visuals.window_stroke = Stroke::new(1.0, self.line);
         visuals.window_corner_radius = CornerRadius::same(space::CORNER + 2);
         visuals.menu_corner_radius = corner;
-        visuals.extreme_bg_color = self.ground;
+        visuals.extreme_bg_color = self.background;
         visuals.faint_bg_color = self.raised;
         visuals.hyperlink_color = self.accent;
         visuals.warn_fg_color = self.warning;

@@ -1,4 +1,4 @@
-//! Opening the window on a device that can run Sabi, and again on another one when that is lost.
+//! Opens the window on a device that can run Sabi, and again on another one when that is lost.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -14,23 +14,23 @@ use crate::files::examples;
 use crate::paths::{in_canonical_folder, model_of};
 use crate::settings::default_folder;
 
-/// How often a window is opened anew for a lost device before it is given up, where each was lost soon.
+/// Devices that may be lost soon after another before the window is given up.
 const MOST_DEVICES: usize = 3;
-/// A device that lasted longer than this is none that fails again and again.
+/// Time after which the loss of a device counts as the first one again.
 const SOON: Duration = Duration::from_secs(60);
 
-/// What the window is opened with.
+/// Options for opening the window.
 #[derive(Clone, Debug, Default)]
 pub struct EditRequest {
-    /// The graph; an empty one if none.
+    /// Graph file; an empty graph if none.
     pub graph: Option<PathBuf>,
-    /// The model, in place of the one that the graph names.
+    /// Model file, in place of the one that the graph names.
     pub mesh: Option<PathBuf>,
-    /// Which adapter.
+    /// Adapter to run on.
     pub adapter: AdapterChoice,
 }
 
-/// Opens the window and comes back when it is closed.
+/// Opens the window and returns when it is closed.
 ///
 /// # Errors
 /// A graph that cannot be read, no display, or no adapter that can run Sabi.
@@ -43,7 +43,7 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
     });
     refuse_without_display()?;
     until_closed(|| {
-        // After a loss the work itself is in the handover, with its model.
+        // After a loss, the document and its model are in the handover.
         let (session, model) = match session.take() {
             Some(session) => {
                 let model = first_model(request, &session, &folders)?;
@@ -64,7 +64,7 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
     })
 }
 
-/// Opens windows, each of which says how long it lasted until its device was lost, until one is closed.
+/// Opens windows until one is closed; `open` gives the time until its window lost the device.
 fn until_closed(mut open: impl FnMut() -> Result<Option<Duration>, EngineError>) -> Result<(), EngineError> {
     let mut lost_soon = 0;
     while lost_soon < MOST_DEVICES {
@@ -78,7 +78,7 @@ fn until_closed(mut open: impl FnMut() -> Result<Option<Duration>, EngineError>)
     Err(lost.with_remedies([Remedy::UpdateDriver, Remedy::SoftwareAdapter]))
 }
 
-/// Where the system has no screen, the libraries below only say so in their own words.
+/// Refuses to open a window without a display, since the error of the libraries below is hard to understand.
 fn refuse_without_display() -> Result<(), EngineError> {
     let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if !cfg!(target_os = "linux") || ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"].iter().any(is_set) {
@@ -118,7 +118,7 @@ fn run(request: &EditRequest, initial: InitialState, handover: &Handover) -> Res
     })
 }
 
-/// A device with what Sabi needs, of the adapter of choice.
+/// Configuration of a device with what Sabi needs, on an adapter.
 pub(crate) fn configuration(choice: &AdapterChoice) -> WgpuConfiguration {
     let choice = choice.clone();
     let mut setup = WgpuSetupCreateNew::without_display_handle();
@@ -127,7 +127,7 @@ pub(crate) fn configuration(choice: &AdapterChoice) -> WgpuConfiguration {
         choose_adapter(&choice, adapters, surface).map_err(|error| EngineError::from(error).to_string())
     }));
     setup.device_descriptor = Arc::new(|adapter| {
-        // One that is not fit was not chosen.
+        // Cannot fail: the selector refuses adapters that cannot run Sabi.
         device_descriptor(adapter).unwrap_or_default()
     });
     WgpuConfiguration {
@@ -147,7 +147,7 @@ fn folders() -> Folders {
     }
 }
 
-/// The model to begin with: the one that was named, the one that the graph names, or one that comes with the program.
+/// First model: the requested one, the one that the graph names, or a built-in one.
 fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> Result<PathBuf, EngineError> {
     if let Some(mesh) = &request.mesh {
         return Ok(in_canonical_folder(mesh));
@@ -174,7 +174,7 @@ fn unpacked(folder: &Path) -> Result<PathBuf, EngineError> {
 mod tests {
     use super::*;
 
-    /// How often a window is opened whose devices last so long, and how that ends.
+    /// Number of windows that are opened for devices that last these times, and the result.
     fn opened(devices: &[Option<Duration>]) -> (usize, Result<(), EngineError>) {
         let mut left = devices.iter();
         let ended = until_closed(|| Ok(left.next().copied().flatten()));

@@ -9,7 +9,7 @@ use sabi_editing::OpenDocument;
 use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
 use sabi_graph::{Edit, Preview};
 
-use crate::action::Shelf;
+use crate::action::LibraryKind;
 use crate::evaluation::Evaluation;
 use crate::library::Library;
 use crate::paths::{canonical_if_present, model_of};
@@ -132,17 +132,17 @@ impl Documents {
     }
 
     /// Folder of a library. That of the project is only there once the graph has a file.
-    pub(crate) fn library_folder(&self, shelf: Shelf) -> Option<PathBuf> {
+    pub(crate) fn library_folder(&self, shelf: LibraryKind) -> Option<PathBuf> {
         match shelf {
-            Shelf::Project => Some(self.document.session.file()?.with_file_name("library")),
-            Shelf::User => self.folders.library.clone(),
+            LibraryKind::Project => Some(self.document.session.file()?.with_file_name("library")),
+            LibraryKind::User => self.folders.library.clone(),
         }
     }
 
     /// Folders of the libraries, each of them once.
-    fn library_folders(&self) -> Vec<(Shelf, PathBuf)> {
-        let found = [Shelf::Project, Shelf::User].map(|shelf| Some((shelf, self.library_folder(shelf)?)));
-        let mut folders: Vec<(Shelf, PathBuf)> = found.into_iter().flatten().collect();
+    fn library_folders(&self) -> Vec<(LibraryKind, PathBuf)> {
+        let found = [LibraryKind::Project, LibraryKind::User].map(|shelf| Some((shelf, self.library_folder(shelf)?)));
+        let mut folders: Vec<(LibraryKind, PathBuf)> = found.into_iter().flatten().collect();
         folders.dedup_by(|one, other| one.1 == other.1);
         folders
     }

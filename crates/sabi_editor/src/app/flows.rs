@@ -9,17 +9,17 @@ use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
 
 use super::Editor;
-use crate::action::{Next, Shelf};
+use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
 use crate::exports::ExportSource;
 use crate::files::Question;
 use crate::files::examples;
+use crate::import_options::ImportOptions;
 use crate::paths::{canonical_if_present, in_canonical_folder, model_of};
-use crate::reading::Reading;
 use crate::saved_pictures::OF_GROUP;
 use crate::settings::MOST_MODELS;
 
-/// Time until it is asked again whether files are watched by now.
+/// Time until the next check whether files are watched.
 const WATCH_AGAIN: Duration = Duration::from_millis(100);
 
 impl Editor {
@@ -152,8 +152,8 @@ impl Editor {
     /// Turns to the export target that the open graph had before.
     pub(super) fn recall_export(&mut self) {
         let file = self.documents.document.session.file();
-        // A graph without a file, or one that was never exported, has an empty target.
         let place = file.map(|file| self.shell.settings.export_place(file));
+        // A graph without a file has an empty target.
         self.exports.turn_to(place.unwrap_or_default());
     }
 
@@ -172,7 +172,7 @@ impl Editor {
     }
 
     /// Reads the shown model with other options, now and whenever it is shown again.
-    pub(super) fn read_model(&mut self, reading: Reading) {
+    pub(super) fn read_model(&mut self, reading: ImportOptions) {
         let file = self.evaluation.model_file().to_owned();
         self.shell.settings.remember_reading(&file, reading);
         self.evaluation.take_model(&file, reading);
@@ -191,12 +191,12 @@ impl Editor {
     }
 
     /// Puts the selected group into a library, with the picture of its result.
-    pub(crate) fn shelve(&mut self, shelf: Shelf) {
+    pub(crate) fn shelve(&mut self, shelf: LibraryKind) {
         let documents = &mut self.documents;
         let Some(folder) = documents.library_folder(shelf) else {
             return self.shell.say(match shelf {
-                Shelf::Project => "Save the graph first, so that there is a folder beside it.",
-                Shelf::User => "This system has no folder for a library.",
+                LibraryKind::Project => "Save the graph first, so that there is a folder beside it.",
+                LibraryKind::User => "This system has no folder for a library.",
             });
         };
         let picture = documents.document.selected_one().and_then(|id| {

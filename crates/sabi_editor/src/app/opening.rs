@@ -17,7 +17,7 @@ use crate::model_view::ModelView;
 use crate::panels::export::ExportPanel;
 use crate::panels::history::History;
 use crate::panels::library::LibraryPanel;
-use crate::panels::page::{Draft, Page};
+use crate::panels::page::{DraftEditor, Page};
 use crate::panels::parameters::Parameters;
 use crate::panels::performance::Performance;
 use crate::panels::problems::Problems;
@@ -43,7 +43,7 @@ pub(crate) struct LostWindow {
     pub(crate) canvas: Canvas,
     pub(crate) model: PathBuf,
     /// Node files that were being written.
-    pub(crate) drafts: Vec<Draft>,
+    pub(crate) drafts: Vec<DraftEditor>,
     /// Whether an export was running, which ended with the device.
     pub(crate) was_exporting: bool,
 }

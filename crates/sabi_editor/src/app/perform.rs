@@ -12,7 +12,7 @@ use sabi_graph::{NodeId, SlotRef, Value};
 
 use super::Editor;
 use crate::action::{
-    Action, ArrowKey, ClickedColor, ExportAction, FileAction, LayerAction, ModelAction, New, PublishedAction,
+    Action, ArrowKey, ClickedColor, ExportAction, FileAction, LayerAction, ModelAction, NewNode, PublishedAction,
     VariantAction,
 };
 use crate::dock::Panel;
@@ -59,7 +59,7 @@ impl Editor {
                     self.add(&new, place, None, into.as_ref());
                 }
             }
-            Action::Shelve(shelf) => self.shelve(shelf),
+            Action::AddToLibrary(shelf) => self.shelve(shelf),
             Action::SaveNode(node) => self.save_node(&node),
             Action::Replace { node, by } => self.replace(&node, &by),
             Action::Wire(action) => graph::change_wires(document, action),
@@ -172,14 +172,14 @@ impl Editor {
     }
 
     /// Adds a node, connected to a loose wire or put into a wire, and shows its result.
-    fn add(&mut self, new: &New, place: [f32; 2], loose: Option<&PendingWire>, into: Option<&SlotRef>) {
+    fn add(&mut self, new: &NewNode, place: [f32; 2], loose: Option<&PendingWire>, into: Option<&SlotRef>) {
         if let Some(id) = graph::add(&mut self.documents.document, new, place, loose, into) {
             self.looks.show(&self.documents.document, &id, None);
         }
     }
 
     /// Replaces a node, also wherever its result is shown.
-    fn replace(&mut self, node: &NodeId, by: &New) {
+    fn replace(&mut self, node: &NodeId, by: &NewNode) {
         let document = &mut self.documents.document;
         let before = document.full_id(node);
         if let Some(id) = graph::replace(document, node, by) {

@@ -86,7 +86,7 @@ impl Shell {
     pub(crate) fn set(&mut self, action: SettingAction) {
         match action {
             SettingAction::Shade(shade) => self.settings.shade = shade,
-            SettingAction::Habit(habit) => self.settings.habit = habit,
+            SettingAction::InputPreset(habit) => self.settings.habit = habit,
             SettingAction::Keys(keys) => self.settings.keys = keys,
             SettingAction::Environment(environment) => {
                 self.settings.environment = environment;

@@ -7,7 +7,7 @@ use sabi_editing::OpenDocument;
 use super::bar;
 use crate::action::{Action, FileAction, Next, SettingAction};
 use crate::command::{
-    ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, Habit, LookCommand, WindowCommand,
+    ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, InputPreset, LookCommand, WindowCommand,
 };
 use crate::context::ViewContext;
 use crate::dock::Panel;
@@ -102,7 +102,7 @@ const fn look(command: LookCommand) -> Option<Command> {
 pub(crate) fn top(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
     egui::Panel::top("top")
-        .frame(bar(context.theme.ground, Margin::symmetric(8, 4)))
+        .frame(bar(context.theme.background, Margin::symmetric(8, 4)))
         .show_separator_line(false)
         .show(ui, |ui| {
             ui.horizontal(|ui| contents(ui, context, &mut actions));
@@ -208,7 +208,7 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
     });
     ui.horizontal(|ui| {
         ui.label("Keys as in");
-        for (offered, name) in Habit::ALL {
+        for (offered, name) in InputPreset::ALL {
             ui.selectable_value(&mut habit, offered, name);
         }
     });
@@ -217,6 +217,6 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
         actions.push(Action::Setting(SettingAction::Shade(shade)));
     }
     if habit != context.settings.habit {
-        actions.push(Action::Setting(SettingAction::Habit(habit)));
+        actions.push(Action::Setting(SettingAction::InputPreset(habit)));
     }
 }

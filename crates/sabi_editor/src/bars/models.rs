@@ -11,8 +11,8 @@ use sabi_engine::{Overlap, Up};
 use super::{bar, staying};
 use crate::action::{Action, ModelAction};
 use crate::context::ViewContext;
+use crate::import_options::{ImportOptions, LAST_UV, SCALES};
 use crate::paths::file_stem;
-use crate::reading::{LAST_UV, Reading, SCALES};
 use crate::settings::MOST_MODELS;
 
 /// Strip of the models that the graph is tried on.
@@ -54,19 +54,19 @@ fn strip(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
 }
 
 fn options(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
-    let reading = context.evaluation.reading();
-    let is_usual = reading == Reading::default();
+    let reading = context.evaluation.import_options();
+    let is_usual = reading == ImportOptions::default();
     let theme = context.theme;
     let color = if is_usual { theme.text } else { theme.accent };
     let sign = RichText::new(icon::SLIDERS_HORIZONTAL).color(color);
     let menu = MenuButton::from_button(Button::new(sign).frame(false)).config(staying());
-    let (button, _) = menu.ui(ui, |ui| reading_menu(ui, reading, actions));
+    let (button, _) = menu.ui(ui, |ui| import_menu(ui, reading, actions));
     button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "How the model is read"));
     button.on_hover_text("How the model is read: its upright axis, UVs and lengths");
 }
 
 /// Menu of what the file of a model leaves open.
-fn reading_menu(ui: &mut Ui, now: Reading, actions: &mut Vec<Action>) {
+fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
     let mut wanted = now;
     ui.label("Upright in the file is");
     ui.horizontal(|ui| {
@@ -86,8 +86,8 @@ fn reading_menu(ui: &mut Ui, now: Reading, actions: &mut Vec<Action>) {
     ] {
         ui.radio_value(&mut wanted.overlap, overlap, name);
     }
-    if now != Reading::default() && ui.button("As the file has it").clicked() {
-        wanted = Reading::default();
+    if now != ImportOptions::default() && ui.button("As the file has it").clicked() {
+        wanted = ImportOptions::default();
     }
     if wanted != now {
         actions.push(Action::Model(ModelAction::Read(wanted)));

@@ -14,7 +14,7 @@ use crate::time_text::time_text;
 pub(crate) fn status(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
     egui::Panel::bottom("status")
-        .frame(bar(context.theme.ground, Margin::symmetric(8, 2)))
+        .frame(bar(context.theme.background, Margin::symmetric(8, 2)))
         .show_separator_line(false)
         .show(ui, |ui| {
             ui.horizontal(|ui| contents(ui, context, &mut actions));

@@ -1,11 +1,11 @@
-//! The menu of nodes at the pointer.
+//! The menu at the pointer that adds or replaces a node.
 
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Key, Order, Pos2, Sense, Ui, vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::{OpenDocument, PendingWire};
 use sabi_graph::{NodeId, SlotRef};
 
-use crate::action::{Action, New};
+use crate::action::{Action, NewNode};
 use crate::search::{Candidate, ranked};
 use crate::theme::{Theme, space, type_size};
 
@@ -13,16 +13,16 @@ use crate::theme::{Theme, space, type_size};
 const SIZE: [f32; 2] = [300.0, 360.0];
 const ROW: f32 = 34.0;
 
-/// What becomes of the node that is chosen.
+/// What is done with the chosen node.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Purpose {
-    /// Where it stands on the canvas.
+    /// Place on the canvas.
     pub(super) place: [f32; 2],
-    /// The wire that is tied to it.
+    /// Wire that is connected to it.
     pub(super) loose: Option<PendingWire>,
-    /// The wire into which it is put.
+    /// Wire that it is inserted into.
     pub(super) into: Option<SlotRef>,
-    /// The node in whose place it is put.
+    /// Node that it replaces.
     pub(super) instead: Option<NodeId>,
 }
 
@@ -32,12 +32,12 @@ pub(super) struct AddMenu {
     purpose: Purpose,
     query: String,
     chosen: usize,
-    /// Shown although the wire does not fit.
+    /// Whether nodes are listed that the wire does not fit.
     shows_all: bool,
     is_new: bool,
 }
 
-/// What came of a frame of the menu.
+/// Result of a frame of the menu.
 pub(super) enum Outcome {
     Open,
     Closed,
@@ -146,7 +146,7 @@ impl AddMenu {
         }
     }
 
-    /// Arrow keys move through the list.
+    /// Moves the choice by the arrow keys.
     fn step(&mut self, ui: &Ui, count: usize) {
         let (down, up) = ui.input(|input| (input.key_pressed(Key::ArrowDown), input.key_pressed(Key::ArrowUp)));
         if down {
@@ -210,7 +210,7 @@ impl AddMenu {
         }
     }
 
-    fn action(&self, new: &New) -> Action {
+    fn action(&self, new: &NewNode) -> Action {
         let purpose = self.purpose.clone();
         match purpose.instead {
             Some(node) => Action::Replace { node, by: new.clone() },

@@ -1,35 +1,35 @@
-//! What stands in a node: its title, the names of its ports, its first knobs, and a picture of its result.
+//! The inside of a node: title, port names, first parameters, and a picture of its result.
 
 use egui::{Align2, Color32, CornerRadius, FontId, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::{MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT};
 
-use super::shown::{Hand, NodeSummary};
+use super::node_summary::{NodeSummary, RowContext};
 use crate::knobs::{KnobRow, knob_inline};
 use crate::theme::{Theme, space, type_size};
 use crate::time_text::time_text;
 
-/// What the canvas crate leaves free to the left and right of what a node holds.
+/// Margin that the canvas crate leaves to the left and right of a node's contents.
 const SIDE: f32 = 15.0;
-/// What it leaves free above the title, and again below it.
+/// Margin that it leaves above and below the title.
 const ABOVE: f32 = 5.0;
-/// What it leaves free for its buttons, which are switched off.
+/// Room that it leaves for its buttons, which are switched off.
 const BUTTONS: f32 = 20.0;
-/// Width of what a node holds.
+/// Width of a node's contents.
 const INNER: f32 = NODE_WIDTH - 2.0 * SIDE;
 
-/// A node's title, as wide as the node, so that all nodes are.
-pub(super) fn title_row(ui: &mut Ui, hand: &Hand, shown: &NodeSummary) {
-    let zoom = hand.zoom;
+/// Draws a node's title as wide as the node, which gives all nodes the same width.
+pub(super) fn title_row(ui: &mut Ui, row_context: &RowContext, shown: &NodeSummary) {
+    let zoom = row_context.zoom;
     let size = vec2(INNER, TITLE_HEIGHT - 2.0 * ABOVE) * zoom;
-    // The crate's own label is empty, and this begins where it would have; after it the crate leaves room for its buttons.
+    // Drawn in place of the crate's own label, which is empty; the crate adds the room for its buttons after it.
     let rect = Rect::from_min_size(pos2(ui.min_rect().left(), ui.max_rect().top()), size);
     ui.allocate_rect(
         Rect::from_min_size(rect.min, size - vec2(BUTTONS, 0.0) * zoom),
         Sense::hover(),
     );
     let rect = rect.expand2(vec2(SIDE - 8.0, 0.0) * zoom);
-    let theme = &hand.theme;
+    let theme = &row_context.theme;
     let badge = badge(shown).map(|(text, color)| (text, color.unwrap_or(theme.text.gamma_multiply(0.75))));
     let pin = shown.is_pinned.then(|| (icon::PUSH_PIN.to_owned(), theme.text));
     let mut right = rect.right();
@@ -50,14 +50,14 @@ pub(super) fn title_row(ui: &mut Ui, hand: &Hand, shown: &NodeSummary) {
     ui.painter().galley(at, title, color);
 }
 
-/// A text in one line, cut where there is no room.
+/// Text in one line, with an ellipsis where it is too long.
 pub(super) fn elided(ui: &Ui, text: &str, font: FontId, width: f32, color: Color32) -> std::sync::Arc<egui::Galley> {
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, color);
     job.wrap = egui::text::TextWrapping::truncate_at_width(width.max(1.0));
     ui.painter().layout_job(job)
 }
 
-/// What stands at the end of a title: that it is muted, at fault or waits, or how long it took.
+/// Sign at the end of a title: muted, faulty or waiting, or else the time of the evaluation.
 fn badge(shown: &NodeSummary) -> Option<(String, Option<Color32>)> {
     if shown.is_muted {
         return Some((icon::SPEAKER_SIMPLE_SLASH.to_owned(), None));
@@ -69,25 +69,25 @@ fn badge(shown: &NodeSummary) -> Option<(String, Option<Color32>)> {
     state.time.map(|time| (time_text(time), None))
 }
 
-/// The name of a port beside its dot.
-pub(super) fn port_row(ui: &mut Ui, hand: &Hand, name: &str, is_input: bool) {
-    let zoom = hand.zoom;
+/// Draws the name of a port beside its dot.
+pub(super) fn port_row(ui: &mut Ui, row_context: &RowContext, name: &str, is_input: bool) {
+    let zoom = row_context.zoom;
     let (rect, _) = ui.allocate_exact_size(vec2(INNER, ROW_HEIGHT) * zoom, Sense::hover());
     let font = FontId::proportional(type_size::SMALL * zoom);
     let (at, align) = match is_input {
         true => (rect.left_center(), Align2::LEFT_CENTER),
         false => (rect.right_center(), Align2::RIGHT_CENTER),
     };
-    ui.painter().text(at, align, name, font, hand.theme.quiet);
+    ui.painter().text(at, align, name, font, row_context.theme.quiet);
 }
 
-/// A knob that is turned on the node itself.
-pub(super) fn knob_row(ui: &mut Ui, hand: &mut Hand, shown: &NodeSummary, at: usize) {
-    let zoom = hand.zoom;
-    // Taken first: rows are as high as they say, whatever is in them, since ports are where rows are.
+/// Draws a parameter that is changed on the node itself.
+pub(super) fn knob_row(ui: &mut Ui, row_context: &mut RowContext, shown: &NodeSummary, at: usize) {
+    let zoom = row_context.zoom;
+    // Allocated first, since ports are placed by rows, whose height must not depend on their contents.
     let (rect, _) = ui.allocate_exact_size(vec2(INNER, ROW_HEIGHT) * zoom, Sense::hover());
     let Some(knob) = shown.face.knobs.get(at) else { return };
-    let theme = hand.theme.clone();
+    let theme = row_context.theme.clone();
     let row = KnobRow {
         knob,
         value: shown.values.get(&knob.name),
@@ -98,25 +98,25 @@ pub(super) fn knob_row(ui: &mut Ui, hand: &mut Hand, shown: &NodeSummary, at: us
     let inside = UiBuilder::new().id_salt((&shown.id, &knob.name)).max_rect(rect);
     let events = knob_inline(&mut ui.new_child(inside), &theme, &row, rect.width(), zoom);
     let events = events.into_iter().map(|event| (shown.id.clone(), event));
-    hand.knob_events.extend(events);
+    row_context.knob_events.extend(events);
 }
 
-/// The picture of the result, or what is wrong.
-pub(super) fn picture_row(ui: &mut Ui, hand: &Hand, shown: &NodeSummary) {
+/// Draws the picture of the result, or the error.
+pub(super) fn picture_row(ui: &mut Ui, row_context: &RowContext, shown: &NodeSummary) {
     if shown.face.outputs.is_empty() && shown.face.category() != "output" {
         return;
     }
-    let zoom = hand.zoom;
+    let zoom = row_context.zoom;
     ui.add_space(MARGIN * zoom);
     let (rect, _) = ui.allocate_exact_size(vec2(INNER, PICTURE_SIDE) * zoom, Sense::hover());
     let wide = rect.expand2(vec2(SIDE - MARGIN, 0.0) * zoom);
-    picture(ui, &hand.theme, shown, wide, zoom);
+    picture(ui, &row_context.theme, shown, wide, zoom);
 }
 
-/// The picture in its place.
+/// Draws the picture in a rectangle.
 pub(super) fn picture(ui: &Ui, theme: &Theme, shown: &NodeSummary, rect: Rect, zoom: f32) {
     let corner = CornerRadius::same(space::CORNER);
-    ui.painter().rect_filled(rect, corner, theme.ground);
+    ui.painter().rect_filled(rect, corner, theme.background);
     if let Some(picture) = shown.state.picture {
         let square = Rect::from_center_size(rect.center(), egui::Vec2::splat(rect.height().min(rect.width())));
         let tint = match shown.is_muted || shown.state.waits.is_some() {
@@ -130,7 +130,7 @@ pub(super) fn picture(ui: &Ui, theme: &Theme, shown: &NodeSummary, rect: Rect, z
     let said = said.or(shown.state.waits.as_ref().map(|waits| (waits, theme.warning)));
     if let Some((sentence, color)) = said {
         ui.painter()
-            .rect_filled(rect, corner, theme.ground.gamma_multiply(0.85));
+            .rect_filled(rect, corner, theme.background.gamma_multiply(0.85));
         ui.painter()
             .rect_stroke(rect, corner, Stroke::new(1.0, color), StrokeKind::Inside);
         let inner = rect.shrink(space::TIGHT * zoom);
@@ -145,7 +145,7 @@ pub(super) fn picture(ui: &Ui, theme: &Theme, shown: &NodeSummary, rect: Rect, z
     }
 }
 
-/// What is behind a node: body, title strip and, around it, whether it is selected, at fault or muted.
+/// Background of a node: body, title strip, and an outline for selected and faulty nodes.
 pub(super) fn backdrop(theme: &Theme, shown: &NodeSummary, rect: Rect, zoom: f32, is_selected: bool) -> Shape {
     let radius = (f32::from(space::CORNER + 2) * zoom).clamp(1.0, 12.0) as u8;
     let mut title = rect;
@@ -161,7 +161,7 @@ pub(super) fn backdrop(theme: &Theme, shown: &NodeSummary, rect: Rect, zoom: f32
     let outline = match (is_selected, &shown.state.fault) {
         (true, _) => Stroke::new(2.0, theme.accent),
         (false, Some(_)) => Stroke::new(1.5, theme.fault),
-        (false, None) => Stroke::new(1.0, theme.ground),
+        (false, None) => Stroke::new(1.0, theme.background),
     };
     let corner = CornerRadius::same(radius);
     Shape::Vec(vec![

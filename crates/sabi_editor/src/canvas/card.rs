@@ -1,20 +1,20 @@
-//! Nodes from afar: a picture, a color and, as long as it can be read, a name.
+//! Nodes at a low zoom: cards with a picture, a color and, while it can be read, a name.
 
 use egui::{Align2, CornerRadius, FontId, Rect, Response, Ui};
 use egui_phosphor::regular as icon;
 
 use super::sensing::sensed;
 use super::snapshot::Key;
-use super::{Around, Canvas, body, node_rect};
+use super::{Canvas, CanvasContext, body, node_rect};
 use crate::theme::space;
 
-/// Letters smaller than this are left out, screen points.
+/// Smallest size of names, screen points.
 const LEAST_LETTERS: f32 = 8.0;
-/// Letters of names on cards, canvas points.
+/// Size of names, canvas points.
 const LETTERS: f32 = 26.0;
 
-/// Draws a node from afar.
-pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, key: Key) -> Option<Response> {
+/// Draws a node as a card.
+pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>, key: Key) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
     let zoom = canvas.view.zoom;
     let rect = canvas.view.screen_rect(panel, node_rect(around.document, &shown.id)?);

@@ -1,50 +1,51 @@
-//! The canvas by keys alone: from node to node, from port to port, and wires between them.
+//! The canvas by keys alone: moving between nodes and ports, and connecting them.
 
 use sabi_editing::OpenDocument;
 use sabi_graph::{NodeId, OutputRef};
 
 use super::gesture::Gesture;
-use super::places::{self, Place};
+use super::port_refs::{self, PortRef};
 use super::{Canvas, node_rect};
 use crate::action::{Action, ArrowKey};
 
-/// The port that keys are about.
+/// Port that has the keyboard.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct PortAt {
+pub(super) struct FocusedPort {
     node: NodeId,
     at: usize,
 }
 
 impl Canvas {
-    pub(super) fn is_focused(&self, place: &Place) -> bool {
+    pub(super) fn is_focused(&self, place: &PortRef) -> bool {
         let Some(port) = &self.port else { return false };
         *place.node() == port.node && self.focused.as_ref() == Some(place)
     }
 
-    /// The port that keys are about, as `node.port`.
+    /// Port that has the keyboard, as `node.port`.
     #[cfg(test)]
     pub(crate) fn focused_port(&self) -> Option<String> {
         Some(match self.focused.as_ref()? {
-            Place::Input(slot) => slot.to_string(),
-            Place::Output(from) => from.to_string(),
+            PortRef::Input(slot) => slot.to_string(),
+            PortRef::Output(from) => from.to_string(),
         })
     }
 
-    /// The port that keys are about.
-    pub(super) fn port_place(&self, document: &OpenDocument) -> Option<Place> {
+    /// Port that has the keyboard.
+    pub(super) fn port_place(&self, document: &OpenDocument) -> Option<PortRef> {
         let port = self.port.as_ref()?;
-        places::places(document, &port.node)
+        port_refs::places(document, &port.node)
             .into_iter()
             .nth(port.at)
             .map(|(place, _)| place)
     }
 
-    /// Goes to the next port of the selected node, or to the one before; with a wire in hand, only to those that take it.
+    /// Moves the keyboard to the next or the previous port of the selected node; during the drag of a wire, only to
+    /// ports that take it.
     pub(super) fn step_port(&mut self, document: &OpenDocument, is_on: bool) {
         let Some(id) = document.selected_one().cloned() else {
             return;
         };
-        let places = places::places(document, &id);
+        let places = port_refs::places(document, &id);
         let fits = |at: usize| self.gesture.takes(document, &places[at].0) != Some(false);
         let now = self.port.as_ref().filter(|port| port.node == id).map(|port| port.at);
         let order: Vec<usize> = match (is_on, now) {
@@ -54,11 +55,11 @@ impl Canvas {
             (false, Some(now)) => (0..now).rev().chain((now..places.len()).rev()).collect(),
         };
         let next = order.into_iter().find(|at| fits(*at));
-        self.port = next.map(|at| PortAt { node: id, at });
+        self.port = next.map(|at| FocusedPort { node: id, at });
         self.focused = self.port_place(document);
     }
 
-    /// Takes a wire at the port that keys are about, or drops the one in hand there.
+    /// Begins a wire at the port that has the keyboard, or drops the dragged one there.
     pub(super) fn wire_by_key(&mut self, document: &OpenDocument) -> Vec<Action> {
         let mut actions = Vec::new();
         let Some(place) = self.port_place(document) else {
@@ -82,8 +83,8 @@ impl Canvas {
         actions
     }
 
-    /// Where an arrow key leads: up and down through the ports of a node once one of them has the focus, left and right along
-    /// its wire or to the ports on the other side; and from node to node otherwise, or with a wire in hand.
+    /// Follows an arrow key. From a port that has the keyboard, up and down go through the ports of its node, left and right
+    /// along its wire or to the other side of its node. Otherwise, and during the drag of a wire, it goes from node to node.
     pub(crate) fn arrow(&mut self, document: &OpenDocument, way: ArrowKey) -> Vec<Action> {
         let focused = self.port_place(document);
         let is_aside = matches!(way, ArrowKey::Left | ArrowKey::Right);
@@ -111,13 +112,13 @@ impl Canvas {
         vec![Action::Select(vec![id]), shown]
     }
 
-    /// Gives a port the focus, and selects its node.
-    fn go_to_port(&mut self, document: &OpenDocument, place: &Place) -> Vec<Action> {
+    /// Gives a port the keyboard, and selects its node.
+    fn go_to_port(&mut self, document: &OpenDocument, place: &PortRef) -> Vec<Action> {
         let node = place.node().clone();
-        let at = places::places(document, &node)
+        let at = port_refs::places(document, &node)
             .iter()
             .position(|(known, _)| known == place);
-        self.port = at.map(|at| PortAt { node: node.clone(), at });
+        self.port = at.map(|at| FocusedPort { node: node.clone(), at });
         self.focused = self.port_place(document);
         if document.selected_one() == Some(&node) {
             return Vec::new();
@@ -129,13 +130,13 @@ impl Canvas {
         vec![Action::Select(vec![node]), shown]
     }
 
-    /// Keys are about no port any more.
+    /// Takes the keyboard from the port that has it.
     pub(super) fn leave_port(&mut self) {
         self.port = None;
         self.focused = None;
     }
 
-    /// A port of a node that is not the selected one has no focus.
+    /// Takes the keyboard from a port whose node is not selected any more.
     pub(super) fn follow_selection(&mut self, document: &OpenDocument) {
         if self
             .port
@@ -146,7 +147,7 @@ impl Canvas {
         }
     }
 
-    /// The node to which an arrow key leads: of those that lie that way, the nearest.
+    /// Nearest node in the direction of an arrow key.
     fn neighbor(&self, document: &OpenDocument, way: ArrowKey) -> Option<NodeId> {
         let from = document.selected_one().and_then(|id| node_rect(document, id));
         let Some(from) = from else {
@@ -164,7 +165,7 @@ impl Canvas {
                     ArrowKey::Up => (-to.y, to.x),
                     ArrowKey::Down => (to.y, to.x),
                 };
-                // What lies aside counts as farther than what lies ahead.
+                // A distance across the direction counts twice.
                 (along > 1.0).then(|| (along + 2.0 * aside.abs(), id))
             });
         found
@@ -173,28 +174,28 @@ impl Canvas {
     }
 }
 
-/// The port to the left or right of one: the other end of its wire, or the first port on the other side of its node. None
+/// Port to the left or right of another one: the other end of its wire, or the first port on the other side of its node. None
 /// where it has no wire on that side.
-fn aside(document: &OpenDocument, place: &Place, way: ArrowKey) -> Option<Place> {
+fn aside(document: &OpenDocument, place: &PortRef, way: ArrowKey) -> Option<PortRef> {
     let inside = |is_input: bool| {
-        let places = places::places(document, place.node()).into_iter();
+        let places = port_refs::places(document, place.node()).into_iter();
         let mut places = places.map(|(place, _)| place);
-        places.find(|place| matches!(place, Place::Input(_)) == is_input)
+        places.find(|place| matches!(place, PortRef::Input(_)) == is_input)
     };
     match (place, way) {
-        (Place::Input(slot), ArrowKey::Left) => {
+        (PortRef::Input(slot), ArrowKey::Left) => {
             let from = document.wire_into(slot)?;
             let port = document.face(&from.node)?.output(from.port.as_deref())?;
-            Some(Place::Output(OutputRef {
+            Some(PortRef::Output(OutputRef {
                 node: from.node.clone(),
                 port: Some(port.name.clone()),
             }))
         }
-        (Place::Output(from), ArrowKey::Right) => {
+        (PortRef::Output(from), ArrowKey::Right) => {
             let mut readers = document.graph().readers(from.node.as_str()).into_iter();
-            readers.find(|slot| document.reads(slot, from)).map(Place::Input)
+            readers.find(|slot| document.reads(slot, from)).map(PortRef::Input)
         }
-        (Place::Input(_), _) => inside(false),
-        (Place::Output(_), _) => inside(true),
+        (PortRef::Input(_), _) => inside(false),
+        (PortRef::Output(_), _) => inside(true),
     }
 }

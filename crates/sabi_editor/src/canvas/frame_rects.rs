@@ -1,4 +1,4 @@
-//! Where frames are.
+//! Rectangles of frames.
 
 use egui::{Pos2, Rect, vec2};
 use sabi_editing::{FRAME_AROUND, FRAME_STRIP, OpenDocument};

@@ -8,12 +8,12 @@ use sabi_editing::FRAME_STRIP;
 use super::frame_rects::rect_of;
 use super::gesture::Gesture;
 use super::questions::Renaming;
-use super::{Around, Canvas};
+use super::{Canvas, CanvasContext};
 use crate::action::{Action, FrameAction, MoveAction};
 use crate::theme::type_size;
 
 /// Draws the frames, and gives what is asked of them.
-pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, actions: &mut Vec<Action>) {
+pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>, actions: &mut Vec<Action>) {
     let document = around.document;
     for (id, frame) in document.graph().frames() {
         let Some(rect) = rect_of(document, id).map(|rect| canvas.view.screen_rect(panel, rect)) else {

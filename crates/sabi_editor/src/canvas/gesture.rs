@@ -1,7 +1,7 @@
-//! What the pointer holds: nodes, a wire, a box, a lasso, a knife, the canvas itself.
+//! Drags on the canvas: of nodes, wires, selections, cuts and the view itself.
 
-mod carrying;
 mod marking;
+mod moving;
 mod wiring;
 
 use std::collections::BTreeMap;
@@ -10,53 +10,53 @@ use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke
 use sabi_editing::{OpenDocument, PendingWire};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
-use super::places::{self, Place};
+use super::port_refs::{self, PortRef};
 use super::questions::MergeQuestion;
 use super::wires::{self, Wire};
-use super::{AddMenu, Around, Canvas, Purpose};
+use super::{AddMenu, Canvas, CanvasContext, Purpose};
 use crate::action::{Action, WireAction};
-use crate::command::{Habit, Scope};
-use crate::mouse::{self, Drags};
-use carrying::drag;
+use crate::command::{InputPreset, Scope};
+use crate::mouse::{self, DragAction};
 use marking::{end_box, end_line};
+use moving::drag;
 use wiring::target;
 
-/// So near an edge of the panel what is dragged pulls the canvas along, screen points.
+/// Distance from an edge of the panel at which a drag scrolls the canvas, screen points.
 pub(super) const EDGE: f32 = 28.0;
-/// So far a press and a release in one frame are apart that are a drag, screen points.
+/// Least distance between a press and a release in one frame that count as a drag, screen points.
 const FLICK: f32 = 12.0;
-/// How fast at most, screen points a second.
+/// Highest speed of scrolling, screen points a second.
 const PULL: f32 = 900.0;
 
-/// What the pointer holds.
+/// Current drag.
 #[derive(Clone, Debug, Default)]
 pub(super) enum Gesture {
-    /// Nothing.
+    /// No drag.
     #[default]
     Idle,
-    /// The canvas, by a button.
+    /// Drag of the view, by a button.
     Pan { button: PointerButton },
-    /// The zoom, by a button: up is larger.
+    /// Drag of the zoom, by a button: up is larger.
     Zoom { around: Pos2, button: PointerButton },
-    /// Nodes: where each stood, and where on the canvas the pointer took them.
+    /// Drag of nodes: their places before, and the place on the canvas where the drag began.
     Move {
         from: BTreeMap<NodeId, [f32; 2]>,
         grabbed: [f32; 2],
-        /// A whole frame is moved, which goes into no wire and no other frame.
+        /// Whether a whole frame is dragged, which cannot be put into a wire or another frame.
         is_frame: bool,
     },
-    /// A wire that is tied at one end; `off` is the input that it was taken off.
+    /// Drag of a wire that is connected at one end; `off` is the input that it was disconnected from.
     Wire {
         loose: PendingWire,
         off: Option<SlotRef>,
-        /// Taken by a key: it follows the focus and not the pointer.
+        /// Whether the drag began by a key, and follows the keyboard focus and not the pointer.
         by_key: bool,
     },
-    /// A box around nodes, from a place on the canvas.
+    /// Selection in a box, from a place on the canvas.
     Box { from: [f32; 2] },
-    /// A line around nodes, on the screen.
+    /// Selection in a closed line, on the screen.
     Lasso { line: Vec<Pos2> },
-    /// A line through wires, on the screen.
+    /// Cut through wires along a line, on the screen.
     Cut { line: Vec<Pos2> },
 }
 
@@ -69,8 +69,8 @@ impl Gesture {
         }
     }
 
-    /// Whether the wire in hand may be dropped there; none where there is no wire.
-    pub(super) fn takes(&self, document: &OpenDocument, place: &Place) -> Option<bool> {
+    /// Whether the dragged wire may be dropped at a port; none without a dragged wire.
+    pub(super) fn takes(&self, document: &OpenDocument, place: &PortRef) -> Option<bool> {
         let Gesture::Wire { loose, .. } = self else {
             return None;
         };
@@ -78,20 +78,21 @@ impl Gesture {
         Some(ends.is_some_and(|(from, to)| from.node != to.node && document.fits(from, to).is_ok()))
     }
 
-    /// How little a place suits the wire in hand, among those that take it: one that has a wire already, then one that converts.
-    pub(super) fn cost(&self, document: &OpenDocument, place: &Place) -> (bool, bool) {
+    /// Rank of a port among those that take the dragged wire, lower first: free ports first, then ports of the wire's
+    /// type.
+    pub(super) fn cost(&self, document: &OpenDocument, place: &PortRef) -> (bool, bool) {
         let Gesture::Wire { loose, .. } = self else {
             return (false, false);
         };
         let Some((from, to)) = ends(loose, place) else {
             return (true, true);
         };
-        let is_taken = matches!(place, Place::Input(_)) && document.wire_into(to).is_some();
+        let is_taken = matches!(place, PortRef::Input(_)) && document.wire_into(to).is_some();
         let converts = document.input(to).is_none_or(|port| port.ty != document.carried(from));
         (is_taken, converts)
     }
 
-    /// Whether the knife goes through a wire.
+    /// Whether the current cut goes through a wire.
     pub(super) fn cuts(&self, wire: &Wire) -> bool {
         let Gesture::Cut { line } = self else {
             return false;
@@ -100,20 +101,22 @@ impl Gesture {
     }
 }
 
-/// Where a loose wire begins and ends that is dropped at a place; none where both are of one side.
-fn ends<'w>(loose: &'w PendingWire, place: &'w Place) -> Option<(&'w OutputRef, &'w SlotRef)> {
+/// Ends of a pending wire that is dropped at a port; none where both are inputs or both outputs.
+fn ends<'w>(loose: &'w PendingWire, place: &'w PortRef) -> Option<(&'w OutputRef, &'w SlotRef)> {
     match (loose, place) {
-        (PendingWire::From(from), Place::Input(to)) | (PendingWire::Into(to), Place::Output(from)) => Some((from, to)),
+        (PendingWire::From(from), PortRef::Input(to)) | (PendingWire::Into(to), PortRef::Output(from)) => {
+            Some((from, to))
+        }
         _ => None,
     }
 }
 
-/// Goes on with what is in hand, or takes something.
+/// Continues the current drag, or begins one.
 pub(super) fn advance(
     canvas: &mut Canvas,
     ui: &Ui,
-    ground: &Response,
-    around: &Around<'_>,
+    background: &Response,
+    around: &CanvasContext<'_>,
     wires: &[Wire],
     actions: &mut Vec<Action>,
 ) {
@@ -121,13 +124,13 @@ pub(super) fn advance(
     if flick(canvas, ui, around, panel, actions) {
         return;
     }
-    begin(canvas, ui, ground, panel, around.habit);
+    begin(canvas, ui, background, panel, around.habit);
     let pointer = ui.input(|input| input.pointer.latest_pos());
     let Some(pointer) = pointer else { return };
     let (delta, modifiers) = ui.input(|input| (input.pointer.delta(), input.modifiers));
     let is_down = |button| ui.input(|input| input.pointer.button_down(button));
     match &mut canvas.gesture {
-        Gesture::Idle => rest(canvas, ui, ground, panel, wires, actions),
+        Gesture::Idle => rest(canvas, ui, background, panel, wires, actions),
         Gesture::Pan { button } => {
             let button = *button;
             canvas.view.pan += delta;
@@ -168,8 +171,8 @@ pub(super) fn advance(
     }
 }
 
-/// Ties a wire that was pulled from a port and dropped between two frames, as a quick hand does where frames are slow.
-fn flick(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, panel: Rect, actions: &mut Vec<Action>) -> bool {
+/// Connects a wire that was pressed and released within one frame, as happens where frames take long.
+fn flick(canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, panel: Rect, actions: &mut Vec<Action>) -> bool {
     if !matches!(canvas.gesture, Gesture::Idle) || canvas.holds_keys() {
         return false;
     }
@@ -192,7 +195,7 @@ fn flick(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, panel: Rect, actions
         return false;
     };
     let is_ours = ui.ctx().layer_id_at(from).is_none_or(|layer| layer == ui.layer_id());
-    let Some(place) = places::at(canvas, around.document, panel, from).filter(|_| is_ours) else {
+    let Some(place) = port_refs::at(canvas, around.document, panel, from).filter(|_| is_ours) else {
         return false;
     };
     canvas.gesture = Gesture::taken_at(around.document, &place);
@@ -200,8 +203,8 @@ fn flick(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, panel: Rect, actions
     true
 }
 
-/// Takes the canvas, a box, a lasso or a knife.
-fn begin(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, habit: Habit) {
+/// Begins a drag of the view, a selection or a cut.
+fn begin(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, habit: InputPreset) {
     if !matches!(canvas.gesture, Gesture::Idle) || canvas.holds_keys() {
         return;
     }
@@ -210,45 +213,45 @@ fn begin(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, habit: Ha
         return;
     };
     let is_ours = ui.ctx().layer_id_at(at).is_none_or(|layer| layer == ui.layer_id());
-    // These two mean the canvas wherever they are pressed on it, the first one only beside nodes.
+    // The other buttons count anywhere on the canvas, the primary one only beside nodes.
     let pressed = [PointerButton::Middle, PointerButton::Secondary].into_iter();
     let mut pressed = pressed.filter(|it| is_ours && ui.input(|input| input.pointer.button_pressed(*it)));
-    let dragged = ground.drag_started_by(PointerButton::Primary);
+    let dragged = background.drag_started_by(PointerButton::Primary);
     let Some(button) = pressed.next().or(dragged.then_some(PointerButton::Primary)) else {
         return;
     };
     let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
     canvas.gesture = match mouse::meant(habit, Scope::Canvas, modifiers, button) {
-        Some(Drags::Pan) => Gesture::Pan { button },
-        Some(Drags::Zoom) => Gesture::Zoom { around: origin, button },
-        Some(Drags::Cut) => Gesture::Cut { line: vec![origin] },
-        Some(Drags::Lasso) => Gesture::Lasso { line: vec![origin] },
-        Some(Drags::Box) => Gesture::Box {
+        Some(DragAction::Pan) => Gesture::Pan { button },
+        Some(DragAction::Zoom) => Gesture::Zoom { around: origin, button },
+        Some(DragAction::Cut) => Gesture::Cut { line: vec![origin] },
+        Some(DragAction::Lasso) => Gesture::Lasso { line: vec![origin] },
+        Some(DragAction::Box) => Gesture::Box {
             from: canvas.view.place(panel, origin),
         },
-        Some(Drags::Orbit | Drags::Light) | None => Gesture::Idle,
+        Some(DragAction::Orbit | DragAction::Light) | None => Gesture::Idle,
     };
 }
 
-/// Clicks beside nodes, with nothing in hand.
-fn rest(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, wires: &[Wire], actions: &mut Vec<Action>) {
-    let Some(pointer) = ground.interact_pointer_pos() else {
+/// Handles clicks beside nodes while nothing is dragged.
+fn rest(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, wires: &[Wire], actions: &mut Vec<Action>) {
+    let Some(pointer) = background.interact_pointer_pos() else {
         return;
     };
     let modifiers = ui.input(|input| input.modifiers);
     let place = canvas.view.place(panel, pointer);
-    if ground.double_clicked() {
+    if background.double_clicked() {
         if let Some(wire) = wires::under(wires, pointer) {
             let into = wire.to.clone();
             actions.push(Action::Wire(WireAction::Reroute { into, place }));
         }
-    } else if ground.clicked() {
+    } else if background.clicked() {
         match wires::under(wires, pointer) {
             Some(wire) if modifiers.alt => actions.push(Action::Wire(WireAction::Cut(vec![wire.to.clone()]))),
             _ => actions.push(Action::Select(Vec::new())),
         }
         canvas.leave_port();
-    } else if ground.secondary_clicked() && !modifiers.command && !modifiers.alt {
+    } else if background.secondary_clicked() && !modifiers.command && !modifiers.alt {
         let into = wires::under(wires, pointer).map(|wire| wire.to.clone());
         let purpose = Purpose {
             place,
@@ -259,7 +262,7 @@ fn rest(canvas: &mut Canvas, ui: &Ui, ground: &Response, panel: Rect, wires: &[W
     }
 }
 
-/// What is held at an edge pulls the canvas along.
+/// Scrolls the canvas while a drag is near an edge.
 pub(super) fn pull(canvas: &mut Canvas, ui: &Ui, panel: Rect, pointer: Pos2) {
     let over = |at: f32, low: f32, high: f32| {
         let below = (low + EDGE - at).clamp(0.0, EDGE);
@@ -277,7 +280,7 @@ pub(super) fn pull(canvas: &mut Canvas, ui: &Ui, panel: Rect, pointer: Pos2) {
     }
 }
 
-fn drop_wire(canvas: &mut Canvas, around: &Around<'_>, panel: Rect, pointer: Pos2, actions: &mut Vec<Action>) {
+fn drop_wire(canvas: &mut Canvas, around: &CanvasContext<'_>, panel: Rect, pointer: Pos2, actions: &mut Vec<Action>) {
     let target = target(canvas, around, panel, pointer);
     let Gesture::Wire { loose, off, .. } = std::mem::take(&mut canvas.gesture) else {
         return;
@@ -299,12 +302,12 @@ fn drop_wire(canvas: &mut Canvas, around: &Around<'_>, panel: Rect, pointer: Pos
 }
 
 impl Canvas {
-    /// Ties a wire, or asks how where a mask is there already.
+    /// Connects a wire, or asks how to merge masks where the input has one already.
     pub(super) fn tie(
         &mut self,
         document: &OpenDocument,
         loose: PendingWire,
-        place: Place,
+        place: PortRef,
         off: Option<SlotRef>,
         at: Pos2,
         actions: &mut Vec<Action>,
@@ -324,8 +327,8 @@ impl Canvas {
     }
 }
 
-/// Draws what is in hand.
-pub(super) fn draw(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>) {
+/// Draws the current drag.
+pub(super) fn draw(canvas: &Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>) {
     let theme = around.theme;
     let painter = ui.painter();
     let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else {
@@ -335,8 +338,8 @@ pub(super) fn draw(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>) {
     match &canvas.gesture {
         Gesture::Wire { loose, by_key, .. } => {
             let place = match loose {
-                PendingWire::From(from) => Place::Output(from.clone()),
-                PendingWire::Into(to) => Place::Input(to.clone()),
+                PendingWire::From(from) => PortRef::Output(from.clone()),
+                PendingWire::Into(to) => PortRef::Input(to.clone()),
             };
             let Some(tied) = place.on_canvas(around.document) else {
                 return;

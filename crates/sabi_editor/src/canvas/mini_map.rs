@@ -1,13 +1,13 @@
-//! The whole graph in a corner; a click or a drag on it goes there.
+//! The mini map: the whole graph in a corner, where a click or a drag moves the view.
 
 use egui::{Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2};
 
-use super::{Around, Canvas, node_rect};
+use super::{Canvas, CanvasContext, node_rect};
 
 const SIZE: [f32; 2] = [180.0, 120.0];
 const FROM_CORNER: f32 = 12.0;
 
-pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &Around<'_>) {
+pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>) {
     let document = around.document;
     let nodes: Vec<(Rect, egui::Color32)> = document
         .graph()

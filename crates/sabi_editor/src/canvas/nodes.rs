@@ -1,26 +1,32 @@
-//! The nodes that are seen; what lies outside costs nothing.
+//! The nodes in the panel; those outside of it are not drawn.
 
 use std::collections::BTreeMap;
 
 use egui::layers::ShapeIdx;
-use egui::{Rect, Response, Sense, Shape, Ui, WidgetInfo, WidgetType, vec2};
+use egui::{Rect, Response, Shape, Ui, WidgetInfo, WidgetType, vec2};
 use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
 use sabi_editing::{TITLE_HEIGHT, is_bend};
 use sabi_graph::NodeId;
 
+use super::node_summary::RowContext;
 use super::sensing::window_id;
-use super::shown::Hand;
 use super::snapshot::Key;
-use super::{Around, CARD_ZOOM, Canvas, bend, body, card, node_rect, ports, sides, tips};
+use super::{CARD_ZOOM, Canvas, CanvasContext, body, card, node_rect, ports, reroute, sides, tips};
 use crate::action::{Action, FrameAction};
 use crate::command::{CanvasCommand, Command, GraphCommand, LookCommand, WindowCommand};
 use crate::knobs::KnobEvent;
 
-/// The shape that a node's backdrop takes among those that its widget begins with: an outline, then what is behind it.
+/// Index of the background among the first shapes of a node's widget: an outline comes first.
 const BACKDROP: usize = 2;
 
-/// Draws all nodes that are seen, and says what is asked of them.
-pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Around<'_>, actions: &mut Vec<Action>) {
+/// Draws the nodes in the panel, and gives what is asked of them.
+pub(super) fn show(
+    canvas: &mut Canvas,
+    ui: &mut Ui,
+    panel: Rect,
+    around: &CanvasContext<'_>,
+    actions: &mut Vec<Action>,
+) {
     let seen = canvas.view.seen(panel);
     let ids: Vec<NodeId> = in_order(canvas, around, seen);
     let is_card = canvas.view.zoom < CARD_ZOOM;
@@ -36,7 +42,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
         shown.is_pinned = around.pinned == Some(id);
         let is_bend = is_bend(&shown.face);
         let response = if is_bend {
-            bend::show(canvas, ui, panel, around, key)
+            reroute::show(canvas, ui, panel, around, key)
         } else if is_card {
             card::show(canvas, ui, panel, around, key)
         } else {
@@ -69,20 +75,16 @@ pub(super) fn show(canvas: &mut Canvas, ui: &mut Ui, panel: Rect, around: &Aroun
     ui.set_style(usual);
 }
 
-/// Ids of the nodes that are seen: those that were touched last above the others, and the selected ones above all.
-fn in_order(canvas: &mut Canvas, around: &Around<'_>, seen: Rect) -> Vec<NodeId> {
+/// Ids of the nodes in the panel in drawing order: recently clicked or dragged nodes last, and selected ones after
+/// them.
+fn in_order(canvas: &mut Canvas, around: &CanvasContext<'_>, seen: Rect) -> Vec<NodeId> {
     let graph = around.document.graph();
     canvas.touched.retain(|id| graph.node(id.as_str()).is_some());
     let is_seen = |id: &&NodeId| node_rect(around.document, id).is_some_and(|rect| rect.intersects(seen));
     let turns: BTreeMap<&NodeId, usize> = canvas.touched.iter().zip(1..).collect();
     let mut in_turn: Vec<NodeId> = graph.ids().filter(is_seen).cloned().collect();
-    // Those that were never touched stay as the graph has them, below the others.
-    in_turn.sort_by_key(|id| {
-        (
-            around.document.is_selected(id),
-            turns.get(id).copied().unwrap_or_default(),
-        )
-    });
+    // Nodes that were never clicked have no turn and come first, in the order of the graph.
+    in_turn.sort_by_key(|id| (around.document.is_selected(id), turns.get(id).copied()));
     in_turn
 }
 
@@ -91,7 +93,7 @@ fn widget(
     canvas: &mut Canvas,
     ui: &mut Ui,
     panel: Rect,
-    around: &Around<'_>,
+    around: &CanvasContext<'_>,
     key: Key,
     actions: &mut Vec<Action>,
 ) -> Option<Response> {
@@ -99,12 +101,12 @@ fn widget(
     let id = canvas.snapshot.graph[key].user_data.id.clone();
     let place = around.document.node(&id)?.pos;
     let rect = canvas.view.screen_rect(panel, node_rect(around.document, &id)?);
-    let mut hand = Hand {
+    let mut row_context = RowContext {
         theme: around.theme.clone(),
         zoom,
         knob_events: Vec::new(),
     };
-    // The widget lays its own gray behind a node; where it did, ours is put.
+    // The widget draws its own background, which is replaced afterwards.
     let before = ui.painter().add(Shape::Noop);
     let pan_zoom = PanZoom {
         pan: canvas.view.pan,
@@ -122,13 +124,18 @@ fn widget(
         selected: false,
         pan: canvas.view.pan + panel.min.to_vec2(),
     };
-    // What it says of wires and moves is not asked: ports and drags are ours.
-    let _ = widget.show(&pan_zoom, ui, &mut hand);
+    // Its response is ignored, since ports and drags are handled here.
+    let _ = widget.show(&pan_zoom, ui, &mut row_context);
     let shown = &canvas.snapshot.graph[key].user_data;
     let is_selected = around.document.is_selected(&id);
     let backdrop = body::backdrop(around.theme, shown, rect, zoom, is_selected);
     ui.painter().set(ShapeIdx(before.0 + BACKDROP), backdrop);
-    actions.extend(hand.knob_events.into_iter().map(|(node, event)| knob(node, event)));
+    actions.extend(
+        row_context
+            .knob_events
+            .into_iter()
+            .map(|(node, event)| knob(node, event)),
+    );
     ui.ctx().read_response(window_id(ui, key))
 }
 
@@ -136,8 +143,14 @@ fn knob(node: NodeId, event: KnobEvent) -> Action {
     Action::Knob { node, event }
 }
 
-/// What a click or a drag on a node means.
-fn touched(canvas: &mut Canvas, id: &NodeId, response: &Response, around: &Around<'_>, actions: &mut Vec<Action>) {
+/// Handles clicks and drags on a node.
+fn touched(
+    canvas: &mut Canvas,
+    id: &NodeId,
+    response: &Response,
+    around: &CanvasContext<'_>,
+    actions: &mut Vec<Action>,
+) {
     let modifiers = response.ctx.input(|input| input.modifiers);
     if response.double_clicked() {
         actions.push(Action::Enter(id.clone()));
@@ -173,7 +186,7 @@ fn context_menu(
     ui: &Ui,
     id: &NodeId,
     response: &Response,
-    around: &Around<'_>,
+    around: &CanvasContext<'_>,
     actions: &mut Vec<Action>,
 ) {
     if response.secondary_clicked() && !around.document.is_selected(id) {
@@ -220,17 +233,17 @@ fn context_menu(
     });
 }
 
-/// A style as large as the canvas is drawn.
+/// Style for a zoom of the canvas.
 fn zoomed(style: &egui::Style, zoom: f32) -> egui::Style {
     let mut style = style.clone();
     for font in style.text_styles.values_mut() {
-        // Letters are kept by size, so that as many sizes as there are zooms would fill the memory for them.
+        // Glyphs are cached by size: rounded sizes bound the memory for them.
         font.size = (font.size * zoom * 2.0).round() / 2.0;
     }
     let spacing = &mut style.spacing;
     spacing.item_spacing = egui::Vec2::ZERO;
     spacing.button_padding *= zoom;
-    // Rows are as high as they say, since ports are where rows are.
+    // Ports are placed by rows, whose height must not depend on the style.
     spacing.interact_size = egui::Vec2::ZERO;
     spacing.icon_width *= zoom;
     spacing.icon_width_inner *= zoom;
@@ -254,7 +267,7 @@ mod tests {
     use crate::theme::{Shade, Theme};
     use sabi_editing::{NODE_WIDTH, OpenDocument, input_row, output_row};
 
-    /// Where the canvas crate's widget of a node has its ports, and what it says of its size.
+    /// Ports and size of a node as the canvas crate's widget has them.
     fn drawn(document: &OpenDocument, id: &NodeId, zoom: f32) -> (Vec<(AnyParameterId, Pos2)>, Rect) {
         let mut snapshot = Snapshot::default();
         snapshot.sync(document);
@@ -265,7 +278,7 @@ mod tests {
         let mut harness = Harness::builder().with_size(vec2(900.0, 3000.0)).build_ui(move |ui| {
             theme.apply(ui.ctx());
             ui.set_style(zoomed(&ui.style().clone(), zoom));
-            let mut hand = Hand {
+            let mut row_context = RowContext {
                 theme: theme.clone(),
                 zoom,
                 knob_events: Vec::new(),
@@ -286,7 +299,7 @@ mod tests {
                 zoom,
                 ..PanZoom::default()
             };
-            let _ = widget.show(&pan_zoom, ui, &mut hand);
+            let _ = widget.show(&pan_zoom, ui, &mut row_context);
             let ports = ports.iter().map(|(port, at)| (*port, *at)).collect::<Vec<_>>();
             let whole = ui.ctx().read_response(window_id(ui, key));
             *given.borrow_mut() = (ports, whole.map_or(Rect::NOTHING, |whole| whole.rect));

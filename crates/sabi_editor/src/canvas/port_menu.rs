@@ -1,22 +1,22 @@
-//! What can be done with a port besides wiring it; and the marks of ports that the graph gives to those who use it as a group.
+//! The context menu of ports, and the marks of published ports.
 
 use egui::{Align2, FontId, Painter, Pos2, Response, Stroke, vec2};
 use sabi_editing::OpenDocument;
 use sabi_graph::{Body, SlotRef};
 
-use super::places::Place;
+use super::port_refs::PortRef;
 use super::{AddMenu, Canvas, Purpose};
 use crate::action::{Action, PortAction, WireAction};
 use crate::theme::{Theme, type_size};
 
-/// Below this zoom the names of what is given on cannot be read.
+/// Zoom below which names of published ports are not drawn.
 const LEGIBLE: f32 = 0.7;
 
-/// The menu of a port.
+/// Shows the context menu of a port.
 pub(super) fn show(
     canvas: &mut Canvas,
     response: &Response,
-    place: &Place,
+    place: &PortRef,
     document: &OpenDocument,
     actions: &mut Vec<Action>,
 ) {
@@ -27,11 +27,11 @@ pub(super) fn show(
         };
         let given_as = document.given_as(&place.loose());
         let (publish, off) = match place {
-            Place::Input(_) => (
+            PortRef::Input(_) => (
                 format!("Publish as input of the {whole}"),
                 "Take off the input".to_owned(),
             ),
-            Place::Output(_) => (
+            PortRef::Output(_) => (
                 format!("Publish as output of the {whole}"),
                 "Take back the output".to_owned(),
             ),
@@ -52,7 +52,7 @@ pub(super) fn show(
             actions.push(Action::Wire(WireAction::Cut(tied.clone())));
         }
         let instead = match (place, tied.is_empty()) {
-            (Place::Input(_), false) => "Replace by…",
+            (PortRef::Input(_), false) => "Replace by…",
             _ => "Connect a new node…",
         };
         if ui.button(instead).clicked() {
@@ -61,25 +61,25 @@ pub(super) fn show(
     });
 }
 
-fn published(place: &Place) -> PortAction {
+fn published(place: &PortRef) -> PortAction {
     match place {
-        Place::Input(slot) => PortAction::PublishInput(slot.clone()),
-        Place::Output(from) => PortAction::PublishOutput(from.clone()),
+        PortRef::Input(slot) => PortAction::PublishInput(slot.clone()),
+        PortRef::Output(from) => PortAction::PublishOutput(from.clone()),
     }
 }
 
-fn taken_back(place: &Place, name: &str) -> PortAction {
+fn taken_back(place: &PortRef, name: &str) -> PortAction {
     match place {
-        Place::Input(slot) => PortAction::Unfeed(slot.clone()),
-        Place::Output(_) => PortAction::RemoveOutput(name.to_owned()),
+        PortRef::Input(slot) => PortAction::Unfeed(slot.clone()),
+        PortRef::Output(_) => PortAction::RemoveOutput(name.to_owned()),
     }
 }
 
-/// The inputs whose wires end or begin at a port.
-fn tied(document: &OpenDocument, place: &Place) -> Vec<SlotRef> {
+/// Inputs whose wires end or begin at a port.
+fn tied(document: &OpenDocument, place: &PortRef) -> Vec<SlotRef> {
     match place {
-        Place::Input(slot) => document.wire_into(slot).map(|_| slot.clone()).into_iter().collect(),
-        Place::Output(from) => {
+        PortRef::Input(slot) => document.wire_into(slot).map(|_| slot.clone()).into_iter().collect(),
+        PortRef::Output(from) => {
             let readers = document.graph().readers(from.node.as_str()).into_iter();
             readers.filter(|slot| document.reads(slot, from)).collect()
         }
@@ -87,13 +87,15 @@ fn tied(document: &OpenDocument, place: &Place) -> Vec<SlotRef> {
 }
 
 impl Canvas {
-    /// Opens the menu of nodes for one that is tied to a port.
-    fn open_port_menu(&mut self, document: &OpenDocument, place: &Place, at: Pos2) {
+    /// Opens the menu of nodes, to add one that is connected to a port.
+    fn open_port_menu(&mut self, document: &OpenDocument, place: &PortRef, at: Pos2) {
         let aside = match place {
-            Place::Input(_) => -(sabi_editing::NODE_WIDTH + 60.0),
-            Place::Output(_) => 60.0,
+            PortRef::Input(_) => -(sabi_editing::NODE_WIDTH + 60.0),
+            PortRef::Output(_) => 60.0,
         };
-        let on_canvas = place.on_canvas(document).unwrap_or_default();
+        let Some(on_canvas) = place.on_canvas(document) else {
+            return;
+        };
         let purpose = Purpose {
             place: [on_canvas[0] + aside, on_canvas[1] - 20.0],
             loose: Some(place.loose()),
@@ -103,14 +105,21 @@ impl Canvas {
     }
 }
 
-/// Marks a port that the graph gives on, with the name that it has outside.
-pub(super) fn mark(painter: &Painter, theme: &Theme, document: &OpenDocument, place: &Place, center: Pos2, zoom: f32) {
+/// Marks a published port with its name outside of the graph.
+pub(super) fn mark(
+    painter: &Painter,
+    theme: &Theme,
+    document: &OpenDocument,
+    place: &PortRef,
+    center: Pos2,
+    zoom: f32,
+) {
     let Some(name) = document.given_as(&place.loose()) else {
         return;
     };
     let (way, align) = match place {
-        Place::Input(_) => (-1.0, Align2::RIGHT_CENTER),
-        Place::Output(_) => (1.0, Align2::LEFT_CENTER),
+        PortRef::Input(_) => (-1.0, Align2::RIGHT_CENTER),
+        PortRef::Output(_) => (1.0, Align2::LEFT_CENTER),
     };
     let [near, far] = [9.0, 24.0].map(|away| center + vec2(way * away * zoom, 0.0));
     painter.line_segment([near, far], Stroke::new(2.0 * zoom, theme.accent));

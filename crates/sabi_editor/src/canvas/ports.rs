@@ -6,8 +6,8 @@ use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, PortType};
 
 use super::gesture::Gesture;
-use super::places::{DOT, Place, places, reach_of};
-use super::{Around, Canvas, port_menu};
+use super::port_refs::{DOT, PortRef, places, reach_of};
+use super::{Canvas, CanvasContext, port_menu};
 use crate::action::Action;
 use crate::theme::Theme;
 
@@ -19,7 +19,7 @@ pub(super) fn show(
     canvas: &mut Canvas,
     ui: &Ui,
     panel: Rect,
-    around: &Around<'_>,
+    around: &CanvasContext<'_>,
     id: &NodeId,
     actions: &mut Vec<Action>,
 ) {
@@ -30,8 +30,8 @@ pub(super) fn show(
         let Some(at) = place.on_canvas(document) else { continue };
         let center = canvas.view.screen(panel, at);
         let reach = reach_of(zoom);
-        let is_input = matches!(place, Place::Input(_));
-        // Of a small node enough is left to take it itself.
+        let is_input = matches!(place, PortRef::Input(_));
+        // Leaves enough of a small node to drag the node itself.
         let inside = reach.min(document.size(id)[0] * zoom * INSIDE);
         let [left, right] = if is_input { [reach, inside] } else { [inside, reach] };
         let rect = Rect::from_min_max(center - vec2(left, reach), center + vec2(right, reach));
@@ -66,12 +66,12 @@ pub(super) fn show(
     }
 }
 
-/// Shows an output's result; a click on an input is one on its node, of which it is a part.
-pub(super) fn clicked(place: &Place, actions: &mut Vec<Action>) {
+/// Asks to show an output's result, or for an input that of its node.
+pub(super) fn clicked(place: &PortRef, actions: &mut Vec<Action>) {
     actions.push(Action::Select(vec![place.node().clone()]));
     let port = match place {
-        Place::Output(from) => from.port.clone(),
-        Place::Input(_) => None,
+        PortRef::Output(from) => from.port.clone(),
+        PortRef::Input(_) => None,
     };
     actions.push(Action::Show {
         node: place.node().clone(),
@@ -101,10 +101,10 @@ pub(super) fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port) {
     }
 }
 
-pub(super) fn is_wired(document: &OpenDocument, place: &Place) -> bool {
+pub(super) fn is_wired(document: &OpenDocument, place: &PortRef) -> bool {
     match place {
-        Place::Input(slot) => document.wire_into(slot).is_some(),
-        Place::Output(from) => {
+        PortRef::Input(slot) => document.wire_into(slot).is_some(),
+        PortRef::Output(from) => {
             let face = document.face(&from.node);
             let first = face.and_then(|face| face.outputs.first()).map(|port| &port.name);
             let readers = document.graph().readers(from.node.as_str());
@@ -116,7 +116,8 @@ pub(super) fn is_wired(document: &OpenDocument, place: &Place) -> bool {
     }
 }
 
-/// A dot: round for masks, a diamond for colors, a triangle for vectors, a square for materials; hollow where nothing is connected.
+/// Draws a dot: round for masks, a diamond for colors, a triangle for vectors, a square for materials; hollow if not
+/// connected.
 pub(super) fn dot(
     painter: &Painter,
     theme: &Theme,

@@ -1,23 +1,23 @@
-//! Small questions on the canvas: how two masks become one, and what something is called.
+//! Small questions on the canvas: how to merge two masks, and the name of a node or a frame.
 
 use egui::{Area, EventFilter, Frame, Id, Key, Order, Pos2, Ui, WidgetInfo, WidgetType};
 use sabi_editing::MaskMerge;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
-use super::{Around, Canvas, focus_id};
+use super::{Canvas, CanvasContext, focus_id};
 use crate::action::{Action, FrameAction, WireAction};
 
-/// How a second mask is put together with the first one.
+/// Question about how to merge a second mask with the first one.
 pub(super) struct MergeQuestion {
     at: Pos2,
     from: OutputRef,
     to: SlotRef,
-    /// The answer that has the keyboard.
+    /// Index of the answer that has the keyboard.
     chosen: usize,
     is_new: bool,
 }
 
-/// Keys that answer at once, in the order of the answers.
+/// Keys of the answers, in their order.
 const ANSWERS: [Key; 5] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
 
 impl MergeQuestion {
@@ -31,7 +31,7 @@ impl MergeQuestion {
         }
     }
 
-    /// Shows the answers; one is given by a click, by its number, or by arrows and Enter.
+    /// Shows the answers; gives the one chosen by a click, by its number, or by arrows and Enter.
     fn answers(&mut self, ui: &mut Ui) -> Option<MaskMerge> {
         let (down, up) = ui.input(|input| (input.key_pressed(Key::ArrowDown), input.key_pressed(Key::ArrowUp)));
         if down {
@@ -47,7 +47,7 @@ impl MergeQuestion {
             button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
             if at == self.chosen {
                 button.request_focus();
-                // Arrows lead from answer to answer and nowhere else.
+                // Keeps the arrow keys from leading out of the answers.
                 let filter = EventFilter {
                     tab: true,
                     vertical_arrows: true,
@@ -93,13 +93,13 @@ pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut
     }
 }
 
-/// What is being named.
+/// What is being renamed.
 pub(super) enum Named {
     Node(NodeId),
     Frame(String),
 }
 
-/// A name while it is typed.
+/// Name while it is typed.
 pub(super) struct Renaming {
     pub(super) what: Named,
     text: String,
@@ -124,7 +124,7 @@ impl Renaming {
     }
 }
 
-pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
+pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, actions: &mut Vec<Action>) {
     let (Some(panel), Some(renaming)) = (canvas.panel, &mut canvas.renaming) else {
         return;
     };

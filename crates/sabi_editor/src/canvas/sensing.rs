@@ -9,7 +9,7 @@ pub(super) fn window_id(ui: &Ui, key: Key) -> Id {
     ui.id().with(key).with((key, "window"))
 }
 
-/// Response of a whole node that has no widget of the canvas crate: a card or a bend.
+/// Response of a whole node that has no widget of the canvas crate: a card or a reroute.
 pub(super) fn sensed(ui: &Ui, key: Key, rect: Rect) -> Response {
     ui.interact(rect, window_id(ui, key), Sense::click_and_drag())
 }

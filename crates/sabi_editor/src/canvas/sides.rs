@@ -1,4 +1,4 @@
-//! The sides of cards, whose ports are too small to be taken one by one: a wire is taken at the nearest.
+//! The sides of cards, whose ports are too small for the pointer: a drag takes the nearest one.
 
 use egui::{PointerButton, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, pos2};
 use sabi_editing::{OpenDocument, input_row, output_row};
@@ -6,32 +6,32 @@ use sabi_engine::catalog::{Entry, Port};
 use sabi_graph::NodeId;
 
 use super::gesture::Gesture;
-use super::places::{self, DOT, Place};
+use super::port_refs::{self, DOT, PortRef};
 use super::ports::{self, INSIDE};
-use super::{Around, Canvas, node_rect};
+use super::{Canvas, CanvasContext, node_rect};
 use crate::action::Action;
 
-/// How near the pointer has to be to a side, screen points.
+/// Distance at which the pointer takes a side, screen points.
 const REACH: f32 = 7.0;
-/// Smaller dots are left out, screen points.
+/// Smallest size of dots, screen points.
 const LEAST_DOT: f32 = 1.4;
 
-/// The inputs or the outputs of a card.
+/// Inputs or outputs of a card.
 struct Side<'a> {
     id: &'a NodeId,
     face: &'a Entry,
     is_input: bool,
-    /// Of the whole card, on the screen.
+    /// Rectangle of the whole card on the screen.
     rect: Rect,
     zoom: f32,
 }
 
-/// Draws the ports of a card and takes wires at its sides.
+/// Draws the ports of a card and begins drags of wires at its sides.
 pub(super) fn show(
     canvas: &mut Canvas,
     ui: &Ui,
     panel: Rect,
-    around: &Around<'_>,
+    around: &CanvasContext<'_>,
     id: &NodeId,
     actions: &mut Vec<Action>,
 ) {
@@ -70,7 +70,7 @@ impl Side<'_> {
         }
     }
 
-    /// Where the port of a row is, up and down.
+    /// Height of the port of a row on the screen.
     fn y(&self, row: usize) -> f32 {
         let down = match self.is_input {
             true => input_row(self.face, row),
@@ -79,7 +79,7 @@ impl Side<'_> {
         self.rect.top() + down * self.zoom
     }
 
-    fn draw(&self, ui: &Ui, around: &Around<'_>) {
+    fn draw(&self, ui: &Ui, around: &CanvasContext<'_>) {
         let size = DOT * self.zoom;
         for (row, port) in self.ports().iter().enumerate().filter(|_| size > LEAST_DOT) {
             let center = pos2(self.x(), self.y(row));
@@ -87,16 +87,16 @@ impl Side<'_> {
         }
     }
 
-    /// The port that is nearest to a place.
-    fn nearest(&self, document: &OpenDocument, at: Pos2) -> Option<(Place, Port)> {
+    /// Port nearest to a place.
+    fn nearest(&self, document: &OpenDocument, at: Pos2) -> Option<(PortRef, Port)> {
         let rows = 0..self.ports().len();
         let away = |row: &usize| (self.y(*row) - at.y).abs();
         let row = rows.min_by(|one, other| away(one).total_cmp(&away(other)))?;
         let before = if self.is_input { 0 } else { self.face.inputs.len() };
-        places::places(document, self.id).into_iter().nth(before + row)
+        port_refs::places(document, self.id).into_iter().nth(before + row)
     }
 
-    fn touched(&self, canvas: &mut Canvas, ui: &Ui, around: &Around<'_>, actions: &mut Vec<Action>) {
+    fn touched(&self, canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, actions: &mut Vec<Action>) {
         let document = around.document;
         let inside = REACH.min(self.rect.width() * INSIDE);
         let [left, right] = if self.is_input {

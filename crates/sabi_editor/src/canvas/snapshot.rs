@@ -1,4 +1,4 @@
-//! The graph as the canvas crate has it: a snapshot of what is seen, brought up to date and never asked for the truth.
+//! A copy of the shown graph in the canvas crate's types, which is only drawn.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -10,39 +10,39 @@ use egui_node_graph::{
 };
 use sabi_editing::{OpenDocument, own_knobs};
 use sabi_engine::catalog::Entry;
-use sabi_graph::{Body, NodeId, PortType, Value};
+use sabi_graph::{Body, NodeId, PortType};
 
 use super::body;
-use super::shown::{Hand, NodeState, NodeSummary};
+use super::node_summary::{NodeState, NodeSummary, RowContext};
 
-/// The crate's graph of our nodes.
+/// Graph in the canvas crate's type.
 pub(super) type Graph = egui_node_graph::Graph<NodeSummary, Carries, Row>;
-/// The crate's own name of a node.
+/// Id of a node in the canvas crate.
 pub(super) type Key = egui_node_graph::NodeId;
 
-/// What a port carries.
+/// Type that a port carries; none for any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Carries(pub(super) Option<PortType>);
 
-/// A row of a node.
+/// Row of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Row {
-    /// A port, whose dot is drawn by us.
+    /// Port, whose dot is drawn by this crate.
     #[default]
     Port,
-    /// A knob, by its place among those of the face.
+    /// Parameter, by its index in the catalog entry.
     Knob(usize),
 }
 
-/// What the rows of nodes ask for.
+/// Response of rows, which the canvas crate requires; rows ask through their context.
 #[derive(Clone, Debug)]
 pub(super) struct Asked;
 
 impl UserResponseTrait for Asked {}
 
-impl DataTypeTrait<Hand> for Carries {
-    fn data_type_color(&self, _: &mut Hand) -> Color32 {
-        // Dots are drawn over the widget's, by type and form.
+impl DataTypeTrait<RowContext> for Carries {
+    fn data_type_color(&self, _: &mut RowContext) -> Color32 {
+        // This crate draws the dots.
         Color32::TRANSPARENT
     }
 
@@ -56,13 +56,20 @@ impl DataTypeTrait<Hand> for Carries {
 
 impl WidgetValueTrait for Row {
     type Response = Asked;
-    type UserState = Hand;
+    type UserState = RowContext;
     type NodeData = NodeSummary;
 
-    fn value_widget(&mut self, name: &str, _: Key, ui: &mut Ui, hand: &mut Hand, shown: &NodeSummary) -> Vec<Asked> {
+    fn value_widget(
+        &mut self,
+        name: &str,
+        _: Key,
+        ui: &mut Ui,
+        row_context: &mut RowContext,
+        shown: &NodeSummary,
+    ) -> Vec<Asked> {
         match self {
-            Row::Port => body::port_row(ui, hand, name, true),
-            Row::Knob(at) => body::knob_row(ui, hand, shown, *at),
+            Row::Port => body::port_row(ui, row_context, name, true),
+            Row::Knob(at) => body::knob_row(ui, row_context, shown, *at),
         }
         Vec::new()
     }
@@ -72,21 +79,27 @@ impl WidgetValueTrait for Row {
         name: &str,
         key: Key,
         ui: &mut Ui,
-        hand: &mut Hand,
+        row_context: &mut RowContext,
         shown: &NodeSummary,
     ) -> Vec<Asked> {
-        self.value_widget(name, key, ui, hand, shown)
+        self.value_widget(name, key, ui, row_context, shown)
     }
 }
 
 impl NodeDataTrait for NodeSummary {
     type Response = Asked;
-    type UserState = Hand;
+    type UserState = RowContext;
     type DataType = Carries;
     type ValueType = Row;
 
-    fn top_bar_ui(&self, ui: &mut Ui, _: Key, _: &Graph, hand: &mut Hand) -> Vec<NodeResponse<Asked, NodeSummary>> {
-        body::title_row(ui, hand, self);
+    fn top_bar_ui(
+        &self,
+        ui: &mut Ui,
+        _: Key,
+        _: &Graph,
+        row_context: &mut RowContext,
+    ) -> Vec<NodeResponse<Asked, NodeSummary>> {
+        body::title_row(ui, row_context, self);
         Vec::new()
     }
 
@@ -95,28 +108,34 @@ impl NodeDataTrait for NodeSummary {
         ui: &mut Ui,
         _: Key,
         _: &Graph,
-        hand: &mut Hand,
+        row_context: &mut RowContext,
         name: &str,
     ) -> Vec<NodeResponse<Asked, NodeSummary>> {
-        body::port_row(ui, hand, name, false);
+        body::port_row(ui, row_context, name, false);
         Vec::new()
     }
 
-    fn bottom_ui(&self, ui: &mut Ui, _: Key, _: &Graph, hand: &mut Hand) -> Vec<NodeResponse<Asked, NodeSummary>> {
-        body::picture_row(ui, hand, self);
+    fn bottom_ui(
+        &self,
+        ui: &mut Ui,
+        _: Key,
+        _: &Graph,
+        row_context: &mut RowContext,
+    ) -> Vec<NodeResponse<Asked, NodeSummary>> {
+        body::picture_row(ui, row_context, self);
         Vec::new()
     }
 
-    fn can_delete(&self, _: Key, _: &Graph, _: &mut Hand) -> bool {
+    fn can_delete(&self, _: Key, _: &Graph, _: &mut RowContext) -> bool {
         false
     }
 
-    fn can_flip(&self, _: Key, _: &Graph, _: &mut Hand) -> bool {
+    fn can_flip(&self, _: Key, _: &Graph, _: &mut RowContext) -> bool {
         false
     }
 }
 
-/// The snapshot, and what it was taken of.
+/// Copy of the graph, with the revisions that it was made from.
 #[derive(Default)]
 pub(super) struct Snapshot {
     pub(super) graph: Graph,
@@ -125,7 +144,7 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// Brings it up to date. Nodes that are the same keep their keys, so that what is being dragged stays in hand.
+    /// Updates the copy. Unchanged nodes keep their keys, so that a drag continues.
     pub(super) fn sync(&mut self, document: &OpenDocument) {
         let body = document.body();
         let now = (body.clone(), document.session.revision(), document.kinds().1);
@@ -191,8 +210,10 @@ impl Snapshot {
                 graph.add_input_param(key, port.label.clone(), carries, Row::Port, kind, true);
             }
             for knob in own_knobs(&face) {
-                let at = face.knobs.iter().position(|known| known.name == knob.name);
-                let row = Row::Knob(at.unwrap_or(0));
+                let Some(at) = face.knobs.iter().position(|known| known.name == knob.name) else {
+                    continue;
+                };
+                let row = Row::Knob(at);
                 let kind = InputParamKind::ConstantOnly;
                 graph.add_input_param(key, knob.label.clone(), Carries(None), row, kind, true);
             }
@@ -203,7 +224,7 @@ impl Snapshot {
         self.keys.insert(id.clone(), key);
     }
 
-    /// Ties the wires anew.
+    /// Copies the wires.
     fn tie(&mut self, document: &OpenDocument) {
         let tied: Vec<_> = self.graph.iter_connections().map(|(input, _)| input).collect();
         for input in tied {

@@ -1,15 +1,15 @@
-//! What is said of a node to those who point at it.
+//! Tooltips of nodes.
 
 use egui::{Rect, Response, Sense, Ui};
 
-use super::Around;
-use super::shown::NodeSummary;
+use super::CanvasContext;
+use super::node_summary::NodeSummary;
 
-/// Widest line of it.
+/// Width of a tooltip, points.
 const WIDEST: f32 = 280.0;
 
-/// Says what a node is and what is wrong with it over a part of it.
-pub(super) fn show(ui: &Ui, around: &Around<'_>, shown: &NodeSummary, node: &Response, part: Rect) {
+/// Shows the tooltip of a node over a part of it.
+pub(super) fn show(ui: &Ui, around: &CanvasContext<'_>, shown: &NodeSummary, node: &Response, part: Rect) {
     let part = ui.interact(part, node.id.with("tip"), Sense::hover());
     part.on_hover_ui(|ui| {
         ui.set_max_width(WIDEST);

@@ -1,18 +1,18 @@
-//! What part of the canvas is seen: where its origin lies on the screen, and how large it is drawn.
+//! Pan and zoom of the canvas.
 
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
-/// Zoom of the whole way out.
+/// Lowest zoom.
 pub(crate) const LEAST_ZOOM: f32 = 0.1;
-/// Zoom of the whole way in.
+/// Highest zoom.
 pub(crate) const MOST_ZOOM: f32 = 3.0;
-/// Points left free around what is framed.
+/// Margin around nodes that are zoomed to, points.
 const FREE: f32 = 40.0;
 
-/// What part of the canvas is seen.
+/// Pan and zoom of the canvas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct View {
-    /// From the corner of the panel to the canvas' origin, screen points.
+    /// Canvas origin relative to the corner of the panel, screen points.
     pub(crate) pan: Vec2,
     /// Screen points in one canvas point.
     pub(crate) zoom: f32,
@@ -28,30 +28,30 @@ impl Default for View {
 }
 
 impl View {
-    /// Where a place of the canvas is on the screen.
+    /// Place on the screen of a place on the canvas.
     pub(crate) fn screen(&self, panel: Rect, place: [f32; 2]) -> Pos2 {
         panel.min + self.pan + vec2(place[0], place[1]) * self.zoom
     }
 
-    /// Which place of the canvas is there on the screen.
+    /// Place on the canvas of a place on the screen.
     pub(crate) fn place(&self, panel: Rect, at: Pos2) -> [f32; 2] {
         let place = (at - panel.min - self.pan) / self.zoom;
         [place.x, place.y]
     }
 
-    /// The part of the canvas that is seen.
+    /// Part of the canvas in the panel.
     pub(crate) fn seen(&self, panel: Rect) -> Rect {
         let [low, high] = [panel.min, panel.max].map(|corner| self.place(panel, corner));
         Rect::from_min_max(pos2(low[0], low[1]), pos2(high[0], high[1]))
     }
 
-    /// A rectangle of the canvas on the screen.
+    /// Rectangle on the screen of a rectangle on the canvas.
     pub(crate) fn screen_rect(&self, panel: Rect, rect: Rect) -> Rect {
         let corner = |at: Pos2| self.screen(panel, [at.x, at.y]);
         Rect::from_min_max(corner(rect.min), corner(rect.max))
     }
 
-    /// Larger by a factor, with what is under the pointer staying there.
+    /// Multiplies the zoom, with the place under the pointer fixed.
     pub(crate) fn zoom_at(&mut self, panel: Rect, pointer: Pos2, factor: f32) {
         if !(factor.is_finite() && factor > 0.0) {
             return;
@@ -62,7 +62,7 @@ impl View {
         self.pan += pointer - moved;
     }
 
-    /// Shows all of a rectangle of the canvas, at no more than its true size.
+    /// Zooms to a rectangle of the canvas, at a zoom of at most 1.
     pub(crate) fn frame(&mut self, panel: Rect, rect: Rect) {
         if !(rect.is_finite() && panel.is_positive()) {
             return;

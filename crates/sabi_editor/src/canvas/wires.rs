@@ -1,4 +1,4 @@
-//! Wires: their curves, which one is under the pointer, which ones a line crosses.
+//! Wires: their curves, and tests against the pointer and lines.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, epaint::CubicBezierShape, pos2};
 use sabi_editing::{OpenDocument, TITLE_HEIGHT, input_row, output_row, size_of};
@@ -7,34 +7,34 @@ use sabi_graph::{OutputRef, PortType, SlotRef};
 use super::view::View;
 use crate::theme::Theme;
 
-/// Straight pieces that a curve is taken for where distances are measured.
+/// Segments that approximate a curve for distances.
 const PIECES: usize = 16;
-/// A wire is under the pointer within so many screen points.
+/// Distance at which a wire is under the pointer, screen points.
 const NEAR: f32 = 7.0;
 
-/// A wire on the screen.
+/// Wire on the screen.
 #[derive(Clone, Debug)]
 pub(crate) struct Wire {
     pub(super) from: OutputRef,
     pub(crate) to: SlotRef,
     pub(super) carries: Option<PortType>,
-    /// What it ends in takes another type, so that it is converted on the way.
+    /// Whether its value is converted to the type of the input.
     pub(super) is_converted: bool,
     pub(super) curve: [Pos2; 4],
 }
 
 impl Wire {
-    /// The rectangle around it.
+    /// Rectangle around the curve.
     pub(super) fn bounds(&self) -> Rect {
         Rect::from_points(&self.curve)
     }
 
-    /// Points along it.
+    /// Points along the curve.
     fn points(&self) -> impl Iterator<Item = Pos2> + '_ {
         (0..=PIECES).map(|at| point(&self.curve, at as f32 / PIECES as f32))
     }
 
-    /// The distance of a place from it, screen points.
+    /// Distance of a place from the curve, screen points.
     pub(super) fn distance(&self, place: Pos2) -> f32 {
         let points: Vec<Pos2> = self.points().collect();
         let pieces = points.windows(2);
@@ -43,19 +43,19 @@ impl Wire {
             .fold(f32::INFINITY, f32::min)
     }
 
-    /// Whether a line crosses it.
+    /// Whether a segment crosses the curve.
     pub(super) fn is_crossed(&self, line: [Pos2; 2]) -> bool {
         let points: Vec<Pos2> = self.points().collect();
         points.windows(2).any(|ends| cross([ends[0], ends[1]], line))
     }
 
-    /// The middle of it.
+    /// Middle of the curve.
     pub(super) fn middle(&self) -> Pos2 {
         point(&self.curve, 0.5)
     }
 }
 
-/// All wires that may be seen.
+/// Wires that may be in the panel.
 pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<Wire> {
     let mut wires = Vec::new();
     for (id, node) in document.graph().nodes() {
@@ -85,7 +85,7 @@ pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<
     wires
 }
 
-/// Where a wire from an output begins, on the canvas; at the title where there is no such output.
+/// Place on the canvas where a wire from an output begins; at the title where there is no such output.
 pub(super) fn start_of(document: &OpenDocument, from: &OutputRef) -> Option<[f32; 2]> {
     let node = document.node(&from.node)?;
     let face = document.face(&from.node)?;
@@ -97,7 +97,7 @@ pub(super) fn start_of(document: &OpenDocument, from: &OutputRef) -> Option<[f32
     Some([node.pos[0] + size_of(face)[0], node.pos[1] + down])
 }
 
-/// Where a wire into an input ends, on the canvas; at the title where there is no such input.
+/// Place on the canvas where a wire into an input ends; at the title where there is no such input.
 pub(super) fn end_of(document: &OpenDocument, to: &SlotRef) -> Option<[f32; 2]> {
     let node = document.node(&to.node)?;
     let face = document.face(&to.node)?;
@@ -106,7 +106,7 @@ pub(super) fn end_of(document: &OpenDocument, to: &SlotRef) -> Option<[f32; 2]> 
     Some([node.pos[0], node.pos[1] + down])
 }
 
-/// A curve that leaves to the right and arrives from the left.
+/// Curve that leaves to the right and arrives from the left.
 pub(super) fn curve([start, end]: [Pos2; 2], zoom: f32) -> [Pos2; 4] {
     let across = (end.x - start.x).abs() * 0.5;
     let reach = across
@@ -140,12 +140,12 @@ fn cross(one: [Pos2; 2], other: [Pos2; 2]) -> bool {
         let (along, to) = (line[1] - line[0], place - line[0]);
         along.x * to.y - along.y * to.x
     };
-    // An end that lies on the line counts to one side, so that no line goes through between two pieces.
+    // An end on the line counts to one side, so that no line passes between two segments.
     let parts = |line: [Pos2; 2], ends: [Pos2; 2]| (side(line, ends[0]) < 0.0) != (side(line, ends[1]) < 0.0);
     parts(one, other) && parts(other, one)
 }
 
-/// The wire under the pointer: the nearest one.
+/// Nearest wire under the pointer.
 pub(super) fn under(wires: &[Wire], pointer: Pos2) -> Option<&Wire> {
     let near = wires.iter().filter(|wire| wire.bounds().expand(NEAR).contains(pointer));
     let near = near.map(|wire| (wire.distance(pointer), wire));
@@ -162,15 +162,15 @@ pub(super) fn draw_curve(painter: &Painter, curve: [Pos2; 4], color: Color32, wi
     painter.add(Shape::CubicBezier(shape));
 }
 
-/// How a wire looks.
+/// Look of a wire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Look {
     Usual,
-    /// It leads from or into a selected node.
+    /// Connected to a selected node.
     Near,
-    /// It is under the pointer, or would take what is dropped.
+    /// Under the pointer, or would take the dragged node.
     Hot,
-    /// It will be cut.
+    /// Under the current cut.
     Cut,
 }
 

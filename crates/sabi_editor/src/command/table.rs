@@ -1,7 +1,7 @@
 //! The commands: their names in settings, titles, scopes and keys.
 
 use super::{
-    ArrangeCommand, CanvasCommand, Command, Favorite, FileCommand, GraphCommand, Habit, LookCommand, Scope,
+    ArrangeCommand, CanvasCommand, Command, Favorite, FileCommand, GraphCommand, InputPreset, LookCommand, Scope,
     TextureCommand, ViewportCommand, WindowCommand,
 };
 
@@ -30,12 +30,12 @@ macro_rules! commands {
             }
 
             /// Keys that ask for it.
-            pub(crate) fn keys(self, habit: Habit) -> &'static [&'static str] {
+            pub(crate) fn keys(self, habit: InputPreset) -> &'static [&'static str] {
                 match self {
                     $(Command::$group($kind::$variant) => {
                         let usual: &'static [&'static str] = &[$($chord),*];
-                        $(if habit == Habit::Blender { return &[$($blender),*]; })?
-                        $(if habit == Habit::Substance { return &[$($substance),*]; })?
+                        $(if habit == InputPreset::Blender { return &[$($blender),*]; })?
+                        $(if habit == InputPreset::Substance { return &[$($substance),*]; })?
                         let _ = habit;
                         usual
                     })*

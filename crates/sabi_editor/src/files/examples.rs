@@ -1,12 +1,12 @@
-//! Graphs and models that come with the program. They are written to a folder of the artist's before they are opened, so that
-//! nothing that is tried on them can spoil them.
+//! Built-in graphs and models. They are written to a folder of the artist before they are opened, so that edits do not change
+//! the built-in ones.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{free_graph_file, write_whole};
 
-/// An example: what it is called, its file, and the model that it is on.
+/// Built-in example: its title, file and model.
 pub(crate) struct Example {
     pub(crate) title: &'static str,
     pub(crate) says: &'static str,
@@ -70,12 +70,12 @@ macro_rules! models {
 const MODELS: [(&str, &[u8]); 7] =
     models!["bench.glb" "chain.glb" "crate.glb" "table.glb" "column.glb" "figure.glb" "sphere.glb"];
 
-/// Where graphs and models stand in the folder of examples, as they do in the project.
+/// Folders of graphs and models in the folder of examples, as in the project.
 const GRAPHS: &str = "graphs";
 const MESHES: &str = "assets/meshes";
 
-/// Writes an example with all models into a folder, and gives its file. What is there already stays, models that somebody
-/// worked on too; beside a graph that is another by now the example is written under the next name.
+/// Writes an example with all models into a folder, and gives its file. Existing files stay, also edited ones: beside an edited
+/// graph the example is written under the next free name.
 pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
     let Some(example) = EXAMPLES.get(at) else {
         return Ok(None);
@@ -89,7 +89,7 @@ pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
     Ok(Some(file))
 }
 
-/// A model that is there whatever else is: what a new graph is on.
+/// File of the built-in model that new graphs are shown on, written if it is missing.
 pub(crate) fn first_model(folder: &Path) -> io::Result<PathBuf> {
     let [(name, bytes), ..] = MODELS;
     let file = folder.join(MESHES).join(name);
@@ -97,7 +97,7 @@ pub(crate) fn first_model(folder: &Path) -> io::Result<PathBuf> {
     Ok(file)
 }
 
-/// What is there may be somebody's work by now.
+/// An existing file may have been edited, and is not replaced.
 fn write_where_none(file: &Path, bytes: &[u8]) -> io::Result<()> {
     if file.exists() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! The system's dialogs for files and folders, which stay open beside the window: it goes on meanwhile.
+//! System dialogs for files and folders, which do not block the window.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -25,7 +25,7 @@ pub(crate) struct SystemDialog {
 }
 
 impl SystemDialog {
-    /// Asks for a file, in the folder of the path that was typed so far.
+    /// Opens a dialog for a file, in the folder of the typed path.
     pub(crate) fn file(context: &Context, what: &PathFor, typed: &str) -> SystemDialog {
         let dialog = AsyncFileDialog::new();
         let dialog = match Path::new(typed).parent().filter(|folder| folder.is_dir()) {
@@ -40,25 +40,25 @@ impl SystemDialog {
         }
     }
 
-    /// Asks for a folder.
+    /// Opens a dialog for a folder.
     pub(crate) fn folder(context: &Context) -> SystemDialog {
         SystemDialog::open(context, AsyncFileDialog::new().pick_folder())
     }
 
-    /// Waits for the answer on a thread of its own. Nobody waits for that one when the window closes: it holds nothing, and
-    /// the dialog may stay open for long.
+    /// Waits for the answer on a thread of its own, which is not joined when the window closes: the dialog may stay open for
+    /// long.
     fn open(context: &Context, asked: impl Future<Output = Option<FileHandle>> + Send + 'static) -> SystemDialog {
         SystemDialog::waiting(context, || pollster::block_on(asked).map(|file| file.path().to_owned()))
     }
 
-    /// Waits for an answer, and draws the window anew when it comes.
+    /// Waits for an answer on a thread of its own; `context` draws a frame when it arrives.
     pub(crate) fn waiting(context: &Context, wait: impl FnOnce() -> Option<PathBuf> + Send + 'static) -> SystemDialog {
         let (sender, answer) = channel();
         let woken = context.clone();
         let waiting = std::thread::Builder::new().name("sabi dialog".to_owned());
-        // Without a thread there is no answer, which is as if somebody had closed the dialog.
+        // Without a thread, the dialog counts as closed.
         let _ = waiting.spawn(move || {
-            // Nobody listens once the question is gone.
+            // Fails once the question is closed.
             let _ = sender.send(wait());
             drop(sender);
             woken.request_repaint();
@@ -66,7 +66,7 @@ impl SystemDialog {
         SystemDialog { answer }
     }
 
-    /// What was answered, once: a path, or nothing where the dialog was closed or could not be opened.
+    /// The answer, once: a path, or `Some(None)` where the dialog was closed or could not be opened.
     pub(crate) fn poll(&self) -> Option<Option<PathBuf>> {
         match self.answer.try_recv() {
             Ok(answer) => Some(answer),
@@ -76,7 +76,7 @@ impl SystemDialog {
     }
 }
 
-/// Takes the answer of an open dialog, if it has come: that dialog is no longer there then.
+/// Takes the answer of an open dialog, if it has arrived, and forgets the dialog.
 pub(crate) fn answer_of(dialog: &mut Option<SystemDialog>) -> Option<PathBuf> {
     let answer = dialog.as_ref()?.poll()?;
     *dialog = None;

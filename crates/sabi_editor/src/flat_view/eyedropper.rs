@@ -1,4 +1,4 @@
-//! A color that is taken off a texture.
+//! Colors taken from the 2D view.
 
 use egui::ecolor::gamma_u8_from_linear_f32;
 use egui::{CursorIcon, Rect, Response};
@@ -9,7 +9,7 @@ use super::FlatView;
 use crate::action::ClickedColor;
 
 impl FlatView {
-    /// The color that was clicked: that of a material whichever of its planes is looked at.
+    /// Clicked color. Of a material, its base color whatever plane is shown.
     pub(super) fn clicked_color(&self, response: &Response, square: Rect, values: &Inspected) -> Option<ClickedColor> {
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let at = response.interact_pointer_pos().filter(|_| response.clicked())?;

@@ -1,11 +1,11 @@
-//! Values as a picture, and how they are spread.
+//! Pictures and histograms of values.
 
 use egui::{Color32, ColorImage, Painter, Rect, Stroke, ecolor::gamma_u8_from_linear_f32, pos2, vec2};
 use sabi_engine::{Inspected, PlaneKind, ResultPlane};
 
 use crate::theme::{Theme, space};
 
-/// Beside the charts everything is this much darker.
+/// Brightness beside the charts.
 const BESIDE: f32 = 0.45;
 
 /// A plane of values, or one number of it, as it is looked at: masks and single numbers gray as they are, colors encoded,
@@ -37,16 +37,16 @@ fn quantized(number: f32) -> u8 {
     (number.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// How many texels of the surface have which value.
+/// Histogram of the texels on the surface.
 pub(super) struct Histogram {
-    /// For each number, its columns.
+    /// Columns of each component.
     columns: Vec<Vec<u32>>,
-    /// The values at both ends.
+    /// Values at both ends.
     range: [f32; 2],
 }
 
 impl Histogram {
-    /// Counts the texels of the surface; values beside 0 and 1 widen the range.
+    /// Counts the texels on the surface; values outside 0..1 widen the range.
     pub(super) fn of(values: &Inspected, plane: &ResultPlane, component: Option<usize>, bins: usize) -> Histogram {
         let components: Vec<usize> = match component {
             Some(at) => vec![at],
@@ -77,7 +77,7 @@ impl Histogram {
         Histogram { columns, range }
     }
 
-    /// Draws it in the lower right corner.
+    /// Draws the histogram in the lower right corner.
     pub(super) fn draw(&self, painter: &Painter, panel: Rect, theme: &Theme) {
         let size = vec2(150.0, 56.0);
         if panel.width() < 2.0 * size.x || panel.height() < 2.0 * size.y {
@@ -85,7 +85,7 @@ impl Histogram {
         }
         let rect = Rect::from_min_size(panel.max - size - vec2(space::USUAL, space::USUAL), size);
         painter.rect_filled(rect, space::CORNER, theme.panel.gamma_multiply(0.9));
-        // The largest column of all is often a flat one that says nothing about the others.
+        // The highest column is often that of one constant value, and would hide the others.
         let mut counts: Vec<u32> = self.columns.iter().flatten().copied().collect();
         counts.sort_unstable();
         let tall = counts

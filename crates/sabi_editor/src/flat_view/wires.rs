@@ -8,23 +8,23 @@ use sabi_engine::{LinkedModel, LiveModel, SetKey};
 use crate::task::Task;
 use crate::theme::Theme;
 
-/// More lines than this are not drawn one by one: they stand closer than pixels then, and a frame would wait for them.
+/// Most lines that are drawn one by one: more are closer than pixels, and would slow down frames.
 const MOST_LINES: usize = 20_000;
-/// Pixels along a side of the picture that takes their place.
+/// Pixels along a side of the picture that replaces them.
 const SIDE: usize = 1024;
 
-/// The wires of the model that is shown, made beside the window.
+/// UV wires of the shown model, made on a thread of their own.
 #[derive(Default)]
 pub(super) struct Wires {
-    /// The model and the texture set that they are of, or will be.
+    /// Model and texture set that they are of.
     of: Option<(u64, SetKey)>,
-    coming: Option<Task<Drawing>>,
+    loading: Option<Task<Drawing>>,
     edges: Vec<[Pos2; 2]>,
-    /// What takes their place where they are many, and where in texture space it lies.
+    /// Picture that replaces many lines, and its rectangle in texture space.
     picture: Option<(TextureHandle, Rect)>,
 }
 
-/// Edges in texture space, and where they are many a picture of them.
+/// Edges in texture space, with a picture of them if they are many.
 #[derive(Default)]
 struct Drawing {
     edges: Vec<[Pos2; 2]>,
@@ -32,7 +32,7 @@ struct Drawing {
 }
 
 impl Wires {
-    /// Draws those of a texture set of a model, once they are there, where the texture is a square.
+    /// Draws the wires of a model's texture set over a texture, once they are made.
     pub(super) fn draw(
         &mut self,
         painter: &Painter,
@@ -59,19 +59,19 @@ impl Wires {
         }
     }
 
-    /// Begins to make what is missing, and takes what has come.
+    /// Starts making missing wires, and takes over finished ones.
     fn poll(&mut self, context: &Context, model: &Arc<LiveModel>, set: SetKey) {
         let wanted = (model.model_revision, set);
-        if self.of != Some(wanted) && self.coming.is_none() {
+        if self.of != Some(wanted) && self.loading.is_none() {
             self.of = Some(wanted);
             let linked = model.linked.clone();
-            self.coming = Some(Task::start(context, move || Drawing::of(edges_of(&linked, set))));
+            self.loading = Some(Task::start(context, move || Drawing::of(edges_of(&linked, set))));
         }
-        let Some(come) = self.coming.as_ref().and_then(Task::poll) else {
+        let Some(come) = self.loading.as_ref().and_then(Task::poll) else {
             return;
         };
-        self.coming = None;
-        // A mistake in the making leaves the texture without wires.
+        self.loading = None;
+        // Where making them fails, the texture is shown without wires.
         let Drawing { edges, picture } = come.unwrap_or_default();
         self.edges = edges;
         self.picture = picture.map(|(image, bounds)| {
@@ -111,7 +111,7 @@ fn edges_of(LinkedModel { model, atlas, .. }: &LinkedModel, set: SetKey) -> Vec<
         .collect()
 }
 
-/// White lines on nothing, and where in texture space their picture lies.
+/// Picture of white lines on a transparent background, and its rectangle in texture space.
 fn picture_of(edges: &[[Pos2; 2]]) -> (ColorImage, Rect) {
     let mut bounds = Rect::NOTHING;
     for end in edges.iter().flatten().filter(|end| end.is_finite()) {
@@ -152,7 +152,7 @@ fn draw_line(alphas: &mut [u8], [start, end]: [Pos2; 2]) {
 mod tests {
     use super::*;
 
-    /// A net of so many squares along a side, in a texture space that reaches from 0 to 1.
+    /// Grid of this many squares along a side of the unit square.
     fn net(side: usize) -> Vec<[Pos2; 2]> {
         let at = |column: usize, row: usize| pos2(column as f32, row as f32) / side as f32;
         let squares = (0..side).flat_map(|row| (0..side).map(move |column| (column, row)));

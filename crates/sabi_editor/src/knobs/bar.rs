@@ -1,21 +1,21 @@
-//! A number as a bar that is filled to its value: dragged, stepped or typed.
+//! Bars: numbers that are dragged, stepped or typed.
 
 use egui::text_edit::TextEditState;
 use egui::{
     Align2, CursorIcon, Event, Id, Key, Modifiers, MouseWheelUnit, Rect, Response, Sense, Ui, WidgetInfo, accesskit,
 };
 
-use super::asking::{Asking, Grip};
 use super::buttons::focus_ring;
 use super::keys::{FINE, hold_arrows};
+use super::knob_ui::{Grip, KnobUi};
 use super::length::Measure;
-use super::lettering::write;
+use super::text_painting::write;
 use super::typing::{Field, Typed};
 use super::values::{rounded, step_of, text_of};
 use super::{KnobRow, keys};
 use crate::theme::{space, type_size};
 
-/// Keys, and how many steps they go.
+/// Keys, and the steps of each.
 const STEPS: [(Key, f64); 6] = [
     (Key::ArrowRight, 1.0),
     (Key::ArrowUp, 1.0),
@@ -24,30 +24,30 @@ const STEPS: [(Key, f64); 6] = [
     (Key::PageUp, 10.0),
     (Key::PageDown, -10.0),
 ];
-/// A wheel that turns smoothly goes a step every so many points.
+/// Points of smooth scrolling for one step.
 const POINTS_OF_A_NOTCH: f32 = 24.0;
-/// Bars that are narrower are dragged as if they were as wide.
+/// Least width that drags are measured with, points.
 const LEAST_WAY: f64 = 120.0;
 
-/// One number.
+/// Bar of one number.
 pub(super) struct Bar<'a> {
     pub(super) id: Id,
-    /// The row under which mistakes are told.
+    /// Id of the row below which errors are shown.
     pub(super) row_id: Id,
     pub(super) row: &'a KnobRow<'a>,
     pub(super) rect: Rect,
-    /// What it is called.
+    /// Accessible name.
     pub(super) name: &'a str,
-    /// What is written in it.
+    /// Text in the bar.
     pub(super) inside: &'a str,
     pub(super) value: f64,
-    /// Where it is empty and where it is full.
+    /// Values at which the bar is empty and full.
     pub(super) ends: [f64; 2],
-    /// Values outside are not taken.
+    /// Limits of the value.
     pub(super) range: Option<[f64; 2]>,
     pub(super) is_whole: bool,
     pub(super) measure: Measure,
-    /// Whether it shows how much of it is filled.
+    /// Whether the bar is filled up to its value.
     pub(super) is_filled: bool,
 }
 
@@ -55,12 +55,12 @@ pub(super) struct Bar<'a> {
 #[derive(Debug, Default)]
 pub(super) struct Answer {
     pub(super) asked: Option<f64>,
-    /// Whether the pointer is on it or drags it.
+    /// Whether the pointer is over the bar or drags it.
     pub(super) is_held: bool,
 }
 
 impl Bar<'_> {
-    pub(super) fn show(&self, ui: &mut Ui, ask: &mut Asking<'_>) -> Answer {
+    pub(super) fn show(&self, ui: &mut Ui, ask: &mut KnobUi<'_>) -> Answer {
         if ask.is_typing(self.id) {
             let asked = self.typed(ui, ask);
             return Answer { asked, is_held: true };
@@ -86,7 +86,7 @@ impl Bar<'_> {
         step_of(self.ends, self.is_whole)
     }
 
-    /// A number as it may be set, with no more digits than `step` asks for.
+    /// Number within the limits, rounded to the digits of a step.
     fn settled(&self, number: f64, step: f64) -> f64 {
         let near = if self.is_whole {
             number.round()
@@ -101,7 +101,7 @@ impl Bar<'_> {
         number.max(low).min(high)
     }
 
-    fn dragged(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) -> Option<f64> {
+    fn dragged(&self, ui: &Ui, ask: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
         let is_fine = ui.input(|input| input.modifiers.shift);
         let speed = if is_fine { FINE } else { 1.0 };
         let (way, drag) = ask.pull(response, |_| Some(Grip::of([self.value, 0.0, 0.0])))?;
@@ -111,8 +111,8 @@ impl Bar<'_> {
         Some(self.settled(drag.grip.exact[0], self.step() * FINE * speed))
     }
 
-    /// Steps and jumps by keys, and what is asked by those who do not see it.
-    fn keyed(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) -> Option<f64> {
+    /// Handles keys, and requests of assistive technology.
+    fn keyed(&self, ui: &Ui, ask: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
         let mut steps = ui.input(|input| {
             let asked = |action| input.num_accesskit_action_requests(self.id, action) as f64;
             asked(accesskit::Action::Increment) - asked(accesskit::Action::Decrement)
@@ -144,8 +144,8 @@ impl Bar<'_> {
             .or_else(|| self.stepped(steps))
     }
 
-    /// Steps while the wheel is turned with Ctrl over it.
-    fn wheeled(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) -> Option<f64> {
+    /// Steps by the wheel while Ctrl is held.
+    fn wheeled(&self, ui: &Ui, ask: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
         if !response.hovered() {
             return None;
         }
@@ -168,7 +168,7 @@ impl Bar<'_> {
     }
 
     fn stepped(&self, steps: f64) -> Option<f64> {
-        // A whole number has no tenths to go by.
+        // Whole numbers have no fine steps.
         let steps = if self.is_whole && steps != 0.0 {
             steps.signum() * steps.abs().ceil()
         } else {
@@ -177,8 +177,8 @@ impl Bar<'_> {
         (steps != 0.0).then(|| self.settled(self.value + steps * self.step(), self.step() * FINE * FINE))
     }
 
-    /// Opens the field, or takes the keyboard.
-    fn open(&self, ui: &Ui, ask: &mut Asking<'_>, response: &Response) {
+    /// Opens the text field by a click or a key, or takes the keyboard.
+    fn open(&self, ui: &Ui, ask: &mut KnobUi<'_>, response: &Response) {
         let [has_command, is_entered] = ui.input(|input| {
             [
                 input.modifiers.command || input.modifiers.ctrl,
@@ -196,7 +196,7 @@ impl Bar<'_> {
         } else if response.clicked() {
             response.request_focus();
         } else if response.has_focus() {
-            // A digit begins another number.
+            // A digit replaces the number.
             let typed = ui.input(|input| {
                 input.events.iter().find_map(|event| match event {
                     Event::Text(text) if text.starts_with(|first: char| "0123456789.-+*/=(".contains(first)) => {
@@ -211,12 +211,12 @@ impl Bar<'_> {
         }
     }
 
-    /// The number with all of its digits.
+    /// Number with all of its digits.
     fn precise(&self) -> String {
         format!("{}{}", self.value, self.measure.sign())
     }
 
-    fn typed(&self, ui: &mut Ui, ask: &mut Asking<'_>) -> Option<f64> {
+    fn typed(&self, ui: &mut Ui, ask: &mut KnobUi<'_>) -> Option<f64> {
         let shown = if self.row.differs {
             String::new()
         } else {
@@ -225,7 +225,7 @@ impl Bar<'_> {
         let typed = ask.field(
             ui,
             &Field {
-                // It is the same widget to the keyboard, which stays with it.
+                // The text field has the id of the bar, so that the keyboard stays with it.
                 id: self.id,
                 rect: self.rect,
                 name: self.name,
@@ -253,7 +253,7 @@ impl Bar<'_> {
             }
         };
         if is_entered || is_left {
-            // What is left of the field would pass the bar off as one, and its keys as letters.
+            // State of a closed text field would make egui treat the bar as one.
             ui.data_mut(|data| data.remove::<TextEditState>(self.id));
             ui.memory_mut(|memory| memory.request_focus(self.id));
         }
@@ -286,7 +286,7 @@ impl Bar<'_> {
         });
     }
 
-    fn paint(&self, ui: &Ui, ask: &Asking<'_>, response: &Response) {
+    fn paint(&self, ui: &Ui, ask: &KnobUi<'_>, response: &Response) {
         let theme = ask.theme;
         let painter = ui.painter();
         let is_held = response.hovered() || ask.is_dragged(self.id);
@@ -304,7 +304,7 @@ impl Bar<'_> {
             painter
                 .with_clip_rect(within.intersect(ui.clip_rect()))
                 .rect_filled(self.rect, space::CORNER, fill);
-            // The end of it is what one looks at.
+            // The end of the text matters most.
             let x = end.min(self.rect.right() - 1.0).max(self.rect.left() + 1.0);
             let edge = ground.lerp_to_gamma(mix, 0.9);
             painter.vline(x, self.rect.shrink(3.0).y_range(), (1.5, edge));
@@ -323,7 +323,7 @@ impl Bar<'_> {
         }
     }
 
-    /// From where to where it is filled, 0 to 1: from zero on where values go to both sides of it.
+    /// Filled part, 0 to 1; it begins at zero where values can be negative.
     fn filled(&self) -> [f32; 2] {
         let [low, high] = self.ends;
         let share = |number: f64| {
@@ -341,7 +341,7 @@ impl Bar<'_> {
     }
 }
 
-/// A number as a file keeps it.
+/// Value of a number in files.
 fn kept(number: f64) -> Result<f64, String> {
     let kept = sabi_graph::canonical_number(number);
     kept.ok_or_else(|| format!("{number:e} is larger than a graph file can hold."))

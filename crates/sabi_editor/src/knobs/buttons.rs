@@ -1,14 +1,14 @@
-//! Buttons that are small enough to stand beside values.
+//! Small buttons beside values.
 
 use egui::{Align2, Id, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo, WidgetType};
 
 use super::KnobRow;
-use super::asking::Asking;
-use super::lettering::write;
+use super::knob_ui::KnobUi;
+use super::text_painting::write;
 use crate::theme::{space, type_size};
 
-/// A button with a sign on it; `name` says what it does, to those who point at it or hear it.
-pub(super) fn sign_button(ui: &Ui, ask: &Asking<'_>, id: Id, rect: Rect, sign: &str, name: &str) -> Response {
+/// Button with a sign; `name` is its tooltip and accessible name.
+pub(super) fn sign_button(ui: &Ui, ask: &KnobUi<'_>, id: Id, rect: Rect, sign: &str, name: &str) -> Response {
     let response = ui.interact(rect, id, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), name));
     if ui.is_rect_visible(rect) {
@@ -33,13 +33,13 @@ pub(super) fn sign_button(ui: &Ui, ask: &Asking<'_>, id: Id, rect: Rect, sign: &
     response.on_hover_text(name)
 }
 
-/// How a word among several stands out.
+/// State of one of several words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Chosen {
     No,
-    /// It is the default.
+    /// The default.
     AtFirst,
-    /// It was chosen instead.
+    /// Chosen in place of the default.
     Instead,
 }
 
@@ -53,8 +53,8 @@ impl Chosen {
     }
 }
 
-/// A button with a word on it, one of several of which one or none is chosen.
-pub(super) fn word_button(ui: &Ui, ask: &Asking<'_>, id: Id, rect: Rect, word: &str, chosen: Chosen) -> Response {
+/// Button with one of several words.
+pub(super) fn word_button(ui: &Ui, ask: &KnobUi<'_>, id: Id, rect: Rect, word: &str, chosen: Chosen) -> Response {
     let response = ui.interact(rect, id, Sense::click());
     if ui.is_rect_visible(rect) {
         let theme = ask.theme;
@@ -72,8 +72,8 @@ pub(super) fn word_button(ui: &Ui, ask: &Asking<'_>, id: Id, rect: Rect, word: &
     response
 }
 
-/// Shows which widget the keyboard speaks to.
-pub(super) fn focus_ring(ui: &Ui, ask: &Asking<'_>, response: &Response) {
+/// Draws the mark of the widget that has the keyboard.
+pub(super) fn focus_ring(ui: &Ui, ask: &KnobUi<'_>, response: &Response) {
     if response.has_focus() {
         let line = (1.0, ask.theme.accent);
         ui.painter()

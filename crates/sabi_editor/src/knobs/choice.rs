@@ -1,4 +1,4 @@
-//! What is chosen: switches, a few words side by side, or a list that opens.
+//! Choices: switches, a few words side by side, or a list that opens.
 
 use egui::{Align2, Id, Key, Modifiers, Popup, Rect, Response, ScrollArea, Sense, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
@@ -6,22 +6,22 @@ use sabi_engine::catalog::readable;
 use sabi_graph::Value;
 
 use super::KnobRow;
-use super::asking::Asking;
 use super::boxes::share_of;
 use super::buttons::{Chosen, focus_ring, word_button};
 use super::keys::hold_arrows;
-use super::lettering::{width, write};
+use super::knob_ui::KnobUi;
+use super::text_painting::{width, write};
 use crate::theme::{space, type_size};
 
-/// More words than this do not stand side by side.
+/// Most words that are shown side by side.
 const MOST_BESIDE: usize = 3;
 /// Size of a switch.
 const SWITCH: Vec2 = Vec2::new(28.0, 15.0);
-/// A list that opens is not higher.
+/// Greatest height of the list, points.
 const HIGHEST_LIST: f32 = 320.0;
 
-/// A switch.
-pub(super) fn toggle(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, is_on: bool) {
+/// Shows a switch.
+pub(super) fn toggle(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, is_on: bool) {
     let place = Rect::from_center_size(
         egui::pos2(rect.left() + SWITCH.x * ask.zoom / 2.0, rect.center().y),
         SWITCH * ask.zoom,
@@ -29,11 +29,11 @@ pub(super) fn toggle(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, r
     switch(ui, ask, row, id, place, is_on);
 }
 
-/// A switch of that size.
-pub(super) fn switch(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, place: Rect, is_on: bool) {
+/// Shows a switch of a size.
+pub(super) fn switch(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, place: Rect, is_on: bool) {
     let response = ui.interact(place, id.with("switch"), Sense::click());
     response.widget_info(|| match row.differs {
-        // A box without a state is one between both.
+        // Nodes with different values have a switch in between.
         true => WidgetInfo::labeled(WidgetType::Checkbox, ui.is_enabled(), &row.knob.label),
         false => WidgetInfo::selected(WidgetType::Checkbox, ui.is_enabled(), is_on, &row.knob.label),
     });
@@ -65,15 +65,15 @@ pub(super) fn switch(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, p
         }
     }
     if response.clicked() {
-        // Where nodes differ all of them are switched on first.
+        // Nodes with different values are all switched on by a click.
         ask.set(row, Value::Bool(row.differs || !is_on));
     }
 }
 
-/// One of several words.
+/// Shows a choice of words.
 pub(super) fn choice(
     ui: &mut Ui,
-    ask: &mut Asking<'_>,
+    ask: &mut KnobUi<'_>,
     row: &KnobRow<'_>,
     id: Id,
     rect: Rect,
@@ -89,7 +89,7 @@ pub(super) fn choice(
     }
 }
 
-fn beside(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
+fn beside(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
     let group = ui.interact(rect, id.with("words"), Sense::hover());
     group.widget_info(|| WidgetInfo::labeled(WidgetType::RadioGroup, ui.is_enabled(), &row.knob.label));
     ui.ctx()
@@ -113,7 +113,7 @@ fn said(row: &KnobRow<'_>, chosen: &str) -> String {
     }
 }
 
-fn list(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
+fn list(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
     let response = ui.interact(rect, id.with("list"), Sense::click());
     if ui.is_rect_visible(rect) {
         let theme = ask.theme;
@@ -141,10 +141,10 @@ fn list(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect
     open_list(ui, ask, row, &response, words, chosen);
 }
 
-/// The list that a widget opens, and the steps through it by keys while it is closed.
+/// Shows a widget that opens the list, and steps through it by keys while it is closed.
 pub(super) fn open_list(
     ui: &Ui,
-    ask: &mut Asking<'_>,
+    ask: &mut KnobUi<'_>,
     row: &KnobRow<'_>,
     response: &Response,
     words: &[String],
@@ -165,7 +165,7 @@ pub(super) fn open_list(
                 let is_chosen = !row.differs && word == chosen;
                 let item = ui.selectable_label(is_chosen, readable(word));
                 if response.clicked() && word == chosen {
-                    // From here on the keyboard goes through the list.
+                    // The list has the keyboard while it is open.
                     item.request_focus();
                 }
                 if item.clicked() {
@@ -180,7 +180,7 @@ pub(super) fn open_list(
     }
 }
 
-/// The word before or behind the chosen one, as the arrow keys ask for it.
+/// Word before or after the chosen one, as the arrow keys ask.
 fn stepped(ui: &Ui, response: &Response, words: &[String], chosen: &str) -> Option<String> {
     if !response.has_focus() {
         return None;

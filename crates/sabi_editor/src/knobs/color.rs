@@ -6,9 +6,9 @@ use egui::{Color32, Id, Key, Popup, PopupCloseBehavior, Rect, Sense, StrokeKind,
 use egui_phosphor::regular as icon;
 use sabi_graph::Value;
 
-use super::asking::{Asking, Grip};
 use super::boxes::cut_square;
 use super::buttons::{focus_ring, sign_button};
+use super::knob_ui::{Grip, KnobUi};
 use super::typing::{Field, Typed};
 use super::values::{code_of, color_of};
 use super::{KnobEvent, KnobRow};
@@ -19,7 +19,7 @@ const PICKER: f32 = 190.0;
 /// Width of the swatch beside the code.
 const SWATCH: f32 = 44.0;
 
-pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, color: Color32) {
+pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, color: Color32) {
     let label = &row.knob.label;
     let drop = cut_square(&mut rect);
     let asked = swatch_and_code(ui, ask, row, id, rect, label, color);
@@ -33,10 +33,10 @@ pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id,
     }
 }
 
-/// A swatch and the code of its color beside it.
+/// Shows a swatch with the code of its color.
 pub(super) fn swatch_and_code(
     ui: &mut Ui,
-    ask: &mut Asking<'_>,
+    ask: &mut KnobUi<'_>,
     row: &KnobRow<'_>,
     id: Id,
     rect: Rect,
@@ -70,10 +70,10 @@ pub(super) fn swatch_and_code(
     }
 }
 
-/// A color that opens a picker.
+/// Shows a swatch that opens a picker.
 pub(super) fn swatch(
     ui: &Ui,
-    ask: &mut Asking<'_>,
+    ask: &mut KnobUi<'_>,
     row: &KnobRow<'_>,
     id: Id,
     rect: Rect,
@@ -94,7 +94,7 @@ pub(super) fn swatch(
         };
         painter.rect(rect, space::CORNER, color, (1.0, line), StrokeKind::Inside);
         if row.differs {
-            // Half of it says that there is more than this one.
+            // Half of the swatch shows that selected nodes differ.
             let half = rect.with_min_x(rect.center().x);
             painter.rect_filled(half.shrink(1.0), space::CORNER, ask.theme.raised);
         }
@@ -104,9 +104,9 @@ pub(super) fn swatch(
     popup.show(|ui| pick(ui, ask, id, color))?.inner
 }
 
-fn pick(ui: &mut Ui, ask: &mut Asking<'_>, id: Id, color: Color32) -> Option<Color32> {
+fn pick(ui: &mut Ui, ask: &mut KnobUi<'_>, id: Id, color: Color32) -> Option<Color32> {
     ui.spacing_mut().slider_width = PICKER;
-    // A gray has no hue of its own, so the picker's is kept as long as it stands for this color.
+    // A gray has no hue, so the picker's own is kept while it gives this color.
     let kept = ask.memory.picked.filter(|(of, kept)| *of == id && rgb(kept) == color);
     let mut picked = kept.map_or_else(|| Hsva::from_srgb([color.r(), color.g(), color.b()]), |(_, kept)| kept);
     let has_changed = color_picker_hsva_2d(ui, &mut picked, Alpha::Opaque);
@@ -116,8 +116,8 @@ fn pick(ui: &mut Ui, ask: &mut Asking<'_>, id: Id, color: Color32) -> Option<Col
         return None;
     }
     ask.memory.picked = Some((id, picked));
-    if is_down && ask.memory.drag.is_none() {
-        let origin = ui.input(|input| input.pointer.interact_pos()).unwrap_or_default();
+    let origin = ui.input(|input| input.pointer.interact_pos());
+    if let Some(origin) = origin.filter(|_| is_down && ask.memory.drag.is_none()) {
         ask.begin(ui.ctx(), id, Grip::default(), origin);
     }
     Some(rgb(&picked))

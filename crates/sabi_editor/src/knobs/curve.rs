@@ -1,4 +1,4 @@
-//! Curves: points that are dragged, the one that is worked on in numbers, and shapes to begin with.
+//! Curves: points that are dragged, the selected one in numbers, and presets.
 
 mod shape;
 
@@ -8,30 +8,30 @@ use egui_phosphor::regular as icon;
 pub(super) use self::shape::View;
 use self::shape::height_at;
 use super::KnobRow;
-use super::asking::{Asking, Drag, Grip};
 use super::bar::Bar;
 use super::boxes::{cut_square, share_of, strip};
 use super::buttons::{focus_ring, sign_button};
 use super::keys::arrows;
+use super::knob_ui::{Drag, Grip, KnobUi};
 use super::numbers::bar_of;
 use super::values::{Held, of_points, read, rounded, sort_keeping};
 use crate::theme::space;
 
 const HEIGHT: f32 = 140.0;
-/// Room for the points at the borders.
+/// Margin for points at the borders, points.
 const MARGIN: f32 = 7.0;
-/// The pointer takes a point that is no farther than this.
+/// Distance at which the pointer takes a point, points.
 const NEAR: f32 = 9.0;
-/// A point that is dragged so far out of the box is taken out.
+/// Distance outside of the box at which a dragged point is removed, points.
 const AWAY: f32 = 28.0;
 const DIGITS: f64 = 0.001;
 const STEP: f64 = 0.01;
-/// Stairs of the preset.
+/// Steps of the stairs preset.
 const STAIRS: usize = 4;
-/// Where curves live that say nothing else.
+/// Usual range of curves.
 const USUAL: [f64; 2] = [0.0, 1.0];
 
-pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, points: Vec<[f64; 2]>) {
+pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, points: Vec<[f64; 2]>) {
     let mut curve = Curve {
         selected: ask.selected(id, points.len()),
         room: row.knob.ty.components(),
@@ -66,8 +66,8 @@ struct Curve {
 }
 
 impl Curve {
-    /// What is shown of the plane; while a point is dragged it stays what it was, or the curve would run from the pointer.
-    fn view(&self, ask: &Asking<'_>, row: &KnobRow<'_>, response: &Response) -> View {
+    /// Shown part of the plane. It stays the same during a drag, or the curve would move away from the pointer.
+    fn view(&self, ask: &KnobUi<'_>, row: &KnobRow<'_>, response: &Response) -> View {
         let rect = response.rect.shrink(MARGIN);
         let dragged = ask.memory.drag.as_ref().filter(|_| ask.is_dragged(response.id));
         let at_first = dragged.and_then(|drag| read(row.knob, drag.grip.all.as_ref()?));
@@ -98,7 +98,7 @@ impl Curve {
         true
     }
 
-    /// Adds one on the curve, halfway to the next one.
+    /// Adds a point on the curve, halfway to the next one.
     fn add_behind(&mut self) -> bool {
         let [x, _] = self.points[self.selected];
         let next = self
@@ -109,7 +109,7 @@ impl Curve {
         self.add([middle, height_at(&self.points, middle)])
     }
 
-    /// The last one stays.
+    /// The last point cannot be removed.
     fn remove(&mut self) -> bool {
         if self.points.len() < 2 {
             return false;
@@ -130,7 +130,7 @@ impl Curve {
         format!("A curve holds no more than {room} points: take one out before you add another.")
     }
 
-    fn dragged(&mut self, ask: &mut Asking<'_>, row: &KnobRow<'_>, response: &Response, view: &View) -> bool {
+    fn dragged(&mut self, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, response: &Response, view: &View) -> bool {
         let grip = |origin: Pos2| {
             self.selected = self.near(view, origin)?;
             let [x, y] = self.points[self.selected];
@@ -151,7 +151,7 @@ impl Curve {
         self.take(row, drag, view)
     }
 
-    /// Does to the points that were there at first what the drag has done since.
+    /// Applies the whole drag to the points at its beginning.
     fn take(&mut self, row: &KnobRow<'_>, drag: &Drag, view: &View) -> bool {
         let all = drag.grip.all.as_ref();
         let Some(Held::Points(points)) = all.and_then(|all| read(row.knob, all)) else {
@@ -168,7 +168,7 @@ impl Curve {
         true
     }
 
-    fn clicked(&mut self, ask: &mut Asking<'_>, id: Id, response: &Response, view: &View) -> bool {
+    fn clicked(&mut self, ask: &mut KnobUi<'_>, id: Id, response: &Response, view: &View) -> bool {
         let Some(place) = response.interact_pointer_pos().filter(|_| response.clicked()) else {
             return false;
         };
@@ -229,7 +229,7 @@ impl Curve {
         });
     }
 
-    fn presets(&mut self, ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) -> bool {
+    fn presets(&mut self, ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) -> bool {
         let [low, high] = self.usual;
         let at = |x: f64, y: f64| [x, y].map(|share| low + share * (high - low));
         let stairs = STAIRS.min(self.room / 2).max(1);
@@ -276,8 +276,8 @@ impl Curve {
         has_changed
     }
 
-    /// The point that is worked on, in numbers.
-    fn numbers(&mut self, ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) -> bool {
+    /// Shows the selected point in numbers.
+    fn numbers(&mut self, ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) -> bool {
         let label = &row.knob.label;
         let mut rect = strip(ui, space::ROW);
         let remove = cut_square(&mut rect);
@@ -320,7 +320,7 @@ impl Curve {
         has_moved || is_added && has_room || is_removed && self.remove()
     }
 
-    fn paint(&self, ui: &Ui, ask: &Asking<'_>, response: &Response, view: &View) {
+    fn paint(&self, ui: &Ui, ask: &KnobUi<'_>, response: &Response, view: &View) {
         let theme = ask.theme;
         let painter = ui.painter();
         painter.rect_filled(response.rect, space::CORNER, theme.canvas);

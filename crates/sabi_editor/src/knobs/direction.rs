@@ -1,20 +1,20 @@
-//! A direction as a ball with a hand on it that is turned by dragging, and the six ways along axes.
+//! Directions: a ball that is turned by drags, and the six directions of the axes.
 
 use egui::{Id, Pos2, Rect, Response, Sense, Shape, Ui, Vec2, WidgetInfo, WidgetType, accesskit};
 use glam::{DQuat, DVec3};
 use sabi_engine::catalog::{Knob, KnobRole};
 
 use super::KnobRow;
-use super::asking::{Asking, Grip};
 use super::boxes::share_of;
 use super::buttons::{Chosen, focus_ring, word_button};
 use super::keys::arrows;
-use super::lettering::write;
+use super::knob_ui::{Grip, KnobUi};
+use super::text_painting::write;
 use super::values::{of_numbers, rounded};
 use crate::theme::{Theme, space, type_size};
 
 const BALL: f32 = 68.0;
-/// Degrees that an arrow key turns it by.
+/// Degrees of an arrow key.
 const STEP: f64 = 5.0;
 /// Digits of directions.
 const DIGITS: f64 = 1e-4;
@@ -27,14 +27,14 @@ const WAYS: [(&str, DVec3); 6] = [
     ("−Z", DVec3::NEG_Z),
 ];
 
-/// Whether a knob holds a direction: its name says so, since three numbers may be anything.
+/// Whether a parameter is a direction, which its name tells.
 pub(super) fn is_one(knob: &Knob) -> bool {
     knob.ty.components() == 3
         && knob.ty.role == KnobRole::Plain
         && matches!(knob.name.as_str(), "toward" | "direction" | "along" | "axis")
 }
 
-/// From where the ball is seen: a little from above and from the side, so that no axis is a point.
+/// View of the ball: a little from above and from the side, so that no axis is seen as a point.
 struct Sight {
     middle: Pos2,
     radius: f32,
@@ -56,21 +56,21 @@ impl Sight {
         }
     }
 
-    /// Where a point of the unit ball is seen, and whether it is on the near side.
+    /// Place of a point of the unit ball in the view, and whether it is on the near side.
     fn place(&self, point: DVec3) -> (Pos2, bool) {
         let across = Vec2::new(point.dot(self.right) as f32, -point.dot(self.up) as f32);
         (self.middle + across * self.radius, point.dot(self.back) >= 0.0)
     }
 
-    /// A direction after the ball was turned by so many radians to the right and down.
+    /// Direction after a turn of the ball by these radians to the right and down.
     fn turned(&self, direction: DVec3, right: f64, down: f64) -> DVec3 {
         let turn = DQuat::from_axis_angle(self.up, right) * DQuat::from_axis_angle(self.right, down);
         (turn * direction).normalize_or(DVec3::Y)
     }
 }
 
-pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, column: Rect, numbers: [f64; 3]) {
-    // What has no length points up, as the nodes read it.
+pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, column: Rect, numbers: [f64; 3]) {
+    // A direction without a length points up, as nodes read it.
     let direction = DVec3::from(numbers).normalize_or(DVec3::Y);
     let (_, strip) = ui.allocate_space(Vec2::new(ui.available_width(), BALL));
     let strip = strip.with_min_x(column.left());
@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id,
     }
 }
 
-fn ways(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, within: Rect, now: DVec3) -> Option<DVec3> {
+fn ways(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, within: Rect, now: DVec3) -> Option<DVec3> {
     let height = space::ROW;
     let top = within.center().y - height - 1.0;
     let mut asked = None;
@@ -104,7 +104,7 @@ fn ways(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, within: Rect, now:
     asked
 }
 
-fn turn(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, ball: Rect, direction: DVec3) -> Option<DVec3> {
+fn turn(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, ball: Rect, direction: DVec3) -> Option<DVec3> {
     let response = ui.interact(ball, id, Sense::click_and_drag());
     let sight = Sight::of(ball);
     response.widget_info(|| {
@@ -135,7 +135,7 @@ fn turn(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, ball: Rect, di
     (right != 0.0 || down != 0.0).then(|| sight.turned(direction, right, down))
 }
 
-fn paint(ui: &Ui, ask: &Asking<'_>, response: &Response, sight: &Sight, direction: DVec3) {
+fn paint(ui: &Ui, ask: &KnobUi<'_>, response: &Response, sight: &Sight, direction: DVec3) {
     let theme = ask.theme;
     let painter = ui.painter();
     let ground = if response.hovered() {
@@ -162,7 +162,7 @@ fn paint(ui: &Ui, ask: &Asking<'_>, response: &Response, sight: &Sight, directio
         painter.line_segment([sight.middle, tip], (2.0, theme.accent));
         painter.circle_filled(tip, 4.0, theme.accent);
     } else {
-        // What points away is seen through the ball.
+        // A direction to the far side is drawn through the ball.
         let dim = theme.accent.gamma_multiply(0.6);
         painter.line_segment([sight.middle, tip], (1.0, dim));
         painter.circle(tip, 3.5, ground, (1.5, dim));
@@ -170,7 +170,7 @@ fn paint(ui: &Ui, ask: &Asking<'_>, response: &Response, sight: &Sight, directio
     focus_ring(ui, ask, response);
 }
 
-/// The near halves of the three circles between the axes.
+/// Draws the near halves of the three circles between the axes.
 fn rings(ui: &Ui, theme: &Theme, sight: &Sight) {
     const PARTS: usize = 40;
     let line = theme.quiet.gamma_multiply(0.45);

@@ -1,4 +1,4 @@
-//! What is said of a knob to those who point at its name.
+//! Tooltips of parameters.
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontFamily, FontId, Ui};
@@ -7,10 +7,10 @@ use sabi_engine::catalog::{Knob, KnobRole};
 use super::KnobRow;
 use crate::theme::{Theme, type_size};
 
-/// Widest line of an explanation.
+/// Width of a tooltip, points.
 const WIDEST: f32 = 300.0;
 
-/// Everything that is known of a knob.
+/// Shows the tooltip of a parameter.
 pub(super) fn show(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>) {
     ui.set_max_width(WIDEST);
     if !row.knob.doc.is_empty() {
@@ -28,7 +28,7 @@ fn formatted(text: &str, theme: &Theme) -> LayoutJob {
     formatted_as(text, theme.text, type_size::BODY)
 }
 
-/// Markdown as far as doc comments go: what is between backticks is code.
+/// Text of a doc comment, with code between backticks.
 fn formatted_as(text: &str, color: egui::Color32, size: f32) -> LayoutJob {
     let mut job = LayoutJob::default();
     for (at, part) in text.split('`').enumerate() {
@@ -42,7 +42,7 @@ fn formatted_as(text: &str, color: egui::Color32, size: f32) -> LayoutJob {
     job
 }
 
-/// What a knob takes and holds at first.
+/// Range and default of a parameter.
 fn limits(knob: &Knob) -> String {
     let range = knob
         .ty

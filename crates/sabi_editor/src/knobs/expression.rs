@@ -5,10 +5,10 @@ mod tests;
 
 use std::f64::consts;
 
-/// Parentheses and signs within one another; more is nobody's sum, and would take the stack.
+/// Deepest nesting of parentheses and signs, which bounds the stack.
 const DEEPEST: u32 = 64;
 
-/// What can stand behind a number, and what angles are measured in.
+/// Units that can follow a number, and the unit of angles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units<'u> {
     /// Names, and the factor to the unit of the knob.
@@ -29,18 +29,18 @@ impl Units<'_> {
 
 /// What is wrong with a sum, and at which character, counted from 1.
 #[derive(Debug, PartialEq)]
-struct Mistake {
+struct ExpressionError {
     at: usize,
     what: String,
 }
 
-/// The number that a text says. `present` is the number that `+=`, `-=`, `*=` and `/=` start from, if there is one.
+/// Value of an expression. `present` is the number that `+=`, `-=`, `*=` and `/=` start from, if there is one.
 ///
 /// The error is a sentence.
 pub(super) fn evaluate(text: &str, present: Option<f64>, units: Units<'_>) -> Result<f64, String> {
     let text = text.trim();
     let relative = ["+=", "-=", "*=", "/="].iter().find(|sign| text.starts_with(**sign));
-    // Those who come from spreadsheets put one in front.
+    // Spreadsheets have one in front of expressions.
     let skipped = relative.map_or(usize::from(text.starts_with('=')), |sign| sign.len());
     let number = Reader::new(text, skipped, units)
         .whole()
@@ -86,7 +86,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn whole(mut self) -> Result<f64, Mistake> {
+    fn whole(mut self) -> Result<f64, ExpressionError> {
         let number = self.sum()?;
         match self.peek() {
             None => Ok(number),
@@ -96,7 +96,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn sum(&mut self) -> Result<f64, Mistake> {
+    fn sum(&mut self) -> Result<f64, ExpressionError> {
         let mut sum = self.product()?;
         loop {
             match self.peek() {
@@ -108,7 +108,7 @@ impl<'t> Reader<'t> {
     }
 
     /// A unit is that of all in front of it: 1/2 cm is half a centimeter.
-    fn product(&mut self) -> Result<f64, Mistake> {
+    fn product(&mut self) -> Result<f64, ExpressionError> {
         let mut product = self.signed()?;
         let mut has_unit = false;
         loop {
@@ -125,11 +125,11 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn unit(&mut self) -> Result<f64, Mistake> {
+    fn unit(&mut self) -> Result<f64, ExpressionError> {
         let begin = self.at;
         let word = self.word();
         let unit = self.units.named.iter().find(|(name, _)| *name == word);
-        unit.map(|(_, factor)| *factor).ok_or_else(|| Mistake {
+        unit.map(|(_, factor)| *factor).ok_or_else(|| ExpressionError {
             at: begin + 1,
             what: match self.units.named {
                 [] => format!("`{word}` cannot stand here: this number has no unit"),
@@ -139,7 +139,7 @@ impl<'t> Reader<'t> {
     }
 
     /// A sign binds less than a power: -2^2 is -4.
-    fn signed(&mut self) -> Result<f64, Mistake> {
+    fn signed(&mut self) -> Result<f64, ExpressionError> {
         match self.peek() {
             Some('-') => self.deeper(|reader| Ok(-reader.after_sign(Reader::signed)?)),
             Some('+') => self.deeper(|reader| reader.after_sign(Reader::signed)),
@@ -148,7 +148,7 @@ impl<'t> Reader<'t> {
     }
 
     /// From right to left: 2^3^2 is 2^9.
-    fn power(&mut self) -> Result<f64, Mistake> {
+    fn power(&mut self) -> Result<f64, ExpressionError> {
         let base = self.single()?;
         match self.peek() {
             Some('^') => self.deeper(|reader| Ok(base.powf(reader.after_sign(Reader::signed)?))),
@@ -156,7 +156,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn single(&mut self) -> Result<f64, Mistake> {
+    fn single(&mut self) -> Result<f64, ExpressionError> {
         match self.peek() {
             None => Err(self.mistake("A number is missing")),
             Some('(') => self.within_parentheses(),
@@ -166,14 +166,14 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn within_parentheses(&mut self) -> Result<f64, Mistake> {
+    fn within_parentheses(&mut self) -> Result<f64, ExpressionError> {
         let opened = self.at;
         let inside = self.deeper(|reader| reader.after_sign(Reader::sum))?;
         self.close(opened)?;
         Ok(inside)
     }
 
-    fn close(&mut self, opened: usize) -> Result<(), Mistake> {
+    fn close(&mut self, opened: usize) -> Result<(), ExpressionError> {
         match self.peek() {
             Some(')') => {
                 self.at += 1;
@@ -181,14 +181,14 @@ impl<'t> Reader<'t> {
             }
             Some(',') => Err(self.mistake("This `,` separates nothing: decimals are written with a point")),
             Some(letter) => Err(self.mistake(format!("`{letter}` cannot stand here"))),
-            None => Err(Mistake {
+            None => Err(ExpressionError {
                 at: opened + 1,
                 what: "This `(` is not closed".to_owned(),
             }),
         }
     }
 
-    fn number(&mut self) -> Result<f64, Mistake> {
+    fn number(&mut self) -> Result<f64, ExpressionError> {
         let begin = self.at;
         self.take_while(|letter| letter.is_ascii_digit() || letter == '.');
         // An exponent, unless the e begins a word.
@@ -200,14 +200,14 @@ impl<'t> Reader<'t> {
             }
         }
         let text: String = self.letters[begin..self.at].iter().collect();
-        text.parse().map_err(|_| Mistake {
+        text.parse().map_err(|_| ExpressionError {
             at: begin + 1,
             what: format!("`{text}` is not a number"),
         })
     }
 
     /// A constant, or a function with what it is asked of.
-    fn named(&mut self) -> Result<f64, Mistake> {
+    fn named(&mut self) -> Result<f64, ExpressionError> {
         let begin = self.at;
         let name = self.word();
         let constant = match name.as_str() {
@@ -219,7 +219,7 @@ impl<'t> Reader<'t> {
         if let Some(constant) = constant {
             return Ok(constant);
         }
-        let unknown = || Mistake {
+        let unknown = || ExpressionError {
             at: begin + 1,
             what: format!("`{name}` is not known here: there are pi, tau, e, {FUNCTIONS}"),
         };
@@ -230,7 +230,7 @@ impl<'t> Reader<'t> {
         let given = self.deeper(Reader::list)?;
         self.close(opened)?;
         apply(&name, &given, self.units.angle).unwrap_or_else(|takes| match takes {
-            Some(takes) => Err(Mistake {
+            Some(takes) => Err(ExpressionError {
                 at: begin + 1,
                 what: format!("`{name}` takes {takes}"),
             }),
@@ -238,7 +238,7 @@ impl<'t> Reader<'t> {
         })
     }
 
-    fn list(&mut self) -> Result<Vec<f64>, Mistake> {
+    fn list(&mut self) -> Result<Vec<f64>, ExpressionError> {
         let mut given = vec![self.after_sign(Reader::sum)?];
         while self.peek() == Some(',') {
             given.push(self.after_sign(Reader::sum)?);
@@ -246,13 +246,16 @@ impl<'t> Reader<'t> {
         Ok(given)
     }
 
-    /// What comes behind the sign that stands here.
-    fn after_sign<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Mistake>) -> Result<T, Mistake> {
+    /// Rest of the text after the current character.
+    fn after_sign<T>(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Result<T, ExpressionError>,
+    ) -> Result<T, ExpressionError> {
         self.at += 1;
         read(self)
     }
 
-    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Mistake>) -> Result<T, Mistake> {
+    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, ExpressionError>) -> Result<T, ExpressionError> {
         self.depth += 1;
         if self.depth > DEEPEST {
             return Err(self.mistake(format!(
@@ -287,8 +290,8 @@ impl<'t> Reader<'t> {
         self.letters[begin..self.at].iter().collect()
     }
 
-    fn mistake(&self, what: impl Into<String>) -> Mistake {
-        Mistake {
+    fn mistake(&self, what: impl Into<String>) -> ExpressionError {
+        ExpressionError {
             at: self.at + 1,
             what: what.into(),
         }
@@ -297,8 +300,8 @@ impl<'t> Reader<'t> {
 
 const FUNCTIONS: &str = "sin, cos, tan, sqrt, abs, floor, ceil, round, min, max and pow";
 
-/// A function of numbers. The error says what it takes, or nothing where there is no such function.
-fn apply(name: &str, given: &[f64], angle: f64) -> Result<Result<f64, Mistake>, Option<&'static str>> {
+/// Value of a function. The error is what it takes, or `None` where there is no such function.
+fn apply(name: &str, given: &[f64], angle: f64) -> Result<Result<f64, ExpressionError>, Option<&'static str>> {
     let one = || match given {
         [one] => Ok(*one),
         _ => Err(Some("one number")),

@@ -1,42 +1,42 @@
-//! One small row on a node itself: the name and the value in one bar.
+//! Rows on nodes: name and value in one bar.
 
 use egui::{Align2, Color32, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
 use sabi_editing::ROW_HEIGHT;
 use sabi_engine::catalog::{KnobRole, readable};
 use sabi_graph::Value;
 
-use super::asking::{Asking, KnobMemory};
 use super::bar::Bar;
 use super::curve::View;
-use super::lettering::write;
+use super::knob_ui::{KnobMemory, KnobUi};
+use super::text_painting::write;
 use super::values::{Held, Stop, code_of, read, step_of, text_of};
 use super::{KnobEvent, KnobRow, Lengths, choice, color, doc, numbers};
 use crate::theme::{Theme, space, type_size};
 
-/// Below this zoom nobody reads, and a row is a plain block.
+/// Zoom below which a row is drawn as a plain block.
 const LEGIBLE: f32 = 0.45;
 
 /// Height of a row, a little less than the room that a node has for it.
 const HEIGHT: f32 = ROW_HEIGHT - 2.0;
 
-/// Shows a knob on a node, as wide as that is, and says what is asked for. The `ui` of each node needs an id of its own.
+/// Shows a parameter on a node, and gives what it asks for. The `ui` of each node needs an id of its own.
 ///
-/// What is dragged and typed is remembered in the context, for all nodes together: one hand does one thing. Where the node
-/// of a drag has gone, the next knob that is shown says that it ended.
+/// The state of drags and typing is kept in egui's memory for all nodes together. Where the node of a drag is gone, the next
+/// row that is shown ends the drag.
 pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: f32, zoom: f32) -> Vec<KnobEvent> {
     let id = ui.make_persistent_id(("inline", &row.knob.name));
     let kept = Id::new("what knobs on nodes remember");
-    let mut memory = ui
-        .data_mut(|data| data.remove_temp::<KnobMemory>(kept))
-        .unwrap_or_default();
-    // Lengths are told in the panel.
+    let memory = ui.data_mut(|data| data.remove_temp::<KnobMemory>(kept));
+    // There is no state before the first row is shown.
+    let mut memory = memory.unwrap_or_default();
+    // Lengths on the model are shown in the panel only.
     let lengths = Lengths {
         model_units_per_working: 0.0,
         metres_per_model_unit: 0.0,
     };
-    let mut ask = Asking {
+    let mut ask = KnobUi {
         zoom,
-        ..Asking::new(theme, &mut memory, &lengths)
+        ..KnobUi::new(theme, &mut memory, &lengths)
     };
     ask.age_fault(ui.ctx(), id);
     let (_, rect) = ui.allocate_space(Vec2::new(width, HEIGHT * zoom));
@@ -63,7 +63,7 @@ pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: 
     events
 }
 
-fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+fn widget(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     let held = read(row.knob, row.held());
     match (held, &row.knob.ty.role) {
         (Some(Held::Numbers(held)), role) if row.knob.ty.components() == 1 => {
@@ -126,7 +126,7 @@ fn within(rect: Rect, zoom: f32) -> Rect {
     rect.shrink2(Vec2::new(6.0 * zoom, 0.0))
 }
 
-fn label(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, rect: Rect) {
+fn label(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, rect: Rect) {
     let size = type_size::BODY * ask.zoom;
     write(
         ui.painter(),
@@ -138,19 +138,19 @@ fn label(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, rect: Rect) {
     );
 }
 
-/// The name on the left and a value on the right.
-fn value(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, rect: Rect, text: &str, color: Color32) {
+/// Draws the name on the left and a value on the right.
+fn value(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, rect: Rect, text: &str, color: Color32) {
     let inside = within(rect, ask.zoom);
     let size = type_size::BODY * ask.zoom;
     let text = if row.differs { "several" } else { text };
-    // The value says more than the name where there is little room.
+    // Where there is little room, the value matters more than the name.
     let right = inside.with_min_x(inside.left() + inside.width() * 0.3);
     let taken = write(ui.painter(), right, Align2::RIGHT_CENTER, text, size, color);
     label(ui, ask, row, inside.with_max_x(inside.right() - taken - space::TIGHT));
 }
 
-/// A knob that is only shown here; the panel has room to edit it.
-fn named(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str, color: Color32) {
+/// Shows a parameter that is edited in the panel only.
+fn named(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str, color: Color32) {
     let response = ui.interact(rect, id.with("shown"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, ui.is_enabled(), &row.knob.label));
     ui.ctx()
@@ -158,8 +158,8 @@ fn named(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text:
     value(ui, ask, row, rect, text, color);
 }
 
-/// The right half of a row, for a picture of its value.
-fn picture(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) -> Rect {
+/// Right half of a row, for a picture of its value.
+fn picture(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) -> Rect {
     named(ui, ask, row, id, rect, "", ask.theme.quiet);
     let inside = within(rect, ask.zoom);
     inside
@@ -167,12 +167,12 @@ fn picture(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) -> 
         .shrink2(Vec2::new(0.0, 3.0 * ask.zoom))
 }
 
-fn ramp(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: &[Stop]) {
+fn ramp(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: &[Stop]) {
     let place = picture(ui, ask, row, id, rect);
     super::stops::paint_ramp(ui.painter(), place, stops);
 }
 
-fn line(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, points: &[[f64; 2]]) {
+fn line(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, points: &[[f64; 2]]) {
     let place = picture(ui, ask, row, id, rect);
     ui.painter().rect_filled(place, space::CORNER, ask.theme.canvas);
     let usual = row.knob.ty.soft.unwrap_or([0.0, 1.0]);

@@ -1,8 +1,8 @@
-//! Keys that widgets take while they have the keyboard.
+//! Keys of widgets that have the keyboard.
 
 use egui::{EventFilter, InputState, Key, Modifiers, Response, Ui};
 
-/// Shift is held for a tenth of each step.
+/// Factor of steps while Shift is held.
 pub(super) const FINE: f64 = 0.1;
 
 /// Keeps the arrow keys from leading to another widget.
@@ -15,13 +15,13 @@ pub(super) fn hold_arrows(ui: &Ui, response: &Response) {
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
 }
 
-/// How often a key was pressed; with Shift it counts a tenth.
+/// Number of presses of a key; with Shift each counts a tenth.
 pub(super) fn steps(input: &mut InputState, key: Key) -> f64 {
     let fine = input.count_and_consume_key(Modifiers::SHIFT, key) as f64;
     fine * FINE + input.count_and_consume_key(Modifiers::NONE, key) as f64
 }
 
-/// Steps to the right and down that the keyboard asks a widget for.
+/// Steps to the right and down by the arrow keys.
 pub(super) fn arrows(ui: &Ui, response: &Response) -> [f64; 2] {
     if !response.has_focus() {
         return [0.0, 0.0];

@@ -1,20 +1,20 @@
-//! What lengths of a graph are on the model that is open.
+//! Lengths of a graph on the shown model.
 
 use sabi_engine::LiveModel;
 
 use super::expression::Units;
 use super::values::text_of;
 
-/// How long things are: lengths of a graph are working units, which the fit makes of the model's own.
+/// Units of lengths: lengths in a graph are working units, made from the model's units by the fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lengths {
-    /// Factor from lengths as they are written to those of the model's file.
+    /// Factor from working units to units of the model's file.
     pub(crate) model_units_per_working: f64,
-    /// Factor from those of the model's file to the real ones.
+    /// Factor from units of the model's file to metres; none if unknown.
     pub(crate) metres_per_model_unit: f64,
 }
 
-/// Names of units, how long they are in metres, and from where on they are used.
+/// Names of units, their length in metres, and the least length they are used for.
 const UNITS: [(&str, f64, f64); 4] = [
     ("km", 1000.0, 1000.0),
     ("m", 1.0, 1.0),
@@ -23,7 +23,7 @@ const UNITS: [(&str, f64, f64); 4] = [
 ];
 
 impl Lengths {
-    /// How long things are on a model; as in the graph while there is none.
+    /// Units of lengths on a model; working units while there is none.
     pub(crate) fn on(model: Option<&LiveModel>) -> Lengths {
         Lengths {
             model_units_per_working: model.map_or(1.0, |model| model.fitted().model_from_working()),
@@ -32,7 +32,7 @@ impl Lengths {
         }
     }
 
-    /// A length as the graph has it and as it is on the model.
+    /// A length in working units and on the model.
     pub(crate) fn in_both(&self, working: f64) -> String {
         let step = 10.0_f64.powf(working.abs().max(1e-9).log10().floor());
         let written = text_of(working, step);
@@ -47,25 +47,25 @@ impl Lengths {
         (metres.is_normal() && metres > 0.0).then_some(metres)
     }
 
-    /// A length on the model, such as `3.4 cm`; nothing where it is not known how large the model is.
+    /// A length on the model, such as `3.4 cm`; none where the size of the model is unknown.
     pub(super) fn text(&self, working: f64) -> Option<String> {
         let metres = working * self.metres()?;
         let (name, unit, _) = UNITS.iter().find(|(_, _, least)| metres.abs() >= *least)?;
         let number = metres / unit;
-        // Three digits that count.
+        // Three significant digits.
         let step = 10.0_f64.powf(number.abs().max(1e-9).log10().floor());
         Some(format!("{} {name}", text_of(number, step)))
     }
 
-    /// What may stand behind a number that is typed, with its length in working units.
+    /// Units that can follow a typed number, with their length in working units.
     pub(super) fn units(&self) -> [(&'static str, f64); 4] {
-        // Where the size of the model is not known a metre is what its file says.
+        // Where the size of the model is unknown, a metre is a unit of its file.
         let metres = self.metres().unwrap_or(1.0);
         UNITS.map(|(name, unit, _)| (name, unit / metres))
     }
 }
 
-/// What a number measures.
+/// Quantity of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Measure {
     Plain,
@@ -74,7 +74,7 @@ pub(super) enum Measure {
 }
 
 impl Measure {
-    /// The sign that stands behind each number.
+    /// Sign after each number.
     pub(super) fn sign(&self) -> &'static str {
         match self {
             Measure::Degrees => "°",
@@ -82,7 +82,7 @@ impl Measure {
         }
     }
 
-    /// What else a number can be said to be.
+    /// Number in another unit, for the tooltip.
     pub(super) fn note(&self, number: f64) -> Option<String> {
         match self {
             Measure::Length(lengths) => lengths.text(number),
@@ -90,7 +90,7 @@ impl Measure {
         }
     }
 
-    /// Reads a sum that was typed.
+    /// Reads a typed expression.
     pub(super) fn evaluate(&self, text: &str, present: Option<f64>) -> Result<f64, String> {
         let named;
         let units = match self {

@@ -7,24 +7,24 @@ use egui::{Id, Rect, Sense, Ui, Vec2};
 use egui_phosphor::regular as icon;
 use sabi_engine::catalog::{Knob, KnobRole};
 
-use super::asking::{Asking, Grip};
 use super::bar::Bar;
 use super::boxes::{cut_square, share_of};
 use super::buttons::sign_button;
+use super::knob_ui::{Grip, KnobUi};
 use super::length::Measure;
 use super::values::{of_numbers, rounded};
 use super::{KnobEvent, KnobRow, direction};
 
-/// What the numbers of a vector are called.
+/// Names of the components of a vector.
 const AXES: [&str; 4] = ["X", "Y", "Z", "W"];
-/// Seeds that are rolled are short enough to be read out.
+/// Greatest rolled seed, short enough to be read out.
 const SEEDS: u64 = 10_000;
-/// A seed has no ends: this is how many of them a drag over the whole bar goes through.
+/// Seeds that a drag over the whole bar goes through, since seeds have no range.
 const SEEDS_OF_A_WAY: f64 = 50.0;
-/// Degrees to which the dial holds while Ctrl is pressed.
+/// Degrees that the dial snaps to while Ctrl is held.
 const DETENT: f64 = 15.0;
 
-pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, numbers: [f64; 4]) {
+pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, numbers: [f64; 4]) {
     match (&row.knob.ty.role, row.knob.ty.components()) {
         (KnobRole::Seed, _) => seed(ui, ask, row, id, rect, numbers[0]),
         (KnobRole::Angle, 1) => angle(ui, ask, row, id, rect, numbers[0]),
@@ -36,8 +36,8 @@ pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id,
     }
 }
 
-/// A bar for the only number of a knob.
-pub(super) fn bar_of<'a>(ask: &Asking<'_>, row: &'a KnobRow<'a>, row_id: Id, rect: Rect, value: f64) -> Bar<'a> {
+/// Bar for the only number of a parameter.
+pub(super) fn bar_of<'a>(ask: &KnobUi<'_>, row: &'a KnobRow<'a>, row_id: Id, rect: Rect, value: f64) -> Bar<'a> {
     Bar {
         id: row_id.with("bar"),
         row_id,
@@ -58,16 +58,16 @@ pub(super) fn bar_of<'a>(ask: &Asking<'_>, row: &'a KnobRow<'a>, row_id: Id, rec
     }
 }
 
-/// Shows the only number of a knob, and asks for what it should be.
-pub(super) fn one(ui: &mut Ui, ask: &mut Asking<'_>, bar: &Bar<'_>) {
+/// Shows the bar of the only number of a parameter, and asks for changes.
+pub(super) fn one(ui: &mut Ui, ask: &mut KnobUi<'_>, bar: &Bar<'_>) {
     let asked = number(ui, ask, bar);
     if let Some(number) = asked {
         ask.set(bar.row, of_numbers(&[number]));
     }
 }
 
-/// Shows a number; a length is shown on the model too while it is pointed at.
-fn number(ui: &mut Ui, ask: &mut Asking<'_>, bar: &Bar<'_>) -> Option<f64> {
+/// Shows a number; a length is also shown on the model while it is pointed at.
+fn number(ui: &mut Ui, ask: &mut KnobUi<'_>, bar: &Bar<'_>) -> Option<f64> {
     let answer = bar.show(ui, ask);
     if answer.is_held && matches!(bar.measure, Measure::Length(_)) {
         let length = answer.asked.unwrap_or(bar.value);
@@ -76,7 +76,7 @@ fn number(ui: &mut Ui, ask: &mut Asking<'_>, bar: &Bar<'_>) -> Option<f64> {
     answer.asked
 }
 
-/// Where bars begin and end.
+/// Values at both ends of the bar.
 fn ends(knob: &Knob) -> [f64; 2] {
     match (knob.ty.soft.or(knob.ty.range), &knob.ty.role) {
         (None, KnobRole::Angle) => [-180.0, 180.0],
@@ -85,7 +85,7 @@ fn ends(knob: &Knob) -> [f64; 2] {
     }
 }
 
-fn several(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, mut numbers: [f64; 4]) {
+fn several(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, mut numbers: [f64; 4]) {
     let count = row.knob.ty.components().min(AXES.len());
     let mut asked = false;
     for (at, axis) in AXES.iter().enumerate().take(count) {
@@ -110,7 +110,7 @@ fn several(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: R
     }
 }
 
-fn angle(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, degrees: f64) {
+fn angle(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, degrees: f64) {
     let face = cut_square(&mut rect);
     let bar = bar_of(ask, row, id, rect, degrees);
     one(ui, ask, &bar);
@@ -119,9 +119,9 @@ fn angle(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect:
     }
 }
 
-/// A hand that is turned about the middle of its face; 0 points to the right, and angles grow as in mathematics.
-fn dial(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, face: Rect, degrees: f64) -> Option<f64> {
-    // The bar beside it is for the keyboard.
+/// Shows a dial; 0 points to the right, and angles grow counterclockwise.
+fn dial(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, face: Rect, degrees: f64) -> Option<f64> {
+    // The keyboard uses the bar beside it.
     let response = ui.interact(face, id, Sense::DRAG);
     let [is_fine, is_held_by_detents] =
         ui.input(|input| [input.modifiers.shift, input.modifiers.command || input.modifiers.ctrl]);
@@ -144,7 +144,7 @@ fn dial(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, face: Rect, de
     let (way, drag) = ask.pull(&response, |_| Some(Grip::of([degrees, 0.0, 0.0])))?;
     let now = drag.place() - middle;
     let turn = f64::from((now - way).angle() - now.angle());
-    // The short way around, so that the hand can pass behind.
+    // The shorter way around, so that a drag can pass 180°.
     let turn = turn - (turn / TAU).round() * TAU;
     let speed = if is_fine { 0.1 } else { 1.0 };
     let [low, high] = row.knob.ty.range.unwrap_or([f64::MIN, f64::MAX]);
@@ -158,7 +158,7 @@ fn dial(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, face: Rect, de
     Some(rounded(exact, step).max(low).min(high))
 }
 
-fn seed(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, seed: f64) {
+fn seed(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, seed: f64) {
     let label = &row.knob.label;
     let highest = f64::from(u32::MAX);
     let [dice, more, less] = std::array::from_fn(|_| cut_square(&mut rect));
@@ -187,7 +187,7 @@ fn seed(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: 
     }
 }
 
-/// A seed that nobody chose, and another one than before.
+/// Random seed that differs from the last one.
 fn rolled_unlike(seed: f64) -> f64 {
     loop {
         let rolled = (RandomState::new().hash_one(0) % SEEDS) as f64;

@@ -1,29 +1,29 @@
-//! One row of the panel: the name on the left, what it holds on the right, and what else can be done with it.
+//! Rows of the panel: name, value and menu of a parameter.
 
 use egui::{
-    Align2, Color32, Event, FontId, Id, Key, Layout, Modifiers, Popup, PopupKind, Pos2, Rect, Sense, Ui, Vec2,
-    ViewportCommand, WidgetInfo, WidgetType,
+    Align2, Event, Id, Key, Layout, Modifiers, Popup, PopupKind, Pos2, Rect, Sense, Ui, Vec2, ViewportCommand,
+    WidgetInfo, WidgetType,
 };
 use egui_phosphor::regular as icon;
 use sabi_engine::catalog::KnobRole;
 use sabi_graph::Value;
 
-use super::asking::Asking;
 use super::boxes::DOTS;
-use super::lettering::write;
+use super::knob_ui::KnobUi;
 use super::sentence::sentence;
+use super::text_painting::write;
 use super::values::{Held, read};
 use super::{KnobEvent, KnobRow, choice, color, curve, doc, numbers, stops, text};
 use crate::theme::{space, type_size};
 
-/// The column of names takes this share of a row, within limits.
+/// Share of a row that the column of names takes, within limits.
 const NAMES: f32 = 0.36;
 const NARROWEST_NAMES: f32 = 70.0;
 const WIDEST_NAMES: f32 = 150.0;
-/// A clipboard that has not answered after so many passes has nothing.
+/// Passes after which a clipboard without an answer counts as empty.
 const PATIENCE: u64 = 3;
 
-pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>) {
+pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>) {
     let id = ui.make_persistent_id(&row.knob.name);
     let (_, head) = ui.allocate_space(Vec2::new(ui.available_width(), space::ROW));
     let names = (head.width() * NAMES).clamp(NARROWEST_NAMES, WIDEST_NAMES);
@@ -49,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>) {
     paste(ui, ask, row, id);
 }
 
-fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+fn widget(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     let mut held = read(row.knob, row.held());
     if held.is_none() {
         let there = shortened(&row.held().to_json());
@@ -69,12 +69,12 @@ fn widget(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Re
         (Some(Held::Color(held)), _) => color::show(ui, ask, row, id, rect, held),
         (Some(Held::Stops(held)), _) => stops::show(ui, ask, row, id, rect, held),
         (Some(Held::Points(held)), _) => curve::show(ui, ask, row, id, rect, held),
-        // What is measured on the model is nobody's to set.
+        // Values measured on the model cannot be set.
         (None, _) => {}
     }
 }
 
-/// Values may be long.
+/// Text of a value, shortened.
 fn shortened(text: &str) -> String {
     const LONGEST: usize = 40;
     match text.char_indices().nth(LONGEST) {
@@ -83,12 +83,12 @@ fn shortened(text: &str) -> String {
     }
 }
 
-/// Says that a knob is not what it was at first; a click makes it so again.
-fn dot(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+/// Shows a dot where a value differs from the default; a click resets it.
+fn dot(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     if !row.is_changed() {
         return;
     }
-    // The keyboard resets by the menu and by Backspace, without a stop at every dot.
+    // The keyboard has the menu and Backspace for this, so that Tab does not stop at every dot.
     let response = ui.interact(rect, id.with("dot"), Sense::CLICK);
     response.widget_info(|| {
         let name = format!("Reset {}", row.knob.label);
@@ -102,7 +102,7 @@ fn dot(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     }
 }
 
-fn name(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+fn name(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     let theme = ask.theme;
     let response = ui.interact(rect, id.with("name"), Sense::hover());
     let mut room = rect;
@@ -133,8 +133,8 @@ fn name(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     response.on_hover_ui(|ui| doc::show(ui, theme, row));
 }
 
-/// An input that something is connected to has no value of its own.
-fn wired(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, from: &str) {
+/// Shows what is connected to an input, in place of its value.
+fn wired(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, from: &str) {
     let response = ui.interact(rect, id.with("wired"), Sense::hover());
     let text = format!("from {from}");
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, ui.is_enabled(), &row.knob.label));
@@ -160,8 +160,8 @@ fn wired(ui: &Ui, ask: &Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, from:
     );
 }
 
-/// What else can be done with a knob, by the other mouse button or Shift+F10.
-fn menu(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+/// Shows the menu of a parameter, opened by the secondary button or Shift+F10.
+fn menu(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     let pointed = ui.rect_contains_pointer(rect) && ui.input(|input| input.pointer.secondary_clicked());
     if pointed && let Some(place) = ui.input(|input| input.pointer.interact_pos()) {
         ask.memory.menu = Some((id, place));
@@ -190,7 +190,7 @@ fn menu(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     }
 }
 
-fn items(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) {
+fn items(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
     let knob = || row.knob.name.clone();
     let can_reset = row.differs || row.value.is_some();
     if ui.add_enabled(can_reset, egui::Button::new("Reset")).clicked() {
@@ -215,8 +215,8 @@ fn items(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) {
     }
 }
 
-/// Takes what the clipboard answers to a row that has asked it.
-fn paste(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) {
+/// Takes the contents of the clipboard for the row that asked for it.
+fn paste(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
     let Some((_, since)) = ask.memory.pasting.filter(|(of, _)| *of == id) else {
         return;
     };
@@ -235,7 +235,7 @@ fn paste(ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) {
     ask.memory.pasting = None;
     let answer = answer.trim();
     let ty = &row.knob.ty;
-    // "Copy value" gives JSON; other programs give what people type.
+    // "Copy value" copies JSON; other programs copy text as it is typed.
     let copied = Value::from_json(answer).filter(|value| ty.takes(value));
     match copied.or_else(|| ty.parse(answer).ok()) {
         Some(value) => ask.set(row, value),

@@ -1,4 +1,4 @@
-//! Gradients: a ramp with stops that are dragged along it, and the one that is worked on in numbers.
+//! Gradients: a ramp with stops that are dragged, and the selected one in numbers.
 
 use egui::{
     Align2, Color32, Id, Key, Mesh, Modifiers, Painter, Pos2, Rect, Response, Rgba, Sense, Shape, StrokeKind, Ui, Vec2,
@@ -7,28 +7,28 @@ use egui::{
 use egui_phosphor::regular as icon;
 
 use super::KnobRow;
-use super::asking::{Asking, Drag, Grip};
 use super::bar::Bar;
 use super::boxes::{cut_square, strip};
 use super::buttons::{focus_ring, sign_button};
 use super::color::swatch_and_code;
 use super::keys::arrows;
-use super::lettering::write;
+use super::knob_ui::{Drag, Grip, KnobUi};
 use super::numbers::bar_of;
+use super::text_painting::write;
 use super::values::{Held, Stop, of_stops, read, rounded, sort_keeping};
 use crate::theme::{space, type_size};
 
 const RAMP: f32 = 20.0;
 const HANDLES: f32 = 13.0;
-/// The pointer takes a stop that is no farther than this.
+/// Distance at which the pointer takes a stop, points.
 const NEAR: f32 = 7.0;
-/// A stop that is dragged so far from the ramp is taken out.
+/// Distance from the ramp at which a dragged stop is removed, points.
 const AWAY: f32 = 28.0;
-/// Digits of positions, and what an arrow key moves a stop by.
+/// Rounding of positions, and the step of an arrow key.
 const DIGITS: f64 = 0.001;
 const STEP: f64 = 0.01;
 
-pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: Vec<Stop>) {
+pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: Vec<Stop>) {
     let mut gradient = Gradient {
         selected: ask.selected(id, stops.len()),
         room: row.knob.ty.components(),
@@ -55,15 +55,15 @@ pub(super) fn show(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id,
     }
 }
 
-impl Asking<'_> {
-    /// Which of so many stops or points is worked on.
+impl KnobUi<'_> {
+    /// Index of the selected one of several stops or points.
     pub(super) fn selected(&self, id: Id, count: usize) -> usize {
         let selected = self.memory.selected.filter(|(of, _)| *of == id);
         selected.map_or(0, |(_, at)| at.min(count.saturating_sub(1)))
     }
 }
 
-/// The box in which colors stand by their position.
+/// Rectangle in which colors are drawn by their position.
 struct Ramp(Rect);
 
 impl Ramp {
@@ -99,7 +99,7 @@ impl Gradient {
         true
     }
 
-    /// The last one stays.
+    /// The last stop cannot be removed.
     fn remove(&mut self) -> bool {
         if self.stops.len() < 2 {
             return false;
@@ -119,7 +119,7 @@ impl Gradient {
         format!("A gradient holds no more than {room} stops: take one out before you add another.")
     }
 
-    fn dragged(&mut self, ask: &mut Asking<'_>, row: &KnobRow<'_>, response: &Response, ramp: &Ramp) -> bool {
+    fn dragged(&mut self, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, response: &Response, ramp: &Ramp) -> bool {
         let grip = |origin: Pos2| {
             self.selected = match self.near(ramp, origin) {
                 Some(near) => near,
@@ -139,7 +139,7 @@ impl Gradient {
         self.take(row, drag, response.rect)
     }
 
-    /// Does to the stops that were there at first what the drag has done since.
+    /// Applies the whole drag to the stops at its beginning.
     fn take(&mut self, row: &KnobRow<'_>, drag: &Drag, area: Rect) -> bool {
         let all = drag.grip.all.as_ref();
         let Some(Held::Stops(stops)) = all.and_then(|all| read(row.knob, all)) else {
@@ -155,7 +155,7 @@ impl Gradient {
         true
     }
 
-    fn clicked(&mut self, ask: &mut Asking<'_>, id: Id, response: &Response, ramp: &Ramp) -> bool {
+    fn clicked(&mut self, ask: &mut KnobUi<'_>, id: Id, response: &Response, ramp: &Ramp) -> bool {
         let Some(place) = response.interact_pointer_pos().filter(|_| response.clicked()) else {
             return false;
         };
@@ -197,7 +197,7 @@ impl Gradient {
         steps != 0.0
     }
 
-    /// Adds one halfway to the next one.
+    /// Adds a stop halfway to the next one.
     fn add_behind(&mut self) -> bool {
         let at = self.stops[self.selected].at;
         let next = self.stops.get(self.selected + 1).map_or(1.0, |stop| stop.at);
@@ -214,7 +214,7 @@ impl Gradient {
         });
     }
 
-    fn buttons(&mut self, ui: &Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect) -> bool {
+    fn buttons(&mut self, ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect) -> bool {
         let label = &row.knob.label;
         let [remove, add, turn] = std::array::from_fn(|_| cut_square(&mut rect));
         let button = |salt: &str, place, sign, what: &str| {
@@ -247,8 +247,8 @@ impl Gradient {
         is_turned || is_added && has_room || is_removed && self.remove()
     }
 
-    /// The stop that is worked on: its color and where it stands.
-    fn numbers(&mut self, ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id) -> bool {
+    /// Shows the color and the position of the selected stop.
+    fn numbers(&mut self, ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) -> bool {
         let label = &row.knob.label;
         let rect = strip(ui, space::ROW);
         let middle = rect.left() + rect.width() * 0.58;
@@ -274,7 +274,7 @@ impl Gradient {
         color.is_some() || moved.is_some()
     }
 
-    fn paint(&self, ui: &Ui, ask: &Asking<'_>, response: &Response, ramp: &Ramp) {
+    fn paint(&self, ui: &Ui, ask: &KnobUi<'_>, response: &Response, ramp: &Ramp) {
         let theme = ask.theme;
         let painter = ui.painter();
         let whole = ramp.0.expand2(Vec2::new(HANDLES / 2.0, 0.0));
@@ -297,7 +297,7 @@ impl Gradient {
     }
 }
 
-/// The color at a position, mixed in linear light as nodes do.
+/// Color at a position, mixed in linear light as nodes do.
 fn color_at(stops: &[Stop], at: f64) -> Color32 {
     let after = stops.partition_point(|stop| stop.at <= at);
     let (Some(left), Some(right)) = (stops.get(after.saturating_sub(1)), stops.get(after).or(stops.last())) else {
@@ -307,11 +307,11 @@ fn color_at(stops: &[Stop], at: f64) -> Color32 {
     Color32::from(egui::lerp(Rgba::from(left.color)..=Rgba::from(right.color), share))
 }
 
-/// Fills a box with the colors of a gradient, in pieces short enough to look like linear light.
+/// Fills a rectangle with a gradient, in pieces short enough to look like linear light.
 pub(super) fn paint_ramp(painter: &Painter, rect: Rect, stops: &[Stop]) {
     const PARTS: u32 = 48;
     let even = (0..=PARTS).map(|part| f64::from(part) / f64::from(PARTS));
-    // Two stops at one place are a border, with a color on either side.
+    // Two stops at one position make an edge.
     let own = stops.iter().flat_map(|stop| [stop.at - 1e-6, stop.at]);
     let mut places: Vec<f64> = even.chain(own).collect();
     places.sort_by(f64::total_cmp);

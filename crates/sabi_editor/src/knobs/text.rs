@@ -4,14 +4,14 @@ use egui::{Id, Rect, Ui};
 use egui_phosphor::regular as icon;
 use sabi_graph::Value;
 
-use super::asking::Asking;
 use super::boxes::cut_square;
 use super::buttons::sign_button;
+use super::knob_ui::KnobUi;
 use super::sentence::sentence;
 use super::typing::{Field, Typed};
 use super::{KnobEvent, KnobRow};
 
-pub(super) fn text(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str) {
+pub(super) fn text(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str) {
     let typed = ask.field(
         ui,
         &Field {
@@ -27,7 +27,7 @@ pub(super) fn text(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id,
     }
 }
 
-pub(super) fn file(ui: &mut Ui, ask: &mut Asking<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, path: &str) {
+pub(super) fn file(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, path: &str) {
     let browse = cut_square(&mut rect);
     text(ui, ask, row, id, rect, path);
     let name = format!("{}: choose a file", row.knob.label);

@@ -1,36 +1,36 @@
-//! Fields for one line of text.
+//! Text fields of one line.
 
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Frame, Id, Key, Margin, Rect, Response, StrokeKind, TextEdit, Ui};
 
-use super::asking::{Asking, Typing};
+use super::knob_ui::{KnobUi, Typing};
 use crate::theme::{space, type_size};
 
-/// What became of a field in this frame.
+/// Result of a text field in this frame.
 #[derive(Debug, PartialEq)]
 pub(super) enum Typed {
-    /// Nothing yet.
+    /// Still typing, or not touched.
     Nothing,
-    /// It was left with the text that was there.
+    /// Left without a change.
     Left,
-    /// This was typed.
+    /// Left with this text.
     Taken(String),
 }
 
-/// A field for one line of text.
+/// Text field of one line.
 pub(super) struct Field<'f> {
     pub(super) id: Id,
     pub(super) rect: Rect,
-    /// What it is called.
+    /// Accessible name.
     pub(super) name: &'f str,
-    /// Its text while nothing is typed.
+    /// Text while nothing is typed.
     pub(super) shown: &'f str,
-    /// What is shown where there is no text.
+    /// Hint while there is no text.
     pub(super) hint: &'f str,
 }
 
-impl Asking<'_> {
-    /// Opens a field that is shown only while something is typed.
+impl KnobUi<'_> {
+    /// Opens a text field that is shown only while it has the keyboard.
     pub(super) fn open_field(&mut self, id: Id, text: String, is_selected: bool) {
         self.memory.typing = Some(Typing {
             id,
@@ -44,7 +44,7 @@ impl Asking<'_> {
         self.memory.typing.as_ref().is_some_and(|typing| typing.id == id)
     }
 
-    /// Shows a field.
+    /// Shows a text field.
     pub(super) fn field(&mut self, ui: &mut Ui, field: &Field<'_>) -> Typed {
         let mut typing = self.memory.typing.take_if(|typing| typing.id == field.id);
         let mut text = match &mut typing {
@@ -73,7 +73,7 @@ impl Asking<'_> {
             self.memory.typing = Some(Typing { text, ..typing });
             return Typed::Nothing;
         }
-        // Where the focus was lost unseen, nobody has taken what was typed.
+        // A field that lost the focus while it was not shown takes no text.
         let is_taken = response.lost_focus() && !ui.input(|input| input.key_pressed(Key::Escape));
         if is_taken && text != field.shown {
             return Typed::Taken(text);
@@ -106,8 +106,9 @@ impl Asking<'_> {
     }
 }
 
-/// Typing then replaces all that is there.
+/// Selects all of the text, so that typing replaces it.
 fn select_all(response: &Response, text: &str) {
+    // A field has no state before it is shown for the first time.
     let mut state = TextEdit::load_state(&response.ctx, response.id).unwrap_or_default();
     let all = CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()));
     state.cursor.set_char_range(Some(all));

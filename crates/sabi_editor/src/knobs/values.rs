@@ -1,4 +1,4 @@
-//! Values of knobs as the widgets show them. What a value means, [`ParamType`](sabi_engine::catalog::ParamType) says.
+//! Values of knobs as the widgets show them. [`ParamType`](sabi_engine::catalog::ParamType) defines their meaning.
 
 use egui::Color32;
 use sabi_engine::catalog::{Knob, Written, WrittenStop, color_code, typed_color};

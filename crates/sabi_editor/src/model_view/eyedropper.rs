@@ -1,4 +1,4 @@
-//! The color that is seen under the pointer, exactly as the model has it there and without the light on it.
+//! Colors taken from the model: the exact base color under the pointer, without light.
 
 use egui::{CursorIcon, Pos2, Rect, Response};
 use sabi_engine::view::{Background, Mode, NodeType, Shot};
@@ -8,7 +8,7 @@ use crate::action::ClickedColor;
 use crate::evaluation::{Evaluation, Picture};
 
 impl ModelView {
-    /// The color that was clicked, while one is wanted.
+    /// Clicked color, while one is taken.
     pub(super) fn clicked_color(
         &mut self,
         response: &Response,
@@ -35,7 +35,7 @@ impl ModelView {
         })
     }
 
-    /// Draws the colors alone and reads the pixel: so every texture set, every size and every side of a seam is right.
+    /// Draws the base color alone and reads the pixel, which is right for every texture set, size and seam.
     fn color_at(
         &mut self,
         screen: usize,

@@ -1,4 +1,4 @@
-//! What stands in the corner of the view: how the model is shown, and in which light.
+//! The menus of the viewport: what is shown, camera, channels, light and overlays.
 
 use egui::containers::menu::MenuButton;
 use egui::{Rect, Ui, UiBuilder, vec2};
@@ -12,7 +12,7 @@ use crate::bars::staying;
 use crate::evaluation::Evaluation;
 use crate::settings::viewport::{BACKGROUNDS, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
 
-/// What the model can be shown as, with what it is called.
+/// Channels and modes that the model can be shown in, with their titles.
 const MODES: [(&str, Mode); 14] = [
     ("Material", Mode::Material),
     ("Base color", Mode::BaseColor),
@@ -30,7 +30,7 @@ const MODES: [(&str, Mode); 14] = [
     ("Clay", Mode::Clay),
 ];
 
-/// Draws the menus; answers with an environment that was chosen, and asks for what others do.
+/// Shows the menus; gives the chosen environment, and asks for everything else by actions.
 pub(super) fn show(
     view: &mut ModelView,
     ui: &mut Ui,
@@ -68,7 +68,7 @@ pub(super) fn show(
         });
     });
     if let Some(choice) = &chosen {
-        view.surroundings.choose(choice);
+        view.environment_loader.choose(choice);
     }
     chosen
 }
@@ -77,11 +77,14 @@ fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
     let mut chosen = None;
     for name in built_in_environments() {
         let label = name.replace('_', " ");
-        if ui.selectable_label(view.surroundings.choice() == name, label).clicked() {
+        if ui
+            .selectable_label(view.environment_loader.choice() == name, label)
+            .clicked()
+        {
             chosen = Some(name.to_owned());
         }
     }
-    if let Some(fault) = &view.surroundings.fault {
+    if let Some(fault) = &view.environment_loader.fault {
         ui.label(fault);
     }
     ui.separator();
@@ -93,7 +96,7 @@ fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
     ui.add(egui::Slider::new(&mut view.shot.environment_strength, STRENGTH).text("Strength"));
     ui.add(egui::Slider::new(&mut view.shot.exposure_stops, EXPOSURE_STOPS).text("Exposure"));
     ui.separator();
-    view.lamps.menu(ui);
+    view.lights.menu(ui);
     ui.separator();
     for (_, name, transform) in TRANSFORMS {
         ui.selectable_value(&mut view.shot.transform, transform, name);

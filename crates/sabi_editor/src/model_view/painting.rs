@@ -1,4 +1,4 @@
-//! Pictures of the model: drawn as far as they have to be, and shown.
+//! Pictures of the model: drawn where they have changed, and painted.
 
 use std::sync::Arc;
 
@@ -11,12 +11,12 @@ use super::{ModelView, REST, Screen, Subject};
 use crate::evaluation::{Evaluation, Picture};
 
 impl ModelView {
-    /// The picture that is shown, in memory; none while there is none.
+    /// Pixels of the shown picture, if there is one.
     pub(crate) fn picture(&self, gpu: &Arc<Gpu>) -> Option<Pixels> {
         self.screens[0].as_ref()?.viewport.picture()?.read(gpu).ok()
     }
 
-    /// Paints the picture, or the two that are compared; says whether nothing of the ground is seen.
+    /// Paints the picture, or the two that are compared; gives whether they cover the background.
     pub(super) fn paint(
         &mut self,
         ui: &Ui,
@@ -55,7 +55,7 @@ impl ModelView {
         self.shot.background != Background::Clear
     }
 
-    /// One picture, drawn as far as it has to be; none where that failed, which is then said.
+    /// One picture, drawn if it has changed; none where that failed, with the error shown in the view.
     #[expect(
         clippy::too_many_arguments,
         reason = "what is drawn where, with what, of what, and how well"
@@ -73,7 +73,7 @@ impl ModelView {
         let scale = ui.ctx().pixels_per_point();
         let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
         let shot = self.shot_of(picture);
-        // The last picture stays until what draws the next one is made.
+        // The last picture stays until the pipelines of the next one are made.
         let drawn = match self.is_ready(at, ui.ctx(), evaluation, picture, &shot) {
             Ok(true) => self
                 .draw(at, evaluation, picture, &shot, size, is_moving)
@@ -115,7 +115,7 @@ impl ModelView {
         Some(id)
     }
 
-    /// How something is shown as one looks at it now.
+    /// Shot of a result as the view is set up now.
     pub(super) fn shot_of(&self, picture: &Picture) -> Shot {
         Shot {
             camera: self.camera,
@@ -129,7 +129,7 @@ impl ModelView {
         }
     }
 
-    /// Whether what draws this picture is made; begins to make it otherwise.
+    /// Whether the pipelines of a picture are made; starts making them otherwise.
     fn is_ready(
         &mut self,
         at: usize,
@@ -139,22 +139,22 @@ impl ModelView {
         shot: &Shot,
     ) -> Result<bool, String> {
         let gpu = evaluation.gpu();
-        let Some(renderer) = self.tools.renderer(context, gpu)? else {
+        let Some(renderer) = self.renderer_loader.renderer(context, gpu)? else {
             return Ok(false);
         };
         let screen = self.screens[at].get_or_insert_with(|| Screen {
             viewport: Viewport::new(gpu, renderer.clone()),
             texture: None,
         });
-        let Some(environment) = self.surroundings.environment() else {
+        let Some(environment) = self.environment_loader.environment() else {
             return Ok(false);
         };
-        let lights = self.lamps.lights();
+        let lights = self.lights.lights();
         let missing = screen.viewport.missing(&scene(picture, environment, &lights), shot);
-        self.tools.is_ready(context, (gpu, &renderer), missing)
+        self.renderer_loader.is_ready(context, (gpu, &renderer), missing)
     }
 
-    /// Draws one screen as far as it has to be, and says whether it had to.
+    /// Draws one picture if it has changed; gives whether it had.
     pub(super) fn draw(
         &mut self,
         at: usize,
@@ -164,13 +164,13 @@ impl ModelView {
         size: [u32; 2],
         is_moving: bool,
     ) -> Result<bool, EngineError> {
-        let (Some(environment), Some(screen)) = (self.surroundings.environment(), &mut self.screens[at]) else {
+        let (Some(environment), Some(screen)) = (self.environment_loader.environment(), &mut self.screens[at]) else {
             return Ok(false);
         };
-        let lights = self.lamps.lights();
+        let lights = self.lights.lights();
         let scene = scene(picture, environment, &lights);
-        // Light that was changed is another picture too.
-        let revision = picture.number ^ (self.surroundings.number() << 48) ^ (self.lamps.number() << 32);
+        // A changed light makes another picture, too.
+        let revision = picture.number ^ (self.environment_loader.number() << 48) ^ (self.lights.number() << 32);
         let viewport = &mut screen.viewport;
         Ok(viewport.show(evaluation.gpu(), &scene, revision, shot, size, is_moving)?)
     }

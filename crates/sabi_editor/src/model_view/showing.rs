@@ -102,7 +102,7 @@ pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: 
     }
 }
 
-/// Views from the sides, each with its key.
+/// Menu of viewpoints, each with its key.
 pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Action>) {
     ui.set_min_width(200.0);
     for command in [
@@ -123,7 +123,7 @@ pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Act
     ui.weak(format!("{look}  {}", Command::Viewport(ViewportCommand::Focus).title()));
 }
 
-/// Says on the picture what it shows; of two pictures, on either side of the line between them.
+/// Writes on the picture what it shows; of two pictures, on either side of the line between them.
 pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluation, subject: &Subject<'_>) {
     let showing = subject.showing;
     let theme = subject.theme;
@@ -133,7 +133,7 @@ pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluati
     let state = match &showing.fault {
         Some(fault) => format!(" — {fault}"),
         None if evaluation.picture(subject.seen).is_none() => " (evaluating)".to_owned(),
-        None if view.tools.are_coming() => " (preparing)".to_owned(),
+        None if view.renderer_loader.is_loading() => " (preparing)".to_owned(),
         None => String::new(),
     };
     let words = format!("{}{state}", showing.words);
@@ -158,8 +158,8 @@ pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluati
     }
 }
 
-/// Small quiet words on a picture, which nobody can click. They go by a name of their own, so that what stands beside them is
-/// the same whether they are there or not.
+/// Writes small quiet words on a picture, which cannot be clicked. With an id of their own they do not change the ids of the
+/// widgets beside them.
 pub(super) fn told(ui: &Ui, theme: &Theme, name: &str, at: Pos2, align: Align2, words: &str) {
     let font = FontId::proportional(type_size::SMALL);
     let mut job = LayoutJob::simple_singleline(words.to_owned(), font, theme.text);
@@ -168,7 +168,7 @@ pub(super) fn told(ui: &Ui, theme: &Theme, name: &str, at: Pos2, align: Align2, 
     let place = align.anchor_size(at, text.size());
     let ground = place.expand2(vec2(4.0, 2.0));
     ui.painter()
-        .rect_filled(ground, space::CORNER, theme.ground.gamma_multiply(0.6));
+        .rect_filled(ground, space::CORNER, theme.background.gamma_multiply(0.6));
     ui.painter().galley(place.min, text, theme.text);
     let response = ui.interact(place, ui.id().with(("told", name)), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, words));

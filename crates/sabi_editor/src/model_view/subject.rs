@@ -7,38 +7,38 @@ use super::ModelView;
 use super::showing::Showing;
 use crate::action::{Action, ClickedColor, SettingAction};
 use crate::bars;
-use crate::command::Habit;
+use crate::command::InputPreset;
 use crate::context::{View, ViewContext};
 use crate::key_map::KeyMap;
 use crate::theme::Theme;
 
-/// What is shown.
+/// What the viewport shows.
 pub(super) struct Subject<'a> {
     pub(super) seen: &'a ViewSubject,
-    /// What it is compared with.
+    /// Result that it is compared with.
     pub(super) locked: Option<&'a ViewSubject>,
-    /// Both in words.
+    /// Both results in words.
     pub(super) showing: &'a Showing,
-    /// Whether a click takes the color that is seen.
+    /// Whether a click takes a color.
     pub(super) is_taking_color: bool,
-    /// Whether a knob is being moved.
+    /// Whether a parameter is being dragged.
     pub(super) is_moving: bool,
     pub(super) theme: &'a Theme,
-    /// What drags mean.
-    pub(super) habit: Habit,
+    /// Preset that gives drags their meaning.
+    pub(super) habit: InputPreset,
     pub(super) keys: &'a KeyMap,
 }
 
-/// What was done in the view.
+/// What was asked for in the view.
 #[derive(Default)]
-pub(super) struct Done {
-    /// The color that was clicked, where one is wanted.
+pub(super) struct Outcome {
+    /// Clicked color.
     pub(super) taken: Option<ClickedColor>,
-    /// The environment that was chosen.
+    /// Chosen environment.
     pub(super) environment: Option<String>,
-    /// What menus ask for.
+    /// Actions of the menus.
     pub(super) asked: Vec<Action>,
-    /// Why an environment cannot be had.
+    /// Sentence about an environment that could not be loaded.
     pub(super) fault: Option<String>,
 }
 

@@ -1,10 +1,10 @@
-//! Puts frames onto a texture in place of a screen.
+//! Paints frames onto a texture in place of a screen.
 
 use eframe::egui_wgpu::{RenderState, ScreenDescriptor};
 use egui::epaint::ImageDelta;
 use egui::{ClippedPrimitive, TextureId, Vec2};
 
-/// What frames are painted on.
+/// Texture that frames are painted on.
 pub(super) struct Painter {
     render: RenderState,
     screen: wgpu::TextureView,
@@ -36,7 +36,7 @@ impl Painter {
         }
     }
 
-    /// Brings textures that a frame has changed onto the device.
+    /// Uploads textures that a frame has changed.
     pub(super) fn bring(&self, changed: &[(TextureId, ImageDelta)]) {
         let mut renderer = self.render.renderer.write();
         for (id, delta) in changed {
@@ -44,7 +44,7 @@ impl Painter {
         }
     }
 
-    /// Lets go of textures that are not used after a frame.
+    /// Frees textures that are not used after a frame.
     pub(super) fn free(&self, textures: &[TextureId]) {
         let mut renderer = self.render.renderer.write();
         for id in textures {
@@ -52,7 +52,7 @@ impl Painter {
         }
     }
 
-    /// Hands a frame to the device.
+    /// Submits a frame to the device.
     pub(super) fn paint(&self, primitives: &[ClippedPrimitive]) {
         let RenderState {
             device,

@@ -1,21 +1,21 @@
-//! A line of text that is asked for once it is finished: by Enter, or by going elsewhere. Escape gives it up.
+//! Text fields that ask once they are finished, by Enter or by leaving them. Escape cancels.
 
 use egui::AsIdSalt;
 
 use egui::{Key, TextEdit, Ui, WidgetInfo, WidgetType};
 
-/// What a line of text is, and what it shows while nobody types.
+/// Text field of one line.
 pub(crate) struct Field<'a> {
-    /// What it is called, to those who do not see it.
+    /// Accessible name.
     pub(crate) name: &'a str,
-    /// What stands there while it is empty.
+    /// Hint while it is empty.
     pub(crate) hint: &'a str,
     pub(crate) held: &'a str,
     pub(crate) width: f32,
 }
 
 impl Field<'_> {
-    /// Shows the line; gives what was typed once that is finished and something else than before.
+    /// Shows the field; gives the text once it is finished and has changed.
     pub(crate) fn show(&self, ui: &mut Ui, id: impl AsIdSalt) -> Option<String> {
         let id = ui.make_persistent_id(id);
         let typed: Option<String> = ui.data(|data| data.get_temp(id));

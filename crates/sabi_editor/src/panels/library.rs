@@ -6,7 +6,7 @@ mod pictures;
 use egui::{Context, RichText, ScrollArea, TextureId, Ui};
 use egui_phosphor::regular as icon;
 
-use crate::action::{Action, New, Shelf};
+use crate::action::{Action, LibraryKind, NewNode};
 use crate::context::{View, ViewContext};
 use crate::saved_pictures::OF_GROUP;
 use crate::search::{Candidate, ranked};
@@ -67,11 +67,11 @@ impl LibraryPanel {
     }
 
     /// Picture of what an entry gives; of a group of the graph, the result of its first instance.
-    pub(crate) fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &New) -> Option<TextureId> {
+    pub(crate) fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NewNode) -> Option<TextureId> {
         match new {
-            New::Library(file) => context.pictures.find(egui, file, OF_GROUP),
-            New::Kind(kind) => self.pictures.find(kind),
-            New::Group(group) => {
+            NewNode::Library(file) => context.pictures.find(egui, file, OF_GROUP),
+            NewNode::Kind(kind) => self.pictures.find(kind),
+            NewNode::Group(group) => {
                 let mut nodes = context.document.graph().nodes();
                 let instance = nodes.find(|(_, node)| node.group.as_ref() == Some(group));
                 instance.and_then(|(id, _)| context.node_picture(id))
@@ -107,13 +107,13 @@ fn head(query: &mut String, ui: &mut Ui, context: &ViewContext<'_>, actions: &mu
     ui.allocate_ui_with_layout(row, layout, |ui| {
         let menu = ui.menu_button("Keep group", |ui| {
             if ui.button("For all graphs").clicked() {
-                actions.push(Action::Shelve(Shelf::User));
+                actions.push(Action::AddToLibrary(LibraryKind::User));
             }
             let beside = ui.add_enabled(has_file, egui::Button::new("Beside this graph"));
             let beside = beside.on_hover_text("In a folder 'library' that goes with the project");
             let beside = beside.on_disabled_hover_text("Save the graph first, so that there is a folder beside it");
             if beside.clicked() {
-                actions.push(Action::Shelve(Shelf::Project));
+                actions.push(Action::AddToLibrary(LibraryKind::Project));
             }
         });
         menu.response.on_hover_text("Puts the selected group into a library");

@@ -1,7 +1,7 @@
-//! The page of the selected node: what it is, what it takes and gives, and the file that it is.
+//! The page of the selected node: description, ports, parameters and file.
 
 mod code;
-mod draft;
+mod draft_editor;
 
 use egui::{ColorImage, RichText, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
@@ -13,42 +13,42 @@ use sabi_engine::catalog::{Entry, Port, picture_of};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::theme::{Theme, space};
-pub(crate) use draft::Draft;
-use draft::Left;
+pub(crate) use draft_editor::DraftEditor;
+use draft_editor::Left;
 
 /// Pixels along the side of a picture.
 const PICTURE_SIDE: u32 = 240;
 
-/// What the page holds from frame to frame.
+/// Panel of the selected node's page, or of a node file that is being written.
 #[derive(Default)]
 pub(crate) struct Page {
     markdown: CommonMarkCache,
     shows_source: bool,
-    /// The picture of a kind, where it has one.
+    /// Node kind whose picture is loaded, and the picture if it has one.
     picture: Option<(String, Option<TextureHandle>)>,
     /// Node files that are being written.
-    drafts: Vec<Draft>,
-    /// Which of them is shown, in the place of the selected node.
+    drafts: Vec<DraftEditor>,
+    /// Index of the node file that is shown in place of the selected node.
     shown: Option<usize>,
-    /// Rises with what happens to drafts besides their being written on.
+    /// Rises when a draft is opened, saved or closed.
     revision: u64,
 }
 
 impl Page {
     /// A page with node files that are being written.
-    pub(crate) fn with_drafts(drafts: Vec<Draft>) -> Page {
+    pub(crate) fn with_drafts(drafts: Vec<DraftEditor>) -> Page {
         Page {
             drafts,
             ..Page::default()
         }
     }
 
-    /// Shows the selected node; what is being written is kept.
+    /// Shows the selected node; node files that are being written stay open.
     pub(crate) fn show_node(&mut self) {
         self.shown = None;
     }
 
-    /// The file of a draft was written as the draft has it; another one of the same node stays as it is.
+    /// Marks the drafts with this text as saved.
     pub(crate) fn saved(&mut self, node: &NodeDraft) {
         for draft in self.drafts.iter_mut().filter(|draft| draft.node() == node) {
             draft.was_saved();
@@ -56,22 +56,22 @@ impl Page {
         self.revision += 1;
     }
 
-    /// Another number whenever what is written and in no file is something else.
+    /// Revision of the unsaved drafts.
     pub(crate) fn revision(&self) -> u64 {
-        self.revision + self.drafts.iter().map(Draft::edits).sum::<u64>()
+        self.revision + self.drafts.iter().map(DraftEditor::edits).sum::<u64>()
     }
 
-    /// What is written and in no file.
+    /// Node files with changes that are not saved.
     pub(crate) fn unsaved(&self) -> Vec<NodeDraft> {
         let unsaved = self.drafts.iter().filter(|draft| draft.is_unsaved());
         unsaved.map(|draft| draft.node().clone()).collect()
     }
 
-    /// Goes on with what was being written when the program ended.
+    /// Opens node files that were not saved when the program ended.
     pub(crate) fn recover(&mut self, drafts: Vec<NodeDraft>, document: &OpenDocument) {
         for draft in drafts {
-            let draft = Draft::recovered(document, draft);
-            // One that is written on is nothing less: both are shown then.
+            let draft = DraftEditor::recovered(document, draft);
+            // A draft with unsaved changes stays open beside the recovered one.
             self.drafts.retain(|known| known.is_unsaved() || !known.is_like(&draft));
             self.shown = Some(self.drafts.len());
             self.drafts.push(draft);
@@ -79,20 +79,20 @@ impl Page {
         self.revision += 1;
     }
 
-    /// Whether a node file is being written that nothing holds yet; the first such is shown.
+    /// Shows the first node file with unsaved changes; gives whether there is one.
     pub(crate) fn show_unsaved(&mut self) -> bool {
-        let unsaved = self.drafts.iter().position(Draft::is_unsaved);
+        let unsaved = self.drafts.iter().position(DraftEditor::is_unsaved);
         self.shown = unsaved.or(self.shown);
         unsaved.is_some()
     }
 
     /// Node files that are being written.
-    pub(crate) fn take_drafts(&mut self) -> Vec<Draft> {
+    pub(crate) fn take_drafts(&mut self) -> Vec<DraftEditor> {
         std::mem::take(&mut self.drafts)
     }
 
-    /// Shows a draft; one of the same node that is there already goes before it.
-    fn open(&mut self, draft: Draft) {
+    /// Shows a draft, or the open one of the same node.
+    fn open(&mut self, draft: DraftEditor) {
         let known = self.drafts.iter().position(|known| known.is_like(&draft));
         self.shown = Some(known.unwrap_or(self.drafts.len()));
         if known.is_none() {
@@ -100,7 +100,7 @@ impl Page {
         }
     }
 
-    /// What a node does, as far as that can be seen.
+    /// Picture of what a node does.
     fn picture(&mut self, ui: &mut Ui, face: &Entry) {
         if self.picture.as_ref().is_none_or(|(kind, _)| *kind != face.id) {
             let picture = picture_of(&face.id, PICTURE_SIDE).map(|picture| {
@@ -134,7 +134,7 @@ impl Page {
                     .button("Change it")
                     .on_hover_text(format!("It lies in {}", own.display()));
                 if change.clicked() {
-                    match Draft::of_own(document, id) {
+                    match DraftEditor::of_own(document, id) {
                         Ok(draft) => self.open(draft),
                         Err(why) => refused = Some(why),
                     }
@@ -144,7 +144,7 @@ impl Page {
             if new.on_hover_text("Copies the file to a node of your own").clicked() {
                 let missing =
                     "This system has no folder for nodes; save the graph first, so that there is one beside it.";
-                match Draft::like(document, id, text) {
+                match DraftEditor::like(document, id, text) {
                     Some(draft) => self.open(draft),
                     None => refused = Some(missing.to_owned()),
                 }

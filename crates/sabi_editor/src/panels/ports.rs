@@ -1,4 +1,4 @@
-//! What the graph that is seen takes and gives where it is used as a group, and what it is called.
+//! Name, inputs and outputs of the shown graph as a group.
 
 use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
@@ -10,7 +10,7 @@ use super::field::Field;
 use crate::action::PortAction;
 use crate::theme::{Theme, space, type_size};
 
-/// Shows them and says what is asked.
+/// Shows the name, inputs and outputs, and gives what is asked of them.
 pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortAction> {
     let mut asked = Vec::new();
     let is_group = matches!(document.body(), Body::Group(_));
@@ -92,7 +92,7 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<P
     }
 }
 
-/// What an input feeds, and what else it could.
+/// Shows what an input feeds, and a menu of what else it can feed.
 fn fed(
     ui: &mut Ui,
     theme: &Theme,
@@ -177,7 +177,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
     }
 }
 
-/// Entries of a menu, of which one may be clicked.
+/// Shows the entries of a menu.
 fn list<'l, T: 'l>(ui: &mut Ui, entries: impl Iterator<Item = (String, &'l T)>, mut choose: impl FnMut(&T)) {
     egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
         for (title, entry) in entries {

@@ -61,7 +61,7 @@ impl Published {
         }
         if self.is_editing {
             editing::show(ui, theme, &panel, &mut asked);
-            // A drag that was begun before has no row any more and ends.
+            // Without rows, so that a drag whose row is gone ends.
             let events = published_ui(ui, theme, memory, &[], &context.lengths());
             asked.extend(events.into_iter().map(PublishedAction::Turn));
             return asked;

@@ -7,7 +7,7 @@ use egui_phosphor::regular as icon;
 use sabi_editing::{OpenDocument, Stack, StackEnd};
 use sabi_graph::NodeRef;
 
-use super::order;
+use super::reordering;
 use crate::action::{Action, LayerAction};
 use crate::context::{View, ViewContext};
 use crate::looks::result_of;
@@ -92,9 +92,9 @@ fn list(ui: &mut Ui, context: &ViewContext<'_>, stack: &Stack, actions: &mut Vec
         let layer = stack.layers.get(dragged.at).filter(|_| is_ours);
         layer.map(|layer| layer.title.clone())
     };
-    if let Some((dragged, gap)) = order::dropped(ui, theme, &rows, title) {
+    if let Some((dragged, gap)) = reordering::dropped(ui, theme, &rows, title) {
         let from = dragged.at;
-        // The gap is counted with the dragged one in its place.
+        // The gap is counted with the dragged row in its place.
         let to = if gap > from { gap - 1 } else { gap };
         if to != from {
             let end = stack.end.clone();
@@ -115,7 +115,7 @@ fn head(document: &OpenDocument, ui: &mut Ui, stack: &Stack, actions: &mut Vec<A
     });
 }
 
-/// The kinds that a layer above another one can be.
+/// Menu of the kinds that a layer can have.
 fn kinds(document: &OpenDocument, ui: &mut Ui, stack: &Stack, at: usize, actions: &mut Vec<Action>) {
     let is_lowest = stack.layers.is_empty();
     for kind in document.layer_kinds(is_lowest) {
@@ -129,7 +129,7 @@ fn kinds(document: &OpenDocument, ui: &mut Ui, stack: &Stack, at: usize, actions
     }
 }
 
-/// What is asked of one row, as it is asked of the stack.
+/// Action for what one row asks for.
 fn ask_of(stack: &Stack, at: usize, ask: row::Ask) -> LayerAction {
     let node = stack.layers[at].node.clone();
     match ask {

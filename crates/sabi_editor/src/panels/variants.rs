@@ -60,7 +60,7 @@ impl Variants {
     }
 }
 
-/// One variant.
+/// Card of a variant.
 struct Card<'a> {
     name: &'a str,
     picture: Option<egui::TextureId>,

@@ -24,13 +24,13 @@ pub(crate) const TRANSFORMS: [(&str, &str, ViewTransform); 3] = [
 ];
 
 /// Limits of a light besides the environment.
-pub(crate) const LAMP_HEIGHT_DEGREES: RangeInclusive<f32> = -90.0..=90.0;
-pub(crate) const LAMP_STRENGTH: RangeInclusive<f32> = 0.0..=20.0;
+pub(crate) const LIGHT_HEIGHT_DEGREES: RangeInclusive<f32> = -90.0..=90.0;
+pub(crate) const LIGHT_STRENGTH: RangeInclusive<f32> = 0.0..=20.0;
 
 /// A light besides the environment.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
-pub(crate) struct Lamp {
+pub(crate) struct LightSetting {
     /// Direction that it comes from: around the model, and above it.
     pub(crate) turn_degrees: f32,
     pub(crate) height_degrees: f32,
@@ -40,10 +40,10 @@ pub(crate) struct Lamp {
     pub(crate) has_shadow: bool,
 }
 
-impl Default for Lamp {
+impl Default for LightSetting {
     /// From the left and above, as in the usual studio.
-    fn default() -> Lamp {
-        Lamp {
+    fn default() -> LightSetting {
+        LightSetting {
             turn_degrees: -40.0,
             height_degrees: 35.0,
             color: [1.0; 3],
@@ -53,15 +53,15 @@ impl Default for Lamp {
     }
 }
 
-impl Lamp {
+impl LightSetting {
     /// The light with what is out of range brought into it, since settings may have been edited by hand.
-    pub(crate) fn sound(self) -> Lamp {
-        let usual = Lamp::default();
-        Lamp {
+    pub(crate) fn sound(self) -> LightSetting {
+        let usual = LightSetting::default();
+        LightSetting {
             turn_degrees: within(self.turn_degrees, &TURN_DEGREES, usual.turn_degrees),
-            height_degrees: within(self.height_degrees, &LAMP_HEIGHT_DEGREES, usual.height_degrees),
+            height_degrees: within(self.height_degrees, &LIGHT_HEIGHT_DEGREES, usual.height_degrees),
             color: self.color.map(|number| within(number, &(0.0..=1.0), 1.0)),
-            strength: within(self.strength, &LAMP_STRENGTH, usual.strength),
+            strength: within(self.strength, &LIGHT_STRENGTH, usual.strength),
             has_shadow: self.has_shadow,
         }
     }
@@ -78,7 +78,7 @@ pub(crate) struct ViewChoices {
     background: String,
     has_relief: bool,
     /// Lights besides the environment.
-    pub(crate) lights: Vec<Lamp>,
+    pub(crate) lights: Vec<LightSetting>,
 }
 
 impl Default for ViewChoices {
@@ -97,7 +97,7 @@ impl Default for ViewChoices {
 
 impl ViewChoices {
     /// Choices that a shot and these lights show.
-    pub(crate) fn of(shot: &Shot, lights: &[Lamp]) -> ViewChoices {
+    pub(crate) fn of(shot: &Shot, lights: &[LightSetting]) -> ViewChoices {
         let transform = TRANSFORMS.iter().find(|(.., known)| *known == shot.transform);
         let background = BACKGROUNDS.iter().find(|(.., known)| *known == shot.background);
         let usual = ViewChoices::default();

@@ -3,21 +3,21 @@
 use sabi_editing::{OpenDocument, PendingWire};
 use sabi_graph::{Frame, NodeId, SlotRef};
 
-use crate::action::{DocumentAction, FrameAction, MoveAction, New, PortAction, WireAction};
+use crate::action::{DocumentAction, FrameAction, MoveAction, NewNode, PortAction, WireAction};
 
 /// Adds a node, connected to a loose wire or put into a wire, as one step.
 pub(super) fn add(
     document: &mut OpenDocument,
-    new: &New,
+    new: &NewNode,
     place: [f32; 2],
     loose: Option<&PendingWire>,
     into: Option<&SlotRef>,
 ) -> Option<NodeId> {
     document.session.begin("Add");
     let added = match new {
-        New::Kind(kind) => document.add(kind, place, loose),
-        New::Group(group) => document.add_group_instance(group, place, loose),
-        New::Library(file) => document.add_from_library(file, place, loose),
+        NewNode::Kind(kind) => document.add(kind, place, loose),
+        NewNode::Group(group) => document.add_group_instance(group, place, loose),
+        NewNode::Library(file) => document.add_from_library(file, place, loose),
     };
     if let Some((id, into)) = added.as_ref().zip(into) {
         document.insert(id, into);
@@ -27,11 +27,11 @@ pub(super) fn add(
 }
 
 /// Replaces a node; gives the new one.
-pub(super) fn replace(document: &mut OpenDocument, node: &NodeId, by: &New) -> Option<NodeId> {
+pub(super) fn replace(document: &mut OpenDocument, node: &NodeId, by: &NewNode) -> Option<NodeId> {
     let is_replaced = match by {
-        New::Kind(kind) => document.replace(node, kind),
-        New::Group(group) => document.replace_by_group(node, group),
-        New::Library(file) => {
+        NewNode::Kind(kind) => document.replace(node, kind),
+        NewNode::Group(group) => document.replace_by_group(node, group),
+        NewNode::Library(file) => {
             document.session.begin("Replace by a group");
             let group = document.bring_from_library(file);
             let is_replaced = group.is_some_and(|group| document.replace_by_group(node, &group));

@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable;
 use super::Window;
 use super::hands::id;
 use crate::bars::{ARRANGE, EDIT};
-use crate::command::{Command, GraphCommand, Habit, Scope};
+use crate::command::{Command, GraphCommand, InputPreset, Scope};
 use crate::dock::Panel;
 use crate::key_map::Chord;
 use proofs::proof;
@@ -79,14 +79,14 @@ impl Window {
 
 impl Window {
     /// Tries every command of a scope that has a proof.
-    fn try_all(&mut self, habit: Habit) -> Vec<Command> {
+    fn try_all(&mut self, habit: InputPreset) -> Vec<Command> {
         let mut tried = Vec::new();
         for command in Command::ALL.iter().copied() {
             let Some((selected, is_done)) = proof(command) else {
                 continue;
             };
             // What is the same as in the usual keys is tried there.
-            let is_usual = habit == Habit::Default || command.keys(habit) != command.keys(Habit::Default);
+            let is_usual = habit == InputPreset::Default || command.keys(habit) != command.keys(InputPreset::Default);
             for key in command.keys(habit).iter().filter(|_| is_usual) {
                 let before = self.prepare(selected, command.scope());
                 self.chord(key);
@@ -100,7 +100,7 @@ impl Window {
 
 #[test]
 fn the_entries_of_menus_do_what_their_keys_do() {
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     for (menu, entries) in [("Edit", EDIT), ("Arrange", ARRANGE)] {
         for command in entries.iter().flatten() {
             let Some((selected, is_done)) = proof(*command) else {
@@ -113,7 +113,7 @@ fn the_entries_of_menus_do_what_their_keys_do() {
     }
 }
 
-pub(super) fn window_with(habit: Habit) -> Window {
+pub(super) fn window_with(habit: InputPreset) -> Window {
     let mut window = Window::opened(NODES);
     let editor = window.harness.state_mut();
     editor.shell.settings.habit = habit;
@@ -124,8 +124,8 @@ pub(super) fn window_with(habit: Habit) -> Window {
 
 #[test]
 fn every_command_does_what_its_title_says_by_each_of_its_keys() {
-    let mut window = window_with(Habit::Default);
-    let tried = window.try_all(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
+    let tried = window.try_all(InputPreset::Default);
     let others: Vec<&str> = Command::ALL
         .iter()
         .filter(|it| !tried.contains(it))
@@ -145,17 +145,17 @@ fn every_command_does_what_its_title_says_by_each_of_its_keys() {
 
 #[test]
 fn the_keys_of_blender_do_what_blender_users_expect() {
-    window_with(Habit::Blender).try_all(Habit::Blender);
+    window_with(InputPreset::Blender).try_all(InputPreset::Blender);
 }
 
 #[test]
 fn the_keys_of_substance_do_what_its_users_expect() {
-    window_with(Habit::Substance).try_all(Habit::Substance);
+    window_with(InputPreset::Substance).try_all(InputPreset::Substance);
 }
 
 #[test]
 fn the_keys_1_to_9_add_favorites_under_the_pointer() {
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     let kinds = [
         "cells",
         "chips",
@@ -182,7 +182,7 @@ fn the_keys_1_to_9_add_favorites_under_the_pointer() {
 
 #[test]
 fn undo_redo_groups_and_files_by_their_keys() {
-    for (habit, name) in Habit::ALL {
+    for (habit, name) in InputPreset::ALL {
         let mut window = window_with(habit);
         let before = window.prepare(&["mix", "clouds"], Scope::Canvas);
         window.chord(Command::Graph(GraphCommand::Group).keys(habit)[0]);

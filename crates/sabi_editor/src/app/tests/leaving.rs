@@ -9,7 +9,7 @@ use sabi_engine::Session;
 
 use super::safety::CLOUDS;
 use super::{Editor, Window};
-use crate::action::Shelf;
+use crate::action::LibraryKind;
 use crate::dock::Panel;
 
 #[test]
@@ -108,7 +108,7 @@ fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
         .select([super::hands::id("clouds")]);
     window.keys(Modifiers::COMMAND, Key::G);
     let keep = |window: &mut Window| {
-        window.harness.state_mut().shelve(Shelf::User);
+        window.harness.state_mut().shelve(LibraryKind::User);
         window.settle();
         fs::read_dir(window.path("library")).expect("a library").count()
     };

@@ -5,7 +5,7 @@ use egui_kittest::kittest::Queryable;
 use sabi_graph::NodeId;
 
 use super::{Editor, Window};
-use crate::action::{New, Shelf};
+use crate::action::{LibraryKind, NewNode};
 use crate::dock::Panel;
 
 const GROUPED: &str = r#"{
@@ -149,7 +149,7 @@ fn a_graph_without_a_file_has_no_library_beside_it() {
     window.click("Keep group");
     window.click("Beside this graph");
     assert!(!window.path("library").exists(), "the entry cannot be chosen");
-    window.harness.state_mut().shelve(Shelf::Project);
+    window.harness.state_mut().shelve(LibraryKind::Project);
     window.settle();
     let said = "Save the graph first, so that there is a folder beside it.";
     assert!(window.harness.query_by_label(said).is_some());
@@ -184,7 +184,7 @@ fn a_group_of_the_graph_has_the_picture_of_an_instance_in_the_library() {
     let instance = select_only(&mut window);
     window.until("a picture", |editor| editor.thumbnail_of(&instance).is_some());
     let context = window.harness.ctx.clone();
-    let group = New::Group("Wear".to_owned());
+    let group = NewNode::Group("Wear".to_owned());
     let (read, views, _) = window.harness.state_mut().parts();
     assert!(views.library.picture(&context, &read, &group).is_some());
 }

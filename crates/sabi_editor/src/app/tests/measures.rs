@@ -37,7 +37,7 @@ fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     window.click("+Z");
     window.click("the mean of all");
     window.until("the model", is_there);
-    let reading = window.editor().evaluation.reading();
+    let reading = window.editor().evaluation.import_options();
     assert_eq!((reading.up, reading.overlap), (Up::Z, Overlap::Merge));
     let request = window.editor().bake_request("maps".into(), false);
     assert_eq!(request.evaluator.model.up, Up::Z);
@@ -60,7 +60,7 @@ fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     drop(harness);
     let window = Window::in_folder(folder, |_| Session::new(None));
     assert_eq!(
-        window.editor().evaluation.reading().up,
+        window.editor().evaluation.import_options().up,
         Up::X,
         "another window reads it so, too"
     );

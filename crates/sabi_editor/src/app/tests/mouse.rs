@@ -5,7 +5,7 @@ use egui::{Modifiers, PointerButton, Pos2};
 use super::Window;
 use super::commands::window_with;
 use super::hands::beside;
-use crate::command::Habit;
+use crate::command::InputPreset;
 use crate::dock::Panel;
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -33,7 +33,7 @@ const PANS: [bool; 3] = [false, true, false];
 const ZOOMS: [bool; 3] = [false, false, true];
 const NOTHING: [bool; 3] = [false; 3];
 
-fn looking_at_the_model(habit: Habit) -> Window {
+fn looking_at_the_model(habit: InputPreset) -> Window {
     let mut window = window_with(habit);
     window.until("the model", |editor| editor.views.model.drawn > 0);
     window
@@ -42,7 +42,7 @@ fn looking_at_the_model(habit: Habit) -> Window {
 #[test]
 fn the_model_is_turned_as_in_blender() {
     use PointerButton::{Middle, Primary};
-    let mut window = looking_at_the_model(Habit::Blender);
+    let mut window = looking_at_the_model(InputPreset::Blender);
     assert_eq!(turned(&mut window, Middle, NONE), ORBITS);
     assert_eq!(turned(&mut window, Middle, Modifiers::SHIFT), PANS);
     assert_eq!(turned(&mut window, Middle, Modifiers::COMMAND), ZOOMS);
@@ -52,7 +52,7 @@ fn the_model_is_turned_as_in_blender() {
 #[test]
 fn the_model_is_turned_as_in_substance() {
     use PointerButton::{Middle, Primary, Secondary};
-    let mut window = looking_at_the_model(Habit::Substance);
+    let mut window = looking_at_the_model(InputPreset::Substance);
     assert_eq!(turned(&mut window, Primary, Modifiers::ALT), ORBITS);
     assert_eq!(turned(&mut window, Middle, Modifiers::ALT), PANS);
     assert_eq!(turned(&mut window, Secondary, Modifiers::ALT), ZOOMS);
@@ -61,7 +61,7 @@ fn the_model_is_turned_as_in_substance() {
 #[test]
 fn the_model_is_turned_by_the_usual_drags() {
     use PointerButton::{Middle, Primary, Secondary};
-    let mut window = looking_at_the_model(Habit::Default);
+    let mut window = looking_at_the_model(InputPreset::Default);
     assert_eq!(turned(&mut window, Primary, NONE), ORBITS);
     assert_eq!(turned(&mut window, Primary, Modifiers::SHIFT), PANS);
     assert_eq!(turned(&mut window, Middle, NONE), PANS);
@@ -89,7 +89,7 @@ fn the_canvas_is_moved_and_zoomed_by_the_drags_of_each_habit() {
         );
     };
     let none = egui::Vec2::ZERO;
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     is(moved(&mut window, Middle, NONE), by, false);
     is(
         moved(&mut window, Primary, Modifiers::COMMAND | Modifiers::SHIFT),
@@ -98,7 +98,7 @@ fn the_canvas_is_moved_and_zoomed_by_the_drags_of_each_habit() {
     );
     is(moved(&mut window, Secondary, Modifiers::ALT), none, true);
     assert!(!window.says("Find a node"), "no menu opens after it");
-    let mut window = window_with(Habit::Blender);
+    let mut window = window_with(InputPreset::Blender);
     is(moved(&mut window, Middle, NONE), by, false);
     is(moved(&mut window, Middle, Modifiers::COMMAND), none, true);
     is(moved(&mut window, Primary, NONE), none, false);
@@ -107,7 +107,7 @@ fn the_canvas_is_moved_and_zoomed_by_the_drags_of_each_habit() {
 
 #[test]
 fn in_blender_a_box_selects_and_a_selects_all() {
-    let mut window = window_with(Habit::Blender);
+    let mut window = window_with(InputPreset::Blender);
     let around: [Pos2; 2] = [window.on_canvas([0.01, 0.03]), window.on_canvas([0.99, 0.97])];
     window.drag_from(around[0], around[1]);
     let all = window.document().graph().len();
@@ -120,7 +120,7 @@ fn in_blender_a_box_selects_and_a_selects_all() {
 
 #[test]
 fn the_list_of_keys_shows_the_drags_of_the_habit() {
-    let mut window = window_with(Habit::Blender);
+    let mut window = window_with(InputPreset::Blender);
     window.key(egui::Key::F1);
     window.harness.state_mut().views.key_list.is_open = true;
     window.settle();

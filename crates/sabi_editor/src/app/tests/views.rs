@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable, by};
 use super::Window;
 use super::commands::window_with;
 use super::hands::id;
-use crate::command::{Command, Habit, Scope, ViewportCommand};
+use crate::command::{Command, InputPreset, Scope, ViewportCommand};
 use crate::dock::Panel;
 
 impl Window {
@@ -33,7 +33,7 @@ impl Window {
 
 #[test]
 fn the_model_follows_its_keys() {
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     window.until("a picture of the model", |editor| editor.views.model.drawn > 0);
     for (command, keys) in [
         (Command::Viewport(ViewportCommand::Front), "1"),
@@ -66,7 +66,7 @@ fn the_model_follows_its_keys() {
 
 #[test]
 fn the_texture_follows_its_keys() {
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     window.click_at(window.title(&id("clouds")));
     window.until("the texture", |editor| editor.evaluation.inspected.is_some());
     window.prepare(&["clouds"], Scope::Flat);
@@ -88,7 +88,7 @@ fn the_texture_follows_its_keys() {
 
 /// A window that shows the list of keys.
 fn with_keys() -> Window {
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
     window.chord("Ctrl+/");
     assert!(window.has("Add a key for Mute"), "the list is open");
@@ -138,7 +138,7 @@ fn escape_leaves_the_list_of_keys_as_it_was_and_a_known_key_is_not_added_twice()
 
 #[test]
 fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
     let copied = window.harness.state_mut().documents.document.copied().expect("a copy");
     let count = window.document().graph().len();
@@ -158,7 +158,7 @@ fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
 
 #[test]
 fn paste_works_by_the_menu_and_by_any_key_wherever_the_pointer_is() {
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
     let copied = window.harness.state_mut().documents.document.copied().expect("a copy");
     let count = window.document().graph().len();
@@ -175,7 +175,7 @@ fn paste_works_by_the_menu_and_by_any_key_wherever_the_pointer_is() {
 
 #[test]
 fn what_the_menu_opens_on_the_canvas_brings_the_canvas_up_and_no_hidden_menu_holds_the_keys() {
-    let mut window = window_with(Habit::Default);
+    let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
     for entry in ["Add a node", "Rename"] {
         window.harness.state_mut().toggle_use_view();

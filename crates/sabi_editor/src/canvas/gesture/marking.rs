@@ -1,16 +1,16 @@
-//! What is marked with a box, a lasso or a knife.
+//! Ends of selections in a box or a line, and of cuts.
 
 use egui::{Modifiers, Pos2, Rect, pos2};
 use sabi_graph::{NodeId, SlotRef};
 
 use super::super::wires::Wire;
-use super::super::{Around, Canvas, node_rect};
+use super::super::{Canvas, CanvasContext, node_rect};
 use super::Gesture;
 use crate::action::{Action, WireAction};
 
 pub(super) fn end_box(
     canvas: &mut Canvas,
-    around: &Around<'_>,
+    around: &CanvasContext<'_>,
     panel: Rect,
     pointer: Pos2,
     modifiers: Modifiers,
@@ -24,8 +24,8 @@ pub(super) fn end_box(
     select(around, modifiers, actions, |rect| taken.intersects(rect));
 }
 
-/// Selects what is inside; with Shift or Ctrl, besides what was.
-fn select(around: &Around<'_>, modifiers: Modifiers, actions: &mut Vec<Action>, is_in: impl Fn(Rect) -> bool) {
+/// Selects what is inside; with Shift or Ctrl, in addition to the selection.
+fn select(around: &CanvasContext<'_>, modifiers: Modifiers, actions: &mut Vec<Action>, is_in: impl Fn(Rect) -> bool) {
     let document = around.document;
     let inside = document
         .graph()
@@ -40,7 +40,7 @@ fn select(around: &Around<'_>, modifiers: Modifiers, actions: &mut Vec<Action>, 
 
 pub(super) fn end_line(
     canvas: &mut Canvas,
-    around: &Around<'_>,
+    around: &CanvasContext<'_>,
     panel: Rect,
     wires: &[Wire],
     modifiers: Modifiers,

@@ -3,14 +3,14 @@
 use egui::{Pos2, Rect, pos2};
 use sabi_editing::{OpenDocument, PendingWire};
 
-use super::super::places::{Place, places};
-use super::super::{Around, Canvas, node_rect};
+use super::super::port_refs::{PortRef, places};
+use super::super::{Canvas, CanvasContext, node_rect};
 use super::Gesture;
 
 impl Gesture {
     /// Drag that begins at a port: of a wire from it or, at an input that has one, of that wire.
-    pub(in crate::canvas) fn taken_at(document: &OpenDocument, place: &Place) -> Gesture {
-        if let Place::Input(slot) = place
+    pub(in crate::canvas) fn taken_at(document: &OpenDocument, place: &PortRef) -> Gesture {
+        if let PortRef::Input(slot) = place
             && let Some(from) = document.wire_into(slot)
         {
             return Gesture::wire(PendingWire::From(from.clone()), Some(slot.clone()));
@@ -21,13 +21,18 @@ impl Gesture {
 
 /// Port that the dragged wire would be dropped at: the nearest that takes it, or on a node's body the first that does. A free
 /// port goes before one that has a wire, and one of the wire's type before one that converts.
-pub(in crate::canvas) fn target(canvas: &Canvas, around: &Around<'_>, panel: Rect, pointer: Pos2) -> Option<Place> {
+pub(in crate::canvas) fn target(
+    canvas: &Canvas,
+    around: &CanvasContext<'_>,
+    panel: Rect,
+    pointer: Pos2,
+) -> Option<PortRef> {
     let document = around.document;
     let here = canvas.view.place(panel, pointer);
     let here = pos2(here[0], here[1]);
     let margin = 24.0;
-    let mut best: Option<(f32, Place)> = None;
-    let mut under: Option<((bool, bool), Place)> = None;
+    let mut best: Option<(f32, PortRef)> = None;
+    let mut under: Option<((bool, bool), PortRef)> = None;
     for id in document.graph().ids() {
         let Some(rect) = node_rect(document, id).filter(|rect| rect.expand(margin).contains(here)) else {
             continue;

@@ -4,10 +4,10 @@ use egui::epaint::{CubicBezierShape, PathStroke};
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke};
 use sabi_engine::catalog::curve_points;
 
-/// Points nearer than this are a step.
+/// Distance of points below which they make a step.
 const STEP_WIDTH: f64 = 1e-6;
 
-/// What of the plane a box shows.
+/// Part of the plane that a rectangle shows.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::knobs) struct View {
     pub(in crate::knobs) rect: Rect,
@@ -16,7 +16,7 @@ pub(in crate::knobs) struct View {
 }
 
 impl View {
-    /// A view of all points, and of the usual ends.
+    /// A view of all points and of the usual range.
     pub(in crate::knobs) fn of(rect: Rect, usual: [f64; 2], points: &[[f64; 2]]) -> View {
         let ends = |axis: usize| {
             let all = points.iter().map(|point| point[axis]);
@@ -49,7 +49,7 @@ impl View {
         [between(across, self.x), between(up, self.y)]
     }
 
-    /// How much of each axis one point of the screen is.
+    /// Length along each axis of one point of the screen.
     pub(in crate::knobs) fn scale(&self) -> [f64; 2] {
         [
             (self.x[1] - self.x[0]) / f64::from(self.rect.width()),
@@ -57,13 +57,13 @@ impl View {
         ]
     }
 
-    /// Draws the curve through points: the very one that nodes evaluate.
+    /// Draws the curve through points as nodes evaluate it.
     pub(in crate::knobs) fn draw(&self, painter: &Painter, points: &[[f64; 2]], line: Stroke) {
         let read = slopes(points);
         let (Some([first_x, first_y, _]), Some([last_x, last_y, _])) = (read.first(), read.last()) else {
             return;
         };
-        // Before the first point and behind the last one it is held.
+        // Constant before the first point and after the last one.
         let held = [
             [[self.x[0], *first_y], [*first_x, *first_y]],
             [[*last_x, *last_y], [self.x[1], *last_y]],
@@ -73,7 +73,7 @@ impl View {
         painter.extend(held.into_iter().chain(pieces));
     }
 
-    /// A cubic with given slopes at its ends, as the Bézier curve that it is.
+    /// Cubic with given slopes at its ends, as a Bézier curve.
     fn piece(&self, [x, y, slope]: [f64; 3], [end_x, end_y, end_slope]: [f64; 3], line: Stroke) -> Shape {
         let width = end_x - x;
         if width < STEP_WIDTH {
@@ -101,7 +101,7 @@ fn slopes(points: &[[f64; 2]]) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// The height of the curve at a place: held outside, a cubic Hermite piece between two points.
+/// Value of the curve: constant outside, a cubic Hermite segment between two points.
 pub(super) fn height_at(points: &[[f64; 2]], x: f64) -> f64 {
     let read = slopes(points);
     let after = read.partition_point(|point| point[0] <= x);

@@ -1,4 +1,4 @@
-//! The text of a node file with the numbers of its lines; what explains is quieter, and faulty lines stand out.
+//! Text of node files with line numbers, quiet comments and marked errors.
 
 use std::sync::Arc;
 
@@ -7,10 +7,10 @@ use egui::{Align2, FontId, Galley, Sense, TextEdit, Ui, WidgetInfo, WidgetType, 
 
 use crate::theme::{Theme, space, type_size};
 
-/// Width of the numbers, points.
+/// Width of the line numbers, points.
 const NUMBERS: f32 = 30.0;
 
-/// Shows a text that can be marked and copied.
+/// Shows a text that can be selected and copied.
 pub(super) fn show(ui: &mut Ui, theme: &Theme, text: &str) {
     egui::ScrollArea::horizontal().show(ui, |ui| {
         ui.horizontal_top(|ui| {
@@ -22,7 +22,7 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, text: &str) {
     });
 }
 
-/// Shows a text that can be changed; says whether it was.
+/// Shows a text that can be edited; gives whether it was changed.
 pub(super) fn edit(ui: &mut Ui, theme: &Theme, text: &mut String, faulty: &[u32]) -> bool {
     let area = egui::ScrollArea::both().auto_shrink(false);
     let shown = area.show(ui, |ui| {
@@ -52,7 +52,7 @@ fn font() -> FontId {
     FontId::monospace(type_size::BODY)
 }
 
-/// The text without breaks of its own.
+/// Layout of the text without line wrapping.
 fn laid_out(ui: &Ui, theme: &Theme, text: &str, faulty: &[u32]) -> Arc<Galley> {
     let mut job = LayoutJob::default();
     job.wrap.max_width = f32::INFINITY;
@@ -69,7 +69,7 @@ fn laid_out(ui: &Ui, theme: &Theme, text: &str, faulty: &[u32]) -> Arc<Galley> {
     ui.ctx().fonts_mut(|fonts| fonts.layout_job(job))
 }
 
-/// Numbers the lines of a text.
+/// Draws the line numbers of a text.
 fn number(ui: &Ui, theme: &Theme, galley: &Galley, corner: egui::Pos2, faulty: &[u32]) {
     let right = corner.x + NUMBERS - space::USUAL;
     for (row, number) in galley.rows.iter().zip(1..) {

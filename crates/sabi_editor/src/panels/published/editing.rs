@@ -1,4 +1,4 @@
-//! What published knobs say of themselves: a card for each.
+//! Cards of published parameters: names, section, range and default.
 
 use egui::{DragValue, Rect, RichText, Sense, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
@@ -7,10 +7,10 @@ use sabi_graph::Value;
 
 use crate::action::PublishedAction;
 use crate::panels::field::Field;
-use crate::panels::order;
+use crate::panels::reordering;
 use crate::theme::{Theme, space};
 
-/// The knob that is dragged, by its name.
+/// Dragged parameter, by its name.
 struct Dragged(String);
 
 pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut Vec<PublishedAction>) {
@@ -19,7 +19,7 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut 
         let knob = panel.iter().find(|knob| knob.name == dragged.0)?;
         Some(knob.knob.label.clone())
     };
-    if let Some((dragged, gap)) = order::dropped(ui, theme, &rows, title) {
+    if let Some((dragged, gap)) = reordering::dropped(ui, theme, &rows, title) {
         let before = panel.get(gap).map(|knob| knob.name.clone());
         let name = dragged.0.clone();
         asked.push(PublishedAction::Move { name, before });
@@ -44,7 +44,7 @@ fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedA
     shown.response.rect
 }
 
-/// The handle by which it is dragged, the name that artists see, and the way off the panel.
+/// Handle for dragging, label, and the button that removes the parameter from the panel.
 fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     ui.horizontal(|ui| {
         let sign = RichText::new(icon::DOTS_SIX_VERTICAL).color(theme.quiet);
@@ -74,7 +74,7 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedA
     });
 }
 
-/// The name in files, and the section.
+/// Name in files, and section.
 fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     ui.horizontal(|ui| {
         let half = ((ui.available_width() - space::USUAL) / 2.0 - space::USUAL).floor();
@@ -101,7 +101,7 @@ fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     });
 }
 
-/// The ends between which it may be turned.
+/// Range of the parameter.
 fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "From");
@@ -126,7 +126,7 @@ fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<Published
     });
 }
 
-/// What it holds while nobody sets it.
+/// Default of the parameter.
 fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
     ui.horizontal(|ui| {
         let name = knob.name.clone();

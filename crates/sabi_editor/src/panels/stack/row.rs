@@ -1,4 +1,4 @@
-//! One layer: an eye, what it and its mask look like, what it is called, and how much of it is used.
+//! Rows of layers: visibility, pictures of the layer and its mask, title and opacity.
 
 use egui::{
     Align2, Color32, FontId, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2, WidgetInfo,
@@ -16,20 +16,20 @@ use crate::theme::{Theme, space, type_size};
 
 /// Height of a row.
 const HEIGHT: f32 = 48.0;
-/// Sides of the pictures of a layer and of its mask.
+/// Side lengths of the pictures of a layer and of its mask, points.
 const PICTURE: f32 = 40.0;
 const MASK: f32 = 26.0;
-/// Room for a sign that is clicked.
+/// Width of a sign that can be clicked.
 const SIGN: f32 = 24.0;
 
-/// What is asked of a layer.
+/// What a row asks for.
 pub(super) enum Ask {
     Toggle,
     Opacity(f64),
     Remove,
 }
 
-/// Shows a layer; what comes back is what a drag takes.
+/// Shows a layer; gives the response that drags begin with.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
@@ -86,7 +86,7 @@ pub(super) fn show(
     response
 }
 
-/// Takes room off the left.
+/// Cuts a width off the left.
 fn left(room: &mut Rect, width: f32) -> Rect {
     let (taken, rest) = room.split_left_right_at_x((room.left() + width).min(room.right()));
     *room = rest;
@@ -103,14 +103,14 @@ fn sign(ui: &Ui, theme: &Theme, rect: Rect, sign: &str, layer: &Layer) -> Respon
 }
 
 fn picture(ui: &Ui, theme: &Theme, rect: Rect, picture: Option<TextureId>, tint: Color32) {
-    ui.painter().rect_filled(rect, space::CORNER, theme.ground);
+    ui.painter().rect_filled(rect, space::CORNER, theme.background);
     if let Some(picture) = picture {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         ui.painter().image(picture, rect, whole, tint);
     }
 }
 
-/// A click on the mask goes to where it comes from.
+/// Selects the node of the mask on a click.
 fn mask_of(ui: &Ui, context: &ViewContext<'_>, layer: &Layer, rect: Rect, actions: &mut Vec<Action>) {
     let Some(mask) = &layer.mask else { return };
     let title = context.document.title(&mask.node);
@@ -129,7 +129,7 @@ fn mask_of(ui: &Ui, context: &ViewContext<'_>, layer: &Layer, rect: Rect, action
     }
 }
 
-/// The way out of the stack, or why there is none.
+/// Shows the button that removes the layer, or the reason why it cannot be removed.
 fn end(
     ui: &Ui,
     theme: &Theme,

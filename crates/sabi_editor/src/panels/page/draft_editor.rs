@@ -1,4 +1,4 @@
-//! A node file that is being written, with what is wrong with it at every letter.
+//! Editors of node files, which check the text after every change.
 
 use std::path::Path;
 
@@ -11,32 +11,32 @@ use super::code;
 use crate::action::Action;
 use crate::theme::{Theme, space};
 
-/// A node file that is being written.
-pub(crate) struct Draft {
+/// Editor of a node file.
+pub(crate) struct DraftEditor {
     node: NodeDraft,
-    /// How often something was written.
+    /// Number of changes.
     edits: u64,
-    /// Whether the text is as the file has it.
+    /// Whether the file has the text.
     pub(super) is_saved: bool,
-    /// Whether something was written that no file has.
+    /// Whether the text was changed since it was opened.
     is_written: bool,
-    /// Whether it is asked if that may be lost.
+    /// Whether it asks if unsaved changes may be lost.
     asks: bool,
-    /// Of this id and text.
+    /// Errors of this id and text.
     faults: Vec<NodeTextFault>,
     why_no_id: Option<String>,
 }
 
-/// Whether a draft is left.
+/// Whether an editor is left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Left {
     No,
-    /// It is kept, and the selected node shown.
+    /// The editor stays open, and the selected node is shown.
     Aside,
     ForGood,
 }
 
-impl Draft {
+impl DraftEditor {
     pub(super) fn id(&self) -> &str {
         &self.node.id
     }
@@ -49,22 +49,22 @@ impl Draft {
         self.edits
     }
 
-    /// Whether it is of a node in a folder.
+    /// Whether it edits a node in a folder.
     pub(super) fn is_of(&self, folder: &Path, id: &str) -> bool {
         self.node.folder == folder && self.node.id == id
     }
 
-    /// Whether something was written that its file does not hold.
+    /// Whether it has unsaved changes.
     pub(super) fn is_unsaved(&self) -> bool {
         self.is_written && !self.is_saved
     }
 
-    /// Whether another one is of the same node.
-    pub(super) fn is_like(&self, other: &Draft) -> bool {
+    /// Whether another editor edits the same node.
+    pub(super) fn is_like(&self, other: &DraftEditor) -> bool {
         self.is_of(&other.node.folder, &other.node.id)
     }
 
-    /// The text changed.
+    /// Handles a change of the text.
     fn written(&mut self, document: &OpenDocument) {
         self.is_saved = false;
         self.is_written = true;
@@ -72,8 +72,8 @@ impl Draft {
         self.check(document);
     }
 
-    /// A new node that begins as another one is; none where there is no folder for it.
-    pub(super) fn like(document: &OpenDocument, id: &str, text: &str) -> Option<Draft> {
+    /// Editor of a new node that begins as a copy of another one; none where there is no folder for it.
+    pub(super) fn like(document: &OpenDocument, id: &str, text: &str) -> Option<DraftEditor> {
         let folder = new_node_folder(document.session.file())?;
         let kinds = document.kinds().0;
         let numbered = (2..).map(|number| format!("{id}_{number}"));
@@ -85,14 +85,14 @@ impl Draft {
             id,
             known: None,
         };
-        Some(Draft::checked(document, node, false))
+        Some(DraftEditor::checked(document, node, false))
     }
 
-    /// The file of one of the artist's own nodes, as it is by now, which need not be the last one without a fault.
+    /// Editor of the file of one of the artist's own nodes, as it is now, even if it has errors.
     ///
     /// # Errors
-    /// A sentence: it is none of those, or cannot be read.
-    pub(super) fn of_own(document: &OpenDocument, id: &str) -> Result<Draft, String> {
+    /// A sentence: the node is none of the artist's own, or its file cannot be read.
+    pub(super) fn of_own(document: &OpenDocument, id: &str) -> Result<DraftEditor, String> {
         let kinds = document.kinds().0;
         let folder = kinds.own_folder(document.session.file(), id);
         let folder = folder.ok_or_else(|| format!("'{id}' is no node of your own; begin a new one from it"))?;
@@ -103,25 +103,25 @@ impl Draft {
             known: Some(text.clone()),
             text,
         };
-        Ok(Draft::checked(document, node, true))
+        Ok(DraftEditor::checked(document, node, true))
     }
 
-    /// One that was being written when the program ended.
-    pub(super) fn recovered(document: &OpenDocument, node: NodeDraft) -> Draft {
-        Draft {
+    /// Editor of a node file that was not saved when the program ended.
+    pub(super) fn recovered(document: &OpenDocument, node: NodeDraft) -> DraftEditor {
+        DraftEditor {
             is_written: true,
-            ..Draft::checked(document, node, false)
+            ..DraftEditor::checked(document, node, false)
         }
     }
 
-    /// The file has this text now.
+    /// Marks the text as saved.
     pub(super) fn was_saved(&mut self) {
         self.is_saved = true;
         self.node.known = Some(self.node.text.clone());
     }
 
-    fn checked(document: &OpenDocument, node: NodeDraft, is_saved: bool) -> Draft {
-        let mut draft = Draft {
+    fn checked(document: &OpenDocument, node: NodeDraft, is_saved: bool) -> DraftEditor {
+        let mut draft = DraftEditor {
             node,
             edits: 0,
             is_saved,
@@ -141,7 +141,7 @@ impl Draft {
         self.faults = check_node(kinds, folder, id, text);
     }
 
-    /// Shows it; says whether it is left.
+    /// Shows the editor; gives whether it is left.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -167,7 +167,7 @@ impl Draft {
         left
     }
 
-    /// Whether what was written may be lost.
+    /// Shows the question whether unsaved changes may be lost.
     fn question(&mut self, ui: &mut Ui, theme: &Theme, left: Left) -> Left {
         let text = format!("What was written for '{}' is in no file.", self.node.id);
         ui.add(egui::Label::new(RichText::new(text).color(theme.warning)).wrap());
@@ -202,7 +202,7 @@ impl Draft {
             field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Id of the node"));
             if field.changed() {
                 node.known = None;
-                // A title that nobody wrote follows the name.
+                // A generated title follows the id.
                 if node_text_like(&node.text, &before) == node.text {
                     node.text = node_text_like(&node.text, &node.id);
                 }
@@ -217,7 +217,7 @@ impl Draft {
         .inner
     }
 
-    /// What is wrong, or that nothing is.
+    /// Shows the errors, or that there are none.
     fn told(&self, ui: &mut Ui, theme: &Theme) {
         let wrapped = |ui: &mut Ui, text: String, color| {
             ui.add(egui::Label::new(RichText::new(text).color(color)).wrap());

@@ -1,35 +1,35 @@
-//! How a model's file is read, where the file leaves it open or says something else than one wants. That is the model's and
-//! not the graph's: a graph is tried on many.
+//! Options for reading a model's file, where the file leaves something open or is wrong. They belong to the model and not to
+//! the graph, which is tried on many models.
 
 use std::path::Path;
 
 use sabi_engine::{ModelOptions, Overlap, Up};
 use serde::{Deserialize, Serialize};
 
-/// Lengths of a file are multiplied by no less and no more.
+/// Limits of the factor of lengths.
 pub(crate) const SCALES: [f32; 2] = [1e-4, 1e4];
-/// The highest UV set that is asked for.
+/// Highest UV set.
 pub(crate) const LAST_UV: u32 = 7;
 
-/// How a model's file is read.
+/// Options for reading a model's file.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub(crate) struct Reading {
-    /// Which axis of the file points up.
+pub(crate) struct ImportOptions {
+    /// Axis of the file that points up.
     #[serde(with = "Axis")]
     pub(crate) up: Up,
-    /// Which UV set.
+    /// UV set.
     pub(crate) uv: u32,
-    /// All lengths are multiplied by this.
+    /// Factor of all lengths.
     pub(crate) scale: f32,
-    /// What charts that share a place on the maps get.
+    /// Treatment of charts that overlap in the UV set.
     #[serde(with = "Sharing")]
     pub(crate) overlap: Overlap,
 }
 
-impl Default for Reading {
-    fn default() -> Reading {
-        Reading {
+impl Default for ImportOptions {
+    fn default() -> ImportOptions {
+        ImportOptions {
             up: Up::Y,
             uv: 0,
             scale: 1.0,
@@ -38,11 +38,11 @@ impl Default for Reading {
     }
 }
 
-impl Reading {
-    /// What of it can be used: files of settings may have been written by hand.
-    pub(crate) fn sound(self) -> Reading {
+impl ImportOptions {
+    /// Options with what is out of range brought into it, since settings may have been edited by hand.
+    pub(crate) fn sound(self) -> ImportOptions {
         let [least, most] = SCALES;
-        Reading {
+        ImportOptions {
             uv: self.uv.min(LAST_UV),
             scale: if self.scale.is_finite() {
                 self.scale.clamp(least, most)
@@ -53,7 +53,7 @@ impl Reading {
         }
     }
 
-    /// A file that is read so, at a size.
+    /// Engine options for a file at a size.
     pub(crate) fn options(self, file: &Path, size: u32, cache_dir: Option<&Path>) -> ModelOptions {
         ModelOptions {
             path: file.to_owned(),
@@ -91,8 +91,12 @@ mod tests {
 
     #[test]
     fn what_settings_say_is_read_and_mended() {
-        let read = |text: &str| serde_json::from_str::<Reading>(text).map(Reading::sound).ok();
-        let odd = Reading {
+        let read = |text: &str| {
+            serde_json::from_str::<ImportOptions>(text)
+                .map(ImportOptions::sound)
+                .ok()
+        };
+        let odd = ImportOptions {
             up: Up::Z,
             uv: 1,
             scale: 0.01,
@@ -101,7 +105,7 @@ mod tests {
         let text = serde_json::to_string(&odd).expect("text");
         assert_eq!(text, r#"{"up":"z","uv":1,"scale":0.01,"overlap":"merge"}"#);
         assert_eq!(read(&text), Some(odd));
-        assert_eq!(read("{}"), Some(Reading::default()));
+        assert_eq!(read("{}"), Some(ImportOptions::default()));
         let wild = read(r#"{ "uv": 99, "scale": -3 }"#).expect("a reading");
         assert_eq!((wild.uv, wild.scale), (LAST_UV, SCALES[0]));
     }

@@ -1,4 +1,4 @@
-//! The light from all around, loaded beside the window.
+//! The environment, loaded on a thread of its own.
 
 use std::path::Path;
 
@@ -11,25 +11,25 @@ use crate::task::{Failed, Task};
 
 type Loaded = Result<(Environment, Vec<String>), EngineError>;
 
-/// The environment that is shown, and the one that is on its way.
-pub(super) struct Surroundings {
+/// The shown environment, and the one that is being loaded.
+pub(super) struct EnvironmentLoader {
     choice: String,
-    /// What was asked for last.
+    /// Choice that was loaded last.
     asked: Option<String>,
     coming: Option<Task<Loaded>>,
-    /// Those that nobody waits for any more, as long as they are at work.
+    /// Tasks whose result is not needed any more, until they end.
     former: Vec<Task<Loaded>>,
     environment: Option<Environment>,
     number: u64,
-    /// Whether one stands in for another that could not be had.
+    /// Whether a built-in environment replaces one that could not be loaded.
     is_stand_in: bool,
-    /// Why the last choice is not shown.
+    /// Sentence about why the last choice is not shown.
     pub(super) fault: Option<String>,
 }
 
-impl Surroundings {
-    pub(super) fn new(choice: &str) -> Surroundings {
-        Surroundings {
+impl EnvironmentLoader {
+    pub(super) fn new(choice: &str) -> EnvironmentLoader {
+        EnvironmentLoader {
             choice: choice.to_owned(),
             asked: None,
             coming: None,
@@ -41,7 +41,7 @@ impl Surroundings {
         }
     }
 
-    /// What was chosen: a built-in name, or a file.
+    /// Chosen environment: a built-in name, or a file.
     pub(super) fn choice(&self) -> &str {
         &self.choice
     }
@@ -51,13 +51,13 @@ impl Surroundings {
         choice.clone_into(&mut self.choice);
     }
 
-    /// The file that was chosen; none where it is one of the program's own.
+    /// Chosen file; none for a built-in environment.
     pub(super) fn file(&self) -> Option<&Path> {
         let is_own = built_in_environments().any(|own| own == self.choice);
         (!is_own).then(|| Path::new(&self.choice))
     }
 
-    /// Loads what was chosen once more; what is shown stays until then, and if it cannot be read any more.
+    /// Loads the choice again. The shown environment stays until then, and if the file cannot be read.
     pub(super) fn read_again(&mut self) {
         self.asked = None;
     }
@@ -66,7 +66,7 @@ impl Surroundings {
         self.environment.as_ref()
     }
 
-    /// Another number for every environment.
+    /// Rises with every environment.
     pub(super) fn number(&self) -> u64 {
         self.number
     }

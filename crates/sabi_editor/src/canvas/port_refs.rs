@@ -19,38 +19,38 @@ pub(super) fn reach_of(zoom: f32) -> f32 {
 
 /// Port of a node of the shown graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum PortRef {
     Input(SlotRef),
     Output(OutputRef),
 }
 
-impl Place {
+impl PortRef {
     /// Position on the canvas.
     pub(super) fn on_canvas(&self, document: &OpenDocument) -> Option<[f32; 2]> {
         match self {
-            Place::Input(slot) => wires::end_of(document, slot),
-            Place::Output(from) => wires::start_of(document, from),
+            PortRef::Input(slot) => wires::end_of(document, slot),
+            PortRef::Output(from) => wires::start_of(document, from),
         }
     }
 
     pub(super) fn node(&self) -> &NodeId {
         match self {
-            Place::Input(slot) => &slot.node,
-            Place::Output(from) => &from.node,
+            PortRef::Input(slot) => &slot.node,
+            PortRef::Output(from) => &from.node,
         }
     }
 
     /// Wire that is dragged from this port.
     pub(super) fn loose(&self) -> PendingWire {
         match self {
-            Place::Input(slot) => PendingWire::Into(slot.clone()),
-            Place::Output(from) => PendingWire::From(from.clone()),
+            PortRef::Input(slot) => PendingWire::Into(slot.clone()),
+            PortRef::Output(from) => PendingWire::From(from.clone()),
         }
     }
 }
 
 /// All ports of a node, in order.
-pub(super) fn places(document: &OpenDocument, id: &NodeId) -> Vec<(Place, Port)> {
+pub(super) fn places(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Port)> {
     let Some(face) = document.face(id) else {
         return Vec::new();
     };
@@ -59,20 +59,20 @@ pub(super) fn places(document: &OpenDocument, id: &NodeId) -> Vec<(Place, Port)>
             node: id.clone(),
             name: port.name.clone(),
         };
-        (Place::Input(slot), port.clone())
+        (PortRef::Input(slot), port.clone())
     });
     let outputs = face.outputs.iter().map(|port| {
         let from = OutputRef {
             node: id.clone(),
             port: Some(port.name.clone()),
         };
-        (Place::Output(from), port.clone())
+        (PortRef::Output(from), port.clone())
     });
     inputs.chain(outputs).collect()
 }
 
 /// Port under a place of the screen.
-pub(super) fn at(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2) -> Option<Place> {
+pub(super) fn at(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2) -> Option<PortRef> {
     let reach = reach_of(canvas.view.zoom);
     let near = |id: &&NodeId| {
         let rect = node_rect(document, id).map(|rect| canvas.view.screen_rect(panel, rect));

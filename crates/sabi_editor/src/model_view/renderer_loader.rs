@@ -1,4 +1,4 @@
-//! What pictures of the model are drawn with, made beside the window.
+//! The renderer and its pipelines, made on a thread of their own.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -9,42 +9,42 @@ use sabi_engine::{EngineError, Gpu};
 
 use crate::task::{Failed, Task};
 
-/// A renderer for all screens, and what it still needs.
+/// The renderer of all pictures, and the pipelines that are being made.
 #[derive(Default)]
-pub(super) struct Tools {
-    renderer: Option<Making<Arc<Renderer>>>,
-    pipelines: Option<(Missing, Making<()>)>,
+pub(super) struct RendererLoader {
+    renderer: Option<Pending<Arc<Renderer>>>,
+    pipelines: Option<(Missing, Pending<()>)>,
 }
 
 /// Something that is made on a thread of its own.
-enum Making<T> {
-    Coming(Task<Result<T, EngineError>>),
+enum Pending<T> {
+    Loading(Task<Result<T, EngineError>>),
     Made(T),
-    /// Why it could not be made, and when that was.
+    /// Error sentence, and the time of the failure.
     Failed(String, Instant),
 }
 
-/// What failed is tried again after so long, since memory may be free by then; not in every frame.
+/// Time after which a failure is tried again, since memory may be free then.
 const AGAIN: Duration = Duration::from_secs(3);
 
-impl Tools {
+impl RendererLoader {
     /// The renderer, once it is made.
     pub(super) fn renderer(&mut self, context: &Context, gpu: &Arc<Gpu>) -> Result<Option<Arc<Renderer>>, String> {
         let begin = || {
             let gpu = gpu.clone();
-            Making::begin(context, move || Ok(Arc::new(Renderer::new(&gpu)?)))
+            Pending::begin(context, move || Ok(Arc::new(Renderer::new(&gpu)?)))
         };
         self.renderer.take_if(|making| making.is_stale());
         self.renderer.get_or_insert_with(begin).poll(context)
     }
 
-    /// Whether something is on its way, and the last picture shown meanwhile.
-    pub(super) fn are_coming(&self) -> bool {
+    /// Whether pipelines are being made, with the last picture shown meanwhile.
+    pub(super) fn is_loading(&self) -> bool {
         let pipelines = self.pipelines.as_ref().map(|(_, making)| making);
-        pipelines.is_some_and(|making| matches!(making, Making::Coming(_)))
+        pipelines.is_some_and(|making| matches!(making, Pending::Loading(_)))
     }
 
-    /// Whether nothing is missing any more; begins to make it otherwise. What another screen misses comes one after the other.
+    /// Whether no pipeline is missing; starts making the missing ones otherwise, those of one picture at a time.
     pub(super) fn is_ready(
         &mut self,
         context: &Context,
@@ -52,55 +52,55 @@ impl Tools {
         missing: Option<Missing>,
     ) -> Result<bool, String> {
         let Some(missing) = missing else {
-            // What was made for this is over, and may be the last that was.
-            if let Some((_, making @ Making::Coming(_))) = &mut self.pipelines {
+            // The pipelines of this picture are made; takes over the task.
+            if let Some((_, making @ Pending::Loading(_))) = &mut self.pipelines {
                 let _ = making.poll(context);
             }
             return Ok(true);
         };
         self.pipelines.take_if(|(_, making)| making.is_stale());
         if let Some((known, making)) = &mut self.pipelines {
-            // What another one failed for is most likely what this one would fail for, too.
+            // Pipelines of another picture that failed to be made fail for this one as well, most likely.
             let made = making.poll(context)?;
             if *known == missing || made.is_none() {
                 return Ok(made.is_some());
             }
         }
         let (gpu, renderer, making) = (gpu.clone(), renderer.clone(), missing.clone());
-        let making = Making::begin(context, move || Ok(renderer.make(&gpu, &making)?));
+        let making = Pending::begin(context, move || Ok(renderer.make(&gpu, &making)?));
         self.pipelines = Some((missing, making));
         Ok(false)
     }
 }
 
-impl<T: Clone + Send + 'static> Making<T> {
-    fn begin(context: &Context, make: impl FnOnce() -> Result<T, EngineError> + Send + 'static) -> Making<T> {
-        Making::Coming(Task::start(context, make))
+impl<T: Clone + Send + 'static> Pending<T> {
+    fn begin(context: &Context, make: impl FnOnce() -> Result<T, EngineError> + Send + 'static) -> Pending<T> {
+        Pending::Loading(Task::start(context, make))
     }
 
     /// Whether it failed long enough ago to be tried again.
     fn is_stale(&self) -> bool {
-        matches!(self, Making::Failed(_, when) if when.elapsed() > AGAIN)
+        matches!(self, Pending::Failed(_, when) if when.elapsed() > AGAIN)
     }
 
-    /// What was made, once it is.
+    /// The result, once it is made.
     fn poll(&mut self, context: &Context) -> Result<Option<T>, String> {
-        if let Making::Coming(task) = self
+        if let Pending::Loading(task) = self
             && let Some(come) = task.poll()
         {
             *self = match come {
-                Ok(Ok(made)) => Making::Made(made),
-                Ok(Err(error)) => Making::Failed(error.to_string(), Instant::now()),
+                Ok(Ok(made)) => Pending::Made(made),
+                Ok(Err(error)) => Pending::Failed(error.to_string(), Instant::now()),
                 Err(Failed) => {
                     let why = "The model cannot be drawn, which is a mistake of the program.";
-                    Making::Failed(why.to_owned(), Instant::now())
+                    Pending::Failed(why.to_owned(), Instant::now())
                 }
             };
         }
         match self {
-            Making::Coming(_) => Ok(None),
-            Making::Made(made) => Ok(Some(made.clone())),
-            Making::Failed(why, _) => {
+            Pending::Loading(_) => Ok(None),
+            Pending::Made(made) => Ok(Some(made.clone())),
+            Pending::Failed(why, _) => {
                 context.request_repaint_after(AGAIN);
                 Err(why.clone())
             }
@@ -112,7 +112,7 @@ impl<T: Clone + Send + 'static> Making<T> {
 mod tests {
     use super::*;
 
-    fn end<T: Clone + Send + 'static>(mut making: Making<T>) -> Result<T, String> {
+    fn end<T: Clone + Send + 'static>(mut making: Pending<T>) -> Result<T, String> {
         loop {
             if let Some(made) = making.poll(&Context::default()).transpose() {
                 return made;
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn what_cannot_be_made_is_said_and_tried_again_after_a_while() {
         let context = Context::default();
-        assert_eq!(end(Making::begin(&context, || Ok(7))), Ok(7));
+        assert_eq!(end(Pending::begin(&context, || Ok(7))), Ok(7));
         let lost = || {
             Err(EngineError::new(
                 sabi_engine::ErrorKind::NoAdapter,
@@ -132,12 +132,12 @@ mod tests {
             ))
         };
         assert_eq!(
-            end(Making::<()>::begin(&context, lost)),
+            end(Pending::<()>::begin(&context, lost)),
             Err("the device is lost".to_owned())
         );
-        let failed = |ago| Making::<()>::Failed(String::new(), Instant::now() - ago);
+        let failed = |ago| Pending::<()>::Failed(String::new(), Instant::now() - ago);
         assert!(!failed(Duration::ZERO).is_stale() && failed(2 * AGAIN).is_stale());
-        let panics = Making::<()>::begin(&context, || panic!("as this test wants"));
+        let panics = Pending::<()>::begin(&context, || panic!("as this test wants"));
         assert!(end(panics).is_err_and(|why| why.contains("a mistake of the program")));
     }
 }

@@ -1,14 +1,14 @@
-//! A bend in a wire: a dot with a port at each end, which has neither a title nor a picture.
+//! Reroutes: dots in wires with a port at each end, without a title or a picture.
 
 use egui::{Rect, Response, Stroke, StrokeKind, Ui};
 use sabi_graph::OutputRef;
 
 use super::sensing::sensed;
 use super::snapshot::Key;
-use super::{Around, Canvas, node_rect};
+use super::{Canvas, CanvasContext, node_rect};
 
-/// Draws a bend, as large as it is at any zoom.
-pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &Around<'_>, key: Key) -> Option<Response> {
+/// Draws a reroute.
+pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>, key: Key) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
     let rect = canvas.view.screen_rect(panel, node_rect(around.document, &shown.id)?);
     let response = sensed(ui, key, rect);

@@ -1,4 +1,4 @@
-//! Nodes that are dragged, and the wire that would take one.
+//! Drags of nodes, and the wire that a node would be inserted into.
 
 use std::collections::BTreeMap;
 
@@ -7,12 +7,12 @@ use sabi_editing::{GRID, OpenDocument};
 use sabi_graph::{NodeId, SlotRef};
 
 use super::super::wires::{self, Wire};
-use super::super::{Around, Canvas, frame_rects, node_rect};
+use super::super::{Canvas, CanvasContext, frame_rects, node_rect};
 use super::{Gesture, pull};
 use crate::action::{Action, FrameAction, MoveAction, WireAction};
 
 impl Gesture {
-    /// The wire that would take the dragged node; or, with nothing in hand, the one under the pointer.
+    /// Wire that the dragged node would be inserted into; while nothing is dragged, the wire under the pointer.
     pub(in crate::canvas) fn hot_wire<'w>(
         &self,
         canvas: &Canvas,
@@ -42,12 +42,12 @@ impl Gesture {
 }
 
 impl Canvas {
-    /// Takes a node, and with it all that are selected.
+    /// Begins a drag of a node, together with the selected ones.
     pub(in crate::canvas) fn grab(
         &mut self,
         id: &NodeId,
         response: &Response,
-        around: &Around<'_>,
+        around: &CanvasContext<'_>,
         modifiers: Modifiers,
         actions: &mut Vec<Action>,
     ) {
@@ -72,12 +72,12 @@ impl Canvas {
     }
 }
 
-/// Nodes follow the pointer.
+/// Moves the dragged nodes with the pointer.
 pub(super) fn drag(
     canvas: &mut Canvas,
     ui: &Ui,
     panel: Rect,
-    around: &Around<'_>,
+    around: &CanvasContext<'_>,
     wires: &[Wire],
     pointer: Pos2,
     actions: &mut Vec<Action>,
@@ -99,21 +99,8 @@ pub(super) fn drag(
     let (is_down, modifiers) = ui.input(|input| (input.pointer.primary_down(), input.modifiers));
     let here = canvas.view.place(panel, pointer);
     let offset = [here[0] - grabbed[0], here[1] - grabbed[1]];
-    let snapped = |at: f32| match modifiers.command {
-        true => at.round(),
-        false => (at / GRID).round() * GRID,
-    };
-    // One of them is on the grid, and all keep their places beside each other.
-    let first = from.values().next().copied().unwrap_or_default();
-    // In more digits than places have, so that the one is exactly there.
-    let offset = [0, 1].map(|axis| f64::from(snapped(first[axis] + offset[axis])) - f64::from(first[axis]));
-    let places = from.iter().map(|(id, pos)| {
-        (
-            id.clone(),
-            [0, 1].map(|axis| (f64::from(pos[axis]) + offset[axis]) as f32),
-        )
-    });
-    actions.push(Action::Move(MoveAction::To(places.collect())));
+    let places = moved(from, offset, modifiers.command);
+    actions.push(Action::Move(MoveAction::To(places)));
     if is_down {
         return;
     }
@@ -132,4 +119,20 @@ pub(super) fn drag(
     }
     actions.push(Action::Move(MoveAction::End));
     canvas.gesture = Gesture::Idle;
+}
+
+/// Places of dragged nodes: the first one is put on the grid, or with `is_free` on whole points, and the others keep their
+/// distances to it.
+fn moved(from: &BTreeMap<NodeId, [f32; 2]>, offset: [f32; 2], is_free: bool) -> BTreeMap<NodeId, [f32; 2]> {
+    let Some(first) = from.values().next() else {
+        return BTreeMap::new();
+    };
+    let snapped = |at: f32| match is_free {
+        true => at.round(),
+        false => (at / GRID).round() * GRID,
+    };
+    // In f64, so that the first node is exactly on the grid.
+    let offset = [0, 1].map(|axis| f64::from(snapped(first[axis] + offset[axis])) - f64::from(first[axis]));
+    let moved = |pos: &[f32; 2]| [0, 1].map(|axis| (f64::from(pos[axis]) + offset[axis]) as f32);
+    from.iter().map(|(id, pos)| (id.clone(), moved(pos))).collect()
 }

@@ -1,9 +1,9 @@
-//! Text in boxes, cut off where a box ends.
+//! Text in rectangles, cut off at their ends.
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, Color32, FontId, Painter, Rect};
 
-/// Writes a line into a box and says how wide it became.
+/// Writes a line into a rectangle and gives its width.
 pub(super) fn write(painter: &Painter, within: Rect, align: Align2, text: &str, size: f32, color: Color32) -> f32 {
     if text.is_empty() || within.width() <= 0.0 {
         return 0.0;
@@ -16,7 +16,7 @@ pub(super) fn write(painter: &Painter, within: Rect, align: Align2, text: &str, 
     placed.width()
 }
 
-/// How wide a line is.
+/// Width of a line.
 pub(super) fn width(painter: &Painter, text: &str, size: f32) -> f32 {
     let font = FontId::proportional(size);
     painter

@@ -1,4 +1,4 @@
-//! Rows that are put into another order by dragging: a line says where the dragged one would come to stand.
+//! Rows that are reordered by dragging, with a line where the dragged one would be put.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -7,11 +7,11 @@ use egui::{Align2, Area, DragAndDrop, Frame, Id, Order, Rect, Stroke, Ui, vec2};
 
 use crate::theme::Theme;
 
-/// How far beside a list it still takes what is dropped, points.
+/// Distance beside a list at which it takes a dropped row, points.
 const NEAR: f32 = 12.0;
 
-/// Shows what is dragged and between which of these rows it would come to stand; gives it, and the number of the row that it
-/// comes before, once it is dropped there. `title` says what it is called, or that it belongs to another list.
+/// Shows the dragged row and the line where it would be put; once it is dropped, gives it and the number of the row that it goes
+/// before. `title` gives its title, or none where it belongs to another list.
 pub(crate) fn dropped<P: Any + Send + Sync>(
     ui: &Ui,
     theme: &Theme,
@@ -40,7 +40,7 @@ pub(crate) fn dropped<P: Any + Send + Sync>(
     is_released.then_some((payload, gap))
 }
 
-/// What is dragged, beside the pointer.
+/// Shows the title of the dragged row beside the pointer.
 pub(crate) fn ghost(ui: &Ui, at: egui::Pos2, title: &str) {
     ui.set_cursor_icon(egui::CursorIcon::Grabbing);
     Area::new(Id::new("what is dragged"))

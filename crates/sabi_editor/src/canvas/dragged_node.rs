@@ -1,4 +1,4 @@
-//! A node that is dragged to the canvas from elsewhere.
+//! A node that is dragged to the canvas from another panel.
 
 use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
 use sabi_editing::{NODE_WIDTH, OpenDocument, PICTURE_SIDE, TITLE_HEIGHT};
@@ -10,7 +10,7 @@ use super::wires::{self, Wire};
 use super::{Canvas, body};
 use crate::theme::{Theme, space, type_size};
 
-/// How large it is beside the canvas.
+/// Zoom of the dragged node while it is beside the canvas.
 const BESIDE: f32 = 0.6;
 
 impl Canvas {

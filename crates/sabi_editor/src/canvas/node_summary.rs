@@ -11,16 +11,16 @@ use sabi_graph::{NodeId, Value};
 use crate::knobs::KnobEvent;
 use crate::theme::Theme;
 
-/// What is known of a node's result.
+/// State of a node's result.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NodeState {
-    /// A picture of it.
+    /// Picture of the result.
     pub(super) picture: Option<TextureId>,
-    /// How long it took.
+    /// Time of the evaluation.
     pub(super) time: Option<Duration>,
-    /// What is wrong with it.
+    /// Error sentence.
     pub(super) fault: Option<String>,
-    /// What it waits for.
+    /// Sentence about what the node waits for.
     pub(super) waits: Option<String>,
 }
 
@@ -33,14 +33,14 @@ pub(super) struct NodeSummary {
     pub(super) state: NodeState,
     /// Whether the 2D view shows it.
     pub(super) is_previewed: bool,
-    /// Whether it does so whatever is clicked.
+    /// Whether the 2D view keeps it.
     pub(super) is_pinned: bool,
-    /// Values of the knobs that are rows of the node, by name; those that are not here have their defaults.
+    /// Values of the node's parameters by name; the others have their defaults.
     pub(super) values: BTreeMap<String, Value>,
 }
 
-/// What drawing needs, and what rows asked for.
-pub(super) struct Hand {
+/// What rows of nodes are drawn with, and what they asked for.
+pub(super) struct RowContext {
     pub(super) theme: Arc<Theme>,
     pub(super) zoom: f32,
     pub(super) knob_events: Vec<(NodeId, KnobEvent)>,

@@ -1,4 +1,4 @@
-//! What the widgets of one frame share: what was asked so far, and what is remembered from frame to frame.
+//! What the widgets of one frame share: what was asked for so far, and the state kept between frames.
 
 use egui::{Color32, Context, Id, Key, PointerButton, Pos2, Response, Vec2};
 use sabi_graph::Value;
@@ -6,21 +6,21 @@ use sabi_graph::Value;
 use super::{KnobEvent, KnobRow, Lengths};
 use crate::theme::Theme;
 
-/// What knobs remember from frame to frame: what is dragged, typed and picked. Nothing of it is kept between sessions.
+/// State of parameter rows between frames: what is dragged, typed and picked. It is not saved.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct KnobMemory {
     pub(super) drag: Option<Drag>,
     pub(super) typing: Option<Typing>,
     fault: Option<Fault>,
-    /// The stop or point that is worked on, and in which row.
+    /// Row and index of the selected stop or point.
     pub(super) selected: Option<(Id, usize)>,
-    /// The color that is picked, with the hue that a gray has not, and by which swatch.
+    /// Swatch whose picker is open, and its color with a hue even for grays.
     pub(super) picked: Option<(Id, egui::epaint::Hsva)>,
-    /// The row whose menu is open, and where.
+    /// Row whose menu is open, and its place.
     pub(super) menu: Option<(Id, Pos2)>,
-    /// The row that waits for what is on the clipboard, and since which pass.
+    /// Row that waits for the clipboard, and the pass since when.
     pub(super) pasting: Option<(Id, u64)>,
-    /// What of a wheel's turn was too little for a step.
+    /// Rest of scrolling that was too little for a step.
     pub(super) wheel: f32,
 }
 
@@ -35,44 +35,44 @@ pub(super) struct Typing {
     pub(super) is_selected: bool,
 }
 
-/// What is wrong with what was typed last.
+/// Error in the text that was typed last.
 #[derive(Clone, Debug)]
 struct Fault {
-    /// The row into which it was typed.
+    /// Row of the text.
     row_id: Id,
     sentence: String,
-    /// Something else was pressed since.
+    /// Whether something else was pressed since.
     is_leaving: bool,
-    /// That was released: the sentence goes now, and not before, or what is clicked would move away under the pointer.
+    /// Whether that was released: the error disappears only then, or the clicked widget would move from under the pointer.
     is_over: bool,
 }
 
-/// Something that is being dragged.
+/// Drag of a widget.
 #[derive(Clone, Debug)]
 pub(super) struct Drag {
-    /// The widget.
+    /// Id of the widget.
     id: Id,
     has_changed: bool,
-    /// Where the pointer was last.
+    /// Last place of the pointer.
     last: Pos2,
-    /// The pass in which the widget was last seen.
+    /// Pass in which the widget was shown last.
     seen: u64,
     pub(super) grip: Grip,
 }
 
-/// What is held at the beginning of a drag.
+/// Values at the beginning of a drag.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Grip {
-    /// The numbers that move, not rounded.
+    /// Numbers that are dragged, not rounded.
     pub(super) exact: [f64; 3],
-    /// The stop or point that moves.
+    /// Index of the dragged stop or point.
     pub(super) index: usize,
-    /// All of the stops or points that it is one of.
+    /// All stops or points at the beginning.
     pub(super) all: Option<Value>,
 }
 
 impl Drag {
-    /// Where the pointer is.
+    /// Place of the pointer.
     pub(super) fn place(&self) -> Pos2 {
         self.last
     }
@@ -88,20 +88,20 @@ impl Grip {
 }
 
 /// What the widgets of one frame share.
-pub(super) struct Asking<'a> {
+pub(super) struct KnobUi<'a> {
     pub(super) theme: &'a Theme,
     pub(super) memory: &'a mut KnobMemory,
     pub(super) lengths: Lengths,
-    /// Factor on type and heights.
+    /// Factor of type size and heights.
     pub(super) zoom: f32,
-    /// Whether these are the knobs of a panel, of which each is published.
+    /// Whether the rows are those of published parameters.
     pub(super) is_panel: bool,
     pub(super) events: Vec<KnobEvent>,
 }
 
-impl<'a> Asking<'a> {
-    pub(super) fn new(theme: &'a Theme, memory: &'a mut KnobMemory, lengths: &Lengths) -> Asking<'a> {
-        Asking {
+impl<'a> KnobUi<'a> {
+    pub(super) fn new(theme: &'a Theme, memory: &'a mut KnobMemory, lengths: &Lengths) -> KnobUi<'a> {
+        KnobUi {
             theme,
             memory,
             lengths: *lengths,
@@ -112,10 +112,10 @@ impl<'a> Asking<'a> {
     }
 }
 
-impl Asking<'_> {
-    /// Asks for a value, unless it is there already.
+impl KnobUi<'_> {
+    /// Asks for a value, unless the parameter has it.
     pub(super) fn set(&mut self, row: &KnobRow<'_>, value: Value) {
-        // Numbers that no file can hold were refused where they were typed; a drag just stops there.
+        // Typed numbers that no file can hold are refused before; a drag stops at them.
         let Some(value) = value.canonical() else { return };
         self.forget_fault();
         if row.differs || *row.held() != value {
@@ -136,8 +136,8 @@ impl Asking<'_> {
         }
     }
 
-    /// How far the pointer has come since the last frame while it drags a widget, with what it holds. `grip` says what is
-    /// held at the place where the pointer was pressed.
+    /// Movement of the pointer since the last frame while it drags a widget, with the drag. `grip` gives the values at the
+    /// beginning, for the place where the button was pressed.
     pub(super) fn pull(
         &mut self,
         response: &Response,
@@ -149,7 +149,7 @@ impl Asking<'_> {
             && response.drag_started_by(PointerButton::Primary)
             && self.memory.drag.is_none()
         {
-            // The way to where the press became a drag counts too.
+            // Includes the distance until the press became a drag, which is none where that took no frame.
             let origin = place - response.total_drag_delta().unwrap_or_default();
             self.begin(&response.ctx, response.id, grip(origin)?, origin);
         }
@@ -160,12 +160,12 @@ impl Asking<'_> {
         (way != Vec2::ZERO).then_some((way, drag))
     }
 
-    /// Whether this widget is dragged.
+    /// Whether a widget is dragged.
     pub(super) fn is_dragged(&self, id: Id) -> bool {
         self.memory.drag.as_ref().is_some_and(|drag| drag.id == id)
     }
 
-    /// Begins a drag by hand, where the widget that is dragged is another's.
+    /// Begins a drag of another widget.
     pub(super) fn begin(&mut self, context: &Context, id: Id, grip: Grip, origin: Pos2) {
         self.forget_fault();
         self.events.push(KnobEvent::Began);
@@ -178,15 +178,15 @@ impl Asking<'_> {
         });
     }
 
-    /// Says that the widget of a drag is still there.
+    /// Marks the widget of a drag as shown in this pass.
     pub(super) fn keep(&mut self, context: &Context, id: Id) {
         if let Some(drag) = self.memory.drag.as_mut().filter(|drag| drag.id == id) {
             drag.seen = context.cumulative_pass_nr();
         }
     }
 
-    /// Ends the drag when the button was released, when the widget is gone, or when Escape gave it up, wherever the
-    /// pointer is by then. Only the owner of the drag can give it up; others end it once the owner is gone.
+    /// Ends the drag when the button is released, when the widget is not shown any more, or when Escape cancels it,
+    /// wherever the pointer is. Only the owner of the drag can cancel it; others end it once the owner is gone.
     pub(super) fn finish(&mut self, context: &Context, is_owner: impl FnOnce(Id) -> bool) {
         let Some(drag) = &self.memory.drag else { return };
         let pass = context.cumulative_pass_nr();
@@ -203,7 +203,7 @@ impl Asking<'_> {
         }
         if is_owner && is_given_up {
             self.events.push(KnobEvent::GivenUp);
-            // Nothing else is left or closed by it.
+            // Escape closes nothing else then.
             context.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape));
         } else {
             self.events.push(KnobEvent::Ended);
@@ -211,12 +211,12 @@ impl Asking<'_> {
         self.memory.drag = None;
     }
 
-    /// The color of what stands beside a value, on a filled bar too.
+    /// Color of text beside a value, which can be read on a filled bar as well.
     pub(super) fn beside(&self) -> Color32 {
         self.theme.quiet.lerp_to_gamma(self.theme.text, 0.45)
     }
 
-    /// Keeps a sentence to be shown under a row until something else is clicked or asked for.
+    /// Shows an error below a row until something else is clicked or asked for.
     pub(super) fn fault(&mut self, row_id: Id, sentence: impl Into<String>) {
         self.memory.fault = Some(Fault {
             row_id,
@@ -226,7 +226,7 @@ impl Asking<'_> {
         });
     }
 
-    /// The sentence that stands under a row.
+    /// Error below a row.
     pub(super) fn fault_of(&self, row_id: Id) -> Option<String> {
         let fault = self.memory.fault.as_ref().filter(|fault| fault.row_id == row_id)?;
         Some(fault.sentence.clone())
@@ -236,7 +236,7 @@ impl Asking<'_> {
         self.memory.fault = None;
     }
 
-    /// Lets the sentence under a row go when something else is clicked.
+    /// Removes the error below a row when something else is clicked.
     pub(super) fn age_fault(&mut self, context: &Context, row_id: Id) {
         let Some(fault) = self.memory.fault.as_mut().filter(|fault| fault.row_id == row_id) else {
             return;
@@ -252,14 +252,14 @@ impl Asking<'_> {
     }
 }
 
-/// Where the pointer is that holds a widget, also once it has left the window and come back.
+/// Place of the pointer that drags a widget, also after it has left the window and returned.
 fn place_of(response: &Response) -> Option<Pos2> {
     let context = &response.ctx;
     response.interact_pointer_pos().or_else(|| {
         let place = context.input(|input| input.pointer.interact_pos())?;
-        let to_layer = context
-            .layer_transform_from_global(response.layer_id)
-            .unwrap_or_default();
+        let to_layer = context.layer_transform_from_global(response.layer_id);
+        // Most layers have no transform, as if it were the identity.
+        let to_layer = to_layer.unwrap_or_default();
         response.dragged().then(|| to_layer * place)
     })
 }

@@ -4,31 +4,31 @@ use egui::{Button, DragValue, Ui};
 use egui_phosphor::regular as icon;
 use sabi_engine::view::{Light, LightPlace, MOST_LIGHTS};
 
-use crate::settings::viewport::{LAMP_HEIGHT_DEGREES, LAMP_STRENGTH, Lamp, TURN_DEGREES};
+use crate::settings::viewport::{LIGHT_HEIGHT_DEGREES, LIGHT_STRENGTH, LightSetting, TURN_DEGREES};
 
-fn light_of(lamp: &Lamp) -> Light {
+fn light_of(light: &LightSetting) -> Light {
     Light {
-        place: LightPlace::far_at(lamp.turn_degrees, lamp.height_degrees),
-        color: lamp.color.map(|number| number * lamp.strength),
-        has_shadow: lamp.has_shadow,
+        place: LightPlace::far_at(light.turn_degrees, light.height_degrees),
+        color: light.color.map(|number| number * light.strength),
+        has_shadow: light.has_shadow,
     }
 }
 
 /// Line of the menu for one light; gives whether it is to be removed.
-fn row(lamp: &mut Lamp, ui: &mut Ui, name: &str) -> bool {
+fn row(light: &mut LightSetting, ui: &mut Ui, name: &str) -> bool {
     let mut is_gone = false;
     ui.horizontal(|ui| {
-        ui.color_edit_button_rgb(&mut lamp.color)
+        ui.color_edit_button_rgb(&mut light.color)
             .on_hover_text(format!("Color of {name}"));
-        let turn = DragValue::new(&mut lamp.turn_degrees).range(TURN_DEGREES).suffix("°");
+        let turn = DragValue::new(&mut light.turn_degrees).range(TURN_DEGREES).suffix("°");
         ui.add(turn).on_hover_text("Around the model");
-        let height = DragValue::new(&mut lamp.height_degrees)
-            .range(LAMP_HEIGHT_DEGREES)
+        let height = DragValue::new(&mut light.height_degrees)
+            .range(LIGHT_HEIGHT_DEGREES)
             .suffix("°");
         ui.add(height).on_hover_text("Above the model");
-        let strength = DragValue::new(&mut lamp.strength).range(LAMP_STRENGTH).speed(0.02);
+        let strength = DragValue::new(&mut light.strength).range(LIGHT_STRENGTH).speed(0.02);
         ui.add(strength).on_hover_text("Strength");
-        ui.checkbox(&mut lamp.has_shadow, "Shadow");
+        ui.checkbox(&mut light.has_shadow, "Shadow");
         let remove = ui.button(icon::X).on_hover_text("Remove");
         remove.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Remove {name}")));
         is_gone = remove.clicked();
@@ -38,25 +38,25 @@ fn row(lamp: &mut Lamp, ui: &mut Ui, name: &str) -> bool {
 
 /// All lights besides the environment.
 #[derive(Default)]
-pub(crate) struct Lamps {
-    lamps: Vec<Lamp>,
+pub(crate) struct Lights {
+    lights: Vec<LightSetting>,
     /// Rises whenever one of them changes.
     number: u64,
 }
 
-impl Lamps {
+impl Lights {
     /// Lights of settings, as many as the viewport can have.
-    pub(super) fn new(kept: &[Lamp]) -> Lamps {
+    pub(super) fn new(kept: &[LightSetting]) -> Lights {
         let kept = kept.iter().take(MOST_LIGHTS);
-        Lamps {
-            lamps: kept.cloned().map(Lamp::sound).collect(),
+        Lights {
+            lights: kept.cloned().map(LightSetting::sound).collect(),
             number: 0,
         }
     }
 
     /// Lights for settings.
-    pub(crate) fn kept(&self) -> &[Lamp] {
-        &self.lamps
+    pub(crate) fn kept(&self) -> &[LightSetting] {
+        &self.lights
     }
 
     pub(super) fn number(&self) -> u64 {
@@ -64,26 +64,26 @@ impl Lamps {
     }
 
     pub(super) fn lights(&self) -> Vec<Light> {
-        self.lamps.iter().map(light_of).collect()
+        self.lights.iter().map(light_of).collect()
     }
 
     /// Part of the light menu that sets them.
     pub(super) fn menu(&mut self, ui: &mut Ui) {
-        let before = self.lamps.clone();
+        let before = self.lights.clone();
         let mut gone = None;
-        for (at, lamp) in self.lamps.iter_mut().enumerate() {
-            if row(lamp, ui, &format!("light {}", at + 1)) {
+        for (at, light) in self.lights.iter_mut().enumerate() {
+            if row(light, ui, &format!("light {}", at + 1)) {
                 gone = Some(at);
             }
         }
         if let Some(at) = gone {
-            self.lamps.remove(at);
+            self.lights.remove(at);
         }
-        let is_room = self.lamps.len() < MOST_LIGHTS;
+        let is_room = self.lights.len() < MOST_LIGHTS;
         if ui.add_enabled(is_room, Button::new("Add a light")).clicked() {
-            self.lamps.push(Lamp::default());
+            self.lights.push(LightSetting::default());
         }
-        self.number += u64::from(self.lamps != before);
+        self.number += u64::from(self.lights != before);
     }
 }
 
@@ -99,12 +99,12 @@ mod tests {
             (0.0, 90.0, [0.0, 1.0, 0.0]),
             (180.0, -90.0, [0.0, -1.0, 0.0]),
         ] {
-            let lamp = Lamp {
+            let light = LightSetting {
                 turn_degrees,
                 height_degrees,
-                ..Lamp::default()
+                ..LightSetting::default()
             };
-            let LightPlace::Far(towards) = light_of(&lamp).place else {
+            let LightPlace::Far(towards) = light_of(&light).place else {
                 panic!("a far light")
             };
             let is_near = towards.iter().zip(from).all(|(one, other)| (one - other).abs() < 1e-6);
@@ -114,21 +114,21 @@ mod tests {
 
     #[test]
     fn lights_that_nobody_can_have_meant_are_mended_and_those_too_many_left_out() {
-        let wild = Lamp {
+        let wild = LightSetting {
             turn_degrees: f32::NAN,
             height_degrees: 700.0,
             color: [2.0, -1.0, 0.5],
             strength: f32::INFINITY,
             has_shadow: false,
         };
-        let lamps = Lamps::new(&vec![wild; 9]);
-        assert_eq!(lamps.kept().len(), MOST_LIGHTS);
-        let expected = Lamp {
+        let lights = Lights::new(&vec![wild; 9]);
+        assert_eq!(lights.kept().len(), MOST_LIGHTS);
+        let expected = LightSetting {
             height_degrees: 90.0,
             color: [1.0, 0.0, 0.5],
             has_shadow: false,
-            ..Lamp::default()
+            ..LightSetting::default()
         };
-        assert_eq!(lamps.kept()[0], expected);
+        assert_eq!(lights.kept()[0], expected);
     }
 }
