@@ -14,7 +14,7 @@ use sabi_tests::{Evaluated, OnMesh, project};
 use crate::specimens::{Specimen, for_each, on_own_mesh, specimens};
 
 /// How far a statistic may be from the stored one, as a share of the larger of 1 and its size: what processors that
-/// multiply and add in one step or in two make of half floats (DESIGN §7).
+/// multiply and add in one step or in two make of half floats.
 const STATISTICS_TOLERANCE: f64 = 1.0 / 1024.0;
 /// How far an 8-bit sample may be from the stored one.
 const CODE_TOLERANCE: u8 = 1;

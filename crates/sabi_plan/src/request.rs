@@ -87,7 +87,7 @@ pub struct Limits {
     /// Textures a pass may write.
     pub storage_textures: usize,
     /// naga expressions a fused kernel may hold: about sixteen noises of eight octaves, since compile time grows
-    /// faster than the kernel (DESIGN §5).
+    /// faster than the kernel.
     pub cost: u32,
 }
 

@@ -5,7 +5,6 @@ mod beginning;
 mod bends;
 mod building;
 mod commands;
-mod design;
 mod export;
 mod faults;
 mod groups;
@@ -28,6 +27,7 @@ mod safety;
 mod snapshots;
 mod views;
 mod watching;
+mod whole_graph;
 mod wires;
 
 use std::path::{Path, PathBuf};

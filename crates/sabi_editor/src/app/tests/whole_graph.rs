@@ -1,4 +1,4 @@
-//! The graph that DESIGN.md begins with, built from nothing.
+//! A graph with a frame, a published parameter and a variant, built from nothing by mouse and keys.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,8 +10,8 @@ use serde_json::{Value as Json, json};
 
 use super::Window;
 
-/// The graph file, as it stands in DESIGN.md §3.
-fn file_of_the_design() -> Json {
+/// The graph file that is to come out.
+fn file_of_the_graph() -> Json {
     json!({
         "format": "sabi",
         "version": 1,
@@ -135,7 +135,7 @@ fn settle_down(window: &mut Window) -> PathBuf {
 }
 
 #[test]
-fn the_graph_of_the_design_is_built_from_nothing_and_its_file_is_the_designs() {
+fn a_whole_graph_is_built_from_nothing_and_its_file_is_as_expected() {
     let mut window = Window::untitled();
     window.settle();
     let empty = window.text();
@@ -164,7 +164,7 @@ fn the_graph_of_the_design_is_built_from_nothing_and_its_file_is_the_designs() {
         .clone();
     text = text.replace(&frame, "wear_x2c4");
     let read: Json = serde_json::from_str(&text).expect("a graph file");
-    assert_eq!(read, file_of_the_design(), "{text}");
+    assert_eq!(read, file_of_the_graph(), "{text}");
     let steps = window.steps();
     window.undo(steps);
     assert_eq!(window.text(), empty, "as many steps lead back to nothing");
