@@ -19,7 +19,6 @@
 //! # Ok::<(), sabi_image::ImageError>(())
 //! ```
 
-mod color;
 mod decode;
 mod decode_exr;
 mod encode_exr;
@@ -29,7 +28,6 @@ mod picture;
 mod quantize;
 mod size_limits;
 
-pub use color::{linear_from_srgb, srgb_from_linear, srgb8_from_linear};
 pub use decode::{check_header, decode};
 pub use encode_exr::encode_exr;
 pub use encode_png::{PngData, PngOptions, encode_png};
@@ -37,3 +35,5 @@ pub use error::ImageError;
 pub use picture::{Declared, LinearPicture, Picture, Pixels};
 pub use quantize::{Dither, dither_threshold, quantize_u8, quantize_u16};
 pub use size_limits::{MAX_DECODED_BYTES, MAX_SIDE};
+
+pub use sabi_color::{linear_from_srgb, srgb_from_linear, srgb8_from_linear};

@@ -3,8 +3,7 @@
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
-
-use crate::color::{linear_from_srgb, linear_from_srgb_f64};
+use sabi_color::{linear_from_srgb, linear_from_srgb_f64};
 
 /// What a file says about the meaning of its numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,7 @@
 //! Color codes: `#rrggbb` in sRGB, as graph files and artists write them.
 
+use sabi_color::linear_from_srgb8;
+
 /// Code of a color, as graph files hold it: `#6b3a1e`.
 pub fn color_code([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
@@ -33,32 +35,6 @@ pub fn color_linear(code: &str) -> Option<[f32; 3]> {
     color_srgb8(code).map(linear_from_srgb8)
 }
 
-/// Linear RGB of an sRGB color (IEC 61966-2-1).
-pub(crate) fn linear_from_srgb8(srgb: [u8; 3]) -> [f32; 3] {
-    srgb.map(|code| {
-        let encoded = f64::from(code) / 255.0;
-        let linear = if encoded <= 0.04045 {
-            encoded / 12.92
-        } else {
-            ((encoded + 0.055) / 1.055).powf(2.4)
-        };
-        linear as f32
-    })
-}
-
-/// sRGB color nearest to linear RGB (IEC 61966-2-1).
-pub(crate) fn srgb8_from_linear(linear: [f32; 3]) -> [u8; 3] {
-    linear.map(|linear| {
-        let linear = f64::from(linear).clamp(0.0, 1.0);
-        let encoded = if linear <= 0.003_130_8 {
-            linear * 12.92
-        } else {
-            1.055 * linear.powf(1.0 / 2.4) - 0.055
-        };
-        (encoded * 255.0).round() as u8
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,7 +43,7 @@ mod tests {
     fn every_code_reads_back_as_itself() {
         for code in 0..=255 {
             let srgb = [code, 255 - code, code ^ 0x55];
-            assert_eq!(srgb8_from_linear(linear_from_srgb8(srgb)), srgb);
+            assert_eq!(linear_from_srgb8(srgb).map(sabi_color::srgb8_from_linear), srgb);
             assert_eq!(color_srgb8(&color_code(srgb)), Some(srgb));
         }
     }

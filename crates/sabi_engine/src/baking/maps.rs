@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+use sabi_color::luminance;
 use sabi_export::{
     BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, Padding, PaddingMap, SeamSamples, SetKey,
     SetLayout, SetOptions,
@@ -134,6 +135,7 @@ impl MapWriter<'_> {
     }
 
     fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
+        let _span = tracing::debug_span!("read back").entered();
         Ok(self
             .evaluator
             .gpu()
@@ -258,6 +260,7 @@ impl Maps<'_> {
     ) -> Result<(), EngineError> {
         // A large map takes seconds to encode.
         stop_if_canceled(self.progress)?;
+        let _span = tracing::debug_span!("encode", set = set.work.name, channel = %channel.name()).entered();
         let texel = |index| match set.mixing.texel(planes, index) {
             Some(stored) => value(stored),
             None => {
@@ -300,9 +303,4 @@ impl Maps<'_> {
         self.written.constants.extend(done.constant);
         Ok(())
     }
-}
-
-/// Luminance of a linear color (Rec. 709), as `lib/core.wgsl` has it.
-fn luminance([r, g, b]: [f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
 }

@@ -1,5 +1,6 @@
 //! `source/image`: a picture from a file, projected onto the surface.
 
+use sabi_color::luminance;
 use sabi_graph::PortType;
 use sabi_image::{Declared, Picture, Pixels};
 use sabi_nodes::kind::Param;
@@ -191,7 +192,7 @@ pub(crate) fn plane(
             let [r, g, b, a] = sampler.sample(&view.footprint);
             let value = match of {
                 Use::Color => [r, g, b],
-                Use::Mask => [view.cover * (0.2126 * r + 0.7152 * g + 0.0722 * b), 0.0, 0.0],
+                Use::Mask => [view.cover * luminance([r, g, b]), 0.0, 0.0],
                 Use::Alpha => [view.cover * a, 0.0, 0.0],
                 Use::Slope if has_normals && view.cover > 0.0 => {
                     let [x, y, z] = [r, g, b].map(|code| 2.0 * code - 1.0);

@@ -3,11 +3,12 @@
 #[cfg(test)]
 mod tests;
 
+use sabi_color::srgb8_from_linear;
 use sabi_graph::{Value, canonical_number};
 
 use super::written::UNUSED_STOP;
 use super::{Memory, ParamValue, Role, Written, WrittenStop};
-use crate::color::{srgb8_from_linear, typed_color};
+use crate::color::typed_color;
 
 /// Values that a parameter takes. The planner, the catalog, the command line and the editor all ask it.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,7 +158,7 @@ fn write(role: &Role, value: &ParamValue) -> Value {
         },
         (Role::Toggle, ParamValue::Unsigned(on)) => Value::Bool(*on != 0),
         (Role::Color, ParamValue::Floats(floats)) => match floats.as_slice() {
-            [r, g, b] => Written::Color(srgb8_from_linear([*r, *g, *b])).to_value(),
+            [r, g, b] => Written::Color([*r, *g, *b].map(srgb8_from_linear)).to_value(),
             floats => numbers(floats).to_value(),
         },
         (Role::Stops, ParamValue::Floats(floats)) => {
@@ -165,7 +166,7 @@ fn write(role: &Role, value: &ParamValue) -> Value {
             let used = stops.iter().filter(|[.., position]| *position < UNUSED_STOP);
             let stop = |[r, g, b, position]: &[f32; 4]| WrittenStop {
                 position: exact(*position),
-                color: srgb8_from_linear([*r, *g, *b]),
+                color: [*r, *g, *b].map(srgb8_from_linear),
             };
             Written::Stops(used.map(stop).collect()).to_value()
         }

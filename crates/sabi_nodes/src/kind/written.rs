@@ -1,9 +1,10 @@
 //! Values of parameters as graph files hold them and artists see them.
 
+use sabi_color::linear_from_srgb8;
 use sabi_graph::Value;
 
 use super::{Memory, ParamType, ParamValue, Role};
-use crate::color::{color_code, color_srgb8, linear_from_srgb8};
+use crate::color::{color_code, color_srgb8};
 use crate::curve::curve_points;
 
 /// Position of a gradient stop that is not used.

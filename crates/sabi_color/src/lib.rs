@@ -1,19 +1,29 @@
-//! The sRGB curve of IEC 61966-2-1, exact and piecewise.
+//! Color encoding: the sRGB transfer functions of IEC 61966-2-1, exact and piecewise, and luminance.
+//!
+//! All crates decode and encode sRGB here, so that a code means the same linear value everywhere:
+//!
+//! ```
+//! use sabi_color::{linear_from_srgb8, srgb8_from_linear};
+//!
+//! let linear = linear_from_srgb8([107, 58, 30]);
+//! assert_eq!(linear.map(srgb8_from_linear), [107, 58, 30]);
+//! ```
 
 use std::sync::OnceLock;
 
-/// Encoded value of a linear one: 12.92 × v up to 0.0031308, then 1.055 × v^(1/2.4) − 0.055. Negative values stay on the
-/// straight part, values above 1 go on along the curve.
+/// Encodes one linear value: 12.92 × v up to 0.0031308, then 1.055 × v^(1/2.4) − 0.055. Negative values stay on the linear part,
+/// values above 1 continue along the curve.
 pub fn srgb_from_linear(linear: f32) -> f32 {
     srgb_from_linear_f64(f64::from(linear)) as f32
 }
 
-/// Linear value of an encoded one, the inverse of [`srgb_from_linear`].
+/// Decodes one value, the inverse of [`srgb_from_linear`].
 pub fn linear_from_srgb(encoded: f32) -> f32 {
     linear_from_srgb_f64(f64::from(encoded)) as f32
 }
 
-pub(crate) fn srgb_from_linear_f64(linear: f64) -> f64 {
+/// Encodes one value in double precision, see [`srgb_from_linear`].
+pub fn srgb_from_linear_f64(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         12.92 * linear
     } else {
@@ -21,12 +31,23 @@ pub(crate) fn srgb_from_linear_f64(linear: f64) -> f64 {
     }
 }
 
-pub(crate) fn linear_from_srgb_f64(encoded: f64) -> f64 {
+/// Decodes one value in double precision, the inverse of [`srgb_from_linear_f64`].
+pub fn linear_from_srgb_f64(encoded: f64) -> f64 {
     if encoded <= 0.040_45 {
         encoded / 12.92
     } else {
         ((encoded + 0.055) / 1.055).powf(2.4)
     }
+}
+
+/// Decodes the 8-bit codes of a color.
+pub fn linear_from_srgb8(codes: [u8; 3]) -> [f32; 3] {
+    codes.map(|code| linear_from_srgb_f64(f64::from(code) / 255.0) as f32)
+}
+
+/// Luminance of a linear color with the primaries of Rec. 709, like `luminance` in `lib/core.wgsl`.
+pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 /// Bits of a float below the leading ones that pick a slot of the table.
@@ -75,8 +96,8 @@ fn smallest_above(code: u8) -> f32 {
     f32::from_bits(above)
 }
 
-/// 8-bit sRGB code of a linear value: clamped to 0..1, encoded, times 255, rounded half up; not-a-number gives 0. Exactly
-/// what the formula gives, by comparing with the values at which the code changes.
+/// Encodes one linear value as an 8-bit code: clamped to 0..1, encoded, times 255, rounded half up; not-a-number gives 0. The
+/// result is exact: the value is compared with the thresholds at which the code changes.
 pub fn srgb8_from_linear(linear: f32) -> u8 {
     if linear.is_nan() || linear <= 0.0 {
         return 0;
