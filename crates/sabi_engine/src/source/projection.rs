@@ -1,5 +1,6 @@
 //! Projection of a picture onto a surface: by texture coordinates, triplanar, or as a decal.
 
+use glam::DVec3;
 use sabi_plan::SourceValues;
 
 use super::sampler::Footprint;
@@ -33,9 +34,9 @@ enum Way {
 #[derive(Clone, Copy, Debug)]
 struct Decal {
     size: f64,
-    middle: [f64; 3],
+    middle: DVec3,
     plane: Plane,
-    toward: [f64; 3],
+    toward: DVec3,
     depth: f64,
     facing: f64,
 }
@@ -43,8 +44,8 @@ struct Decal {
 /// Unit vectors in model space to the right and the top of a picture.
 #[derive(Clone, Copy, Debug)]
 struct Plane {
-    right: [f64; 3],
-    up: [f64; 3],
+    right: DVec3,
+    up: DVec3,
 }
 
 /// Picture at a point of the surface, as seen from one direction.
@@ -63,25 +64,10 @@ enum Lies {
     On(Plane),
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn unit(v: [f64; 3], otherwise: [f64; 3]) -> [f64; 3] {
-    let length = dot(v, v).sqrt();
-    if length > 1e-12 {
-        v.map(|x| x / length)
-    } else {
-        otherwise
-    }
+/// Normalizes a vector, or returns another one where it is too short.
+fn unit(v: DVec3, otherwise: DVec3) -> DVec3 {
+    let length = v.length();
+    if length > 1e-12 { v / length } else { otherwise }
 }
 
 impl Projection {
@@ -132,11 +118,9 @@ impl Projection {
                 // (Mikkelsen 2020, "Surface Gradient-Based Bump Mapping Framework").
                 let steep = z.max(1e-3 * (x * x + y * y + z * z).sqrt()).max(1e-30);
                 let plane = self.turned(plane);
-                let gradient: [f64; 3] =
-                    std::array::from_fn(|axis| -(x * plane.right[axis] + y * plane.up[axis]) / steep);
-                let up = unit(frame.normal, [0.0; 3]);
-                let away = dot(gradient, up);
-                std::array::from_fn(|axis| (gradient[axis] - away * up[axis]) as f32)
+                let gradient = -(x * plane.right + y * plane.up) / steep;
+                let up = unit(frame.normal, DVec3::ZERO);
+                (gradient - gradient.dot(up) * up).as_vec3().to_array()
             }
         }
     }
@@ -168,8 +152,8 @@ impl Projection {
         surface: &SourceSurface<'_>,
         point: &SurfacePoint,
     ) -> [Option<View>; 3] {
-        let normal = unit(surface.frame(point).normal, [0.0, 1.0, 0.0]);
-        let weights = normal.map(|x| x.abs().powf(sharpness));
+        let normal = unit(surface.frame(point).normal, DVec3::Y);
+        let weights = normal.to_array().map(|x| x.abs().powf(sharpness));
         let sum: f64 = weights.iter().sum();
         std::array::from_fn(|axis| {
             let weight = weights[axis] / sum.max(1e-30);
@@ -177,20 +161,20 @@ impl Projection {
             let side = if normal[axis] < 0.0 { -1.0 } else { 1.0 };
             let plane = match axis {
                 0 => Plane {
-                    right: [0.0, 0.0, -side],
-                    up: [0.0, 1.0, 0.0],
+                    right: DVec3::new(0.0, 0.0, -side),
+                    up: DVec3::Y,
                 },
                 1 => Plane {
-                    right: [side, 0.0, 0.0],
-                    up: [0.0, 0.0, -1.0],
+                    right: DVec3::new(side, 0.0, 0.0),
+                    up: DVec3::NEG_Z,
                 },
                 _ => Plane {
-                    right: [side, 0.0, 0.0],
-                    up: [0.0, 1.0, 0.0],
+                    right: DVec3::new(side, 0.0, 0.0),
+                    up: DVec3::Y,
                 },
             };
             (weight > 1e-6).then(|| View {
-                footprint: self.on_plane(plane, [0.0; 3], size, surface, point),
+                footprint: self.on_plane(plane, DVec3::ZERO, size, surface, point),
                 weight: weight as f32,
                 cover: 1.0,
                 lies: Lies::On(plane),
@@ -207,15 +191,10 @@ impl Projection {
             let at = footprint.uv[axis];
             share(0.5 + at.min(1.0 - at) / extent.max(1e-9))
         };
-        let place = surface.position(point);
-        let away = dot(
-            std::array::from_fn(|axis| place[axis] - decal.middle[axis]),
-            decal.toward,
-        )
-        .abs();
+        let away = (surface.position(point) - decal.middle).dot(decal.toward).abs();
         let deep = share((decal.depth - away) / (DEPTH_FADE * decal.depth).max(1e-9));
         let normal = unit(surface.frame(point).normal, decal.toward);
-        let angle = dot(normal, decal.toward).clamp(-1.0, 1.0).acos();
+        let angle = normal.dot(decal.toward).clamp(-1.0, 1.0).acos();
         let faces = share((decal.facing - angle) / FACING_FADE);
         View {
             weight: 1.0,
@@ -228,8 +207,8 @@ impl Projection {
     fn turned(&self, plane: Plane) -> Plane {
         let [cos, sin] = self.turn;
         Plane {
-            right: std::array::from_fn(|axis| cos * plane.right[axis] + sin * plane.up[axis]),
-            up: std::array::from_fn(|axis| cos * plane.up[axis] - sin * plane.right[axis]),
+            right: cos * plane.right + sin * plane.up,
+            up: cos * plane.up - sin * plane.right,
         }
     }
 
@@ -237,15 +216,14 @@ impl Projection {
     fn on_plane(
         &self,
         plane: Plane,
-        middle: [f64; 3],
+        middle: DVec3,
         size: f64,
         surface: &SourceSurface<'_>,
         point: &SurfacePoint,
     ) -> Footprint {
         let plane = self.turned(plane);
-        let seen = |v: [f64; 3]| [dot(v, plane.right) / size, -dot(v, plane.up) / (size * self.aspect)];
-        let place = surface.position(point);
-        let [u, v] = seen(std::array::from_fn(|axis| place[axis] - middle[axis]));
+        let seen = |v: DVec3| [v.dot(plane.right) / size, -v.dot(plane.up) / (size * self.aspect)];
+        let [u, v] = seen(surface.position(point) - middle);
         Footprint {
             uv: [u + 0.5 - self.offset[0], v + 0.5 + self.offset[1]],
             steps: surface.texel_sides(point).map(seen),
@@ -255,27 +233,23 @@ impl Projection {
 
 impl Decal {
     fn new(values: &SourceValues, size: f64) -> Decal {
-        let toward = unit(values.numbers::<3>("toward").map(f64::from), [0.0, 0.0, 1.0]);
-        let up = values.numbers::<3>("up").map(f64::from);
+        let vector = |name: &str| DVec3::from(values.numbers::<3>(name).map(f64::from));
+        let toward = unit(vector("toward"), DVec3::Z);
         // Where `up` is parallel to `toward`, another axis replaces it.
-        let otherwise = if toward[1].abs() < 0.9 {
-            [0.0, 1.0, 0.0]
-        } else {
-            [0.0, 0.0, -1.0]
-        };
-        let right = cross(up, toward);
-        let right = if dot(right, right) > 1e-12 {
+        let otherwise = if toward.y.abs() < 0.9 { DVec3::Y } else { DVec3::NEG_Z };
+        let right = vector("up").cross(toward);
+        let right = if right.length_squared() > 1e-12 {
             right
         } else {
-            cross(otherwise, toward)
+            otherwise.cross(toward)
         };
-        let right = unit(right, [1.0, 0.0, 0.0]);
+        let right = unit(right, DVec3::X);
         Decal {
             size,
-            middle: values.numbers::<3>("position").map(f64::from),
+            middle: vector("position"),
             plane: Plane {
                 right,
-                up: cross(toward, right),
+                up: toward.cross(right),
             },
             toward,
             depth: f64::from(values.number("depth")),

@@ -239,7 +239,7 @@ pub(crate) fn plane(
             let boxes = boxes(&surface.model.mesh, &groups.of_triangle, groups.count());
             return surface.texels(plane, |point| {
                 let own = &boxes[groups.of_triangle[point.triangle] as usize];
-                let [x, y, z] = place_in(own, surface.working_from_model, surface.position(point));
+                let [x, y, z] = place_in(own, surface.working_from_model, surface.position(point).to_array());
                 [x, y, z, 1.0]
             });
         }

@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use glam::DVec3;
 use half::f16;
 use rayon::prelude::*;
 use sabi_gpu::{DeviceHierarchy, SurfaceTables};
@@ -39,9 +40,9 @@ pub(crate) struct SurfacePoint {
 
 /// Shading frame at a point, in model space; interpolated, so its vectors have not unit length.
 pub(crate) struct Frame {
-    pub(crate) tangent: [f64; 3],
-    pub(crate) bitangent: [f64; 3],
-    pub(crate) normal: [f64; 3],
+    pub(crate) tangent: DVec3,
+    pub(crate) bitangent: DVec3,
+    pub(crate) normal: DVec3,
 }
 
 impl SourceSurface<'_> {
@@ -69,24 +70,23 @@ impl SourceSurface<'_> {
 
     /// Interpolates a value that is linear over a triangle, given by rows of a table: the value at the reference texel and its
     /// change per texel along u and v.
-    fn affine(&self, point: &SurfacePoint, rows: [&[f32; 4]; 3]) -> [f64; 3] {
+    fn affine(&self, point: &SurfacePoint, rows: [&[f32; 4]; 3]) -> DVec3 {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         let step: [f64; 2] = std::array::from_fn(|axis| point.texel[axis] - f64::from(geometry[axis][3]));
-        std::array::from_fn(|axis| {
-            f64::from(rows[0][axis]) + f64::from(rows[1][axis]) * step[0] + f64::from(rows[2][axis]) * step[1]
-        })
+        let [start, along_u, along_v] = rows.map(xyz);
+        start + along_u * step[0] + along_v * step[1]
     }
 
     /// Returns the position of a point, in working units.
-    pub(crate) fn position(&self, point: &SurfacePoint) -> [f64; 3] {
+    pub(crate) fn position(&self, point: &SurfacePoint) -> DVec3 {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         self.affine(point, [&geometry[0], &geometry[1], &geometry[2]])
     }
 
     /// Returns the steps of one texel along u and v in space, in working units.
-    pub(crate) fn texel_sides(&self, point: &SurfacePoint) -> [[f64; 3]; 2] {
+    pub(crate) fn texel_sides(&self, point: &SurfacePoint) -> [DVec3; 2] {
         let geometry = &self.tables.geometry[6 * point.triangle..];
-        [1, 2].map(|row: usize| std::array::from_fn(|axis| f64::from(geometry[row][axis])))
+        [1, 2].map(|row: usize| xyz(&geometry[row]))
     }
 
     /// Returns the shading frame at a point.
@@ -117,16 +117,9 @@ impl SourceSurface<'_> {
 
 impl Frame {
     /// Creates a frame from interpolated vectors and the sign of the bitangent.
-    pub(crate) fn new(normal: [f64; 3], tangent: [f64; 3], sign: f64) -> Frame {
-        let cross = |a: [f64; 3], b: [f64; 3]| {
-            [
-                a[1] * b[2] - a[2] * b[1],
-                a[2] * b[0] - a[0] * b[2],
-                a[0] * b[1] - a[1] * b[0],
-            ]
-        };
+    pub(crate) fn new(normal: DVec3, tangent: DVec3, sign: f64) -> Frame {
         Frame {
-            bitangent: cross(normal, tangent).map(|x| sign * x),
+            bitangent: sign * normal.cross(tangent),
             tangent,
             normal,
         }
@@ -137,17 +130,19 @@ impl Frame {
         if normal[0] == 0.0 && normal[1] == 0.0 {
             return [0.0; 3];
         }
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let [x, y, z] = normal.map(f64::from);
-        let tilted: [f64; 3] =
-            std::array::from_fn(|axis| x * self.tangent[axis] + y * self.bitangent[axis] + z * self.normal[axis]);
-        let length = dot(self.normal, self.normal).sqrt();
-        let up = self.normal.map(|axis| axis / length.max(1e-30));
-        let along = dot(tilted, up);
+        let tilted = x * self.tangent + y * self.bitangent + z * self.normal;
+        let up = self.normal / self.normal.length().max(1e-30);
+        let along = tilted.dot(up);
         // A normal that points below the surface has no slope; it counts as very steep.
-        let along = along.max(1e-3 * dot(tilted, tilted).sqrt()).max(1e-30);
-        std::array::from_fn(|axis| (up[axis] - tilted[axis] / along) as f32)
+        let along = along.max(1e-3 * tilted.length()).max(1e-30);
+        (up - tilted / along).as_vec3().to_array()
     }
+}
+
+/// First three values of a table's row.
+fn xyz([x, y, z, _]: &[f32; 4]) -> DVec3 {
+    DVec3::new(f64::from(*x), f64::from(*y), f64::from(*z))
 }
 
 fn put(texel: &mut [u8], format: Format, value: [f32; 4]) {

@@ -1,5 +1,6 @@
 //! Surface points in the UV sets of the model's own textures.
 
+use glam::DVec3;
 use sabi_surface::model::TextureUvs;
 
 use super::sampler::Footprint;
@@ -32,7 +33,11 @@ impl SourceSurface<'_> {
         let tangents = corners.map(|corner| other.tangents[corner].map(f64::from));
         let [x, y, z, _] = blend(weights, tangents);
         let normals = corners.map(|corner| self.model.mesh.normals[corner].map(f64::from));
-        Frame::new(blend(weights, normals), [x, y, z], tangents[0][3])
+        Frame::new(
+            DVec3::from(blend(weights, normals)),
+            DVec3::new(x, y, z),
+            tangents[0][3],
+        )
     }
 
     fn corners(&self, point: &SurfacePoint) -> [usize; 3] {
