@@ -17,6 +17,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::error::ErrorKind;
 use tracing_subscriber::EnvFilter;
+use tracing_subscriber::fmt::format::FmtSpan;
 
 use crate::arguments::Arguments;
 use crate::exit::{Exit, Failure};
@@ -51,17 +52,25 @@ fn start() -> Exit {
     }
 }
 
-/// Starts the log on standard error, if a filter for it is given.
-fn start_log(filter: Option<&str>) -> Result<(), Failure> {
-    let Some(filter) = filter else {
-        return Ok(());
+/// Filter of the log where `--log` is not given.
+const LOG_VARIABLE: &str = "SABI_LOG";
+
+/// Starts the log on standard error, if `--log` or `SABI_LOG` gives a filter for it. Spans are logged with their times when they
+/// close.
+fn start_log(argument: Option<&str>) -> Result<(), Failure> {
+    let variable = std::env::var(LOG_VARIABLE).ok().filter(|filter| !filter.is_empty());
+    let (filter, name) = match (argument, &variable) {
+        (Some(filter), _) => (filter, "--log"),
+        (None, Some(filter)) => (filter.as_str(), LOG_VARIABLE),
+        (None, None) => return Ok(()),
     };
     let filter = EnvFilter::try_new(filter).map_err(|error| {
-        let why = format!("--log takes a filter such as 'info' or 'sabi_gpu=debug', not '{filter}': {error}");
+        let why = format!("{name} takes a filter such as 'info' or 'sabi_gpu=debug', not '{filter}': {error}");
         Failure::new(Exit::Usage, why)
     })?;
     tracing_subscriber::fmt()
         .with_env_filter(filter)
+        .with_span_events(FmtSpan::CLOSE)
         .with_writer(io::stderr)
         .with_ansi(false)
         .init();

@@ -113,7 +113,7 @@ impl Session {
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
         let saved = match &file {
-            Some(file) => fs::read_to_string(file).unwrap_or_default(),
+            Some(file) => fs::read_to_string(file).unwrap_or_default(), // A missing file leaves everything unsaved.
             None => Document::new("").to_json(),
         };
         let text = document.to_json();

@@ -99,7 +99,10 @@ fn bake_open(
     let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
     encode.time(|| write_copy(copy, &mut writer, &mut written))?;
-    let committed = encode.time(|| writer.commit())?;
+    let committed = encode.time(|| {
+        let _span = tracing::debug_span!("write", folder = %request.output.display()).entered();
+        writer.commit()
+    })?;
     let told = evaluator.warnings().iter().chain(&written.warnings);
     let warnings: Vec<Warning> = told.cloned().chain(left_over(&committed)).collect();
     let times = PhaseTimes {
@@ -233,6 +236,7 @@ fn report(
         for (node, share) in &step.nodes {
             // A fused kernel's time is shared out by cost: it cannot be measured node by node.
             let ms = step.run.as_secs_f64() * 1000.0 * f64::from(*share);
+            // A node that has no time yet starts at 0.
             let before = nodes_ms.get(node).and_then(Json::as_f64).unwrap_or(0.0);
             nodes_ms.insert(node.clone(), json!(((before + ms) * 100.0).round() / 100.0));
         }

@@ -31,10 +31,11 @@ impl<'p> Mixing<'p> {
         let mut of_texel = Vec::new();
         if results.len() > 1 {
             let of_chart = atlas.charts.iter().map(|chart| of_material.get(&chart.material));
-            let of_chart: Vec<u16> = of_chart.map(|at| at.copied().unwrap_or_default()).collect();
+            // Charts of other sets and empty texels are not read; any index does.
+            let of_chart: Vec<u16> = of_chart.map(|at| at.copied().unwrap_or(0)).collect();
             let of_owner = |owner: &u32| chart_of(atlas, *owner).and_then(|chart| of_chart.get(chart as usize));
             let of_owners = atlas.owners.iter().map(of_owner);
-            of_texel = of_owners.map(|at| at.copied().unwrap_or_default()).collect();
+            of_texel = of_owners.map(|at| at.copied().unwrap_or(0)).collect(); // Empty texels are not read.
         }
         Mixing { results, of_texel }
     }
@@ -44,7 +45,8 @@ impl<'p> Mixing<'p> {
     pub(crate) fn texel(&self, planes: &[Option<PlaneData>], texel: usize) -> Option<[f32; 4]> {
         let at = match planes {
             [_] => 0,
-            _ => usize::from(self.of_texel.get(texel).copied().unwrap_or_default()),
+            // The list is empty where one result serves all texels.
+            _ => usize::from(self.of_texel.get(texel).copied().unwrap_or(0)),
         };
         Some(planes.get(at)?.as_ref()?.texel(texel))
     }

@@ -78,10 +78,8 @@ impl FixedSettings {
 
     /// Returns the fit and the seed for a document.
     fn of(&self, document: &Document) -> (Fit, u32) {
-        (
-            self.fit.unwrap_or(document.fit),   // The options override the document.
-            self.seed.unwrap_or(document.seed), // The options override the document.
-        )
+        // The options override the document.
+        (self.fit.unwrap_or(document.fit), self.seed.unwrap_or(document.seed))
     }
 }
 

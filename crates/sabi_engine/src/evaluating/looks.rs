@@ -93,6 +93,7 @@ pub(crate) fn looks_of_run(
     };
     let materials = 0..evaluator.linked().model.materials.len() as u32;
     Ok(ModelLooks {
+        // The neutral look is the first.
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
         is_lit: looks.iter().all(|look| look.node.is_none()),
         height_range,

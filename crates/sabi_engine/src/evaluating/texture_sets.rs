@@ -218,6 +218,7 @@ pub(crate) fn shown_by(graph: &FlatGraph, linked: &LinkedModel) -> (BTreeMap<u32
     let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
     let by_material = served(graph, &outputs, &names);
     let shown = used.iter().zip(by_material);
+    // The node of the model's own materials is appended at the end.
     let shown = shown.map(|(&material, output)| (material, output.unwrap_or(graph.nodes.len())));
     (shown.collect(), idle(graph, &outputs, &names))
 }

@@ -118,13 +118,15 @@ fn shape_of(plane: Plane) -> (&'static str, PlaneKind, usize) {
 
 /// Encodes a texel's values for a display: masks as gray, colors in sRGB, vectors with −1..1 mapped to 0..1.
 pub(crate) fn rgb_codes(ty: PortType, values: &[f32]) -> [u8; 3] {
-    let code = |at: usize| {
-        let value = values.get(at).copied().unwrap_or_default();
-        match ty {
-            PortType::Mask => quantize_u8(values.first().copied().unwrap_or_default()),
-            PortType::Color | PortType::Material => srgb8_from_linear(value),
-            PortType::Vector => quantize_u8(value * 0.5 + 0.5),
-        }
+    // A mask has one value, which is shown as gray.
+    let rgb = match values {
+        [r, g, b, ..] => [*r, *g, *b],
+        [gray, ..] => [*gray; 3],
+        [] => [0.0; 3],
     };
-    [0, 1, 2].map(code)
+    rgb.map(|value| match ty {
+        PortType::Mask => quantize_u8(value),
+        PortType::Color | PortType::Material => srgb8_from_linear(value),
+        PortType::Vector => quantize_u8(value * 0.5 + 0.5),
+    })
 }

@@ -136,7 +136,7 @@ impl LiveModel {
     /// Returns the index of [`LiveModel::set`].
     pub(super) fn index_of_set(&self, wanted: Option<SetKey>) -> usize {
         let at = self.sets.iter().position(|set| Some(set.key) == wanted);
-        at.unwrap_or_default()
+        at.unwrap_or(0) // The first set stands in for one that the model does not have.
     }
 }
 

@@ -8,7 +8,7 @@ use sabi_view::{Background, Camera, Environment, MaterialLook, Pixels, Pose, Ren
 
 use super::event::LiveModel;
 use crate::error::EngineError;
-use crate::opening::environment::{built_in_environments, load_environment};
+use crate::opening::environment::{DEFAULT_ENVIRONMENT, load_environment};
 
 /// Samples per pixel; without several the outline on a transparent background has visible steps.
 const SAMPLES: u32 = 4;
@@ -24,7 +24,7 @@ pub(super) struct ThumbnailRenderer {
 impl ThumbnailRenderer {
     /// Loads the environment.
     pub(super) fn new(gpu: &Gpu, cache_dir: Option<&Path>) -> Result<ThumbnailRenderer, EngineError> {
-        let light = built_in_environments().next().unwrap_or_default();
+        let light = DEFAULT_ENVIRONMENT;
         // A light that could not be cached is computed again at the next start.
         let (environment, _) = load_environment(gpu, light, cache_dir)?;
         Ok(ThumbnailRenderer {

@@ -32,6 +32,7 @@ pub struct OpenGraph {
 impl OpenGraph {
     /// Reads a graph file.
     pub fn open(path: &Path) -> Result<OpenGraph, EngineError> {
+        let _span = tracing::debug_span!("open graph", path = %path.display()).entered();
         let text = read_text(path).map_err(|error| error.said(|why| format!("{}: {why}", path.display())))?;
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(path.display().to_string())))?;
@@ -45,7 +46,7 @@ impl OpenGraph {
 
     /// The folder that paths in the file start from.
     pub fn folder(&self) -> &Path {
-        self.path.parent().unwrap_or(Path::new(""))
+        self.path.parent().unwrap_or(Path::new("")) // A bare file name lies in the current folder.
     }
 
     /// Looks at these pictures again when they are used next, however little they seem to have changed.

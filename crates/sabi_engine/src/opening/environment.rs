@@ -11,9 +11,15 @@ use sabi_view::{Environment, Panorama};
 use crate::Gpu;
 use crate::error::{EngineError, ErrorKind};
 
-/// Sabi's own environments, the one that is shown unless told otherwise first; `cargo xtask assets` writes them.
+/// Name of the environment that is shown by default.
+pub(crate) const DEFAULT_ENVIRONMENT: &str = "studio";
+
+/// Sabi's own environments, the default first; `cargo xtask assets` writes them.
 const BUILT_IN: [(&str, &[u8]); 3] = [
-    ("studio", include_bytes!("../../../../assets/environments/studio.hdr")),
+    (
+        DEFAULT_ENVIRONMENT,
+        include_bytes!("../../../../assets/environments/studio.hdr"),
+    ),
     (
         "overcast",
         include_bytes!("../../../../assets/environments/overcast.hdr"),
@@ -43,6 +49,7 @@ pub fn load_environment(
     choice: &str,
     cache_dir: Option<&Path>,
 ) -> Result<(Environment, Vec<String>), EngineError> {
+    let _span = tracing::debug_span!("load environment", choice).entered();
     let (panorama, mut remarks) = read_panorama(choice)?;
     let (environment, remark) = environment_of(gpu, &panorama, cache_dir)?;
     remarks.extend(remark);

@@ -132,11 +132,13 @@ impl LinkedModel {
             up: options.up,
             scale: options.scale,
         };
+        let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();
         Ok(load(&options.path, &load_options)?)
     }
 
     /// Builds or finds the atlas of a loaded model, which is unwrapped first where it has to be.
     pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
+        let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
         let unwrapped_anew = |model: &mut Model| {
             let made = unwrap_model(model, options);
@@ -180,6 +182,7 @@ impl LinkedModel {
 
     /// The same model with an atlas of another size. The model itself, and what rays are followed through, are shared.
     pub fn resized(&self, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
+        let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
         let cache_dir = options.cache_folder();
         let built = cached(cache_dir.as_deref(), &self.model.mesh, &AtlasOptions::new(options.size));

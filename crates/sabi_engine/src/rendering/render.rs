@@ -198,7 +198,7 @@ fn draw(
     let gpu = evaluator.gpu();
     let renderer = Renderer::new(gpu)?;
     let mut canvas = Canvas::new(gpu, request.size)?;
-    let frames = request.turntable.unwrap_or(1);
+    let frames = request.turntable.unwrap_or(1); // A single picture without a turntable.
     let has_light = request.output.extension().is_some_and(|ending| ending == "exr");
     for frame in 0..frames {
         stop_if_canceled(progress)?;

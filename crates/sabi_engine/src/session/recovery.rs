@@ -90,6 +90,7 @@ impl Recovery {
     pub(super) fn new(folder: &Path, file: Option<&Path>) -> Recovery {
         let number = SESSIONS.fetch_add(1, Ordering::Relaxed);
         // Process numbers come again; times do not.
+        // A clock before 1970 counts as 1970; the other parts of the name still tell files apart.
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let name = format!("{}-{}-{number}.{ENDING}", std::process::id(), now.as_millis());
         Recovery {

@@ -65,7 +65,7 @@ pub(crate) fn plane(surface: &SourceSurface<'_>, node: &str, plane: Plane, warni
         let corners = mesh.triangles[point.triangle].iter().zip(weights);
         let mut sum = [0.0_f32; 4];
         for (vertex, weight) in corners {
-            let color = mesh.colors.get(*vertex as usize).copied().unwrap_or([1.0; 4]);
+            let color = mesh.colors.get(*vertex as usize).copied().unwrap_or([1.0; 4]); // White without colors, with a warning.
             for (sum, value) in sum.iter_mut().zip(color) {
                 *sum += weight * value;
             }

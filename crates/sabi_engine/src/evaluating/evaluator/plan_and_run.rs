@@ -114,6 +114,8 @@ impl Evaluator {
         let warnings = sources.warnings;
         self.warn(warnings);
         let run = run?;
+        let report = &run.report;
+        tracing::debug!(compile = ?report.compile, run = ?report.run, steps = report.steps.len(), "plan was run");
         self.times.compile.add(run.report.compile);
         self.times.run.add(run.report.run);
         Ok(run)
