@@ -12,6 +12,7 @@ use egui_phosphor::regular as icon;
 use crate::action::{Action, FileAction};
 use crate::context::ViewContext;
 use crate::paths::file_name;
+pub(crate) use document::SIZES as WORKING_SIZES;
 #[cfg(test)]
 pub(crate) use menus::{ARRANGE, EDIT};
 pub(crate) use menus::{marked_name, top};

@@ -88,11 +88,12 @@ impl ViewContext<'_> {
     }
 
     /// Sentence about why the outputs do not show the graph as it is.
-    pub(crate) fn fault_of_outputs(&self) -> Option<&String> {
+    pub(crate) fn fault_of_outputs(&self) -> Option<String> {
         let evaluation = self.evaluation;
         let outputs = self.document.contents().graph.nodes();
         let mut outputs = outputs.filter(|(_, node)| node.kind.starts_with("output/"));
         let failure = evaluation.model_failure.as_ref().or(evaluation.failure.as_ref());
-        failure.or_else(|| outputs.find_map(|(id, _)| evaluation.sentence(id.as_str())))
+        let failure = failure.map(ToString::to_string);
+        failure.or_else(|| outputs.find_map(|(id, _)| evaluation.sentence(id.as_str())).cloned())
     }
 }

@@ -73,9 +73,9 @@ pub(crate) struct Evaluation {
     times: BTreeMap<String, Duration>,
     pub(crate) last: LiveTimes,
     /// Error of the last evaluation.
-    pub(crate) failure: Option<String>,
+    pub(crate) failure: Option<EngineError>,
     /// Error of the last attempt to read the model.
-    pub(crate) model_failure: Option<String>,
+    pub(crate) model_failure: Option<EngineError>,
     pub(crate) lost: Option<EngineError>,
     numbers: u64,
 }
@@ -274,7 +274,7 @@ impl Evaluation {
                     self.shown_model = Some(model);
                 }
                 LiveEvent::ModelFailed { error, model_revision } if model_revision == self.model_revision => {
-                    self.model_failure = Some(error.to_string());
+                    self.model_failure = Some(error);
                 }
                 LiveEvent::Looks {
                     subject, model, looks, ..
@@ -293,7 +293,7 @@ impl Evaluation {
                     self.times.extend(times.nodes.iter().cloned());
                     self.last = times;
                 }
-                LiveEvent::Failed { error, .. } => self.failure = Some(error.to_string()),
+                LiveEvent::Failed { error, .. } => self.failure = Some(error),
                 LiveEvent::Lost(error) => self.lost = Some(error),
                 LiveEvent::Done { .. } | LiveEvent::Model { .. } | LiveEvent::ModelFailed { .. } => {}
             }

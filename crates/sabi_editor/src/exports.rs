@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use egui::Context;
 use sabi_editing::OpenDocument;
 use sabi_engine::{
-    AdapterChoice, BakeReport, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Overrides, Seams,
-    bake_graph, default_padding, needs_force,
+    AdapterChoice, BakeReport, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EngineError, ErrorKind,
+    EvaluatorOptions, Overrides, Seams, Warning, bake_graph, default_padding, needs_force,
 };
 
 use crate::evaluation::Evaluation;
@@ -29,13 +29,13 @@ pub(crate) struct Exports {
     /// Whether the folder has files that are not the graph's, and the panel asks whether to write there all the same.
     pub(crate) asks_force: bool,
     /// Result of the last export.
-    pub(crate) result: Option<Result<Written, String>>,
+    pub(crate) result: Option<Result<Written, EngineError>>,
 }
 
 /// Files and warnings of an export.
 pub(crate) struct Written {
     pub(crate) files: Vec<String>,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
 }
 
 /// What an export is made from.
@@ -60,15 +60,11 @@ impl Exports {
             return;
         };
         self.running = None;
-        let done = match done {
-            Ok(done) => done.map_err(|error| error.to_string()),
-            Err(Failed) => Err(
-                "The export ended before its time, which is a mistake of the program; nothing was changed.".to_owned(),
-            ),
-        };
+        let failed = "The export ended before its time, which is a mistake of the program; nothing was changed.";
+        let done = done.unwrap_or_else(|Failed| Err(EngineError::new(ErrorKind::Defect, failed)));
         self.result = Some(done.map(|report: BakeReport| Written {
             files: report.files,
-            warnings: report.warnings.iter().map(ToString::to_string).collect(),
+            warnings: report.warnings,
         }));
         if let Some(bake) = self.queued.pop_front() {
             self.running = Some(Running::start(context, bake));

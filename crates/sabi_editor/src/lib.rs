@@ -22,6 +22,7 @@ mod notices;
 mod offscreen;
 mod panels;
 mod paths;
+mod remedies;
 mod saved_pictures;
 mod search;
 mod settings;

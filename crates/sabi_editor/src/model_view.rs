@@ -177,12 +177,14 @@ impl ModelView {
             self.turn(ui, &response, rect, drags);
             done.taken = self.clicked_color(&response, rect, evaluation, picture, subject);
         }
+        let failure = evaluation.model_failure.as_ref().map(ToString::to_string);
         let is_covered = match (render, &picture) {
             (Some(render), Some(picture)) => self.paint(ui, rect, evaluation, render, picture, subject),
             (render, _) => {
                 let why = match render {
                     None => "This window has no graphics device to draw the model with.",
-                    Some(_) => evaluation.model_failure.as_deref().unwrap_or("Reading the model…"),
+                    // Without an error, the model is still to come.
+                    Some(_) => failure.as_deref().unwrap_or("Reading the model…"),
                 };
                 self.say(ui, rect, subject.theme, why);
                 false

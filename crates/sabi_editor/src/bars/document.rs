@@ -10,7 +10,7 @@ use crate::context::ViewContext;
 use crate::theme::type_size;
 
 /// Sizes that are offered to work at.
-const SIZES: [u32; 5] = [256, 512, 1024, 2048, 4096];
+pub(crate) const SIZES: [u32; 5] = [256, 512, 1024, 2048, 4096];
 
 /// Button with the size at which the graph is worked on; a click opens the menu.
 pub(super) fn menu(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {

@@ -42,13 +42,13 @@ impl Showing {
             ViewSubject::Node(result) => format!("Follows: {}", title(result)),
         };
         let fault = match seen {
-            ViewSubject::Node(result) => context.evaluation.sentence(&result.node),
+            ViewSubject::Node(result) => context.evaluation.sentence(&result.node).cloned(),
             ViewSubject::Outputs => context.fault_of_outputs(),
         };
         Showing {
             words: words(seen),
             other: beside.map(words),
-            fault: fault.cloned(),
+            fault,
             follows: context.settings.follows,
             clicked: looks.shown.as_ref().map(title),
             locked: looks.locked.as_ref().map(title),

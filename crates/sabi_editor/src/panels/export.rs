@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use egui::{Button, Grid, Label, ProgressBar, RichText, TextEdit, Ui};
-use sabi_engine::{DEFAULT_NAMES, export_channels, export_presets, why_no_names};
+use sabi_engine::{DEFAULT_NAMES, Remedy, export_channels, export_presets, why_no_names};
 
 use crate::action::{Action, ExportAction};
 use crate::context::{View, ViewContext};
 use crate::files::system_dialog::{SystemDialog, answer_of};
+use crate::remedies::{self, Request};
 use crate::settings::export::{ExportChoices, ExportPlace, SIZES};
 use crate::theme::{Theme, space};
 
@@ -37,8 +38,9 @@ impl View for ExportPanel {
         }
         ui.add_space(space::USUAL);
         actions.extend(progress(ui, context));
-        result(ui, context);
-        actions.into_iter().map(Action::Export).collect()
+        let mut actions: Vec<Action> = actions.into_iter().map(Action::Export).collect();
+        actions.extend(self.result(ui, context));
+        actions
     }
 }
 
@@ -46,6 +48,43 @@ impl ExportPanel {
     /// Waits for the answer of the system dialog no longer, since another graph is opened.
     pub(crate) fn forget_dialog(&mut self) {
         self.dialog = None;
+    }
+
+    /// Files and warnings of the last export, or its error, with buttons that apply remedies.
+    fn result(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
+        let theme = context.theme;
+        let request = Request::Export(&context.settings.export);
+        let import = context.evaluation.import_options();
+        let area = egui::ScrollArea::vertical().auto_shrink(false);
+        let shown = area.show(ui, |ui| match &context.exports.result {
+            Some(Ok(written)) if written.files.is_empty() => {
+                let why = "Every channel is the same everywhere, so that there is nothing to write; switch on \"Constant \
+                           channels too\" for maps all the same.";
+                ui.colored_label(theme.quiet, why);
+                Vec::new()
+            }
+            Some(Ok(written)) => {
+                ui.colored_label(theme.good, "Written:");
+                for file in &written.files {
+                    ui.colored_label(theme.quiet, file);
+                }
+                let warnings = written.warnings.iter().filter_map(|warning| {
+                    let said = (warning.sentence.as_str(), warning.remedies.as_slice());
+                    remedies::show(ui, theme.warning, said, request, import)
+                });
+                warnings.collect()
+            }
+            Some(Err(error)) => {
+                let sentences = error.messages.join("\n");
+                let asked = remedies::show(ui, theme.fault, (&sentences, &error.remedies), request, import);
+                if error.remedies.contains(&Remedy::OtherFolder) && ui.button("Choose a folder").clicked() {
+                    self.dialog = Some(SystemDialog::folder(ui.ctx()));
+                }
+                asked.into_iter().collect()
+            }
+            None => Vec::new(),
+        });
+        shown.inner
     }
 
     fn folder(&mut self, place: &mut ExportPlace, ui: &mut Ui) {
@@ -166,31 +205,4 @@ fn progress(ui: &mut Ui, context: &ViewContext<'_>) -> Option<ExportAction> {
         asked = Some(ExportAction::Start { force: false });
     }
     asked
-}
-
-/// Files and warnings of the last export, or its error.
-fn result(ui: &mut Ui, context: &ViewContext<'_>) {
-    let theme = context.theme;
-    egui::ScrollArea::vertical()
-        .auto_shrink(false)
-        .show(ui, |ui| match &context.exports.result {
-            Some(Ok(written)) if written.files.is_empty() => {
-                let why = "Every channel is the same everywhere, so that there is nothing to write; switch on \"Constant \
-                           channels too\" for maps all the same.";
-                ui.colored_label(theme.quiet, why);
-            }
-            Some(Ok(written)) => {
-                ui.colored_label(theme.good, "Written:");
-                for file in &written.files {
-                    ui.colored_label(theme.quiet, file);
-                }
-                for warning in &written.warnings {
-                    ui.colored_label(theme.warning, warning);
-                }
-            }
-            Some(Err(why)) => {
-                ui.colored_label(theme.fault, why);
-            }
-            None => {}
-        });
 }

@@ -1,6 +1,7 @@
 //! What is wrong is shown where it is, and the rest goes on.
 
 use egui_kittest::kittest::{NodeT, Queryable};
+use sabi_engine::{EngineError, ErrorKind, Remedy};
 
 use super::Window;
 use super::hands::id;
@@ -170,4 +171,25 @@ fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
     window.open(Panel::Problems);
     window.click_at(window.harness.get_by_label_contains(&fault).rect().center());
     assert_eq!(window.document().selected_one(), Some(&id("gone")));
+}
+
+#[test]
+fn a_remedy_that_the_window_can_apply_is_a_button_and_the_others_are_words() {
+    let mut window = Window::opened("");
+    window.until("the model", |editor| editor.evaluation.loaded_model().1);
+    window.until("the end", |editor| !editor.evaluation.is_busy());
+    let error = EngineError::new(ErrorKind::OutOfMemory, "there is no room for this");
+    let error = error.with_remedies([Remedy::LargerSize, Remedy::CloseOtherPrograms]);
+    window.harness.state_mut().evaluation.failure = Some(error);
+    window.open(Panel::Problems);
+    let words = "there is no room for this; close other programs that use the graphics card";
+    assert!(window.says(words), "{:?}", window.labels());
+    window.press("Work at 256 texels");
+    let size = window
+        .document()
+        .contents()
+        .preview
+        .as_ref()
+        .and_then(|preview| preview.size);
+    assert_eq!(size, Some(256));
 }

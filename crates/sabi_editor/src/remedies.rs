@@ -1,0 +1,168 @@
+//! Remedies of errors and warnings: a button where an action of the window applies one, words otherwise.
+
+use egui::{Color32, Label, RichText, Ui};
+use sabi_engine::{Overlap, Remedy, advised};
+
+use crate::action::{Action, DocumentAction, ExportAction, ModelAction};
+use crate::bars::WORKING_SIZES;
+use crate::import_options::ImportOptions;
+use crate::settings::export::{ExportChoices, SIZES as EXPORT_SIZES};
+
+/// Request that an error or a warning is about.
+#[derive(Clone, Copy)]
+pub(crate) enum Request<'a> {
+    /// Evaluation of the open graph at a size, texels along a side.
+    Evaluation { size: u32 },
+    /// Export with these choices.
+    Export(&'a ExportChoices),
+}
+
+/// Shows a sentence with the remedies that have no button in words, and the buttons of the others below it.
+pub(crate) fn show(
+    ui: &mut Ui,
+    color: Color32,
+    (sentence, remedies): (&str, &[Remedy]),
+    request: Request<'_>,
+    import: ImportOptions,
+) -> Option<Action> {
+    let offered = |remedy: &Remedy| button(*remedy, request, import);
+    let words = remedies.iter().filter(|remedy| offered(remedy).is_none());
+    let text = advised(sentence, words);
+    ui.add(Label::new(RichText::new(text).color(color)).wrap());
+    let buttons: Vec<(String, Action)> = remedies.iter().filter_map(offered).collect();
+    if buttons.is_empty() {
+        return None;
+    }
+    let mut asked = None;
+    ui.horizontal_wrapped(|ui| {
+        for (label, action) in buttons {
+            if ui.button(label).clicked() {
+                asked = Some(action);
+            }
+        }
+    });
+    asked
+}
+
+/// Label and action of the button that applies a remedy to a request; none where the window has no such action.
+fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option<(String, Action)> {
+    let read = |overlap: Overlap| Action::Model(ModelAction::Read(ImportOptions { overlap, ..import }));
+    match (remedy, request) {
+        (Remedy::SmallerSize, Request::Evaluation { size }) => {
+            let smaller = WORKING_SIZES.into_iter().rev().find(|offered| *offered < size);
+            smaller.map(working_size)
+        }
+        (Remedy::LargerSize, Request::Evaluation { size }) => {
+            let larger = WORKING_SIZES.into_iter().find(|offered| *offered > size);
+            larger.map(working_size)
+        }
+        (Remedy::SmallerSize, Request::Export(choices)) => {
+            let smaller = EXPORT_SIZES.into_iter().rev().find(|offered| *offered < choices.size);
+            smaller.map(|size| export_size(size, choices))
+        }
+        (Remedy::LargerSize, Request::Export(choices)) => {
+            let larger = EXPORT_SIZES.into_iter().find(|offered| *offered > choices.size);
+            larger.map(|size| export_size(size, choices))
+        }
+        (Remedy::UnwrapModel, _) => Some(("Unwrap the model".to_owned(), read(Overlap::Unwrap))),
+        (Remedy::MergeOverlaps, _) => Some(("Take the mean of shared places".to_owned(), read(Overlap::Merge))),
+        (Remedy::IntoThisFolderAnyway, Request::Export(_)) => {
+            let action = ExportAction::Start { force: true };
+            Some(("Put the textures there all the same".to_owned(), Action::Export(action)))
+        }
+        (Remedy::TryAgain, Request::Export(_)) => {
+            let action = ExportAction::Start { force: false };
+            Some(("Export again".to_owned(), Action::Export(action)))
+        }
+        (Remedy::WithoutModelCopy, Request::Export(choices)) => {
+            let choices = ExportChoices {
+                has_model: false,
+                ..choices.clone()
+            };
+            let action = ExportAction::Choose(choices);
+            Some(("Leave out the model".to_owned(), Action::Export(action)))
+        }
+        (Remedy::IntoThisFolderAnyway | Remedy::TryAgain | Remedy::WithoutModelCopy, Request::Evaluation { .. })
+        | (
+            Remedy::OtherAdapter
+            | Remedy::AnyAdapter
+            | Remedy::SoftwareAdapter
+            | Remedy::CloseOtherPrograms
+            | Remedy::UpdateDriver
+            | Remedy::RaiseBudget
+            | Remedy::WithoutFusion
+            | Remedy::ProcessorRays
+            | Remedy::ReduceTriangles
+            | Remedy::OtherFolder
+            | Remedy::FreeSpace
+            | Remedy::AllowWriting
+            | Remedy::SaveUnderOtherName
+            | Remedy::EditUvs
+            | Remedy::SaveModelAsGltf
+            | Remedy::OtherMaterial
+            | Remedy::NameModel,
+            _,
+        ) => None,
+    }
+}
+
+fn working_size(size: u32) -> (String, Action) {
+    let action = Action::Document(DocumentAction::Size(size));
+    (format!("Work at {size} texels"), action)
+}
+
+fn export_size(size: u32, choices: &ExportChoices) -> (String, Action) {
+    let choices = ExportChoices {
+        size,
+        ..choices.clone()
+    };
+    let action = Action::Export(ExportAction::Choose(choices));
+    (format!("Export at {size} texels"), action)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_smaller_size_is_the_next_one_that_is_offered() {
+        let import = ImportOptions::default();
+        let offered = |size: u32| button(Remedy::SmallerSize, Request::Evaluation { size }, import);
+        let Some((label, Action::Document(DocumentAction::Size(512)))) = offered(1024) else {
+            panic!("512 is the next smaller size");
+        };
+        assert_eq!(label, "Work at 512 texels");
+        assert!(offered(256).is_none(), "nothing smaller is offered");
+        let choices = ExportChoices::default();
+        let Some((label, Action::Export(ExportAction::Choose(chosen)))) =
+            button(Remedy::SmallerSize, Request::Export(&choices), import)
+        else {
+            panic!("exports have smaller sizes");
+        };
+        assert_eq!((label.as_str(), chosen.size), ("Export at 1024 texels", 1024));
+    }
+
+    #[test]
+    fn a_model_is_unwrapped_with_its_other_options_kept() {
+        let import = ImportOptions {
+            uv: 1,
+            ..ImportOptions::default()
+        };
+        let request = Request::Evaluation { size: 512 };
+        let Some((_, Action::Model(ModelAction::Read(read)))) = button(Remedy::UnwrapModel, request, import) else {
+            panic!("the window can unwrap a model");
+        };
+        assert_eq!((read.overlap, read.uv), (Overlap::Unwrap, 1));
+    }
+
+    #[test]
+    fn what_the_window_cannot_do_has_no_button() {
+        let request = Request::Evaluation { size: 512 };
+        for remedy in [Remedy::SoftwareAdapter, Remedy::TryAgain, Remedy::RaiseBudget] {
+            assert!(
+                button(remedy, request, ImportOptions::default()).is_none(),
+                "{remedy:?}"
+            );
+        }
+    }
+}
