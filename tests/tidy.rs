@@ -4,6 +4,8 @@
 mod functions;
 #[path = "tidy/literals.rs"]
 mod literals;
+#[path = "tidy/mirrors.rs"]
+mod mirrors;
 #[path = "tidy/rules.rs"]
 mod rules;
 

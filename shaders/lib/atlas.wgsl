@@ -12,6 +12,9 @@ const GHOST_ROWS: u32 = 4u;
 // Rows of four floats a piece has in `pieces`.
 const PIECE_ROWS: u32 = 3u;
 
+// Bits of the longest straight step.
+const LEAP_BITS: u32 = 6u;
+
 struct Pass {
     // First tile of this dispatch in the tile list, and one past the last.
     first_tile: u32,
@@ -64,12 +67,15 @@ struct GhostRead {
 @group(SURFACE_GROUP) @binding(4) var frames: texture_2d<u32>;
 @group(SURFACE_GROUP) @binding(5) var ghosts: texture_2d<u32>;
 @group(SURFACE_GROUP) @binding(6) var<storage, read> pieces: array<vec4f>;
-// For each texel how far a straight step may go, in texels, in six bits, and in two bits what planes lie under it.
+// For each texel how far a straight step may go, in texels, in `LEAP_BITS` bits, and in two bits what planes lie under it.
 @group(SURFACE_GROUP) @binding(7) var leaps: texture_2d_array<u32>;
 
-// Where a row of a table is in its texture, which is 8192 wide.
+// Tables are textures of two to the power of so many texels side by side.
+const TABLE_BITS: u32 = 13u;
+
+// Texel of a table's texture that holds a row.
 fn table_texel(row: u32) -> vec2u {
-    return vec2u(row & 8191u, row >> 13u);
+    return vec2u(row & ((1u << TABLE_BITS) - 1u), row >> TABLE_BITS);
 }
 
 fn geometry_row(row: u32) -> vec4f {
@@ -135,13 +141,13 @@ fn face_along(along_u: vec4f, along_v: vec4f) -> vec3f {
 }
 
 fn leap_of(texel: vec3i) -> f32 {
-    return f32(textureLoad(leaps, texel.xy, texel.z, 0).r & 63u);
+    return f32(textureLoad(leaps, texel.xy, texel.z, 0).r & ((1u << LEAP_BITS) - 1u));
 }
 
 // Whether one plane lies under two quarters of a texel that face each other: bit 0 for those towards lower columns and rows
 // and towards higher ones, bit 1 for the other two.
 fn planes_under(texel: vec3i) -> u32 {
-    return textureLoad(leaps, texel.xy, texel.z, 0).r >> 6u;
+    return textureLoad(leaps, texel.xy, texel.z, 0).r >> LEAP_BITS;
 }
 
 fn facing_of(triangle: u32, position: vec3f) -> Facing {

@@ -2,6 +2,9 @@
 //! kernel.
 //! @use core atlas
 
+// Texels along a side of a tile, each of which a workgroup covers.
+const TILE: u32 = 8u;
+
 fn texel_of(group: vec3u, local: vec3u) -> vec3i {
     let index = dispatch.first_tile + group.y * dispatch.row_length + group.x;
     if index >= dispatch.end_tile {
@@ -9,7 +12,7 @@ fn texel_of(group: vec3u, local: vec3u) -> vec3i {
     }
     // column: 11 bits, row: 11 bits, page: 10 bits
     let tile = tiles[index];
-    let corner = vec2u(tile & 0x7ffu, (tile >> 11u) & 0x7ffu) * 8u;
+    let corner = vec2u(tile & 0x7ffu, (tile >> 11u) & 0x7ffu) * TILE;
     return vec3i(vec2i(corner + local.xy), i32(tile >> 22u));
 }
 

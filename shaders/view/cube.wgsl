@@ -8,6 +8,7 @@ struct CubePass {
     count: u32,
     /// Level of the source to read.
     lod: f32,
+    pad: u32,
 }
 
 /// The direction, not of unit length, at a place of a face, -1 to 1 from the left and from the top.

@@ -12,8 +12,14 @@ struct Display {
     pad_1: f32,
 }
 
-// 0 none but sRGB's curve, 1 AgX, 2 ACES; 3 for pictures that are encoded already. See `switches.wgsl`.
-override TRANSFORM: u32 = 0u;
+// View transforms; the last is for pictures that are encoded already.
+const STANDARD: u32 = 0u;
+const AGX: u32 = 1u;
+const ACES: u32 = 2u;
+const ENCODED: u32 = 3u;
+
+// View transform of the pipeline; see `switches.wgsl` for why it is no uniform.
+override TRANSFORM: u32 = STANDARD;
 
 @group(0) @binding(0) var<uniform> display: Display;
 @group(0) @binding(1) var light: texture_2d<f32>;
@@ -63,9 +69,9 @@ fn shown_at(pixel: vec2i) -> vec4f {
     let seen = textureLoad(light, pixel, 0);
     var color = seen.xyz;
     switch TRANSFORM {
-        case 0u: { color = clamp(color * display.exposure, vec3f(0.0), vec3f(1.0)); }
-        case 1u: { color = agx(color * display.exposure); }
-        case 2u: { color = aces(color * display.exposure); }
+        case STANDARD: { color = clamp(color * display.exposure, vec3f(0.0), vec3f(1.0)); }
+        case AGX: { color = agx(color * display.exposure); }
+        case ACES: { color = aces(color * display.exposure); }
         default: { color = linear_of(clamp(color, vec3f(0.0), vec3f(1.0))); }
     }
     let behind = vec4f(display.backdrop.xyz, 1.0) * display.backdrop.w;

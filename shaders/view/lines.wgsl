@@ -12,14 +12,16 @@ struct LineStyle {
 
 @group(1) @binding(0) var<uniform> style: LineStyle;
 
-@vertex
-fn place_end(
-    @builtin(vertex_index) index: u32,
+// Ends of a line.
+struct Line {
     @location(0) first: vec3f,
     @location(1) second: vec3f,
-) -> @builtin(position) vec4f {
-    let a = frame.clip_from_view * vec4f(first, 1.0);
-    let b = frame.clip_from_view * vec4f(second, 1.0);
+}
+
+@vertex
+fn place_end(@builtin(vertex_index) index: u32, line: Line) -> @builtin(position) vec4f {
+    let a = frame.clip_from_view * vec4f(line.first, 1.0);
+    let b = frame.clip_from_view * vec4f(line.second, 1.0);
     // Two triangles: the first end once, the second end twice, and so on around.
     let is_second = index == 1u || index == 2u || index == 4u;
     let side = select(-1.0, 1.0, index == 2u || index == 4u || index == 5u);

@@ -23,8 +23,11 @@ struct Place {
     page: i32,
 }
 
+// The table of charts is two to the power of so many texels wide.
+const CHART_BITS: u32 = 10u;
+
 fn chart_row(chart: u32) -> vec4f {
-    return textureLoad(charts, vec2u(chart & 1023u, chart >> 10u), 0);
+    return textureLoad(charts, vec2u(chart & ((1u << CHART_BITS) - 1u), chart >> CHART_BITS), 0);
 }
 
 // Between the four texels around a place, by texel loads rather than a sampler: samplers of some adapters know only 256 steps

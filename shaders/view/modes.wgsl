@@ -1,5 +1,7 @@
-//! Numbers of what is shown; 0 is the lit material.
+//! Numbers of what is shown.
 
+// The lit material.
+const MATERIAL: u32 = 0u;
 const BASE_COLOR: u32 = 1u;
 const OPACITY: u32 = 2u;
 const ROUGHNESS: u32 = 3u;

@@ -52,7 +52,7 @@ fn page_of(chart: u32) -> i32 {
 }
 
 fn is_clear(place: Place, pixel: vec2f) -> bool {
-    let alpha = select(material.color.w, value_at(colors, place).w, has_map(1u));
+    let alpha = select(material.color.w, value_at(colors, place).w, has_map(COLOR_MAP));
     // One condition, see `switches.wgsl`: without a map, the first half asks a uniform buffer alone.
     return (alpha < 1.0) & (alpha <= veil(pixel));
 }

@@ -54,7 +54,7 @@ fn through_relief(place: Place, up: vec3f, to_light: vec3f) -> f32 {
     let stand = Stand(place.texel, place.page, mat2x2f(1.0, 0.0, 0.0, 1.0));
     let owner = owner_of(vec3i(vec2i(floor(stand.texel)), stand.page));
     let reach = frame.heights * frame.view_from_working;
-    if !has_map(16u) || owner == EMPTY || (owner & GHOST_BIT) != 0u {
+    if !has_map(HEIGHT_MAP) || owner == EMPTY || (owner & GHOST_BIT) != 0u {
         return 1.0;
     }
     let g = owner * GEOMETRY_ROWS;

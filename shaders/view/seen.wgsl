@@ -64,10 +64,10 @@ struct Spot {
 }
 
 fn spot_of(pixel: Pixel) -> Spot {
-    let color = select(material.color, value_at(colors, pixel.place), has_map(1u));
-    let surface = select(material.surface, value_at(surfaces, pixel.place), has_map(2u));
-    let emission = select(vec3f(0.0), value_at(emissions, pixel.place).xyz, has_map(4u));
-    let mapped = select(vec3f(0.0, 0.0, 1.0), value_at(normals, pixel.place).xyz, has_map(8u));
+    let color = select(material.color, value_at(colors, pixel.place), has_map(COLOR_MAP));
+    let surface = select(material.surface, value_at(surfaces, pixel.place), has_map(SURFACE_MAP));
+    let emission = select(vec3f(0.0), value_at(emissions, pixel.place).xyz, has_map(EMISSION_MAP));
+    let mapped = select(vec3f(0.0, 0.0, 1.0), value_at(normals, pixel.place).xyz, has_map(NORMAL_MAP));
     // Decoded as MikkTSpace has it: with the interpolated frame, not made orthonormal.
     let bent = pixel.tangent * mapped.x + pixel.bitangent * mapped.y + pixel.normal * mapped.z;
     let towards = select(-1.0, 1.0, pixel.is_front);

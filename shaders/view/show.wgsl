@@ -2,10 +2,6 @@
 //! Colors come as they are to stand in the picture, sRGB-encoded where they are colors, like the files of an export.
 //! @use view/frame view/maps view/modes view/seen view/srgb view/switches
 
-// Types of a node's result.
-const SHOWN_COLOR: u32 = 1u;
-const SHOWN_VECTOR: u32 = 2u;
-
 // Letters would need a font: squares of two sizes, tinted along u and v, tell place, size, turn and mirroring of UVs.
 fn checker(texel_of_plane: vec2f) -> vec3f {
     let uv = texel_of_plane / frame.texels_of_uv;
@@ -38,7 +34,7 @@ fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
         case METALLIC: { return vec3f(spot.metallic); }
         case OCCLUSION: { return vec3f(spot.occlusion); }
         case HEIGHT: {
-            let height = select(0.0, value_at(heights, pixel.place).x, has_map(16u));
+            let height = select(0.0, value_at(heights, pixel.place).x, has_map(HEIGHT_MAP));
             return vec3f((height - frame.heights.x) / max(frame.heights.y - frame.heights.x, 1e-12));
         }
         case NORMAL: { return spot.tangent_normal * 0.5 + 0.5; }

@@ -3,13 +3,24 @@
 
 // What is shown, see `modes.wgsl`.
 override MODE: u32 = 0u;
-// Which maps a material has: 1 color, 2 surface, 4 emission, 8 normal, 16 height.
+// Bits of the maps that a material has.
 override MAPS: u32 = 0u;
-// The type of a node's own result, see `show.wgsl`.
+// Type of a node's own result; 0 for a mask.
 override SHOWN_TYPE: u32 = 0u;
 // How many lights there are besides the environment, and which of them throw shadows, the first in the lowest bit.
 override LIGHT_COUNT: u32 = 0u;
 override SHADOWS_OF: u32 = 0u;
+
+// Bits of `MAPS`.
+const COLOR_MAP: u32 = 1u;
+const SURFACE_MAP: u32 = 2u;
+const EMISSION_MAP: u32 = 4u;
+const NORMAL_MAP: u32 = 8u;
+const HEIGHT_MAP: u32 = 16u;
+
+// Types of a node's own result, besides masks.
+const SHOWN_COLOR: u32 = 1u;
+const SHOWN_VECTOR: u32 = 2u;
 
 fn has_map(bit: u32) -> bool {
     return (MAPS & bit) != 0u;

@@ -1,6 +1,6 @@
 //! The lowest and the highest value of a result, found on the device.
 
-use bytemuck::{Pod, Zeroable};
+use sabi_nodes::wgsl_struct;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -20,13 +20,14 @@ pub struct ValueExtent {
     pub not_numbers: u32,
 }
 
-/// As `Asked` in `extent.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Asked {
-    component: u32,
-    place: u32,
-    pad: [u32; 2],
+wgsl_struct! {
+    "surface/extent" Asked:
+    /// Component that is asked for.
+    pub(crate) struct Asked {
+        component: u32,
+        place: u32,
+        pad: [u32; 2],
+    }
 }
 
 /// Words of each extent: lowest key, highest key, texels that are not a number.

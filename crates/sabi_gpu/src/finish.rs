@@ -1,7 +1,7 @@
 //! Kernels that turn height and slope into tangent-space normals.
 
-use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
+use sabi_nodes::wgsl_struct;
 use sabi_plan::SlotRef;
 
 use crate::device::Gpu;
@@ -15,12 +15,14 @@ use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Relief {
-    has_height: u32,
-    has_slope: u32,
-    pad: [u32; 2],
+wgsl_struct! {
+    "surface/normal" Relief:
+    /// Parts that a normal is made of.
+    pub(crate) struct Relief {
+        has_height: u32,
+        has_slope: u32,
+        pad: [u32; 2],
+    }
 }
 
 impl Gpu {

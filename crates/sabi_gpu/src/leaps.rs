@@ -3,10 +3,12 @@
 use rayon::prelude::*;
 use sabi_surface::atlas::{Atlas, GHOST_BIT};
 
-use crate::tables::{SurfaceTables, texel_across};
+use crate::tables::{GEOMETRY_ROWS, SurfaceTables, texel_across};
 
 /// Longest step that six bits hold.
-const FARTHEST: u8 = 63;
+const FARTHEST: u8 = (1 << LEAP_BITS) - 1;
+/// Bits of a byte that hold a step; the two above say whether a plane lies under the texel.
+pub(crate) const LEAP_BITS: u32 = 6;
 /// Cosine of the angle between two triangles above which they count as one plane.
 const ONE_PLANE: f32 = 0.999_999;
 /// Steps to the eight neighbors of a texel in order around it; the first one again at the end.
@@ -24,7 +26,13 @@ const NEIGHBORS: [[i32; 2]; 9] = [
 
 /// Byte for each texel in the layout that `leaps` of `shaders/lib/atlas.wgsl` has.
 pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
-    let faces: Vec<[f32; 3]> = tables.geometry.as_chunks::<6>().0.iter().map(face).collect();
+    let faces: Vec<[f32; 3]> = tables
+        .geometry
+        .as_chunks::<GEOMETRY_ROWS>()
+        .0
+        .iter()
+        .map(face)
+        .collect();
     let [width, height] = atlas.page_size.map(|side| side as usize);
     let page = width * height;
     let byte = |index: usize| {
@@ -48,13 +56,13 @@ pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
         // center as their mean.
         let same = NEIGHBORS.map(is_plane);
         let corner = |first: usize| same[first..first + 3].iter().all(|same| *same);
-        leap | u8::from(corner(0) && corner(4)) << 6 | u8::from(corner(2) && corner(6)) << 7
+        leap | u8::from(corner(0) && corner(4)) << LEAP_BITS | u8::from(corner(2) && corner(6)) << (LEAP_BITS + 1)
     };
     (0..atlas.owners.len()).into_par_iter().map(byte).collect()
 }
 
 /// Unit normal of a triangle; reversed on mirrored charts, which is the same for all texels of a chart.
-fn face(rows: &[[f32; 4]; 6]) -> [f32; 3] {
+fn face(rows: &[[f32; 4]; GEOMETRY_ROWS]) -> [f32; 3] {
     let across = texel_across(rows);
     let length = across.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
     across.map(|x| (x / length) as f32)

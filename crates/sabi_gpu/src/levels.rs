@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
+use sabi_nodes::wgsl_struct;
 use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
 
 use crate::device::Gpu;
@@ -101,11 +101,13 @@ impl<'s> Surfaces<'s> {
     }
 }
 
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Scale {
-    factor: u32,
-    pad: [u32; 3],
+wgsl_struct! {
+    "surface/level" Scale:
+    /// Ratio between a level and the finest one.
+    pub(crate) struct Scale {
+        factor: u32,
+        pad: [u32; 3],
+    }
 }
 
 impl Gpu {

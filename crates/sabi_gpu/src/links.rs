@@ -5,8 +5,9 @@ mod rows;
 
 use std::sync::OnceLock;
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Pod;
 use sabi_nodes::link::Format;
+use sabi_nodes::wgsl_struct;
 use sabi_surface::atlas::{Atlas, Orphan};
 
 use crate::device::Gpu;
@@ -15,10 +16,11 @@ use crate::pool::array_view;
 use crate::surface::GpuSurface;
 use crate::uploads::{storage_buffer, table_texture};
 use kernels::Part;
+pub(crate) use rows::{GHOST_ROWS, GhostLinkRow, GhostReadRow};
 use rows::{LinkRow, coupled_slots, fill_rows, orphan_rows};
 
 /// Links per workgroup.
-const GROUP: u32 = 64;
+pub(crate) const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch.
 const ROW: u32 = 32_768;
 
@@ -92,7 +94,11 @@ impl GhostLinks {
         Ok(GhostLinks {
             plain: Links::upload(gpu, &plain, 1)?,
             coupled: Links::upload(gpu, &coupled, 3)?,
-            all: Links::upload(gpu, &rows, 4)?,
+            all: Links::upload(
+                gpu,
+                &rows.iter().map(LinkRow::rows).collect::<Vec<_>>(),
+                GHOST_ROWS as u32,
+            )?,
         })
     }
 }
@@ -120,7 +126,7 @@ impl Links {
     fn upload<Row: Pod>(gpu: &Gpu, rows: &[Row], of_ghost: u32) -> Result<Links, GpuError> {
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         let constants = [0, 1].map(|with_ghosts| {
-            let constants = Constants {
+            let constants = FillConstants {
                 ghost_count: rows.len() as u32,
                 with_ghosts,
                 row_length: ROW.min((rows.len() as u32).div_ceil(GROUP)),
@@ -138,13 +144,15 @@ impl Links {
     }
 }
 
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Constants {
-    ghost_count: u32,
-    with_ghosts: u32,
-    row_length: u32,
-    rows: u32,
+wgsl_struct! {
+    "surface/fill" Fill:
+    /// Constants of a dispatch over a table of links.
+    pub(crate) struct FillConstants {
+        ghost_count: u32,
+        with_ghosts: u32,
+        row_length: u32,
+        rows: u32,
+    }
 }
 
 impl Gpu {

@@ -1,7 +1,7 @@
 //! Charts that share a place on the maps: texels that are set to the value that the maps have there.
 
-use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
+use sabi_nodes::wgsl_struct;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -13,7 +13,7 @@ use crate::surface::GpuSurface;
 use crate::uploads::storage_buffer;
 
 /// Groups per workgroup.
-const GROUP: u32 = 64;
+pub(crate) const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch.
 const ROW: u32 = 32_768;
 /// Most numbers of a part's texels, unless a single group has more: 16 MiB, a fraction of a second on software drivers.
@@ -41,13 +41,15 @@ struct Part {
     texels: wgpu::Buffer,
 }
 
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Constants {
-    group_count: u32,
-    row_length: u32,
-    has_unit_vectors: u32,
-    pad: u32,
+wgsl_struct! {
+    "surface/share" Share:
+    /// Constants of one part of the groups.
+    pub(crate) struct ShareConstants {
+        group_count: u32,
+        row_length: u32,
+        has_unit_vectors: u32,
+        pad: u32,
+    }
 }
 
 impl Shares {
@@ -133,7 +135,7 @@ impl Gpu {
             ],
         )?;
         let groups = part.count.div_ceil(GROUP);
-        let constants = self.uniform(bytemuck::bytes_of(&Constants {
+        let constants = self.uniform(bytemuck::bytes_of(&ShareConstants {
             group_count: part.count,
             row_length: ROW.min(groups),
             has_unit_vectors: u32::from(mean == Mean::Unit),

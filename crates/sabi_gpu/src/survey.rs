@@ -1,7 +1,7 @@
 //! Surveys: histograms of a mask by surface area.
 
-use bytemuck::{Pod, Zeroable};
 use sabi_nodes::link::Format;
+use sabi_nodes::wgsl_struct;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -13,17 +13,19 @@ use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
 /// Bins between the lowest and the highest value, as in `lib/survey.wgsl`.
-const BINS: u32 = 1024;
+pub(crate) const BINS: u32 = 1024;
 /// Extent of a survey's table: one texel per bin.
 pub(crate) const SURVEY_EXTENT: Extent = [BINS, 1, 1];
 /// Count of the whole surface: half of the highest count, since the share of each texel is rounded.
 const WHOLE: f64 = (1_u32 << 31) as f64;
 
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Constants {
-    count_per_area: f32,
-    pad: [f32; 3],
+wgsl_struct! {
+    "surface/survey_count" Survey:
+    /// Constants of a survey.
+    pub(crate) struct SurveyConstants {
+        count_per_area: f32,
+        pad: [f32; 3],
+    }
 }
 
 impl Gpu {
@@ -45,7 +47,7 @@ impl Gpu {
         let mut start = vec![0_u32; 2 + BINS as usize];
         start[0] = u32::MAX;
         self.queue.write_buffer(&counts, 0, bytemuck::cast_slice(&start));
-        let constants = Constants {
+        let constants = SurveyConstants {
             count_per_area: (WHOLE / surface.area.max(1e-30)) as f32,
             pad: [0.0; 3],
         };

@@ -5,6 +5,13 @@ use sabi_surface::atlas::Atlas;
 use sabi_surface::model::Mesh;
 use sabi_surface::pieces::Pieces;
 
+/// Rows of four floats for each triangle in [`SurfaceTables::geometry`].
+pub(crate) const GEOMETRY_ROWS: usize = 6;
+/// Rows of four floats for each triangle in [`SurfaceTables::frames`].
+pub(crate) const FRAME_ROWS: usize = 4;
+/// Rows of four floats for each piece in [`SurfaceTables::pieces`].
+pub(crate) const PIECE_ROWS: usize = 3;
+
 /// Rows of four floats for each triangle; see `shaders/surface/place.wgsl`, which reads them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceTables {
@@ -41,8 +48,8 @@ impl SurfaceTables {
             pieces: piece_rows.collect(),
             ..SurfaceTables::default()
         };
-        tables.geometry.reserve(6 * rows.len());
-        tables.frames.reserve(4 * rows.len());
+        tables.geometry.reserve(GEOMETRY_ROWS * rows.len());
+        tables.frames.reserve(FRAME_ROWS * rows.len());
         for (geometry, frames) in rows {
             tables.geometry.extend(geometry);
             tables.frames.extend(frames);
@@ -52,13 +59,13 @@ impl SurfaceTables {
 }
 
 /// Area vector of a texel of a triangle, along its normal; reversed on mirrored charts.
-pub(crate) fn texel_across(rows: &[[f32; 4]; 6]) -> [f64; 3] {
+pub(crate) fn texel_across(rows: &[[f32; 4]; GEOMETRY_ROWS]) -> [f64; 3] {
     let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]].map(|row| row.map(f64::from));
     [b * f - c * e, c * d - a * f, a * e - b * d]
 }
 
 /// Rows of one triangle: geometry and frames.
-type TriangleRows = ([[f32; 4]; 6], [[f32; 4]; 4]);
+type TriangleRows = ([[f32; 4]; GEOMETRY_ROWS], [[f32; 4]; FRAME_ROWS]);
 
 /// Quantity that is linear over a triangle: its value at the first corner and its change per texel along u and v.
 fn affine(corners: [[f64; 3]; 3], inverse: [[f64; 2]; 2]) -> [[f64; 3]; 3] {

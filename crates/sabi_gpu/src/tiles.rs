@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-use bytemuck::{Pod, Zeroable};
+use sabi_nodes::wgsl_struct;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -18,20 +18,21 @@ pub(crate) const FIRST_SLICE: u32 = 512;
 /// Repetitions of a quick kernel between waits for the device.
 const REPETITIONS_PER_WAIT: u32 = 8;
 
-/// As `Pass` in `shaders/lib/atlas.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct PassConstants {
-    first_tile: u32,
-    end_tile: u32,
-    row_length: u32,
-    size: f32,
-    round: u32,
-    rounds: u32,
-    texel: f32,
-    finest: f32,
-    farthest: f32,
-    pad: [u32; 3],
+wgsl_struct! {
+    "atlas" Pass:
+    /// Constants of a dispatch over tiles.
+    pub(crate) struct PassConstants {
+        first_tile: u32,
+        end_tile: u32,
+        row_length: u32,
+        size: f32,
+        round: u32,
+        rounds: u32,
+        texel: f32,
+        finest: f32,
+        farthest: f32,
+        pad: [u32; 3],
+    }
 }
 
 /// Tiles of a surface in slices, for the dispatches of a kernel.

@@ -5,7 +5,9 @@ use crate::error::GpuError;
 use crate::pool::{Extent, array_view};
 
 /// Rows of a table along one line of its texture; every adapter allows as many.
-const TABLE_WIDTH: usize = 8192;
+const TABLE_WIDTH: usize = 1 << TABLE_BITS;
+/// Exponent of [`TABLE_WIDTH`].
+pub(crate) const TABLE_BITS: u32 = 13;
 const TABLE_ROW_BYTES: usize = 16;
 
 pub(crate) fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u64) -> Result<wgpu::Buffer, GpuError> {

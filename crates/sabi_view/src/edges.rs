@@ -1,18 +1,20 @@
 //! Lines over the model: its wires and the seams of its maps.
 
-use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
+use sabi_gpu::wgsl_struct;
 use sabi_surface::atlas::Atlas;
 use sabi_surface::displace::Displaced;
 use sabi_surface::model::Mesh;
 
 use crate::placement::Placement;
 
-/// The ends of a line, view space.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct Line {
-    pub(crate) ends: [[f32; 3]; 2],
+wgsl_struct! {
+    vertex "view/lines" Line:
+    /// The ends of a line, view space.
+    pub(crate) struct Line {
+        pub(crate) first: [f32; 3],
+        pub(crate) second: [f32; 3],
+    }
 }
 
 /// An edge as a triangle beside it has it.
@@ -39,11 +41,10 @@ impl Side {
     }
 
     fn line(&self, placement: &Placement) -> Line {
-        Line {
-            ends: self
-                .ends
-                .map(|end| placement.view_from_model(end.map(f32::from_bits)).to_array()),
-        }
+        let [first, second] = self
+            .ends
+            .map(|end| placement.view_from_model(end.map(f32::from_bits)).to_array());
+        Line { first, second }
     }
 }
 

@@ -4,7 +4,7 @@ mod backdrop;
 mod cube_bytes;
 mod irradiance;
 mod panorama;
-mod prefilter;
+pub(crate) mod prefilter;
 
 use glam::{DVec3, Vec3, Vec4};
 use sabi_gpu::Gpu;

@@ -1,37 +1,41 @@
 //! The numbers that every shader of a picture knows; see `frame.wgsl`.
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Zeroable;
 use glam::{Mat4, Vec3};
+use sabi_gpu::wgsl_struct;
 
 use crate::camera::Lens;
 use crate::scene::{Light, LightPlace, MOST_LIGHTS, Scene, Shot};
 use crate::shadows::{LAYERS, layers_of, shadow_matrices};
 
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-pub(crate) struct LightRow {
-    place: [f32; 4],
-    color: [f32; 4],
+wgsl_struct! {
+    "view/frame" Light:
+    /// A light.
+    pub(crate) struct LightRow {
+        place: [f32; 4],
+        color: [f32; 4],
+    }
 }
 
-/// As `Frame` in `frame.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-pub(crate) struct Frame {
-    clip_from_view: [[f32; 4]; 4],
-    view_from_clip: [[f32; 4]; 4],
-    eye: [f32; 4],
-    irradiance: [[f32; 4]; 9],
-    lights: [LightRow; MOST_LIGHTS],
-    shadow_from_view: [[[f32; 4]; 4]; LAYERS],
-    environment: [f32; 4],
-    sample: u32,
-    blur: f32,
-    texels_of_uv: f32,
-    even_density: f32,
-    heights: [f32; 2],
-    view_from_working: f32,
-    pad: f32,
+wgsl_struct! {
+    "view/frame" Frame:
+    /// Numbers of one sample of a picture.
+    pub(crate) struct Frame {
+        clip_from_view: [[f32; 4]; 4],
+        view_from_clip: [[f32; 4]; 4],
+        eye: [f32; 4],
+        irradiance: [[f32; 4]; 9],
+        lights: [LightRow; MOST_LIGHTS],
+        shadow_from_view: [[[f32; 4]; 4]; LAYERS],
+        environment: [f32; 4],
+        sample: u32,
+        blur: f32,
+        texels_of_uv: f32,
+        even_density: f32,
+        heights: [f32; 2],
+        view_from_working: f32,
+        pad: f32,
+    }
 }
 
 /// Level of the reflections that a blurred background is read at, as a share of all.

@@ -6,7 +6,7 @@ mod tests;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use bytemuck::{Pod, Zeroable};
+use sabi_gpu::wgsl_struct;
 use sabi_gpu::{Gpu, GpuSurface};
 use sabi_surface::atlas::Atlas;
 use sabi_surface::displace::Displaced;
@@ -17,18 +17,19 @@ use crate::error::ViewError;
 use crate::placement::Placement;
 use crate::upload::{buffer_of, table_of};
 
-/// A corner, as `model.wgsl` reads it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct Corner {
-    /// View space.
-    pub(crate) position: [f32; 3],
-    pub(crate) normal: [f32; 3],
-    /// With the sign of the bitangent.
-    pub(crate) tangent: [f32; 4],
-    /// Texel coordinates on the chart's page.
-    pub(crate) texel: [f32; 2],
-    pub(crate) chart: u32,
+wgsl_struct! {
+    vertex "view/corner" Corner:
+    /// Corner of a triangle.
+    pub(crate) struct Corner {
+        /// View space.
+        pub(crate) position: [f32; 3],
+        pub(crate) normal: [f32; 3],
+        /// With the sign of the bitangent.
+        pub(crate) tangent: [f32; 4],
+        /// Texel coordinates on the chart's page.
+        pub(crate) texel: [f32; 2],
+        pub(crate) chart: u32,
+    }
 }
 
 /// Triangles of one material.

@@ -16,7 +16,7 @@ use crate::shadows::SHADOW;
 use crate::target::{LIGHT, SEEN, SHOWN, SUM};
 pub(crate) use layouts::Layouts;
 use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, pipeline, rows_of};
-pub(crate) use switches::Switches;
+pub(crate) use switches::{MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches};
 
 /// A pipeline by what it does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -47,6 +47,14 @@ pub(crate) enum Draws {
 /// From light to what a display shows: `TRANSFORM` of `display.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Transform(pub(crate) u32);
+
+impl Transform {
+    pub(crate) const STANDARD: Transform = Transform(0);
+    pub(crate) const AGX: Transform = Transform(1);
+    pub(crate) const ACES: Transform = Transform(2);
+    /// For pictures that are encoded already.
+    pub(crate) const ENCODED: Transform = Transform(3);
+}
 
 /// What a raster has to look at to know what a pixel sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -155,7 +163,7 @@ impl Pipelines {
             Draws::Gather(transform) => self.display(part, "gather", SUM, transform),
             Draws::Encode(transform) => self.display(part, "encode", SHOWN, transform),
             // The sum went through the transform already.
-            Draws::EncodeSum => self.display(part, "encode_sum", SHOWN, Transform(0)),
+            Draws::EncodeSum => self.display(part, "encode_sum", SHOWN, Transform::STANDARD),
         }
     }
 

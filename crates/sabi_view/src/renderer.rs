@@ -1,15 +1,16 @@
 //! Draws scenes.
 
-mod bound;
+pub(crate) mod bound;
 mod choice;
 mod light;
 mod passes;
 mod pose;
 
 use bound::Bound;
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Pod;
 use passes::{color_attachment, draw_light, draw_raster};
 use sabi_gpu::Gpu;
+use sabi_gpu::wgsl_struct;
 
 use crate::dfg::dfg_texture;
 use crate::error::ViewError;
@@ -36,14 +37,15 @@ pub struct Renderer {
     no_sum: wgpu::TextureView,
 }
 
-/// As `Display` in `display.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Display {
-    backdrop: [f32; 4],
-    exposure: f32,
-    samples: f32,
-    pad: [f32; 2],
+wgsl_struct! {
+    "view/display" Display:
+    /// Constants of the way from light to a picture.
+    pub(crate) struct Display {
+        backdrop: [f32; 4],
+        exposure: f32,
+        samples: f32,
+        pad: [f32; 2],
+    }
 }
 
 /// What all samples of a picture share.
@@ -241,12 +243,12 @@ impl Renderer {
 }
 
 fn transform(shot: &Shot) -> Transform {
-    Transform(match shot.transform {
-        _ if shot.mode != Mode::Material => 3,
-        ViewTransform::Standard => 0,
-        ViewTransform::AgX => 1,
-        ViewTransform::Aces => 2,
-    })
+    match shot.transform {
+        _ if shot.mode != Mode::Material => Transform::ENCODED,
+        ViewTransform::Standard => Transform::STANDARD,
+        ViewTransform::AgX => Transform::AGX,
+        ViewTransform::Aces => Transform::ACES,
+    }
 }
 
 fn display(shot: &Shot, samples: u32) -> Display {

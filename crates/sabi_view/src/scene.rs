@@ -268,6 +268,11 @@ impl Mode {
         !matches!(self, Mode::Node | Mode::Shift)
     }
 
+    /// Names of all modes with their numbers in `modes.wgsl`.
+    pub(crate) fn numbers() -> impl Iterator<Item = (&'static str, u32)> {
+        MODES.iter().map(|(name, _, number)| (*name, *number))
+    }
+
     /// Its number in `modes.wgsl`.
     pub(crate) fn number(self) -> u32 {
         MODES

@@ -3,7 +3,9 @@
 use sabi_gpu::{Gpu, GpuError};
 
 /// Columns of a table.
-const TABLE_WIDTH: u32 = 1024;
+const TABLE_WIDTH: u32 = 1 << CHART_BITS;
+/// Exponent of [`TABLE_WIDTH`].
+pub(crate) const CHART_BITS: u32 = 10;
 
 /// A buffer with these bytes.
 pub(crate) fn buffer_of(

@@ -115,7 +115,7 @@ impl Kernel {
             .collect();
         let nodes = machine.table(bytemuck::cast_slice(&bvh.nodes));
         let triangles = machine.table(bytemuck::cast_slice(&bvh.triangles));
-        let start = ATLAS.find("fn table_texel").unwrap();
+        let start = ATLAS.find("const TABLE_BITS").unwrap();
         let length = ATLAS[start..].find("\n}\n").unwrap() + 3;
         let text = format!("{TWO}\n{}", &ATLAS[start..start + length]);
         Kernel::new(machine, (&text, 0), &constants, [nodes, triangles], shot)

@@ -1,26 +1,40 @@
 //! Rows of links in the layout that kernels read.
 
-use bytemuck::{Pod, Zeroable};
-use sabi_surface::atlas::{Atlas, Ghost, Orphan, Owner};
+use sabi_nodes::wgsl_struct;
+use sabi_surface::atlas::{Atlas, EMPTY, Ghost, Orphan, Owner};
 
-/// `EMPTY` in `shaders/lib/atlas.wgsl`.
-const NO_SLOT: u32 = u32::MAX;
+/// Rows of four numbers for each ghost in the table of all links.
+pub(crate) const GHOST_ROWS: usize = 4;
 
-/// Four rows in the layout of `ghost_link` and `ghost_read` in `shaders/lib/atlas.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
+wgsl_struct! {
+    "atlas" GhostLink:
+    /// First three rows of a ghost: the point over the seam that it continues.
+    pub(crate) struct GhostLinkRow {
+        target_texel: [f32; 2],
+        triangle: u32,
+        texel: u32,
+        page: u32,
+        target_page: u32,
+        chart: u32,
+        pad: u32,
+        target_from_own: [f32; 4],
+    }
+}
+
+wgsl_struct! {
+    "atlas" GhostRead:
+    /// Last row of a ghost: the place that it takes stored values from.
+    pub(crate) struct GhostReadRow {
+        texel: [f32; 2],
+        page: u32,
+        anchor: u32,
+    }
+}
+
+/// Rows of a ghost.
 pub(super) struct LinkRow {
-    target_texel: [f32; 2],
-    triangle: u32,
-    texel: u32,
-    page: u32,
-    target_page: u32,
-    chart: u32,
-    pad: u32,
-    target_from_own: [f32; 4],
-    read_texel: [f32; 2],
-    read_page: u32,
-    anchor: u32,
+    link: GhostLinkRow,
+    read: GhostReadRow,
 }
 
 impl LinkRow {
@@ -28,18 +42,28 @@ impl LinkRow {
         let [[a, b], [c, d]] = ghost.target_from_own;
         let page = |triangle: u32| atlas.charts[atlas.triangle_chart[triangle as usize] as usize].page;
         LinkRow {
-            target_texel: ghost.target_texel,
-            triangle: ghost.target_triangle,
-            texel: ghost.texel[0] | (ghost.texel[1] << 16),
-            page: ghost.texel[2],
-            target_page: page(ghost.target_triangle),
-            chart: ghost.chart,
-            pad: 0,
-            target_from_own: [a, b, c, d],
-            read_texel: ghost.read_texel,
-            read_page: page(ghost.read_triangle),
-            anchor: anchor(atlas, ghost),
+            link: GhostLinkRow {
+                target_texel: ghost.target_texel,
+                triangle: ghost.target_triangle,
+                texel: ghost.texel[0] | (ghost.texel[1] << 16),
+                page: ghost.texel[2],
+                target_page: page(ghost.target_triangle),
+                chart: ghost.chart,
+                pad: 0,
+                target_from_own: [a, b, c, d],
+            },
+            read: GhostReadRow {
+                texel: ghost.read_texel,
+                page: page(ghost.read_triangle),
+                anchor: anchor(atlas, ghost),
+            },
         }
+    }
+
+    /// The rows as they are uploaded.
+    pub(super) fn rows(&self) -> [[u32; 4]; GHOST_ROWS] {
+        let [a, b, c]: [[u32; 4]; 3] = bytemuck::cast(self.link);
+        [a, b, c, bytemuck::cast(self.read)]
     }
 }
 
@@ -69,13 +93,13 @@ fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
 /// four that are there, of those that are owned, and the step to the owned texel that it takes its value from without them.
 pub(super) fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
     let [width, height] = atlas.page_size;
-    let place = [(row.read_texel[0], width), (row.read_texel[1], height)]
+    let place = [(row.read.texel[0], width), (row.read.texel[1], height)]
         .map(|(at, side)| (f64::from(at) - 0.5).clamp(0.0, f64::from(side - 2)));
     let [column, line] = place.map(|at| at as u32);
     let [along, down] = place.map(|at| ((at - at.floor()) * 65536.0) as u32 & 0xffff);
     let bits = |is_meant: &dyn Fn(Owner) -> bool| {
         let taps = [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate();
-        let meant = taps.filter(|(_, (x, y))| is_meant(atlas.owner(column + x, line + y, row.read_page)));
+        let meant = taps.filter(|(_, (x, y))| is_meant(atlas.owner(column + x, line + y, row.read.page)));
         meant.fold(0, |bits, (tap, _)| bits | 1 << tap)
     };
     let there = bits(&|owner| !matches!(owner, Owner::Empty));
@@ -84,10 +108,10 @@ pub(super) fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
         [
             column | line << 16,
             along | down << 16,
-            row.texel,
-            row.read_page | row.page << 16,
+            row.link.texel,
+            row.read.page | row.link.page << 16,
         ],
-        [there, owned, row.anchor, 0],
+        [there, owned, row.read.anchor, 0],
     ]
 }
 
@@ -110,8 +134,8 @@ pub(super) fn coupled_slots(
 ) -> [u32; 4] {
     [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| {
         match atlas.owner((corner & 0xffff) + x, (corner >> 16) + y, pages & 0xffff) {
-            Owner::Ghost(ghost) => slots[ghost as usize].unwrap_or(NO_SLOT),
-            Owner::Triangle(_) | Owner::Empty => NO_SLOT,
+            Owner::Ghost(ghost) => slots[ghost as usize].unwrap_or(EMPTY),
+            Owner::Triangle(_) | Owner::Empty => EMPTY,
         }
     })
 }

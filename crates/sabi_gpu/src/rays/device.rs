@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use bytemuck::{Pod, Zeroable};
 use sabi_nodes::kind::Finds;
+use sabi_nodes::wgsl_struct;
 
 use super::RayRoom;
 use super::hierarchy::{DeviceHierarchy, RayScene};
@@ -14,20 +14,21 @@ use crate::shaders::FixedShader;
 use crate::tiles::Slices;
 
 /// Rays per workgroup, as in `shaders/surface/cast.wgsl`.
-const GROUP: u32 = 64;
+pub(crate) const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
 const ROW: u32 = 32_768;
 
-/// As `Cast` in `shaders/surface/cast.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct CastConstants {
-    center: [f32; 3],
-    scale: f32,
-    rays: u32,
-    row_length: u32,
-    is_nearest: u32,
-    pad: u32,
+wgsl_struct! {
+    "surface/cast" Casting:
+    /// Constants of the caster.
+    pub(crate) struct CastConstants {
+        center: [f32; 3],
+        scale: f32,
+        rays: u32,
+        row_length: u32,
+        is_nearest: u32,
+        pad: u32,
+    }
 }
 
 /// Ray caster that is a kernel on the device.

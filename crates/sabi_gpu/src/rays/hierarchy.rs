@@ -29,7 +29,7 @@ pub struct DeviceHierarchy {
 }
 
 /// Levels of the deepest hierarchy: `STACK` in `shaders/surface/cast.wgsl` holds one node per level.
-const DEEPEST: usize = 24;
+pub(crate) const DEEPEST: usize = 24;
 
 impl DeviceHierarchy {
     /// Uploads a hierarchy, five rows per node and three per triangle.

@@ -1,16 +1,17 @@
 //! Ray passes of a node: a kernel that writes rays, a caster that finds their hits, and a kernel that reads the hits.
 
 mod caster;
-mod device;
-mod hierarchy;
+pub(crate) mod device;
+pub(crate) mod hierarchy;
 mod hit_cache;
 mod processor;
 
 use std::time::{Duration, Instant};
 
-use bytemuck::{Pod, Zeroable};
 use sabi_nodes::kind::Finds;
+use sabi_nodes::wgsl_struct;
 use sabi_plan::StepRays;
+use sabi_surface::atlas::TILE;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -22,28 +23,32 @@ pub use hierarchy::{DeviceHierarchy, RayScene};
 pub use hit_cache::Hits;
 pub(crate) use hit_cache::{CachedHits, HitCache};
 
-/// A ray, as `Ray` in `shaders/lib/rays.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub(crate) struct RayRow {
-    /// Origin, working units.
-    pub origin: [f32; 3],
-    /// Length, working units; 0 hits nothing.
-    pub reach: f32,
-    /// Unit direction.
-    pub direction: [f32; 3],
-    /// Padding.
-    pub pad: f32,
+wgsl_struct! {
+    "rays" Ray:
+    /// A ray as kernels and casters exchange it.
+    #[derive(Default)]
+    pub(crate) struct RayRow {
+        /// Origin, working units.
+        pub origin: [f32; 3],
+        /// Length, working units; 0 hits nothing.
+        pub reach: f32,
+        /// Unit direction.
+        pub direction: [f32; 3],
+        /// Padding.
+        pub pad: f32,
+    }
 }
 
-/// Hit of a ray, as `RayHit` in `shaders/lib/rays.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub(crate) struct HitRow {
-    /// Distance, working units; below 0 where nothing is hit.
-    pub distance: f32,
-    /// Number of the triangle.
-    pub triangle: u32,
+wgsl_struct! {
+    "rays" RayHit:
+    /// A hit as kernels and casters exchange it.
+    #[derive(Default)]
+    pub(crate) struct HitRow {
+        /// Distance, working units; below 0 where nothing is hit.
+        pub distance: f32,
+        /// Number of the triangle.
+        pub triangle: u32,
+    }
 }
 
 impl HitRow {
@@ -59,7 +64,7 @@ const MOST_RAYS: usize = 1 << 18;
 /// Rays of the first slice, while the speed of the caster is unknown.
 const FIRST_RAYS: usize = 1 << 16;
 /// Texels of a tile.
-const TILE_TEXELS: usize = 64;
+const TILE_TEXELS: usize = (TILE * TILE) as usize;
 
 /// Buffers for the rays of a slice of tiles and their hits.
 pub(crate) struct RayRoom {

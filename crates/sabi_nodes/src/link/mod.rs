@@ -10,8 +10,10 @@ mod expressions;
 mod files;
 mod given;
 mod kernel;
+mod mirror;
 mod module;
 mod rays;
+mod reflect;
 mod rename;
 mod sources;
 pub(crate) mod uses;
@@ -24,7 +26,9 @@ pub use block::{BlockLayout, CallLayout};
 pub use files::ModuleSpec;
 pub use given::{Access, Given};
 pub use kernel::{Kernel, LinkError, Missing, link};
+pub use mirror::{Mirror, MirrorMember, MirrorValue, MirrorsWgsl};
 pub use module::LinkedModule;
+pub use reflect::{MemberLayout, Reflection, StructLayout};
 
 /// Inputs whose material channels one flag word of a switched kernel describes.
 pub const INPUTS_A_WORD: usize = 6;

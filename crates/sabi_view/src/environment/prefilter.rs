@@ -2,9 +2,9 @@
 
 use std::f32::consts::PI;
 
-use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4, vec3};
 use sabi_gpu::Gpu;
+use sabi_gpu::wgsl_struct;
 
 use super::panorama::Panorama;
 use crate::error::ViewError;
@@ -15,17 +15,20 @@ pub(super) const LEVELS: u32 = 6;
 /// Directions of light for each level but the first, which is a plain picture. What is rougher has wider lobes and fewer
 /// texels.
 const DIRECTIONS: [u32; LEVELS as usize] = [0, 128, 512, 1024, 2048, 4096];
+/// Texels along a side of a workgroup.
+pub(crate) const GROUP: u32 = 8;
 /// Places along a side of a texel at which the panorama is read.
 const PLACES: u32 = 4;
 
-/// As `CubePass` in `shaders/view/cube.wgsl`.
-#[derive(Clone, Copy, Pod, Zeroable)]
-#[repr(C)]
-struct Pass {
-    side: u32,
-    count: u32,
-    lod: f32,
-    unused: u32,
+wgsl_struct! {
+    "view/cube" CubePass:
+    /// Constants of one pass over the faces of a level.
+    pub(crate) struct CubePass {
+        side: u32,
+        count: u32,
+        lod: f32,
+        pad: u32,
+    }
 }
 
 /// Texels along a side of a face at roughness 0, as many as show what is in the panorama; it halves from level to level.
@@ -90,12 +93,12 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
     let mut work = Work::new(gpu);
     let resample = Step::new(gpu, ViewShader::PanoramaToCube, D2)?;
     let pixels = f32::max(panorama.width() as f32 / 4.0, panorama.height() as f32 / 2.0);
-    let pass = Pass {
+    let pass = CubePass {
         side,
         count: PLACES,
         // Pixels of the panorama from one place to the next.
         lod: (pixels / (side * PLACES) as f32).log2().max(0.0),
-        unused: 0,
+        pad: 0,
     };
     let picture = panorama.create_view(&Default::default());
     work.run(&resample, pass, &picture, &level_view(&source, 0, D2Array), &[])?;
@@ -106,7 +109,7 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
             level_view(&source, level - 1, Cube),
             level_view(&source, level, D2Array),
         );
-        work.run(&halve, Pass { side, lod, ..pass }, &finer, &to, &[])?;
+        work.run(&halve, CubePass { side, lod, ..pass }, &finer, &to, &[])?;
     }
     work.encoder
         .copy_texture_to_texture(source.as_image_copy(), made.as_image_copy(), made.size());
@@ -116,7 +119,13 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
         let lobe = lobe(roughness * roughness, DIRECTIONS[level as usize], side);
         let (side, count) = (side >> level, lobe.len() as u32);
         let to = level_view(&made, level, D2Array);
-        work.run(&gather, Pass { side, count, ..pass }, &cube_view(&source), &to, &lobe)?;
+        work.run(
+            &gather,
+            CubePass { side, count, ..pass },
+            &cube_view(&source),
+            &to,
+            &lobe,
+        )?;
     }
     gpu.queue().submit([work.encoder.finish()]);
     gpu.wait()?;
@@ -259,7 +268,7 @@ impl<'g> Work<'g> {
     fn run(
         &mut self,
         step: &Step,
-        pass: Pass,
+        pass: CubePass,
         read: &wgpu::TextureView,
         to: &wgpu::TextureView,
         lobe: &[Vec4],
@@ -290,7 +299,7 @@ impl<'g> Work<'g> {
         let mut work = self.encoder.begin_compute_pass(&Default::default());
         work.set_pipeline(&step.pipeline);
         work.set_bind_group(0, &group, &[]);
-        let groups = pass.side.div_ceil(8);
+        let groups = pass.side.div_ceil(GROUP);
         work.dispatch_workgroups(groups, groups, 6);
         Ok(())
     }

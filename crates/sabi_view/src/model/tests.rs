@@ -29,7 +29,7 @@ fn raised(model: &Model, atlas: &Atlas, height: f32) -> Displaced {
 /// Length of all lines together, view units.
 fn length(lines: &[Line]) -> f64 {
     let each = lines.iter().map(|line| {
-        let [from, to] = line.ends.map(glam::Vec3::from);
+        let [from, to] = [line.first, line.second].map(glam::Vec3::from);
         f64::from(from.distance(to))
     });
     each.sum()
@@ -102,7 +102,7 @@ fn the_lines_of_a_copy_are_those_of_the_model_and_rise_with_it() {
     let height = (0.25 / placement.scale) as f32;
     let [risen, _] = lines_of(sides_of_displaced(&raised(&model, &atlas, height), &atlas), &placement);
     let reach = |lines: &[Line]| {
-        let places = lines.iter().flat_map(|line| line.ends).flatten();
+        let places = lines.iter().flat_map(|line| [line.first, line.second]).flatten();
         places.fold(0.0, |reach: f32, place| reach.max(place.abs()))
     };
     assert!(reach(&risen) > reach(&edges) + 0.1);

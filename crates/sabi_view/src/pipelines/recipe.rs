@@ -99,3 +99,35 @@ pub(super) fn rows_of<T>(
         attributes,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use sabi_gpu::{MirrorValue, MirrorsWgsl};
+
+    use super::{CORNER, ENDS, PLACE_ONLY};
+    use crate::edges::Line;
+    use crate::model::Corner;
+
+    fn offsets<T: MirrorsWgsl>() -> Vec<u64> {
+        match T::mirror().value {
+            MirrorValue::Vertex(members) => members.iter().map(|member| member.offset as u64).collect(),
+            other => panic!("{other:?} is not of a vertex buffer"),
+        }
+    }
+
+    #[test]
+    fn attributes_begin_where_members_do() {
+        let attributes = |attributes: &[wgpu::VertexAttribute]| -> Vec<u64> {
+            (0..)
+                .zip(attributes)
+                .map(|(location, attribute)| {
+                    assert_eq!(attribute.shader_location, location);
+                    attribute.offset
+                })
+                .collect()
+        };
+        assert_eq!(attributes(&CORNER), offsets::<Corner>());
+        assert_eq!(attributes(&ENDS), offsets::<Line>());
+        assert_eq!(attributes(&PLACE_ONLY), offsets::<Corner>()[..1]);
+    }
+}

@@ -3,8 +3,19 @@
 use super::Ground;
 use crate::scene::{MOST_LIGHTS, MaterialLook, Mode, NodeType, Scene, Shot};
 
-/// The bit of the colors in `MAPS`.
-const COLORS: u32 = 1;
+/// Bits of `MAPS` with their names in WGSL, in the order of [`MaterialLook::bound_maps`].
+pub(crate) const MAP_BITS: [(&str, u32); 5] = [
+    ("COLOR_MAP", 1),
+    ("SURFACE_MAP", 2),
+    ("EMISSION_MAP", 4),
+    ("NORMAL_MAP", 8),
+    ("HEIGHT_MAP", 16),
+];
+/// Bit of the colors.
+const COLORS: u32 = MAP_BITS[0].1;
+/// Values of `SHOWN_TYPE` other than that of a mask, which is 0.
+pub(crate) const SHOWN_COLOR: u32 = 1;
+pub(crate) const SHOWN_VECTOR: u32 = 2;
 
 /// What shaders are made for, as in `switches.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,8 +55,8 @@ impl Switches {
             maps: bits_of(look, shot.mode),
             shown_type: match look.shown_node(shot.mode).map(|node| node.holds) {
                 None | Some(NodeType::Mask) => 0,
-                Some(NodeType::Color) => 1,
-                Some(NodeType::Vector) => 2,
+                Some(NodeType::Color) => SHOWN_COLOR,
+                Some(NodeType::Vector) => SHOWN_VECTOR,
             },
             light_count,
             shadows_of,
@@ -53,7 +64,7 @@ impl Switches {
     }
 
     /// The values by their names.
-    pub(super) fn named(self) -> [(&'static str, f64); 5] {
+    pub(crate) fn named(self) -> [(&'static str, f64); 5] {
         [
             ("MODE", self.mode),
             ("MAPS", self.maps),
@@ -66,6 +77,6 @@ impl Switches {
 }
 
 fn bits_of(look: &MaterialLook, mode: Mode) -> u32 {
-    let maps = look.bound_maps(mode).into_iter().zip(0..);
-    maps.filter(|(map, _)| map.is_some()).map(|(_, bit)| 1 << bit).sum()
+    let maps = look.bound_maps(mode).into_iter().zip(MAP_BITS);
+    maps.filter(|(map, _)| map.is_some()).map(|(_, (_, bit))| bit).sum()
 }

@@ -1,7 +1,7 @@
 //! What is bound to draw a scene.
 
-use bytemuck::{Pod, Zeroable};
 use sabi_gpu::Gpu;
+use sabi_gpu::wgsl_struct;
 
 use super::{Renderer, choice};
 use crate::error::ViewError;
@@ -11,22 +11,24 @@ use crate::scene::{Lines, MaterialLook, Mode, Scene, Shot};
 use crate::shadows::ShadowMaps;
 use crate::target::Sight;
 
-/// As `Material` in `maps.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Material {
-    color: [f32; 4],
-    surface: [f32; 4],
+wgsl_struct! {
+    "view/maps" Material:
+    /// Values of channels without a map.
+    pub(crate) struct Material {
+        color: [f32; 4],
+        surface: [f32; 4],
+    }
 }
 
-/// As `LineStyle` in `lines.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct LineStyle {
-    color: [f32; 4],
-    size: [f32; 2],
-    nearer: f32,
-    pad: f32,
+wgsl_struct! {
+    "view/lines" LineStyle:
+    /// Looks of lines.
+    pub(crate) struct LineStyle {
+        color: [f32; 4],
+        size: [f32; 2],
+        nearer: f32,
+        pad: f32,
+    }
 }
 
 /// Triangles of one material, ready to be drawn.

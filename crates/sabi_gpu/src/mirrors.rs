@@ -1,0 +1,71 @@
+//! Everything in this crate that stands in WGSL files as well.
+
+use sabi_nodes::link::{Mirror, MirrorsWgsl};
+use sabi_surface::atlas::{EMPTY, GHOST_BIT, TILE};
+
+use crate::extents::Asked;
+use crate::finish::Relief;
+use crate::leaps::LEAP_BITS;
+use crate::levels::Scale;
+use crate::links::{self, FillConstants, GHOST_ROWS, GhostLinkRow, GhostReadRow};
+use crate::rays::device::{self, CastConstants};
+use crate::rays::hierarchy::DEEPEST;
+use crate::rays::{HitRow, RayRow};
+use crate::shares::{self, ShareConstants};
+use crate::survey::{BINS, SurveyConstants};
+use crate::tables::{FRAME_ROWS, GEOMETRY_ROWS, PIECE_ROWS};
+use crate::tiles::PassConstants;
+use crate::uploads::TABLE_BITS;
+
+/// Structs, constants and workgroup sizes that stand here and in WGSL. A test compares them with all linked modules.
+pub fn mirrors() -> Vec<Mirror> {
+    let mut mirrors = vec![
+        Asked::mirror(),
+        CastConstants::mirror(),
+        FillConstants::mirror(),
+        GhostLinkRow::mirror(),
+        GhostReadRow::mirror(),
+        HitRow::mirror(),
+        PassConstants::mirror(),
+        RayRow::mirror(),
+        Relief::mirror(),
+        Scale::mirror(),
+        ShareConstants::mirror(),
+        SurveyConstants::mirror(),
+    ];
+    let rows = |rust, wgsl, rows: usize| Mirror::constant(rust, "atlas", wgsl, [rows as u32]);
+    mirrors.extend([
+        rows("GEOMETRY_ROWS", "GEOMETRY_ROWS", GEOMETRY_ROWS),
+        rows("FRAME_ROWS", "FRAME_ROWS", FRAME_ROWS),
+        rows("PIECE_ROWS", "PIECE_ROWS", PIECE_ROWS),
+        rows("GHOST_ROWS", "GHOST_ROWS", GHOST_ROWS),
+        Mirror::constant("EMPTY", "atlas", "EMPTY", [EMPTY]),
+        Mirror::constant("GHOST_BIT", "atlas", "GHOST_BIT", [GHOST_BIT]),
+        Mirror::constant("TABLE_BITS", "atlas", "TABLE_BITS", [TABLE_BITS]),
+        Mirror::constant("LEAP_BITS", "atlas", "LEAP_BITS", [LEAP_BITS]),
+        Mirror::constant("TILE", "surface/place", "TILE", [TILE]),
+        Mirror::constant("BINS", "survey", "SURVEY_STEPS", [BINS]),
+        Mirror::constant("DEEPEST", "surface/cast", "STACK", [DEEPEST as u32]),
+        Mirror::workgroup("the caster's GROUP", "surface/cast", "main", [device::GROUP, 1, 1]),
+        Mirror::workgroup("the shares' GROUP", "surface/share", "main", [shares::GROUP, 1, 1]),
+        Mirror::workgroup("a row of a tile", "surface/extent", "main", [TILE, 1, 1]),
+    ]);
+    let over_links = [
+        "surface/fill_plain",
+        "surface/fill_coupled",
+        "surface/refine_ghosts",
+        "surface/scatter_filled",
+        "surface/scatter_ghosts",
+    ];
+    mirrors.extend(over_links.map(|file| Mirror::workgroup("the links' GROUP", file, "main", [links::GROUP, 1, 1])));
+    let over_tiles = [
+        "surface/normal",
+        "surface/prolong",
+        "surface/restrict",
+        "surface/stencil",
+        "surface/survey_count",
+        "surface/survey_range",
+    ];
+    mirrors.extend(over_tiles.map(|file| Mirror::workgroup("a tile", file, "main", [TILE, TILE, 1])));
+    mirrors
+}

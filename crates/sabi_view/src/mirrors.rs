@@ -1,0 +1,48 @@
+//! Everything in this crate that stands in WGSL files as well.
+
+use sabi_gpu::{Mirror, MirrorsWgsl};
+
+use crate::edges::Line;
+use crate::environment::prefilter::{CubePass, GROUP};
+use crate::frame::{Frame, LightRow};
+use crate::model::Corner;
+use crate::pipelines::{MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches, Transform};
+use crate::renderer::Display;
+use crate::renderer::bound::{LineStyle, Material};
+use crate::scene::Mode;
+use crate::upload::CHART_BITS;
+
+/// Structs, constants, overrides and workgroup sizes that stand here and in WGSL. A test compares them with all linked
+/// modules.
+pub fn mirrors() -> Vec<Mirror> {
+    let mut mirrors = vec![
+        Corner::mirror(),
+        CubePass::mirror(),
+        Display::mirror(),
+        Frame::mirror(),
+        LightRow::mirror(),
+        Line::mirror(),
+        LineStyle::mirror(),
+        Material::mirror(),
+        Mirror::constant("CHART_BITS", "view/maps", "CHART_BITS", [CHART_BITS]),
+        Mirror::constant("SHOWN_COLOR", "view/switches", "SHOWN_COLOR", [SHOWN_COLOR]),
+        Mirror::constant("SHOWN_VECTOR", "view/switches", "SHOWN_VECTOR", [SHOWN_VECTOR]),
+        Mirror::switch("TRANSFORM", "view/display", "TRANSFORM"),
+    ];
+    let transforms = [
+        ("STANDARD", Transform::STANDARD),
+        ("AGX", Transform::AGX),
+        ("ACES", Transform::ACES),
+        ("ENCODED", Transform::ENCODED),
+    ];
+    mirrors.extend(transforms.map(|(name, Transform(number))| Mirror::constant(name, "view/display", name, [number])));
+    mirrors.extend(MAP_BITS.map(|(name, bit)| Mirror::constant(name, "view/switches", name, [bit])));
+    let switches = Switches::default().named();
+    mirrors.extend(switches.map(|(name, _)| Mirror::switch(name, "view/switches", name)));
+    mirrors.extend(
+        Mode::numbers().map(|(name, number)| Mirror::constant(name, "view/modes", &name.to_uppercase(), [number])),
+    );
+    let over_faces = ["view/halve_cube", "view/panorama_to_cube", "view/prefilter"];
+    mirrors.extend(over_faces.map(|file| Mirror::workgroup("the cube map's GROUP", file, "main", [GROUP, GROUP, 1])));
+    mirrors
+}
