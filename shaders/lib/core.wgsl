@@ -1,8 +1,8 @@
-//! What every node may name: the place it is evaluated at, and the material.
+//! Types that every node may use: the place that it is evaluated at, and the material.
 
 /// A place on the surface. Lengths are model units after fitting.
 struct Surface {
-    /// Where it is, in model space.
+    /// Position in model space.
     position: vec3f,
     /// Width of a texel here.
     texel_size: f32,
@@ -24,7 +24,7 @@ struct Surface {
     material: u32,
     /// The place in the piece's own box: from its middle, x along its longest side, z along its shortest.
     piece_position: vec3f,
-    /// Number of the piece: what hangs together inside a part, such as one plank of a bench.
+    /// Number of the piece: a connected component of a part, such as one plank of a bench.
     piece: u32,
     /// Normal of the triangle along the sides of that box, unit length.
     piece_normal: vec3f,
@@ -36,7 +36,7 @@ struct Surface {
     texel: vec3i,
 }
 
-/// Which repetition of a function this is, and how wide texels are.
+/// Number of a repetition of a function, and the width of texels.
 struct Round {
     /// From 0.
     index: u32,
@@ -63,9 +63,12 @@ struct Material {
     emission: vec3f,
 }
 
+/// The plain gray material; exports and the viewport use its values for channels that nothing sets.
+const PLAIN_MATERIAL = Material(vec3f(0.214), 1.0, 0.7, 0.0, 1.0, 0.0, vec3f(0.0), vec3f(0.0));
+
 /// The material of an unconnected input: plain gray.
 fn plain_material() -> Material {
-    return Material(vec3f(0.214), 1.0, 0.7, 0.0, 1.0, 0.0, vec3f(0.0), vec3f(0.0));
+    return PLAIN_MATERIAL;
 }
 
 /// Luminance of a linear color (Rec. 709 primaries).

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use sabi_nodes::link::{LinkedModule, Mirror, Reflection};
+use sabi_export::Channel;
+use sabi_nodes::link::{LinkedModule, Mirror, ModuleSpec, Reflection};
 
 use crate::{assert_none, files_below, text_of};
 
@@ -95,4 +96,39 @@ fn every_shader_file_is_part_of_a_module() {
         }
     }
     assert_none(faults);
+}
+
+#[test]
+fn channels_that_nothing_sets_are_exported_as_those_of_the_plain_material() {
+    let spec = ModuleSpec {
+        label: "core",
+        files: vec!["core"],
+        given: Vec::new(),
+    };
+    let reflection = spec.link().and_then(|module| module.reflect()).unwrap();
+    let exported = [
+        Channel::BaseColor,
+        Channel::Opacity,
+        Channel::Roughness,
+        Channel::Metallic,
+        Channel::Occlusion,
+        Channel::Height,
+    ];
+    let exported: Vec<f64> = exported
+        .iter()
+        .flat_map(Channel::neutral)
+        .map(|value| f64::from(*value))
+        .collect();
+    let emission: Vec<f64> = Channel::Emission
+        .neutral()
+        .iter()
+        .map(|value| f64::from(*value))
+        .collect();
+    // The slope that lies between is a normal on the maps.
+    let flat = vec![0.0; 3];
+    assert_eq!(
+        reflection.constants["PLAIN_MATERIAL"],
+        [exported, flat, emission].concat()
+    );
+    assert_eq!(Channel::Normal.neutral(), [0.0, 0.0, 1.0]);
 }

@@ -87,10 +87,10 @@ impl Channel {
     /// What stands where nothing is known: no metal, no relief, nothing buried, opaque, half rough, middle gray.
     pub fn neutral(&self) -> &'static [f32] {
         match self {
-            // sRGB 128.
-            Channel::BaseColor => &[0.215_860_5; 3],
+            // These are `PLAIN_MATERIAL` of `lib/core.wgsl`; a test compares them.
+            Channel::BaseColor => &[0.214; 3],
             Channel::Opacity | Channel::Occlusion => &[1.0],
-            Channel::Roughness => &[0.5],
+            Channel::Roughness => &[0.7],
             Channel::Metallic | Channel::Height | Channel::Mask(_) => &[0.0],
             Channel::Normal => &[0.0, 0.0, 1.0],
             Channel::Emission => &[0.0; 3],
