@@ -1,4 +1,4 @@
-//! The linked atlas as kernels read it: which triangle is under a texel, where ghosts lead, and the triangles' tables.
+//! The linked atlas as kernels read it: the triangle under each texel, the links of ghosts, and the triangles' tables.
 //!
 //! Linked to every kernel. Nodes go through `lib/surface`.
 //! @given SURFACE_GROUP
@@ -49,7 +49,7 @@ struct GhostLink {
     target_from_own: vec4f,
 }
 
-// Where a ghost takes stored values from.
+// Source of a ghost's stored values.
 struct GhostRead {
     // Texel coordinates, and the page.
     texel: vec2f,
@@ -67,7 +67,8 @@ struct GhostRead {
 @group(SURFACE_GROUP) @binding(4) var frames: texture_2d<u32>;
 @group(SURFACE_GROUP) @binding(5) var ghosts: texture_2d<u32>;
 @group(SURFACE_GROUP) @binding(6) var<storage, read> pieces: array<vec4f>;
-// For each texel how far a straight step may go, in texels, in `LEAP_BITS` bits, and in two bits what planes lie under it.
+// For each texel the length of the longest straight step, in texels, in `LEAP_BITS` bits, and in two bits the planes under it,
+// see `planes_under`.
 @group(SURFACE_GROUP) @binding(7) var leaps: texture_2d_array<u32>;
 
 // Tables are textures of two to the power of so many texels side by side.
@@ -100,7 +101,7 @@ struct FillLink {
     // The lowest of the four, and its page.
     corner: vec2i,
     page: i32,
-    // How far the point lies from it towards the highest.
+    // Distance of the point from it towards the highest.
     weight: vec2f,
     // The ghost itself.
     texel: vec2i,
@@ -156,7 +157,7 @@ fn facing_of(triangle: u32, position: vec3f) -> Facing {
     let along_u = geometry_row(g + 1u);
     let along_v = geometry_row(g + 2u);
     let face = face_along(along_u, along_v);
-    // The step in texels whose place is nearest to the point.
+    // Texel coordinates of the nearest point on the triangle's plane.
     let away = position - origin.xyz;
     let metric = vec3f(dot(along_u.xyz, along_u.xyz), dot(along_u.xyz, along_v.xyz), dot(along_v.xyz, along_v.xyz));
     let right = vec2f(dot(away, along_u.xyz), dot(away, along_v.xyz));

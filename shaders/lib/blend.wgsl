@@ -1,10 +1,10 @@
-//! Blending: true interpolation, in linear light, between what is below and what a mode makes of it.
+//! Blending: true interpolation, in linear light, between the value below and the result of a mode.
 //!
 //! The modes, in the order in which every node offers them: normal, add, subtract, multiply, screen, overlay,
 //! soft_light, hard_light, min, max, difference, divide.
 //! @use core
 
-/// What a mode makes of the value below and the value above, before any mask weighs it.
+/// Result of a mode for the value below and the value above, before a mask weighs it.
 fn blend_mode(below: f32, above: f32, mode: u32) -> f32 {
     switch mode {
         case 1u: { return below + above; }
@@ -12,7 +12,7 @@ fn blend_mode(below: f32, above: f32, mode: u32) -> f32 {
         case 3u: { return below * above; }
         case 4u: { return below + above - below * above; }
         case 5u: { return hard_light(above, below); }
-        // Without the root of the usual formula, which has a kink: multiply and screen, mixed by what is below.
+        // Without the root of the usual formula, which has a kink: multiply and screen, mixed by the value below.
         case 6u: { return below * (below + 2.0 * above * (1.0 - below)); }
         case 7u: { return hard_light(below, above); }
         case 8u: { return min(below, above); }
@@ -24,13 +24,13 @@ fn blend_mode(below: f32, above: f32, mode: u32) -> f32 {
     }
 }
 
-/// Multiply below the middle of what is above, screen above it.
+/// Multiply where `above` is below one half, screen elsewhere.
 fn hard_light(below: f32, above: f32) -> f32 {
     let doubled = 2.0 * above;
     return select(below * doubled, below + (doubled - 1.0) * (1.0 - below), above > 0.5);
 }
 
-/// How much a mask lets through: clamped to 0..1 here, and only here.
+/// Weight of a blend: masks are clamped to 0..1 here, and only here.
 fn blend_weight(mask: f32, opacity: f32) -> f32 {
     return clamp(mask, 0.0, 1.0) * opacity;
 }

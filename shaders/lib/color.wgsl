@@ -27,11 +27,11 @@ fn saturation_of(color: vec3f) -> f32 {
 
 /// A color of the same hue whose weakest component is 0 and whose strongest one is `saturation`; black for a gray.
 fn with_saturation(color: vec3f, saturation: f32) -> vec3f {
-    // What is nearly gray has a hue by rounding only: it fades out.
+    // The hue of a near gray is rounding error: it fades out.
     return (color - least_component(color)) * (saturation / max(saturation_of(color), 1e-4));
 }
 
-/// What a mode from 12 on makes of two colors: hue, saturation, color, luminosity of `above`, the rest of `below`.
+/// Result of a mode from 12 on: hue, saturation, color, luminosity of `above`, the rest of `below`.
 ///
 /// The non-separable modes of the W3C's "Compositing and Blending Level 1" (10.2), in linear light with the luminance of
 /// Rec. 709. Colors brighter than 1 may come in; then the result may be as bright.
@@ -52,7 +52,7 @@ fn blend_mode_of_colors(below: vec3f, above: vec3f, mode: u32) -> vec3f {
 /// A linear color with its hue turned by an angle in radians, its luminance kept.
 ///
 /// Turned in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020), where hues that look even lie on
-/// circles and gray is the axis. What is left of the change in luminance is taken back by a factor.
+/// circles and gray is the axis. The remaining change in luminance is undone by a factor.
 fn turned_hue(color: vec3f, angle: f32) -> vec3f {
     let cones = vec3f(
         dot(color, vec3f(0.4122214708, 0.5363325363, 0.0514459929)),
@@ -89,6 +89,6 @@ fn tuned_color(color: vec3f, hue: f32, saturation: f32, value: f32) -> vec3f {
     let gray = luminance(source);
     let turned = turned_hue(source, hue);
     let spread = gray + (turned - gray) * saturation;
-    // Not brighter than what came in: a hue that cannot be as vivid at this luminance becomes paler.
+    // Not brighter than the color given: a hue that cannot be as vivid at this luminance becomes paler.
     return pale_into(spread, 0.0, max(1.0, greatest_component(source))) * value;
 }

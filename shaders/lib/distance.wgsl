@@ -14,8 +14,8 @@ const DISTANCE_NONE: f32 = 1e9;
 
 /// Distance to the border of a mask, where the border passes beside this texel: 0 inside, and `far` elsewhere.
 ///
-/// `inside` is 1, or -1 to go inward from outside. `far` is a little more than anybody asks for: the less it is, the sooner
-/// ghosts that lie between what is known and what is not come to their value.
+/// `inside` is 1, or -1 to measure inward from outside. `far` is a little more than the largest distance that is needed: the
+/// smaller it is, the sooner ghosts between known and unknown texels converge.
 fn distance_start(source: texture_2d_array<f32>, at: Surface, threshold: f32, inside: f32, far: f32) -> f32 {
     let center = (surface_here(source, at).x - threshold) * inside;
     let metric = surface_metric(at);

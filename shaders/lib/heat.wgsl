@@ -1,4 +1,4 @@
-//! Blur as heat that flows over the surface: the Gaussian of standard deviation `radius` is what is left after the time
+//! Blur as heat that flows over the surface: the Gaussian of standard deviation `radius` is reached after the time
 //! `radius² / 2`.
 //!
 //! The flow between two texels follows from how they lie on the surface (the Laplace-Beltrami operator; mixed terms over the
@@ -21,9 +21,9 @@ fn heat_conduction(at: Surface, on_texture: bool) -> vec3f {
     return select(vec3f(along - abs(across), across), vec3f(1.0, 1.0, 0.0), on_texture);
 }
 
-/// What flows to a texel a unit of time, for texels as wide as `round.texel`.
+/// Heat that flows to a texel in a unit of time, for texels as wide as `round.texel`.
 ///
-/// The weight between two texels is the mean of both, so that what one gains the other loses. Written out: software
+/// The weight between two texels is the mean of both, so that one gains as much as the other loses. Written out: software
 /// adapters are slow at short loops.
 fn heat_flow(
     state: texture_2d_array<f32>,
@@ -48,17 +48,17 @@ fn heat_flow(
         + surface_neighbor(state, at, vec2i(-1, -rise)).x - center);
     let metric = surface_metric(at);
     let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30)) / (round.texel * round.texel);
-    // Texels much finer than the others take their time: else their steps would be too long.
+    // Texels much finer than the others are slowed down: otherwise the time step would be too long for them.
     let total = east + west + south + north + 2.0 * abs(own.z);
     return (flow + across) / max(select(area, 1.0, on_texture), 0.25 * total);
 }
 
-/// What a blur of that radius starts from: value, the value of the stage before, and 1.
+/// Start of a blur: value, value of the stage before, and 1.
 fn heat_start(value: f32) -> vec3f {
     return vec3f(value, value, 1.0);
 }
 
-/// One stage; `state` holds what `heat_start` or the stage before gave. There are `round.count` of them.
+/// One stage; `state` holds the result of `heat_start` or of the stage before. There are `round.count` of them.
 fn heat_stage(
     state: texture_2d_array<f32>,
     conduction: texture_2d_array<f32>,
@@ -77,8 +77,8 @@ fn heat_stage(
     return vec3f(later, before.x, 1.0);
 }
 
-/// How long heat flows, in squares of `round.texel`: what going to the coarser level and back has blurred already, and what
-/// `heat_finish` will, is taken off. Both ways together blur like a Gaussian of half a coarser texel's width.
+/// Time that heat flows, in squares of `round.texel`, less the blur of the way to the coarser level and back and that of
+/// `heat_finish`. Both ways together blur like a Gaussian of half a coarser texel's width.
 fn heat_time(round: Round, radius: f32) -> f32 {
     let moved = select(0.0, 0.25 * round.texel * round.texel, round.texel > 1.5 * round.finest);
     let finish = heat_finish_share(round, radius) * round.finest * round.finest;
@@ -90,7 +90,7 @@ fn heat_finish_share(round: Round, radius: f32) -> f32 {
     return clamp(radius * radius / (round.finest * round.finest), 0.0, 1.0);
 }
 
-/// Half of the finish, which takes the last corners off what was interpolated from a coarser level: weights 1 2 1 both ways
+/// Half of the finish, which smooths the corners that interpolation from a coarser level leaves: weights 1 2 1 both ways
 /// around `center`, at full strength a variance of half a texel of the finest.
 fn heat_finish(state: texture_2d_array<f32>, at: Surface, round: Round, radius: f32, center: f32) -> f32 {
     let metric = surface_metric(at);

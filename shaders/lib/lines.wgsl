@@ -1,4 +1,4 @@
-//! Lines of true width: what a texel sees of them, however thin they are.
+//! Lines of true width: the share of a texel that they cover, however thin they are.
 //!
 //! Each function takes the distance to the middle of a straight line and gives the mean of the line's profile over a texel.
 //! So a line thinner than a texel is a faint one and never a row of dots.

@@ -48,7 +48,7 @@ fn finest_stretch(stretch: vec3f) -> f32 {
 }
 
 /// How much of a wave a grid of texels can carry: 0 below two texels a wave, 1 from four on, smooth between.
-/// What is not carried is to be replaced by its mean.
+/// The rest is to be replaced by its mean.
 fn carried(wavelength: f32, texel_size: f32) -> f32 {
     let t = clamp(wavelength / max(2.0 * texel_size, 1e-12) - 1.0, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
@@ -70,7 +70,7 @@ fn cell_random(cell: vec3i, key: vec3u) -> vec3u {
     return pcg3d((bitcast<vec3u>(cell) & vec3u(65535u)) + key);
 }
 
-/// What one corner of a simplex adds: `base` is the corner's hash state, `offset` leads from the corner to the place.
+/// Contribution of one corner of a simplex: `base` is the corner's hash state, `offset` leads from the corner to the place.
 fn simplex_corner(base: vec3u, offset: vec3f) -> f32 {
     // pcg3d, of which the first number is enough.
     var v = base;
@@ -93,7 +93,7 @@ fn simplex_corner(base: vec3u, offset: vec3f) -> f32 {
 /// Simplex noise in three dimensions, one feature a unit: mean 0, standard deviation 1, continuous with its first
 /// derivatives.
 ///
-/// The cell is chosen in floats: a place on a border gives the same value from both sides, so nothing hangs on the
+/// The cell is chosen in floats: a place on a border gives the same value from both sides, so nothing depends on the
 /// choice.
 fn simplex_noise(place: vec3f, key: vec3u) -> f32 {
     let skewed = place + (place.x + place.y + place.z) * 0.33333333;

@@ -1,21 +1,21 @@
-//! Rays: how a place shoots them, and what they hit.
+//! Rays: directions and lengths for a place, and hits.
 //! @use core atlas noise
 
 /// A ray, in model units.
 struct Ray {
-    /// Where it starts.
+    /// Start.
     origin: vec3f,
-    /// How far it goes; 0 hits nothing.
+    /// Length; 0 hits nothing.
     reach: f32,
     /// Its direction, unit length.
     direction: vec3f,
 }
 
-/// What a ray hit.
+/// Hit of a ray.
 struct Hit {
     /// Whether it hit anything within its reach.
     is_hit: bool,
-    /// How far that is; the ray's reach where nothing is hit.
+    /// Distance; the ray's reach where nothing is hit.
     distance: f32,
     /// The triangle, where the rays find the nearest.
     triangle: u32,
@@ -27,12 +27,12 @@ struct RayHit {
     triangle: u32,
 }
 
-/// A ray that goes nowhere.
+/// A ray of no length, which hits nothing.
 fn no_ray() -> Ray {
     return Ray(vec3f(0.0), 0.0, vec3f(0.0, 1.0, 0.0));
 }
 
-/// What a ray hit, of what was stored for it or for a longer one of the same start and direction.
+/// Hit of a ray by the row stored for it or for a longer one of the same start and direction.
 fn hit_of(stored: RayHit, ray: Ray) -> Hit {
     // The distance of a hit at the very end may have been rounded up.
     let is_hit = stored.distance >= 0.0 && stored.distance <= ray.reach * 1.000001;
@@ -125,7 +125,7 @@ fn ray_around(at: Surface, index: u32, seed: u32, reach: f32) -> Ray {
     return ray_along(at, even_direction(ray_sample(at, index, seed)), reach);
 }
 
-/// The normals of what a ray hit, of rays that find the nearest.
+/// Normals of the triangle that a ray hit; the rays must find the nearest.
 fn facing_hit(ray: Ray, hit: Hit) -> Facing {
     return facing_of(select(0u, hit.triangle, hit.is_hit), ray.origin + ray.direction * hit.distance);
 }
@@ -140,7 +140,7 @@ fn shaded_share(at: Surface, ray: Ray, hit: Hit) -> f32 {
     return select(0.0, clamp(shaded / max(turn, 1e-3), 0.0, 1.0), hit.is_hit);
 }
 
-/// What a ray to any side says of the bend; the mean is the share of rays stopped inside less that of those stopped
+/// Contribution of a ray to any side to the bend; the mean is the share of rays stopped inside less that of those stopped
 /// outside, each of its side's half of all.
 fn bend_by(at: Surface, ray: Ray, hit: Hit) -> f32 {
     let side = select(-2.0, 2.0, dot(ray.direction, at.face_normal) < 0.0);

@@ -1,4 +1,4 @@
-//! Moving along slopes of what is stored.
+//! Moves along slopes of stored values.
 //! @use surface
 
 /// How far a slope moves a place: at most `distance`, which it nears where the source changes by 1 on that way.

@@ -1,8 +1,8 @@
 //! How a field node reads stored results on the surface.
 //!
-//! Steps are texels of the chart at hand. Two texels in any direction are valid at every place: over a seam the
-//! atlas keeps ghost texels, refreshed before each read, that hold what lies straight ahead on the other side. Further
-//! away one gets by walking.
+//! Steps are texels of the texel's own chart. Two texels in any direction are valid everywhere: over a seam the atlas keeps
+//! ghost texels, refreshed before each read, that hold the values straight ahead on the other side. `surface_walk` reaches
+//! further.
 //! @use core atlas
 
 /// The stored value `step` texels away, at most two in each direction.
@@ -25,8 +25,8 @@ fn surface_metric(at: Surface) -> vec3f {
     );
 }
 
-/// The gradient of what is stored, a tangent vector: its product with a short step is the change along it. Scharr's weights,
-/// which see a slope alike however the texels are turned.
+/// Gradient of the stored values, a tangent vector: its product with a short step is the change along the step. Scharr's
+/// weights, which measure a slope alike however the texels are rotated.
 fn surface_gradient(source: texture_2d_array<f32>, at: Surface) -> vec3f {
     let rise = surface_neighbor(source, at, vec2i(1, 1)).x - surface_neighbor(source, at, vec2i(-1, -1)).x;
     let fall = surface_neighbor(source, at, vec2i(1, -1)).x - surface_neighbor(source, at, vec2i(-1, 1)).x;
@@ -36,7 +36,7 @@ fn surface_gradient(source: texture_2d_array<f32>, at: Surface) -> vec3f {
     return surface_covector(at, change);
 }
 
-/// The tangent vector whose product with the texel steps is `change`.
+/// Tangent vector whose product with the texel steps is `change`.
 fn surface_covector(at: Surface, change: vec2f) -> vec3f {
     let metric = surface_metric(at);
     let area = metric.x * metric.z - metric.y * metric.y;
@@ -45,32 +45,32 @@ fn surface_covector(at: Surface, change: vec2f) -> vec3f {
     return select(vec3f(0.0), (at.texel_step * u + at.texel_rise * v) / area, area > 1e-30);
 }
 
-/// A place between texels, and the way one came.
+/// A place between texels, with the direction and the rest of a walk.
 struct Walk {
     /// Texel coordinates on the page; centers lie at halves.
     texel: vec2f,
     page: i32,
-    /// Unit direction in which one walks on here.
+    /// Unit direction in which the walk goes on.
     heading: vec3f,
-    /// What is left of the way: above 0 where it was too long for one walk.
+    /// Length that is left: above 0 where the way was too long for one walk.
     left: f32,
 }
 
-/// Iterations of a walk.
+/// Most iterations of a walk.
 const WALK_STEPS: i32 = 128;
 
-/// At the texel's own place, before the first step.
+/// A walk at the texel's own place, before the first step.
 fn surface_standing(at: Surface) -> Walk {
     return Walk(vec2f(at.texel.xy) + 0.5, at.texel.z, vec3f(0.0), 0.0);
 }
 
-/// Where one gets by walking `way`, a vector in model space, straight over the surface: over seams, and at the
-/// border of the model back as from a mirror. What of the vector stands on the surface is left out.
+/// The end of a walk along `way`, a vector in model space, straight over the surface: over seams, and at the border of the
+/// model back as from a mirror. The vector's component along the normal is left out.
 fn surface_walk(start: Walk, way: vec3f) -> Walk {
     var walk = start;
     walk.left = length(way);
     walk.heading = unit_or(way, vec3f(1.0, 0.0, 0.0));
-    // The heading in texels of the chart at hand, for a step of one working unit.
+    // The heading in texels of the current chart, for a step of one working unit.
     var steps = vec2f(0.0);
     for (var index = 0; index < WALK_STEPS; index++) {
         let texel = vec3i(vec2i(floor(walk.texel)), walk.page);
@@ -93,7 +93,7 @@ fn surface_walk(start: Walk, way: vec3f) -> Walk {
             let ahead = along_u * carried.x + along_v * carried.y;
             walk.heading = unit_or(ahead, walk.heading);
         }
-        // On to the next plane, without its part across.
+        // Onto the plane of the triangle, without the component across it.
         let up = unit_or(cross(along_u, along_v), vec3f(0.0, 1.0, 0.0));
         walk.heading = unit_or(walk.heading - up * dot(walk.heading, up), walk.heading);
         let metric = vec3f(dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v));
@@ -113,7 +113,7 @@ fn surface_walk(start: Walk, way: vec3f) -> Walk {
     return surface_landing(walk);
 }
 
-/// A place on a ghost is that on the other side of the seam.
+/// A walk that ended on a ghost, moved to the other side of the seam.
 fn surface_landing(walk: Walk) -> Walk {
     var landed = walk;
     for (var index = 0; index < 2; index++) {

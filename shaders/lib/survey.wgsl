@@ -1,4 +1,4 @@
-//! What a survey found: how much of the surface, by its true area, has which value of a mask.
+//! Results of a survey: the distribution of a mask's values over the surface, by true area.
 //!
 //! A survey is a table of 1024 even steps from the lowest to the highest value.
 
@@ -54,7 +54,7 @@ fn survey_integral(survey: texture_2d_array<f32>, value: f32) -> f32 {
     return inside + max(along - 1.0, 0.0);
 }
 
-/// Where a ramp `softness` wide has to lie, so that the mean over the surface of what it makes of the mask is `amount`.
+/// Middle of the ramp of width `softness` that turns the mask into one whose mean over the surface is `amount`.
 fn survey_threshold(survey: texture_2d_array<f32>, amount: f32, softness: f32) -> f32 {
     let range = survey_range(survey);
     let span = range.y - range.x;

@@ -11,7 +11,7 @@ fn field_at(texel: vec2i, page: i32) -> vec4f {
     return textureLoad(field, texel, page);
 }
 
-// Where the buffer holds the four, each where it is coupled.
+// Slots of the four texels in the buffer; `EMPTY` for those that are not coupled.
 fn slots_of(index: u32) -> vec4u {
     return textureLoad(ghosts, table_texel(index * fill.rows + 2u), 0);
 }

@@ -67,7 +67,7 @@ fn met(path: Path, reach: f32, scale: vec3f, start: vec3f, meta_word: u32, low: 
     let far_z = vec4f(bytes_of(select(high.z, low.z, path.is_negative.z)));
     let enter = max(max(near_x * scale.x + start.x, near_y * scale.y + start.y), max(near_z * scale.z + start.z, vec4f(0.0)));
     let leave = min(min(far_x * scale.x + start.x, far_y * scale.y + start.y), min(far_z * scale.z + start.z, vec4f(reach)));
-    // A little longer than computed: rounding must not lose what lies in a side of a box.
+    // A little longer than computed: rounding must not lose triangles that lie in a side of a box.
     let is_met = enter <= leave * 1.0000005;
     let entry = bytes_of(meta_word);
     let is_inner = (entry & (entry << vec4u(1u)) & vec4u(0x10u)) != vec4u(0u);
@@ -106,7 +106,7 @@ fn cast_ray(ray: Ray) -> RayHit {
     var best = RayHit(-1.0, 0xffffffffu);
     let size = length(ray.direction);
     var reach = ray.reach * casting.scale;
-    // What is no number goes nowhere: every box would seem to be on its way.
+    // Rays that are no numbers hit nothing: they would enter every box.
     if !(reach > 0.0 && size > 0.0 && size < 1e30 && all(abs(ray.origin) < vec3f(1e30))) {
         return best;
     }

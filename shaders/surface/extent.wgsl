@@ -3,7 +3,7 @@
 //! @use atlas surface/place surface/sorted
 
 struct Asked {
-    // Which component of a texel, and the first of the three places for what is found.
+    // Component of a texel, and the first of the three values of the result.
     component: u32,
     place: u32,
     pad_0: u32,
@@ -16,7 +16,7 @@ struct Asked {
 
 const INFINITY_BITS: u32 = 0x7f800000u;
 
-// A row of a tile for each invocation, so that few of them want the same places at once.
+// One row of a tile for each invocation, so that few of them write the same values at once.
 @compute @workgroup_size(8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) row: u32) {
     var lowest = 0xffffffffu;
@@ -33,7 +33,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) ro
         highest = select(highest, max(highest, key), is_on_surface && is_number);
         not_numbers += select(0u, 1u, is_on_surface && !is_number);
     }
-    // Looking first spares nearly all writes to the two places that everybody wants.
+    // Reading first avoids nearly all writes to the two values that all invocations share.
     if lowest < atomicLoad(&found[asked.place]) {
         atomicMin(&found[asked.place], lowest);
     }

@@ -19,7 +19,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     // Bits of the four: owned or ghosts, and owned.
     let counted = select(known.y, known.x, fill.with_ghosts != 0u);
     let is_counted = (vec4u(counted) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
-    // What does not count may be written meanwhile: what is owned is read in its place.
+    // Texels that do not count may be written in the same round: an owned texel is read in their place.
     let corner = link.corner;
     let pages = select(vec4i(link.own_page), vec4i(link.page), is_counted);
     let slots = slots_of(index);
@@ -33,16 +33,16 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     nearest = select(nearest, c, shares.z == largest);
     nearest = select(nearest, b, shares.y == largest);
     nearest = select(nearest, a, shares.x == largest);
-    // Around the nearest one, so that a constant stays what it is, bit by bit; what does not count may hold anything.
+    // Differences from the nearest one, so that a constant keeps its bits; texels that do not count may hold anything.
     let total = shares.x + shares.y + shares.z + shares.w;
     var sum = select(vec4f(0.0), shares.x * (a - nearest), is_counted.x);
     sum += select(vec4f(0.0), shares.y * (b - nearest), is_counted.y);
     sum += select(vec4f(0.0), shares.z * (c - nearest), is_counted.z);
     sum += select(vec4f(0.0), shares.w * (d - nearest), is_counted.w);
     var filled = select(anchor, nearest + sum / max(total, 1e-6), largest > 0.0);
-    // Only part of what is around the point over the seam is owned: what is there lies the further away. Between it and
-    // the own chart's last texel the ghost is where a straight line says. Two ghosts that lie on one another, where both
-    // charts end a texel before the seam, would else hand what they do not know to and fro.
+    // Only some of the texels around the point over the seam are owned, so their mean lies further away. Between it and the
+    // last texel of the ghost's own chart the value is interpolated along a straight line. Two ghosts that lie on one
+    // another, where both charts end a texel before the seam, would otherwise exchange undefined values.
     let away = 1.0 - total;
     if fill.with_ghosts == 0u && away > 0.0 {
         filled += (anchor - filled) * (away / (away + max(length(vec2f(step)), 1.0)));

@@ -13,7 +13,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     let b = field_at(link.corner + vec2i(1, 0), link.page);
     let c = field_at(link.corner + vec2i(0, 1), link.page);
     let d = field_at(link.corner + vec2i(1, 1), link.page);
-    // Around one of them, so that a constant stays what it is, bit by bit.
+    // Differences from one of them, so that a constant keeps its bits.
     let top = (b - a) * link.weight.x;
     let bottom = (c - a) + (d - c) * link.weight.x;
     keep(index, link, a + top + (bottom - top) * link.weight.y);

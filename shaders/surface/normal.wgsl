@@ -21,8 +21,8 @@ fn height_at(texel: vec3i) -> f32 {
     return textureLoad(heights, texel.xy, texel.z, 0).x;
 }
 
-// Change of the height a texel along u and v; Scharr's weights, exact for planes. Over a hard edge a height is what the own
-// side's would be, straight on.
+// Change of the height a texel along u and v; Scharr's weights, exact for planes. Over a hard edge a height is extrapolated
+// from the texel's own side.
 fn height_steps(center: vec3i, marks: u32) -> vec2f {
     var around: array<f32, 9>;
     for (var index = 0; index < 9; index++) {

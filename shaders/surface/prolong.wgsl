@@ -2,7 +2,7 @@
 //! @use atlas surface/place surface/level
 //! @given StoredField
 
-// The chart that each coarser texel belongs to, or whose ring it is in.
+// Chart of each coarser texel, or of the ring that it is in.
 @group(1) @binding(1) var coarse_charts: texture_2d_array<u32>;
 @group(1) @binding(2) var coarse_frames: texture_2d<u32>;
 @group(1) @binding(3) var coarse: texture_2d_array<f32>;
@@ -42,7 +42,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
             nearest = value;
         }
     }
-    // Around the nearest tap, so that a constant stays what it is, bit by bit.
+    // Differences from the nearest tap, so that a constant keeps its bits.
     var sum = vec4f(0.0);
     var total = 0.0;
     for (var tap = 0u; tap < 4u; tap++) {

@@ -41,14 +41,14 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
         let near = clamp(texel, vec2i(0), size - 1);
         is_known = is_known && is_inside && owner_of(vec3i(near, page)) != EMPTY;
         let value = textureLoad(field, near, page, 0);
-        // Differences, so that a constant stays what it is, bit by bit.
+        // Differences, so that a constant keeps its bits.
         sum += along[step.x] * down[step.y] * (value - middle);
         low = min(low, value);
         high = max(high, value);
     }
     let own = vec2i(i32(link.texel & 0xffffu), i32(link.texel >> 16u));
     let stays = textureLoad(field, own, i32(link.page), 0);
-    // Next to a step a cubic goes beyond what is around it: a mask would leave its range.
+    // Next to a step a cubic overshoots its neighbors: a mask would leave its range.
     let refined = clamp(middle + sum, low, high);
     values[index] = select(stays, refined, is_known);
 }

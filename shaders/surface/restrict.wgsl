@@ -39,7 +39,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
             let chart = fine_frame(select(owner, other, is_owned) * FRAME_ROWS + 3u).z;
             let counts = is_owned && chart == fine_place.z;
             let value = textureLoad(fine, near, fine_page, 0);
-            // Around the first one, so that a constant stays what it is, bit by bit.
+            // Differences from the first one, so that a constant keeps its bits.
             first = select(first, value, counts && count == 0.0);
             sum += select(vec4f(0.0), value - first, counts);
             count += select(0.0, 1.0, counts);

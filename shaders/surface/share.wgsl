@@ -38,7 +38,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
     for (var at = first; at < first + count; at += 1u) {
         let source = unpacked_texel(texels[at]);
         let more = textureLoad(field, source.xy, source.z, 0);
-        // A lone one stays what it is, bit by bit.
+        // A single source keeps its bits.
         value = select(value + more, more, at == first);
     }
     if count > 1u {

@@ -1,7 +1,7 @@
 //! Starts of the rays of a texel. Linked to kernels that shoot rays.
 //! @use core atlas hash
 
-// The place of ray `index` in its texel, so that what changes inside a texel is averaged. Roberts' sequence spreads the
+// The place of ray `index` in its texel, so that changes inside a texel are averaged. Roberts' sequence spreads the
 // places of a texel evenly. Where a quarter or the one across it has triangles of several planes, the place stays in the
 // middle: on the plane of one of them it would hang above the other or lie below it.
 fn jittered(center: Surface, planes: u32, index: u32) -> Surface {

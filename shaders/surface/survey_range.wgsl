@@ -12,7 +12,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         return;
     }
     let value = textureLoad(source, texel.xy, texel.z, 0).x;
-    // Looking first spares nearly all writes to the two places that everybody wants.
+    // Reading first avoids nearly all writes to the two values that all invocations share.
     let key = key_of(bitcast<u32>(clamp(value, -1e9, 1e9)));
     if key < atomicLoad(&counts[0]) {
         atomicMin(&counts[0], key);

@@ -2,7 +2,7 @@
 //! @use view/frame view/panorama
 
 @group(1) @binding(0) var panorama: texture_2d<f32>;
-// Goes around the seam of the panorama.
+// Wraps around the seam of the panorama.
 @group(1) @binding(1) var round_sampler: sampler;
 
 struct Behind {

@@ -1,4 +1,4 @@
-//! How a surface scatters light: a GGX lobe with height-correlated Smith shadowing over a Lambertian base, with the light that
+//! Scattering of light by a surface: a GGX lobe with height-correlated Smith shadowing over a Lambertian base, with the light that
 //! bounces between facets kept (Fdez-Agüera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting";
 //! for single lights the scale of Turquin 2019, "Practical multiple scattering compensation for microfacet models").
 //! @use view/frame
@@ -17,12 +17,12 @@ fn substance_of(base_color: vec3f, metallic: f32, roughness: f32) -> Substance {
     return Substance(mix(vec3f(0.04), base_color, metallic), base_color * dielectric, roughness);
 }
 
-// The lobe's share of a white surrounding: the part that grows with the reflectance, and the part that does not.
+// Directional albedo of the lobe: the part proportional to the reflectance, and the rest.
 fn albedo_of_lobe(to_eye: f32, roughness: f32) -> vec2f {
     return textureSampleLevel(directional_albedo, smooth_sampler, vec2f(to_eye, roughness), 0.0).xy;
 }
 
-// What a surrounding gives: weights of its reflection and of its irradiance over π.
+// Weights of the reflection and of the irradiance over π of a surrounding.
 struct Surrounded {
     reflected: vec3f,
     scattered: vec3f,
@@ -43,7 +43,7 @@ fn scattered(made: Substance, lobe: vec2f, normal: vec3f, to_eye: vec3f, to_ligh
     let eye = max(dot(normal, to_eye), 1e-4);
     let light = max(dot(normal, to_light), 1e-4);
     let middle = clamp(dot(normal, half_way), 0.0, 1.0);
-    // A point of light on a mirror is seen by no pixel: as wide as a lamp of a few degrees.
+    // The reflection of a point light in a mirror would fall between pixels: it is as wide as a lamp of a few degrees.
     let width = max(made.roughness * made.roughness, 0.002);
     let square = width * width;
     let denominator = (middle * middle * (square - 1.0) + 1.0);

@@ -1,4 +1,4 @@
-//! The model as a light sees it: depth only.
+//! Renders the model's depth from a light.
 
 struct Caster {
     clip_from_view: mat4x4f,

@@ -1,4 +1,4 @@
-//! Corners of the model's triangles, and what the raster interpolates between them.
+//! Corners of the model's triangles, and the values that the raster interpolates between them.
 
 struct Corner {
     @location(0) position: vec3f,

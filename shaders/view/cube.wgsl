@@ -2,9 +2,9 @@
 
 /// One pass over all faces of a level.
 struct CubePass {
-    /// Texels along a side of what is written.
+    /// Texels along a side of the target.
     side: u32,
-    /// What the pass makes of it: places along a texel's side, or directions.
+    /// Samples: places along a texel's side, or directions.
     count: u32,
     /// Level of the source to read.
     lod: f32,
@@ -23,8 +23,8 @@ fn cube_direction(face: u32, at: vec2f) -> vec3f {
     }
 }
 
-/// What a texel is told of a sum of light and of the weights it came with; the store of more than a half float holds would
-/// be infinite.
+/// Mean of a sum of light, by its sum of weights; limited to what a half float holds, since a larger value would be stored
+/// as infinity.
 fn mean_light(sum: vec4f) -> vec4f {
     return vec4f(min(sum.rgb / sum.a, vec3f(65504.0)), 1.0);
 }

@@ -2,11 +2,11 @@
 //! @use view/cover view/srgb
 
 struct Display {
-    // Display-referred linear color behind what covers nothing; w 0 leaves it clear.
+    // Display-referred linear color of the background; transparent where w is 0.
     backdrop: vec4f,
-    // Light is multiplied by it first.
+    // Factor of the light, applied first.
     exposure: f32,
-    // Samples that are in the sum, this one included.
+    // Number of samples in the sum, including this one.
     samples: f32,
     pad_0: f32,
     pad_1: f32,
@@ -64,7 +64,7 @@ fn aces(color: vec3f) -> vec3f {
     return clamp(out_of * curve, vec3f(0.0), vec3f(1.0));
 }
 
-// This sample, display-referred and linear, over what is behind it.
+// This sample, display-referred and linear, over the background.
 fn shown_at(pixel: vec2i) -> vec4f {
     let seen = textureLoad(light, pixel, 0);
     var color = seen.xyz;

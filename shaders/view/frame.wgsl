@@ -3,20 +3,20 @@
 //! Places and directions are in view space: the model's box is centered and its largest side is 1; +Y is up.
 
 struct Light {
-    // Where it is, w 1; or for one that is far away the direction towards it, w 0.
+    // Position with w 1, or the direction towards a far light with w 0.
     place: vec4f,
-    // Radiance times solid angle of one that is far away, intensity of one that is near; linear RGB. w is the first layer of
-    // its shadow, where it throws one.
+    // Radiance times solid angle of a far light, intensity of a near one; linear RGB. w is the first layer of its shadow,
+    // where it has one.
     color: vec4f,
 }
 
 struct Frame {
     clip_from_view: mat4x4f,
     view_from_clip: mat4x4f,
-    // Where the camera is; for parallel rays, w 0, the direction towards it.
+    // Position of the camera with w 1; for parallel rays the direction towards it with w 0.
     eye: vec4f,
-    // Irradiance over π of the environment in its own frame: what 1, x, y, z, xy, yz, zx, 3y² − 1 and x² − z² of a normal are
-    // multiplied by.
+    // Irradiance over π of the environment in its own frame: factors of 1, x, y, z, xy, yz, zx, 3y² − 1 and x² − z² of a
+    // normal.
     irradiance: array<vec4f, 9>,
     lights: array<Light, 4>,
     shadow_from_view: array<mat4x4f, 24>,
@@ -24,9 +24,9 @@ struct Frame {
     environment: vec4f,
     // Number of the picture's sample.
     sample: u32,
-    // The level of the reflections that stands behind the model where it is blurred.
+    // Level of the reflections that a blurred background shows.
     blur: f32,
-    // Texels for one unit of UV, and the texels along a unit of view space that count as even.
+    // Texels for one unit of UV, and the mean number of texels along a unit of view space.
     texels_of_uv: f32,
     even_density: f32,
     // The lowest and the highest height, working units.

@@ -1,22 +1,22 @@
 //! Light that a place of the surface sends to the eye.
 //! @use atlas view/brdf view/frame view/irradiance view/relief view/seen view/shadow view/switches
 
-// How much of a reflection reaches a place that is open to so much of its surrounding (Lagarde and de Rousiers 2014, "Moving
+// Share of a reflection that reaches a place with a degree of openness to its surrounding (Lagarde and de Rousiers 2014, "Moving
 // Frostbite to physically based rendering").
 fn reflected_share(to_eye: f32, open: f32, roughness: f32) -> f32 {
     return clamp(pow(to_eye + open, exp2(-16.0 * roughness - 1.0)) - 1.0 + open, 0.0, 1.0);
 }
 
-// Where light comes from that a rough surface mirrors, the rays of a lobe together: the rougher, the nearer to the normal. The
-// idea is Lagarde's and de Rousiers', as above; of no turn, theirs and this one, this came nearest to what Cycles draws of metal
-// spheres, see `docs/cycles`.
+// Dominant direction of the lobe of a rough surface: the rougher, the nearer to the normal. The idea is Lagarde's and de
+// Rousiers', as above; of no turn, their turn and this one, this one comes nearest to Cycles' metal spheres, see
+// `docs/cycles`.
 fn mirrored_from(normal: vec3f, towards: vec3f, roughness: f32) -> vec3f {
     let width = roughness * roughness;
     return mix(towards, normal, width * width);
 }
 
-// The normal of a mirror: bumps turned so far from the eye that they would mirror what is inside of the surface are turned back
-// until they mirror what is just above it, as Cycles does. Matte light needs no such thing.
+// The normal of a mirror: bumps turned so far from the eye that they would reflect the inside of the surface are turned back
+// until they reflect the directions just above it, as Cycles does. Diffuse light does not need it.
 fn mirroring_normal(spot: Spot, to_eye: vec3f) -> vec3f {
     let up = spot.smooth_normal;
     let sideways = spot.normal - up * dot(spot.normal, up);
@@ -25,8 +25,8 @@ fn mirroring_normal(spot: Spot, to_eye: vec3f) -> vec3f {
     if height <= 0.0 || length(sideways) < 1e-4 || dot(reflect(-to_eye, spot.normal), up) >= least {
         return spot.normal;
     }
-    // In the plane of both normals, a mirror at an angle from the surface's normal mirrors what is at twice the angle less the
-    // eye's; its height above the surface is to be `least`.
+    // In the plane of both normals, a mirror at an angle from the surface's normal reflects the direction at twice the angle
+    // less the eye's; its height above the surface is to be `least`.
     let aside = normalize(sideways);
     let eye = vec2f(height, dot(to_eye, aside));
     let angle = 0.5 * (atan2(eye.y, eye.x) + acos(clamp(least / length(eye), -1.0, 1.0)));

@@ -1,20 +1,20 @@
-//! The maps of a material on the linked atlas. Ghosts hold what lies over a seam, so a place between four texels is read alike
-//! on both sides of it.
+//! The maps of a material on the linked atlas. Ghosts hold the values over a seam, so a place between four texels is read
+//! alike on both sides of it.
 
 struct Material {
-    // What channels are where nothing sets them: base color and alpha; roughness, metallic, occlusion.
+    // Values of channels without a map: base color and alpha; roughness, metallic, occlusion.
     color: vec4f,
     surface: vec4f,
 }
 
 @group(1) @binding(0) var<uniform> material: Material;
-// Where a node's own result is shown, it is in the place of the colors.
+// Base color and alpha, or a node's own result.
 @group(1) @binding(1) var colors: texture_2d_array<f32>;
 @group(1) @binding(2) var surfaces: texture_2d_array<f32>;
 @group(1) @binding(3) var emissions: texture_2d_array<f32>;
 @group(1) @binding(4) var normals: texture_2d_array<f32>;
 @group(1) @binding(5) var heights: texture_2d_array<f32>;
-// For each chart: what texel coordinates on its page are more than UVs times `texels_of_uv`, and the page.
+// For each chart: the offset of its texel coordinates from UVs times `texels_of_uv`, and its page.
 @group(2) @binding(0) var charts: texture_2d<f32>;
 
 // A place on a page.
@@ -41,7 +41,7 @@ fn value_at(map: texture_2d_array<f32>, place: Place) -> vec4f {
     let b = textureLoad(map, first + vec2i(1, 0), place.page, 0);
     let c = textureLoad(map, first + vec2i(0, 1), place.page, 0);
     let d = textureLoad(map, first + vec2i(1, 1), place.page, 0);
-    // Around one of them, so that a constant stays what it is.
+    // Differences from one of them, so that a constant keeps its bits.
     let top = (b - a) * weight.x;
     let bottom = (c - a) + (d - c) * weight.x;
     return a + top + (bottom - top) * weight.y;

@@ -1,4 +1,4 @@
-//! Numbers of what is shown.
+//! Modes of the viewport.
 
 // The lit material.
 const MATERIAL: u32 = 0u;
@@ -15,6 +15,6 @@ const CHECKER: u32 = 10u;
 const DENSITY: u32 = 11u;
 const FACING: u32 = 12u;
 const CLAY: u32 = 13u;
-// How far relief moves what is seen, texels; for tests.
+// Shift of the visible place by relief, texels; for tests.
 const SHIFT: u32 = 14u;
 const MODEL_NORMAL: u32 = 15u;

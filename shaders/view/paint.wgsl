@@ -1,4 +1,4 @@
-//! Paints the pixels of the model: the lit material, or something else in its place.
+//! Paints the pixels of the model: the lit material, or another view.
 //! @use view/cover view/lighting view/seen view/show
 
 fn painted(at: vec2f, has_relief: bool) -> vec4f {
@@ -18,7 +18,7 @@ fn paint_relief(@builtin(position) at: vec4f) -> @location(0) vec4f {
     return painted(at.xy, true);
 }
 
-// Something else than the lit material.
+// A view other than the lit material.
 @fragment
 fn paint_shown(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let pixel = pixel_at(at.xy);

@@ -1,6 +1,6 @@
-//! What a rough surface mirrors: the light around each direction, weighted as GGX does where one looks straight at the
-//! surface (Karis 2013, Real Shading in Unreal Engine 4), by few directions that each stand for the light around them
-//! (Křivánek and Colbert 2008, Real-time Shading with Filtered Importance Sampling).
+//! Reflections of a rough surface: the light around each direction, weighted by GGX for a view along the normal (Karis 2013,
+//! Real Shading in Unreal Engine 4), by few directions that each stand for the light around them (Křivánek and Colbert 2008,
+//! Real-time Shading with Filtered Importance Sampling).
 //! @use view/cube
 
 @group(0) @binding(0) var<uniform> cube_pass: CubePass;

@@ -1,5 +1,5 @@
-//! The model onto the picture: for each pixel, which place of which chart is seen, and the frame it has there. Light follows in
-//! a pass of its own, once for each pixel, however small the triangles are.
+//! Rasterizes the model: the visible place, its chart and its frame for each pixel. Light follows in a pass of its own, once
+//! for each pixel, however small the triangles are.
 //! @use view/corner view/frame view/maps view/modes view/relief view/sight view/switches
 
 @vertex

@@ -1,21 +1,21 @@
-//! Relief: lines of sight and of light are followed through the heights, over seams as over anything else.
+//! Relief: lines of sight and of light are traced through the heights, across seams as well.
 //!
-//! A line descends from the highest height to the lowest in steps of at most a texel, and what it meets first is found between
-//! the last two of them (relief mapping, Policarpo, Oliveira and Comba 2005).
+//! A line descends from the highest height to the lowest in steps of at most a texel, and the intersection is interpolated
+//! between the last two of them (relief mapping, Policarpo, Oliveira and Comba 2005).
 //! @use atlas view/frame view/maps view/switches
 
 // Steps of a line towards a light.
 const LIGHT_STEPS: i32 = 12;
 
-// Where a line is.
+// A place on the relief.
 struct Stand {
     texel: vec2f,
     page: i32,
-    // Carries texel steps of the chart it began on to those of the chart at hand, column by column.
+    // Maps texel steps of the chart that the line began on to those of the current chart, column by column.
     axes: mat2x2f,
 }
 
-// A step of at most two texels of the chart that the line began on. On a ghost one is on the other side of the seam.
+// A step of at most two texels of the chart that the line began on; from a ghost it continues on the other side of the seam.
 fn stepped(stand: Stand, step: vec2f) -> Stand {
     var next = stand;
     next.texel += next.axes * step;

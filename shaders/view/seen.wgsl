@@ -15,7 +15,7 @@ struct Pixel {
     normal: vec3f,
     tangent: vec3f,
     bitangent: vec3f,
-    // What took the tangent's place in some modes.
+    // Values stored in the tangent's place in some modes.
     extra: vec2f,
 }
 
@@ -48,7 +48,7 @@ fn unpacked_vector(packed: vec2u) -> vec3f {
     return vec3f(steps & vec3u(0x1fffffu)) / 2097151.0 * 2.0 - 1.0;
 }
 
-// What a place of the surface is made of and how it lies.
+// Material and normals at a place of the surface.
 struct Spot {
     base_color: vec3f,
     alpha: f32,
@@ -56,7 +56,7 @@ struct Spot {
     metallic: f32,
     occlusion: f32,
     emission: vec3f,
-    // As the normal map has it.
+    // Value of the normal map.
     tangent_normal: vec3f,
     // Unit vectors that face the eye: with the normal map, and without.
     normal: vec3f,

@@ -1,4 +1,4 @@
-//! Shadows of lights: the model's depth as each light sees it.
+//! Shadows of lights: comparison with the model's depth from each light.
 //! @use view/frame
 
 // The layer of a light's shadow in which a direction away from it lies: one for far lights, a face of a cube for near ones.
@@ -12,7 +12,7 @@ fn layer_of(light: Light, away: vec3f) -> i32 {
 
 // Share of a light with a shadow that reaches a place: four comparisons, each between four depths.
 fn unshadowed(light: Light, position: vec3f, normal: vec3f, to_light: vec3f) -> f32 {
-    // Off the surface, the more the flatter the light falls: a depth covers a whole texel.
+    // Offset from the surface, larger at grazing light: a depth covers a whole texel.
     let slant = 1.0 - clamp(dot(normal, to_light), 0.0, 1.0);
     let from_surface = position + normal * (0.002 + 0.006 * slant);
     let layer = layer_of(light, from_surface - light.place.xyz);

@@ -1,5 +1,5 @@
-//! What is shown instead of the lit material: one of its channels, a node's own result, or how the maps lie on the model.
-//! Colors come as they are to stand in the picture, sRGB-encoded where they are colors, like the files of an export.
+//! Views other than the lit material: one of its channels, a node's own result, or how the maps lie on the model.
+//! Values are those of the picture, sRGB-encoded where they are colors, like the files of an export.
 //! @use view/frame view/maps view/modes view/seen view/srgb view/switches
 
 // Letters would need a font: squares of two sizes, tinted along u and v, tell place, size, turn and mirroring of UVs.
@@ -17,7 +17,7 @@ fn checker(texel_of_plane: vec2f) -> vec3f {
     return select(plain, select(vec3f(0.95), vec3f(0.1), is_light), is_wedge);
 }
 
-// Blue where texels are wider than is even, red where narrower: a factor of four either way is the end.
+// Blue where texels are wider than the mean, red where narrower, up to a factor of four.
 fn density_color(density: f32) -> vec3f {
     let doublings = clamp(log2(max(density / frame.even_density, 1e-6)) / 2.0, -1.0, 1.0);
     let even = vec3f(0.95, 0.95, 0.9);
@@ -58,7 +58,7 @@ fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
     }
 }
 
-// A little shape for what has no light of its own.
+// Simple shading for views without lights.
 fn shade_of(normal: vec3f, to_eye: vec3f) -> f32 {
     return 0.55 + 0.45 * clamp(dot(normal, to_eye), 0.0, 1.0);
 }

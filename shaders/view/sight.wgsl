@@ -4,7 +4,7 @@
 // Steps of a line of sight.
 const SIGHT_STEPS: i32 = 64;
 
-// What a line of sight meets that passes a place of the surface; `towards` is the way it goes.
+// Intersection of a line of sight with the relief, near the place where it meets the surface; `towards` is its direction.
 fn met(seen: Seen, place: Place, towards: vec3f) -> Stand {
     let start = Stand(place.texel, place.page, mat2x2f(1.0, 0.0, 0.0, 1.0));
     // The triangle's texel steps, by how place and texel change over the picture.
@@ -22,7 +22,7 @@ fn met(seen: Seen, place: Place, towards: vec3f) -> Stand {
         return start;
     }
     let slope = texels_a_climb(along_u, along_v, up, towards, depth, SIGHT_STEPS);
-    // Back to where the line comes in at the highest height.
+    // Back to the place where the line enters at the highest height.
     var before = start;
     let back = slope * reach.y;
     let back_steps = i32(ceil(min(length(back), f32(SIGHT_STEPS))));

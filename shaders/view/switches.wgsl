@@ -1,13 +1,13 @@
-//! What a pipeline is made for. Branches on what all pixels share ask these, which costs nothing, and never a uniform buffer alone:
-//! Mesa's software driver builds such a shader anew at every draw, and keeps all of them.
+//! Constants that each pipeline is specialized by. Branches that all pixels take alike test these, which costs nothing, and
+//! never a uniform buffer alone: Mesa's software driver compiles a shader with such a branch at every draw, and keeps each.
 
-// What is shown, see `modes.wgsl`.
+// Mode, see `modes.wgsl`.
 override MODE: u32 = 0u;
 // Bits of the maps that a material has.
 override MAPS: u32 = 0u;
 // Type of a node's own result; 0 for a mask.
 override SHOWN_TYPE: u32 = 0u;
-// How many lights there are besides the environment, and which of them throw shadows, the first in the lowest bit.
+// Number of lights besides the environment, and a bit for each that casts shadows, the first in the lowest bit.
 override LIGHT_COUNT: u32 = 0u;
 override SHADOWS_OF: u32 = 0u;
 

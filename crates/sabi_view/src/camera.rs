@@ -1,4 +1,4 @@
-//! Where the eye is: orbit, pan, zoom and focus.
+//! Camera: orbit, pan, zoom and focus.
 //!
 //! Three spaces: *view* space is where the model stands (+Y up, centered, largest side 1), *eye* space is the camera's own
 //! (+X right, +Y up, looking along −Z), *clip* space is wgpu's. Depth is reversed: what is nearest has depth 1, what is
@@ -26,10 +26,10 @@ const FILLED: f64 = 0.9;
 /// A drag over the height of the viewport orbits by half a turn.
 const ORBIT_DEGREES: f32 = 180.0;
 
-/// How depth becomes smaller.
+/// Projection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lens {
-    /// What is farther is smaller.
+    /// Perspective.
     #[default]
     Perspective,
     /// Nothing gets smaller: everything is as large as the perspective shows it at the target.
@@ -43,7 +43,7 @@ pub enum Lens {
 /// viewport, 0 to 1 from its upper left corner; an `aspect` is the viewport's width for one height, see [`aspect_of`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// What it looks at and turns around.
+    /// Point that it looks at and orbits.
     pub target: Vec3,
     /// Which side it sees: at 0 that of +Z, the front as glTF has it (it looks along −Z); at 90 that of +X.
     pub yaw_degrees: f32,
@@ -194,7 +194,7 @@ impl Camera {
         *self = self.sound();
     }
 
-    /// Where the eye is, view space.
+    /// Position of the eye, view space.
     pub fn eye(&self) -> Vec3 {
         self.eye_f64().as_vec3()
     }
@@ -204,12 +204,12 @@ impl Camera {
         -self.axes().z_axis.as_vec3()
     }
 
-    /// What is to the right in the picture, unit length, view space.
+    /// Direction to the right in the picture, unit length, view space.
     pub fn right(&self) -> Vec3 {
         self.axes().x_axis.as_vec3()
     }
 
-    /// What is up in the picture, unit length, view space.
+    /// Direction up in the picture, unit length, view space.
     pub fn up(&self) -> Vec3 {
         self.axes().y_axis.as_vec3()
     }

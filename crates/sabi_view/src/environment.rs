@@ -57,7 +57,7 @@ impl Environment {
     }
 }
 
-/// What is bound by those that draw.
+/// Textures that pictures bind.
 impl Environment {
     /// Light by direction as surfaces mirror it, by level: at perceptual roughness `r` it is `r * (2 - r) * (levels - 1)`.
     pub(crate) fn specular(&self) -> wgpu::TextureView {

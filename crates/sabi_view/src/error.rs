@@ -1,11 +1,11 @@
-//! What can go wrong with a view.
+//! Errors of the viewport.
 
 use sabi_gpu::GpuError;
 
-/// An error of what is shown; never a panic.
+/// Error of the viewport.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ViewError {
-    /// The device refused.
+    /// Error of the device.
     #[error(transparent)]
     Gpu(#[from] GpuError),
     /// Width and height of an environment do not fit its pixels, or there are none.
@@ -18,20 +18,20 @@ pub enum ViewError {
         width: u32,
         /// Pixels down, as given.
         height: u32,
-        /// Pixels there are.
+        /// Number of pixels given.
         given: u64,
     },
-    /// What was kept of an environment is not what this program keeps.
+    /// The stored bytes of an environment are not in this program's format.
     #[error("the prefiltered environment is damaged ({0}); make it anew from its picture")]
     Prefiltered(String),
     /// A picture without pixels, or with too many.
     #[error("a picture of {width} × {height} pixels cannot be drawn; each side has 1 to {longest} pixels")]
     Size {
-        /// Asked for.
+        /// Requested, pixels.
         width: u32,
-        /// Asked for.
+        /// Requested, pixels.
         height: u32,
-        /// The most that the adapter allows.
+        /// Longest side that the adapter allows.
         longest: u32,
     },
 }

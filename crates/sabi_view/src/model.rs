@@ -140,6 +140,7 @@ fn corner(mesh: &Mesh, placement: &Placement, vertex: u32, texel: [f32; 2], char
     Corner {
         position: placement.view_from_model(mesh.positions[vertex]).to_array(),
         normal: mesh.normals[vertex],
+        // A mesh without tangents has no normal map that would need them.
         tangent: mesh.tangents.get(vertex).copied().unwrap_or([1.0, 0.0, 0.0, 1.0]),
         texel,
         chart,
@@ -163,7 +164,7 @@ pub struct ViewModel {
     pub(crate) texels_of_uv: f32,
     /// Texels along a unit of view space that half of the surface has more than.
     pub(crate) even_density: f32,
-    /// Where the model is put.
+    /// Placement of the model in view space.
     pub placement: Placement,
 }
 

@@ -1,4 +1,4 @@
-//! What is under the pointer.
+//! Place of the model under the pointer.
 
 use glam::{DVec3, Vec3};
 use sabi_surface::atlas::Atlas;
@@ -38,7 +38,7 @@ pub struct Picked {
     pub normal: Vec3,
     /// Normal of the triangle itself, unit length; zero for one without area.
     pub face_normal: Vec3,
-    /// Whether the ray met the back of the surface.
+    /// Whether the ray hit the back of the surface.
     pub from_behind: bool,
     /// Material, an index into [`sabi_surface::model::Model::materials`].
     pub material: u32,
@@ -62,7 +62,8 @@ pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placeme
     )?;
     let corners = corners(mesh, hit.triangle)?;
     let [a, b, c] = corners.map(|corner| (corner - DVec3::from(placement.center)) * placement.scale);
-    // The ray was rounded to the model's units on the way; where it meets the triangle is computed anew.
+    // The ray was rounded to the model's units, so the intersection is computed again. A ray along the plane has none: the
+    // caster's own is kept.
     let shares = shares([a, b, c], origin, direction).unwrap_or(hit.barycentric.map(f64::from));
     let shares = inside(shares);
     let position = a * shares[0] + b * shares[1] + c * shares[2];
@@ -127,7 +128,7 @@ fn face_normal([a, b, c]: [DVec3; 3]) -> Vec3 {
     normal.map_or(Vec3::ZERO, DVec3::as_vec3)
 }
 
-/// What vertices have, at a point of a triangle; zero where they have none.
+/// Value of the vertices, interpolated at a point of a triangle; zero for meshes without such values.
 fn blend<const N: usize>(mesh: &Mesh, triangle: usize, of_vertices: &[[f32; N]], shares: [f32; 3]) -> [f32; N] {
     let corners = mesh.triangles[triangle].map(|vertex| of_vertices.get(vertex as usize).copied());
     weighted(corners.map(|value| value.unwrap_or([0.0; N])), shares)

@@ -1,4 +1,4 @@
-//! The pipelines that draw a picture, and what they bind.
+//! Pipelines that draw a picture, and their bind group layouts.
 
 mod layouts;
 mod recipe;
@@ -18,23 +18,23 @@ pub(crate) use layouts::Layouts;
 use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, pipeline, rows_of};
 pub(crate) use switches::{MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches};
 
-/// A pipeline by what it does.
+/// Purpose of a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Draws {
-    /// Which place of the model each pixel sees.
+    /// Rasterizes the model: the visible place of each pixel.
     Raster {
         is_double_sided: bool,
         ground: Ground,
         switches: Switches,
     },
-    /// Light, for each pixel that sees the model.
+    /// Lights the pixels of the model.
     Paint(Paint, Switches),
     /// The environment behind the model.
     Background {
         is_blurred: bool,
     },
     Lines,
-    /// The model as a light sees it.
+    /// Depth of the model from a light.
     Shadow,
     /// Adds a sample to the sum of those before.
     Gather(Transform),
@@ -44,7 +44,7 @@ pub(crate) enum Draws {
     EncodeSum,
 }
 
-/// From light to what a display shows: `TRANSFORM` of `display.wgsl`.
+/// View transform: `TRANSFORM` of `display.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Transform(pub(crate) u32);
 
@@ -56,26 +56,26 @@ impl Transform {
     pub(crate) const ENCODED: Transform = Transform(3);
 }
 
-/// What a raster has to look at to know what a pixel sees.
+/// Properties of the surface that decide which place a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Ground {
-    /// Only triangles.
+    /// Triangles alone.
     Plain,
-    /// Where they are clear.
+    /// Transparency.
     Veiled,
-    /// The heights on them.
+    /// Heights.
     Relief,
     /// Both.
     VeiledRelief,
 }
 
-/// How the model is painted.
+/// Shading of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Paint {
     Lit,
     /// Lit, with shadows of the heights.
     LitRelief,
-    /// Something else than the lit material.
+    /// A view other than the lit material.
     Shown,
 }
 
@@ -99,7 +99,7 @@ impl Draws {
 /// All pipelines of a renderer, each made when it is first used.
 pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
-    /// What is bound of a surface.
+    /// Bind group layout of a surface.
     surface: wgpu::BindGroupLayout,
     made: Mutex<BTreeMap<Draws, wgpu::RenderPipeline>>,
     /// Compiled shader modules.
@@ -107,7 +107,7 @@ pub(crate) struct Pipelines {
 }
 
 impl Pipelines {
-    /// No pipeline yet, but all layouts.
+    /// Creates all layouts, and no pipeline yet.
     pub(crate) fn new(gpu: &Gpu) -> Result<Pipelines, GpuError> {
         Ok(Pipelines {
             layouts: gpu.guarded("the viewport's layouts", Layouts::new)?,
@@ -117,7 +117,7 @@ impl Pipelines {
         })
     }
 
-    /// Which of these pipelines are not there yet, each once.
+    /// Pipelines of a list that are not compiled yet, each once.
     pub(crate) fn missing(&self, wanted: Vec<Draws>) -> BTreeSet<Draws> {
         let mut missing: BTreeSet<Draws> = wanted.into_iter().collect();
         if let Ok(made) = self.made.lock() {
@@ -126,7 +126,7 @@ impl Pipelines {
         missing
     }
 
-    /// The pipeline that draws something.
+    /// Pipeline of a purpose, compiled when it is first used.
     pub(crate) fn get(&self, gpu: &Gpu, draws: Draws) -> Result<wgpu::RenderPipeline, GpuError> {
         if let Ok(made) = self.made.lock()
             && let Some(known) = made.get(&draws)
@@ -138,7 +138,7 @@ impl Pipelines {
         if made.is_err()
             && let Ok(mut modules) = self.modules.lock()
         {
-            // The modules may be what failed.
+            // A module may have caused the failure.
             modules.clear();
         }
         let made = made?;

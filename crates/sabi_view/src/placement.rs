@@ -1,4 +1,4 @@
-//! Where a model stands in view space: centered, its largest side 1.
+//! Placement of a model in view space: centered, its largest side 1.
 
 use glam::{DVec3, Vec3};
 use sabi_surface::model::Mesh;

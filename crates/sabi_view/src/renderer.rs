@@ -1,4 +1,4 @@
-//! Draws scenes.
+//! Drawing of scenes.
 
 pub(crate) mod bound;
 mod choice;
@@ -27,13 +27,13 @@ pub use pose::Pose;
 pub struct Renderer {
     pipelines: Pipelines,
     smooth: wgpu::Sampler,
-    /// The same, around the seam of a panorama.
+    /// Sampler that wraps around the seam of a panorama.
     round: wgpu::Sampler,
     compare: wgpu::Sampler,
     directional_albedo: wgpu::TextureView,
-    /// Stands where there is no map.
+    /// Bound in place of a missing map.
     no_map: wgpu::TextureView,
-    /// Stands where there are no earlier samples.
+    /// Bound in place of a sum when there are no earlier samples.
     no_sum: wgpu::TextureView,
 }
 
@@ -48,7 +48,7 @@ wgsl_struct! {
     }
 }
 
-/// What all samples of a picture share.
+/// Resources shared by all samples of a picture.
 pub(crate) struct Prepared {
     shadows: ShadowMaps,
     bound: Bound,
@@ -58,9 +58,9 @@ pub(crate) struct Prepared {
 /// One sample of a picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Sample {
-    /// Which one, from 0.
+    /// Number, from 0.
     pub(crate) number: u32,
-    /// Whether a picture is made of those so far.
+    /// Whether the samples so far are encoded as a picture.
     pub(crate) is_shown: bool,
 }
 
@@ -116,7 +116,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Makes ready what all samples of a picture share.
+    /// Prepares the resources shared by all samples of a picture.
     pub(crate) fn prepare(
         &self,
         gpu: &Gpu,

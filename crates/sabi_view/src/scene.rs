@@ -1,4 +1,4 @@
-//! What is shown, and how: plain values that a caller fills in.
+//! Scenes and views of them: plain values that a caller fills in.
 
 use std::str::FromStr;
 
@@ -15,9 +15,9 @@ pub const MOST_LIGHTS: usize = 4;
 pub struct Scene<'a> {
     /// The model.
     pub model: &'a ViewModel,
-    /// What its materials look like; at most 255 are told apart.
+    /// Looks of its materials, at most 255.
     pub looks: &'a [MaterialLook],
-    /// For each material of the model which of the looks it has; triangles of others are not drawn.
+    /// Number of the look of each material of the model; triangles of other materials are not drawn.
     pub look_of_material: &'a [usize],
     /// Light from all around.
     pub environment: &'a Environment,
@@ -25,14 +25,14 @@ pub struct Scene<'a> {
     pub lights: &'a [Light],
 }
 
-/// What a material looks like.
+/// Look of a material.
 #[derive(Clone, Debug)]
 pub struct MaterialLook {
     /// Its maps.
     pub maps: DeviceMaps,
-    /// Linear base color and alpha where no map says it.
+    /// Linear base color and alpha without a map.
     pub color: [f32; 4],
-    /// Roughness, metallic and occlusion where no map says it.
+    /// Roughness, metallic and occlusion without a map.
     pub surface: [f32; 3],
     /// Whether alpha is 1 everywhere, so that nothing behind it is ever seen.
     pub is_opaque: bool,
@@ -41,7 +41,7 @@ pub struct MaterialLook {
 }
 
 impl MaterialLook {
-    /// The node's own result where that is shown.
+    /// The node's own result in the mode that shows it.
     pub(crate) fn shown_node(&self, mode: Mode) -> Option<&NodeLook> {
         self.node.as_ref().filter(|_| mode == Mode::Node)
     }
@@ -66,11 +66,11 @@ impl MaterialLook {
 pub struct NodeLook {
     /// Its texture, an array of pages.
     pub texture: wgpu::Texture,
-    /// What it holds.
+    /// Type of its values.
     pub holds: NodeType,
 }
 
-/// What a node's own result holds.
+/// Type of the values of a node's own result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodeType {
     /// One number, shown as gray.
@@ -84,11 +84,11 @@ pub enum NodeType {
 /// A light besides the environment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// Where it is.
+    /// Position or direction.
     pub place: LightPlace,
     /// Linear color. Of a far light, the irradiance on a surface that faces it; of a near one, that at a distance of 1.
     pub color: [f32; 3],
-    /// Whether the model throws a shadow in it.
+    /// Whether the model casts a shadow in it.
     pub has_shadow: bool,
 }
 
@@ -107,7 +107,7 @@ impl Light {
     }
 }
 
-/// Where a light is, view space.
+/// Position or direction of a light, view space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightPlace {
     /// Far away, in this direction.
@@ -125,22 +125,22 @@ impl LightPlace {
     }
 }
 
-/// How a scene is shown.
+/// View of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
     /// The eye.
     pub camera: Camera,
-    /// How far the environment is turned about +Y, degrees.
+    /// Rotation of the environment about +Y, degrees.
     pub environment_turn_degrees: f32,
     /// The environment's light is multiplied by it.
     pub environment_strength: f32,
-    /// Stops by which all light is made stronger.
+    /// Exposure, stops.
     pub exposure_stops: f32,
-    /// From light to what a display shows.
+    /// View transform.
     pub transform: ViewTransform,
-    /// What is behind the model.
+    /// Background.
     pub background: Background,
-    /// What is shown of the model.
+    /// Mode.
     pub mode: Mode,
     /// Whether heights are followed, so that they hide one another and throw shadows: dear on software drivers.
     pub has_relief: bool,
@@ -171,10 +171,10 @@ impl Shot {
     }
 }
 
-/// From light to what a display shows.
+/// View transform from light to display values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ViewTransform {
-    /// Nothing but the sRGB curve: what is brighter than white is cut off.
+    /// The sRGB curve alone: brighter values than white are clipped.
     Standard,
     /// AgX: bright colors fade to white as on film.
     #[default]
@@ -183,7 +183,7 @@ pub enum ViewTransform {
     Aces,
 }
 
-/// What is behind the model.
+/// Background of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Background {
     /// The environment, sharp.
@@ -196,7 +196,7 @@ pub enum Background {
     Clear,
 }
 
-/// What is shown of the model.
+/// Aspect of the model that is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// The lit material.
@@ -224,13 +224,13 @@ pub enum Mode {
     Node,
     /// Squares along the texture coordinates.
     Checker,
-    /// How dense texels lie, against the middle of all.
+    /// Density of texels relative to the mean.
     Density,
     /// Front faces blue, back faces red.
     Facing,
     /// Plain clay that shows shape alone.
     Clay,
-    /// How far relief moves what is seen, texels along u and v: for tests.
+    /// Shift of the visible place by relief, texels along u and v: for tests.
     Shift,
 }
 
@@ -263,7 +263,7 @@ impl Mode {
             .map(|(name, ..)| *name)
     }
 
-    /// Whether its name alone is enough.
+    /// Whether it is chosen by its name alone.
     fn is_asked_for(self) -> bool {
         !matches!(self, Mode::Node | Mode::Shift)
     }
@@ -301,7 +301,7 @@ impl FromStr for Mode {
 pub enum Lines {
     /// The edges of all triangles.
     Wires,
-    /// Where charts end.
+    /// Borders of charts.
     Seams,
 }
 

@@ -1,4 +1,4 @@
-//! What each light sees of the model: the matrices and the depths.
+//! Shadow maps: matrices and depths of each light.
 
 use glam::camera::rh::proj::directx::{orthographic, perspective};
 use glam::camera::rh::view::look_to_mat4;
@@ -10,13 +10,13 @@ use crate::scene::{Light, LightPlace, MOST_LIGHTS};
 
 /// Layers of all shadows together: six for a near light, which has a cube around it.
 pub(crate) const LAYERS: usize = 6 * MOST_LIGHTS;
-/// Depth as a light sees it.
+/// Format of the depths.
 pub(crate) const SHADOW: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Depths along a side of a layer.
+/// Texels along a side of a layer.
 const SIDE: u32 = 2048;
 /// How far the model reaches from the middle of view space: half the diagonal of a unit cube, and a little.
 const RADIUS: f32 = 0.9;
-/// The nearest that a near light sees.
+/// Near plane of a near light.
 const NEAREST: f32 = 0.02;
 
 /// Layers that a light's shadow takes.
@@ -34,7 +34,7 @@ pub(crate) fn layers_of(light: &Light) -> usize {
     }
 }
 
-/// What brings view space onto the layers of the lights' shadows, layer by layer.
+/// Matrices from view space to the layers of the lights' shadows, layer by layer.
 pub(crate) fn shadow_matrices(lights: &[Light]) -> Vec<Mat4> {
     let with_shadow = lights.iter().filter(|light| light.has_shadow);
     with_shadow
@@ -71,7 +71,7 @@ pub(crate) struct ShadowMaps {
 }
 
 impl ShadowMaps {
-    /// Room for so many layers; at least one, which nobody reads.
+    /// Shadow maps with a number of layers; at least one, since a binding cannot be empty.
     pub(crate) fn new(gpu: &Gpu, layers: usize) -> Result<ShadowMaps, ViewError> {
         let side = if layers == 0 { 1 } else { SIDE };
         let texture = gpu.guarded("the shadows", |device| {

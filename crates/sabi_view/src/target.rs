@@ -1,32 +1,32 @@
-//! What a picture is drawn into.
+//! Render targets.
 
 use sabi_gpu::Gpu;
 
 use crate::error::ViewError;
 use crate::upload::texture;
 
-/// Light of one sample: linear, with what is covered as alpha.
+/// Format of the light of one sample: linear, with coverage as alpha.
 pub(crate) const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// Depth, reversed, and the number of a pixel's look, from 1.
+/// Format of reversed depth, with the number of a pixel's look, from 1, in the stencil.
 pub(crate) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
-/// What a pixel sees, in two layers; see `raster.wgsl`.
+/// Format of the raster's record, in two layers; see `raster.wgsl`.
 pub(crate) const SEEN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
-/// Sum of samples.
+/// Format of sums of samples.
 pub(crate) const SUM: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
-/// What is shown: codes of sRGB, with an alpha that nothing is multiplied by.
+/// Format of a finished picture: sRGB codes with straight alpha.
 pub(crate) const SHOWN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// The longest side of a picture, pixels.
 pub const LONGEST_SIDE: u32 = 8192;
 
-/// What the pixels of a picture see.
+/// The raster's record of the pixels of a picture.
 pub(crate) struct Sight {
     pub(crate) seen: wgpu::Texture,
     pub(crate) depth: wgpu::Texture,
 }
 
 impl Sight {
-    /// Room for what so many pixels see.
+    /// Textures for a number of pixels.
     pub(crate) fn new(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<Sight, ViewError> {
         Ok(Sight {
             seen: texture(gpu, "what a picture sees", [width, height, 2], SEEN)?,
@@ -35,13 +35,13 @@ impl Sight {
     }
 }
 
-/// A picture on the device, and what it takes to draw it.
+/// A picture on the device with its intermediate textures.
 pub struct Target {
     /// Width and height, pixels.
     pub(crate) size: [u32; 2],
     pub(crate) light: wgpu::Texture,
     pub(crate) sight: Sight,
-    /// Taking turns; none until a picture has several samples.
+    /// Sums of samples, used in turns; none until a picture has several samples.
     pub(crate) sums: Option<[wgpu::TextureView; 2]>,
     pub(crate) shown: wgpu::Texture,
 }
@@ -51,12 +51,12 @@ pub struct Target {
 pub struct Pixels {
     /// Width and height.
     pub size: [u32; 2],
-    /// Codes of sRGB and alpha, which they are not multiplied by; row by row from the top.
+    /// sRGB codes with straight alpha, row by row from the top.
     pub rgba: Vec<u8>,
 }
 
 impl Target {
-    /// Room for a picture of so many pixels.
+    /// Textures for a picture of a size.
     pub fn new(gpu: &Gpu, size: [u32; 2]) -> Result<Target, ViewError> {
         let [width, height] = size;
         let longest = LONGEST_SIDE.min(gpu.device().limits().max_texture_dimension_2d);

@@ -1,4 +1,4 @@
-//! Plain data onto the device.
+//! Uploads of plain data.
 
 use sabi_gpu::{Gpu, GpuError};
 
@@ -86,6 +86,7 @@ pub(crate) fn texture(
 
 /// Fills a texture of one layer and one level.
 pub(crate) fn write(gpu: &Gpu, texture: &wgpu::Texture, bytes: &[u8]) {
+    // Only formats with depth and stencil have no single size, and those are never uploaded.
     let texel_bytes = texture.format().block_copy_size(None).unwrap_or(4);
     gpu.queue().write_texture(
         texture.as_image_copy(),

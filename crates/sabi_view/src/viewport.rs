@@ -9,17 +9,17 @@ use crate::renderer::{Missing, Prepared, Renderer, Sample};
 use crate::scene::{Scene, Shot};
 use crate::target::Target;
 
-/// How much work a picture may be.
+/// Limits of the work for a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quality {
-    /// Whether heights are followed when a shot asks for it.
+    /// Whether relief is drawn when a shot asks for it.
     pub follows_relief: bool,
     /// While something moves, each side has so many times fewer pixels.
     pub moving_divisor: u32,
 }
 
 impl Quality {
-    /// What an adapter does quickly enough.
+    /// Limits that suit an adapter.
     pub fn of(kind: AdapterKind) -> Quality {
         match kind {
             AdapterKind::Discrete | AdapterKind::Integrated => Quality {
@@ -42,7 +42,7 @@ impl Quality {
     }
 }
 
-/// What a picture is drawn from.
+/// Inputs of a picture.
 #[derive(Clone, Debug, PartialEq)]
 struct Wanted {
     shot: Shot,
@@ -61,7 +61,7 @@ struct Drawn {
 /// A picture on the device that is drawn again only when something changed, and refined sample by sample while nothing does.
 pub struct Viewport {
     renderer: Arc<Renderer>,
-    /// How much work a picture may be.
+    /// Limits of the work for a picture.
     pub quality: Quality,
     target: Option<Target>,
     drawn: Option<Drawn>,
@@ -83,7 +83,7 @@ impl Viewport {
         self.renderer.missing(scene, &self.allowed(shot))
     }
 
-    /// A shot without what the adapter is too slow for.
+    /// A shot without the features that the adapter is too slow for.
     fn allowed(&self, shot: &Shot) -> Shot {
         Shot {
             has_relief: shot.has_relief && self.quality.follows_relief,
@@ -128,7 +128,7 @@ impl Viewport {
             Some(target) => target,
             None => Target::new(gpu, wanted.size)?,
         };
-        // What fails half-way shows nothing old as if it were new.
+        // A failure must not leave an older picture that looks current.
         let mut drawn = match self.drawn.take().filter(|drawn| drawn.wanted == wanted) {
             Some(drawn) => drawn,
             None => Drawn {

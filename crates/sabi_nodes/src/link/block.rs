@@ -1,4 +1,4 @@
-//! The parameter block of a kernel: where each call's parameters and knobs lie.
+//! Layout of a kernel's parameter block.
 
 use sabi_graph::PortType;
 
@@ -11,11 +11,11 @@ pub struct BlockLayout {
     pub size: u32,
     /// Offset of the four flag words; they come first, if the kernel has switches.
     pub flags: Option<u32>,
-    /// One for each block index of the calls.
+    /// One for each block of the calls.
     pub calls: Vec<CallLayout>,
 }
 
-/// Where one node's values lie.
+/// Offsets of one node's values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CallLayout {
     /// Offset of `struct Params`; none when the kind has no parameters.
@@ -93,6 +93,7 @@ fn params_align(kind: &Kind) -> u32 {
         Memory::Vec2 => 8,
         Memory::Vec3 | Memory::Vec4 | Memory::Points(_) => 16,
     };
+    // Only kinds with parameters are asked.
     kind.params
         .iter()
         .map(|param| align(param.ty.memory))

@@ -17,7 +17,7 @@ pub(super) fn write(
     callees: &[Callee<'_>],
     binding: usize,
 ) -> Result<(), LinkError> {
-    let (Some(callee), Some(call)) = (callees.first(), spec.calls.first()) else {
+    let Some(callee) = callees.first() else {
         return Err(LinkError::Incomplete {
             reader: "a kernel that shoots rays".to_owned(),
             missing: Missing::Call,
@@ -34,19 +34,28 @@ pub(super) fn write(
         "@group(1) @binding({binding}) var<storage, read_write> shot_rays: array<Ray>;\n\
          @group(1) @binding({hits}) var<storage, read> shot_hits: array<RayHit>;"
     );
-    let count = &kind.params[rays.count].name;
-    let caller = |index: usize| Caller {
+    write_shoot(out, &caller(spec, kind, 0), *callee, rays)?;
+    write_main(out, spec, *callee, rays)
+}
+
+fn caller<'a>(spec: &'a KernelSpec, kind: &'a Kind, index: usize) -> Caller<'a> {
+    Caller {
         index,
         call: &spec.calls[index],
         kind,
         spec,
-    };
-    write_shoot(out, &caller(0), *callee, rays)?;
+    }
+}
+
+/// Writes the entry point that averages over the rays of a texel and stores the results.
+fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Rays) -> Result<(), LinkError> {
+    let kind = callee.kind;
+    let block = spec.calls[0].block;
     write_start(out, "main");
     out.push_str("    if owner == EMPTY || (owner & GHOST_BIT) != 0u { return; }\n");
     out.push_str("    let at = surface_at(texel, owner);\n");
-    write_bounded(out, call.block, *callee);
-    let _ = writeln!(out, "    let count = bounded_{}.{count};", call.block);
+    write_bounded(out, block, callee);
+    let _ = writeln!(out, "    let count = bounded_{block}.{};", kind.params[rays.count].name);
     let averaged = Averaged::of(spec, kind)?;
     for (name, function, _) in &averaged.functions {
         let zero = if function.ty == PortType::Mask {
@@ -63,7 +72,7 @@ pub(super) fn write(
     );
     let prefix = callee.prefix();
     for (name, function, call) in &averaged.functions {
-        let arguments = caller(*call).arguments(out, &function.arguments)?;
+        let arguments = caller(spec, kind, *call).arguments(out, &function.arguments)?;
         let _ = writeln!(out, "    {name} += {prefix}{}({arguments});", function.name);
     }
     out.push_str("    }\n");
@@ -71,7 +80,7 @@ pub(super) fn write(
         let _ = writeln!(out, "    {name} /= f32(count);");
     }
     for (index, function) in &averaged.of_means {
-        let arguments = caller(*index).arguments(out, &function.arguments)?;
+        let arguments = caller(spec, kind, *index).arguments(out, &function.arguments)?;
         let _ = writeln!(out, "    let v{index} = {prefix}{}({arguments});", function.name);
     }
     for (index, store) in spec.stores.iter().enumerate() {

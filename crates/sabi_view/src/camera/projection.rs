@@ -10,9 +10,9 @@ const SCENE_RADIUS: f64 = 2.0;
 /// A half-line in view space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it begins, view units.
+    /// Origin, view units.
     pub origin: Vec3,
-    /// Where it goes, unit length.
+    /// Direction, unit length.
     pub direction: Vec3,
 }
 

@@ -1,4 +1,4 @@
-//! Where a picture is taken from, as a command line says it.
+//! Viewpoints as a command line names them.
 
 use std::str::FromStr;
 
@@ -101,32 +101,32 @@ pub enum ViewpointError {
         names()
     )]
     Unknown {
-        /// What was given.
+        /// Text that was given.
         text: String,
     },
-    /// Something else where a number belongs.
+    /// Text in the place of a number.
     #[error("the {what} of the view {text:?} is {part:?}, which is no number; write it as in 35,20 or 35,20,1.5")]
     NoNumber {
-        /// What was given.
+        /// Text that was given.
         text: String,
         /// `yaw`, `pitch` or `distance`.
         what: &'static str,
-        /// What stands there.
+        /// Text in the place of the number.
         part: String,
     },
     /// A pitch beyond straight up or down.
     #[error("a view with a pitch of {pitch} degrees was asked for, but it has to be between -90 and 90")]
     Pitch {
-        /// What was given.
+        /// Text that was given.
         pitch: String,
     },
-    /// A distance from which nothing is seen.
+    /// A distance that is not above 0.
     #[error(
         "a view from {distance} times the distance that frames the model was asked for, but it has to be between 0.01 \
          and 100"
     )]
     Distance {
-        /// What was given.
+        /// Text that was given.
         distance: String,
     },
 }

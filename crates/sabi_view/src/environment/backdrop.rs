@@ -1,4 +1,4 @@
-//! A panorama on the device, with smaller ones for what shows it small or blurred.
+//! A panorama on the device with mip levels, for small and blurred backgrounds.
 
 use half::f16;
 use half::slice::HalfFloatSliceExt;

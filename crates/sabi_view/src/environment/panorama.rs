@@ -104,7 +104,7 @@ impl Panorama {
     }
 }
 
-/// What was mended, as sentences.
+/// Defects that were repaired, as sentences.
 fn remarks([width, height]: [u32; 2], dark: usize, bright: usize) -> Vec<String> {
     let pixels = |count: usize| match count {
         1 => "1 pixel of the environment is".to_owned(),

@@ -1,4 +1,4 @@
-//! What surfaces of every roughness mirror of an environment, made once on the device.
+//! Reflections of an environment for surfaces of every roughness, prefiltered once on the device.
 
 use std::f32::consts::PI;
 
@@ -157,7 +157,7 @@ fn lobe(alpha: f32, count: u32, source_side: u32) -> Vec<Vec4> {
     (0..count).map(direction).filter(|to| to.z > 0.0).collect()
 }
 
-/// What makes one level of a cube map.
+/// Pipeline that computes one level of a cube map.
 struct Step {
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
@@ -227,7 +227,7 @@ impl Step {
     }
 }
 
-/// Passes on their way to the device.
+/// Encoder of the passes.
 struct Work<'g> {
     gpu: &'g Gpu,
     encoder: wgpu::CommandEncoder,
@@ -264,7 +264,7 @@ impl<'g> Work<'g> {
         Ok(buffer)
     }
 
-    /// Has a step write `to`, of which `pass` tells the size.
+    /// Encodes a step that writes `to`, whose size is in `pass`.
     fn run(
         &mut self,
         step: &Step,

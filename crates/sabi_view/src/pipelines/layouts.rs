@@ -1,20 +1,20 @@
-//! How what is bound is laid out.
+//! Bind group layouts.
 
-/// Layouts of what is bound.
+/// Bind group layouts of the viewport.
 pub(crate) struct Layouts {
-    /// What all shaders of a picture know.
+    /// Values shared by all shaders of a picture.
     pub(crate) frame: wgpu::BindGroupLayout,
-    /// A material's maps.
+    /// Maps of a material.
     pub(crate) material: wgpu::BindGroupLayout,
-    /// Where charts lie.
+    /// Table of charts.
     pub(crate) charts: wgpu::BindGroupLayout,
-    /// The same, and what the raster says of each pixel.
+    /// Table of charts and the raster's record of each pixel.
     pub(crate) seen: wgpu::BindGroupLayout,
-    /// The environment as a picture.
+    /// Panorama of the environment.
     pub(crate) panorama: wgpu::BindGroupLayout,
-    /// Numbers alone.
+    /// One uniform buffer.
     pub(crate) numbers: wgpu::BindGroupLayout,
-    /// A picture on its way to a display.
+    /// Light and the sum of earlier samples.
     pub(crate) display: wgpu::BindGroupLayout,
 }
 

@@ -1,4 +1,4 @@
-//! What pipelines of the model are made for.
+//! Overrides that pipelines of the model are specialized by.
 
 use super::Ground;
 use crate::scene::{MOST_LIGHTS, MaterialLook, Mode, NodeType, Scene, Shot};
@@ -17,7 +17,7 @@ const COLORS: u32 = MAP_BITS[0].1;
 pub(crate) const SHOWN_COLOR: u32 = 1;
 pub(crate) const SHOWN_VECTOR: u32 = 2;
 
-/// What shaders are made for, as in `switches.wgsl`.
+/// Values of the overrides of `switches.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Switches {
     pub(crate) mode: u32,
@@ -28,11 +28,11 @@ pub(crate) struct Switches {
 }
 
 impl Switches {
-    /// What a raster looks at.
+    /// Values for a raster.
     pub(crate) fn of_raster(look: &MaterialLook, mode: Mode, ground: Ground) -> Switches {
         let is_veiled = matches!(ground, Ground::Veiled | Ground::VeiledRelief);
         Switches {
-            // Others make no difference to where a place is seen.
+            // No other mode changes the raster's record.
             mode: match mode {
                 Mode::Density | Mode::Shift => mode.number(),
                 _ => Mode::Material.number(),
@@ -42,7 +42,7 @@ impl Switches {
         }
     }
 
-    /// What a painted pixel looks at.
+    /// Values for the shading of a pixel.
     pub(crate) fn of_paint(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Switches {
         let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
         let shadows = lights.iter().zip(0..).filter(|(light, _)| light.has_shadow);
@@ -63,7 +63,7 @@ impl Switches {
         }
     }
 
-    /// The values by their names.
+    /// The values by the names of their overrides.
     pub(crate) fn named(self) -> [(&'static str, f64); 5] {
         [
             ("MODE", self.mode),

@@ -1,4 +1,4 @@
-//! What is bound to draw a scene.
+//! Bind groups and pipelines of a scene.
 
 use sabi_gpu::Gpu;
 use sabi_gpu::wgsl_struct;
@@ -35,17 +35,17 @@ wgsl_struct! {
 pub(super) struct Drawn {
     pub(super) pipeline: wgpu::RenderPipeline,
     pub(super) indices: std::ops::Range<u32>,
-    /// Which of the looks they have.
+    /// Number of their look.
     pub(super) look: usize,
 }
 
-/// A look that is bound, and what paints it.
+/// Bind group and pipeline of a look.
 pub(super) struct Bearing {
     pub(super) material: wgpu::BindGroup,
     pub(super) paint: wgpu::RenderPipeline,
 }
 
-/// What is bound for all samples of a picture.
+/// Bind groups and pipelines shared by all samples of a picture.
 pub(super) struct Bound {
     pub(super) looks: Vec<Bearing>,
     pub(super) drawn: Vec<Drawn>,
@@ -77,7 +77,7 @@ impl Renderer {
         Ok(self.bind(gpu, &self.layouts().frame, resources))
     }
 
-    /// What the raster says of each pixel.
+    /// Bind group of the raster's record.
     pub(super) fn seen_group(&self, gpu: &Gpu, sight: &Sight, scene: &Scene<'_>) -> wgpu::BindGroup {
         let places = sight.seen.create_view(&wgpu::TextureViewDescriptor::default());
         let depth = sight.depth.create_view(&wgpu::TextureViewDescriptor {
@@ -120,7 +120,7 @@ impl Renderer {
         })
     }
 
-    /// What of the model is drawn, and how.
+    /// Visible parts of the model with their pipelines.
     fn drawn(&self, gpu: &Gpu, scene: &Scene<'_>, shot: &Shot) -> Result<Vec<Drawn>, ViewError> {
         let parts = scene.model.parts.iter();
         let seen = parts.filter_map(|part| Some((part, choice::look_of(part, scene)?)));

@@ -1,4 +1,4 @@
-//! Which pipelines a picture is drawn by.
+//! Choice of the pipelines of a picture.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::model::Part;
 use crate::pipelines::{Draws, Ground, Paint, Switches};
 use crate::scene::{Background, MaterialLook, Mode, Scene, Shot};
 
-/// Looks that a picture tells apart: a stencil has eight bits, and 0 is none.
+/// Most looks in a picture: a stencil has eight bits, and 0 is none.
 const MOST_LOOKS: usize = 255;
 
 /// Pipelines that a picture needs and that are not made yet.
@@ -25,7 +25,7 @@ impl Renderer {
         (!missing.is_empty()).then_some(Missing(missing))
     }
 
-    /// Makes what is missing, on whatever thread; pictures are drawn meanwhile.
+    /// Compiles missing pipelines on any thread; pictures are drawn meanwhile.
     pub fn make(&self, gpu: &Gpu, missing: &Missing) -> Result<(), ViewError> {
         for draws in &missing.0 {
             self.pipelines.get(gpu, *draws)?;
@@ -49,7 +49,7 @@ fn all(scene: &Scene<'_>, shot: &Shot) -> Vec<Draws> {
     all
 }
 
-/// The looks that a picture tells apart.
+/// The looks of a scene, at most [`MOST_LOOKS`].
 pub(super) fn looks<'s>(scene: &Scene<'s>) -> &'s [MaterialLook] {
     &scene.looks[..scene.looks.len().min(MOST_LOOKS)]
 }
@@ -60,7 +60,7 @@ pub(super) fn look_of<'s>(part: &Part, scene: &Scene<'s>) -> Option<(usize, &'s 
     Some((index.min(MOST_LOOKS - 1), scene.looks.get(index)?))
 }
 
-/// What is behind the model.
+/// Pipeline of the background.
 pub(super) fn background(shot: &Shot) -> Option<Draws> {
     let is_blurred = match shot.background {
         _ if shot.mode != Mode::Material => return None,
@@ -81,7 +81,7 @@ pub(super) fn paint(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Draw
     Draws::Paint(paint, Switches::of_paint(look, scene, shot))
 }
 
-/// Where a part of the model is seen.
+/// Pipeline of the raster of a part of the model.
 pub(super) fn raster(part: &Part, look: &MaterialLook, shot: &Shot) -> Draws {
     let has_relief = shot.has_relief && look.maps.height.is_some();
     let ground = match (has_relief, has_veils(look, shot.mode)) {

@@ -43,7 +43,7 @@ impl Renderer {
     }
 }
 
-/// Which place of the model each pixel sees, and by its stencil which look.
+/// Draws the visible place of the model for each pixel, and the number of its look into the stencil.
 pub(super) fn draw_raster(
     encoder: &mut wgpu::CommandEncoder,
     sight: &Sight,

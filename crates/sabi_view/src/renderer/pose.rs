@@ -56,6 +56,7 @@ impl Renderer {
             ..shot.clone()
         };
         let materials = model.parts.iter().map(|part| part.material as usize + 1).max();
+        // A model without parts has no materials.
         let look_of_material = vec![0; materials.unwrap_or(0)];
         let scene = Scene {
             model,
