@@ -1,4 +1,4 @@
-//! The window as somebody uses it: by clicks and keys, without a screen.
+//! Tests of the window by clicks and keys, without a screen.
 
 mod answers;
 mod beginning;
@@ -43,12 +43,12 @@ use sabi_engine::{AdapterChoice, Gpu, Session};
 use super::{Editor, Folders, Handover, InitialState};
 use crate::window::configuration;
 
-/// What runs tests needs a Vulkan driver.
+/// Message where there is no Vulkan driver.
 const INSTALL: &str = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
-/// Longer than anything takes on a busy machine; only a mistake comes near.
+/// Time limit of every wait, far longer than any result takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// A window with nothing but a cube in it, and folders of its own.
+/// Window that shows a cube, with folders of its own.
 struct Window {
     harness: Harness<'static, Editor>,
     folder: tempfile::TempDir,
@@ -56,7 +56,7 @@ struct Window {
 }
 
 impl Window {
-    /// An empty graph, whose results are small so that they come soon.
+    /// An empty graph, with small results so that they arrive soon.
     fn empty() -> Window {
         Window::opened("")
     }
@@ -79,7 +79,7 @@ impl Window {
         Window::in_folder(tempfile::tempdir().expect("a folder"), session)
     }
 
-    /// A window where another one left things.
+    /// A window in the folder of an earlier one.
     fn in_folder(folder: tempfile::TempDir, session: impl FnOnce(&Folders) -> Session) -> Window {
         let folders = folders_in(folder.path());
         let session = session(&folders);
@@ -92,7 +92,7 @@ impl Window {
         }
     }
 
-    /// The next window, after the program ended without a word.
+    /// The next window after a crash.
     fn after_a_crash(self) -> Window {
         drop(self.harness.into_state().documents.document.session);
         let mut next = Window::in_folder(self.folder, |_| Session::new(None));
@@ -108,12 +108,12 @@ impl Window {
         &self.harness.state().documents.document
     }
 
-    /// Draws frames until nothing moves any more.
+    /// Draws frames until animations have ended.
     fn settle(&mut self) {
         self.harness.run_steps(3);
     }
 
-    /// Draws frames until something is so.
+    /// Draws frames until a condition holds.
     fn until(&mut self, what: &str, is_so: impl Fn(&Editor) -> bool) {
         let began = Instant::now();
         while !is_so(self.harness.state()) {
@@ -133,7 +133,7 @@ impl Window {
         self.folder.path().join(name)
     }
 
-    /// Whether a sentence is shown that holds this.
+    /// Whether a sentence with this part is shown.
     fn says(&self, part: &str) -> bool {
         self.harness.query_all_by_label_contains(part).next().is_some()
     }
@@ -160,7 +160,7 @@ fn folders_in(folder: &Path) -> Folders {
     let at = |name: &str| Some(folder.join(name));
     Folders {
         settings: at("settings"),
-        // What is kept by content is the same for all tests.
+        // The cache is by content, and shared by all tests.
         cache: Some(
             Path::new(env!("CARGO_MANIFEST_DIR"))
                 .join("../../target")
@@ -197,7 +197,7 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
         };
         Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover)
     });
-    // A picture that is quick, and not a good one.
+    // One sample, so that pictures are quick.
     harness.state_mut().views.model.shot.samples = 1;
     harness
 }

@@ -1,4 +1,4 @@
-//! A board of knobs under test: it does what the widgets ask for, and keeps a log of it.
+//! Rows of parameters under test, which do what they ask for and log it.
 
 mod colors;
 mod curves;
@@ -102,7 +102,7 @@ fn board_of(rows: impl IntoIterator<Item = Shown>, shade: Shade, zoom: Option<f3
     board
 }
 
-/// Where the widget of that name is.
+/// Place of a widget.
 fn middle(board: &Board, name: &str) -> Pos2 {
     board.get_by_label(name).rect().center()
 }
@@ -128,7 +128,7 @@ fn release(board: &mut Board, at: Pos2) {
     board.run();
 }
 
-/// Drags from a place by a way, in two steps as hands do.
+/// Drags from a place by an offset, in two steps.
 fn drag(board: &mut Board, from: Pos2, way: Vec2) {
     press(board, from);
     pull(board, from + way * 0.5);
@@ -159,7 +159,7 @@ fn focus(board: &mut Board, name: &str) {
     board.run();
 }
 
-/// Types into the bar of that name, over what is there.
+/// Types into a bar in place of its value.
 fn type_into(board: &mut Board, name: &str, text: &str) {
     focus(board, name);
     key(board, Key::Enter);
@@ -183,7 +183,7 @@ fn taken(board: &mut Board) -> Vec<KnobEvent> {
     std::mem::take(&mut board.state_mut().log)
 }
 
-/// What the only knob on the board holds.
+/// Value of the only parameter.
 fn held(board: &Board) -> Value {
     let row = &board.state().rows[0];
     row.value.clone().unwrap_or_else(|| row.knob.ty.default.clone())

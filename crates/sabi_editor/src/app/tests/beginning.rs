@@ -1,4 +1,4 @@
-//! How work begins: the start page, files that are dropped, and the window as it was left.
+//! Beginnings: the start page, dropped files, and the window as it was closed.
 
 use std::fs;
 
@@ -70,7 +70,7 @@ fn settings_that_could_not_be_kept_are_kept_with_the_next_ones() {
     let mut window = Window::opened(CLOUDS);
     let folder = window.path("settings");
     let _ = fs::remove_file(folder.join("settings.json"));
-    // A folder stands where the file goes.
+    // A folder is where the file would be written.
     fs::create_dir_all(folder.join("settings.json")).expect("a folder");
     let editor = window.harness.state_mut();
     editor.shell.settings.has_mini_map = true;

@@ -1,4 +1,4 @@
-//! Bends in wires, cards, and what is said to those who point at them.
+//! Reroutes, cards and tooltips.
 
 use egui::{Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable;
@@ -13,7 +13,7 @@ const WIRED: &str = r#"
     "invert": { "kind": "adjust/invert", "inputs": { "source": "clouds" }, "pos": [400, 0] }
 "#;
 
-/// A window with a bend in its wire, and the place that was clicked.
+/// A window with a reroute in its wire, and the place that was clicked.
 fn bent() -> (Window, NodeId, [f32; 2]) {
     let mut window = Window::opened(WIRED);
     let gap = between(window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source"));
@@ -46,7 +46,7 @@ fn a_bend_is_a_dot_around_the_click_with_its_ports_at_its_ends() {
     let ends = ["input", "output"].map(|side| window.port_at(&bend, side, "source"));
     let expected = [rect.left_center(), rect.right_center()];
     for (end, expected) in ends.into_iter().zip(expected) {
-        // Where a port is taken reaches farther outside than inside.
+        // The sensitive area of a port reaches farther outside than inside.
         assert!((end - expected).length() < 5.0, "{end:?} {expected:?}");
     }
 }
@@ -88,7 +88,7 @@ fn a_wire_is_pulled_from_the_side_of_a_card() {
 }
 
 impl Window {
-    /// Rests the pointer somewhere until what is said there is shown.
+    /// Rests the pointer until the tooltip is shown.
     fn rest_at(&mut self, at: egui::Pos2) {
         self.point(self.on_canvas([0.99, 0.01]));
         self.pause();
@@ -146,7 +146,7 @@ fn the_time_of_a_node_stands_on_its_title() {
 }
 
 impl Window {
-    /// Texts that were painted, and where.
+    /// Painted texts with their places.
     fn painted(&self) -> Vec<(String, egui::Pos2)> {
         let mut shapes: Vec<&egui::Shape> = self.harness.output().shapes.iter().map(|it| &it.shape).collect();
         let mut painted = Vec::new();

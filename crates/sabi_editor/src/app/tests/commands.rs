@@ -23,7 +23,7 @@ const NODES: &str = r#"
     "paint": { "kind": "source/material", "pos": [260, 420] }
 "#;
 
-/// What a command is tried on: what is selected, and what was there before the key.
+/// State before a command.
 pub(super) struct Before {
     text: String,
     places: Vec<[f32; 2]>,
@@ -32,7 +32,7 @@ pub(super) struct Before {
 }
 
 impl Window {
-    /// Puts everything as it was opened, with these nodes selected and the pointer where keys of a scope are meant.
+    /// Resets the window, selects nodes, and puts the pointer where the keys of a scope act.
     pub(super) fn prepare(&mut self, selected: &[&str], scope: Scope) -> Before {
         let editor = self.harness.state_mut();
         while editor.documents.document.session.undo_names().next().is_some() {
@@ -85,7 +85,7 @@ impl Window {
             let Some((selected, is_done)) = proof(command) else {
                 continue;
             };
-            // What is the same as in the usual keys is tried there.
+            // Keys of the default preset are tried in its own test.
             let is_usual = habit == InputPreset::Default || command.keys(habit) != command.keys(InputPreset::Default);
             for key in command.keys(habit).iter().filter(|_| is_usual) {
                 let before = self.prepare(selected, command.scope());

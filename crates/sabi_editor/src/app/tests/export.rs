@@ -1,4 +1,4 @@
-//! Textures out of the window.
+//! Exports from the window.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ fn maps_in(folder: &Path) -> Vec<PathBuf> {
     maps
 }
 
-/// The window with the export panel in front and a folder named.
+/// A window with the export panel in front and a folder named.
 fn ready() -> Window {
     let mut window = Window::opened(LAYERED);
     window.harness.state_mut().shell.settings.export.size = 64;
@@ -57,7 +57,7 @@ fn maps_are_written_to_the_folder_that_was_named() {
         "{maps:?} {:?}",
         window.labels()
     );
-    // Again at every save, whatever panel is in front.
+    // Exports again at every save, whatever panel is in front.
     for map in &maps {
         fs::remove_file(map).expect("removed");
     }

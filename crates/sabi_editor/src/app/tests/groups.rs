@@ -1,4 +1,4 @@
-//! Groups: made, entered, left, kept in the library and taken from it.
+//! Groups: made, entered, left, put into the library and added from it.
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, PointerButton};
@@ -14,7 +14,7 @@ const WORN: &str = r#"
     "mix": { "kind": "blend/mask", "inputs": { "below": "clouds" }, "pos": [260, 60] }
 "#;
 
-/// The window with clouds and mix in a group.
+/// A window with the nodes clouds and mix in a group.
 fn grouped() -> Window {
     let mut window = Window::opened(WORN);
     window.click_at(window.title(&id("clouds")));
@@ -65,7 +65,7 @@ fn groups_in_groups_are_left_step_by_step_or_at_once_by_the_path() {
         .center();
     window.click_at(way_out);
     assert_eq!(window.document().path().len(), 0);
-    // Undo takes back what was done inside, seen from wherever one is.
+    // Undo takes back steps inside of the group, whatever graph is shown.
     window.undo(2);
     assert_eq!(window.document().contents().groups.len(), 0);
     assert_eq!(window.document().graph().len(), 3);
@@ -101,7 +101,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
         .flatten()
         .collect();
     assert_eq!(files.len(), 1);
-    // Another graph, in which there is no group yet.
+    // Another graph without groups.
     window.keys(Modifiers::COMMAND, Key::S);
     window.keys(Modifiers::COMMAND, Key::N);
     assert_eq!(window.document().contents().groups.len(), 0);
@@ -117,7 +117,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
         (0, 0),
         "one step"
     );
-    // By a drag out of the panel to the canvas.
+    // By a drag from the panel to the canvas.
     window.open(Panel::Library);
     let field = window.harness.get_by_label("Search the library").rect().center();
     window.click_at(field);

@@ -1,4 +1,4 @@
-//! What somebody does with a window: pointing, dragging, typing, and finding things on it.
+//! Input of the tests: pointing, dragging and typing, and places in the window.
 
 use std::path::Path;
 
@@ -13,13 +13,13 @@ use crate::dock::Panel;
 
 /// The pointer.
 impl Window {
-    /// Puts the pointer somewhere.
+    /// Moves the pointer to a place.
     pub(super) fn point(&mut self, at: Pos2) {
         self.harness.event(Event::PointerMoved(at));
         self.harness.step();
     }
 
-    /// Holds keys down, or lets them go.
+    /// Presses or releases modifier keys.
     pub(super) fn hold(&mut self, modifiers: Modifiers) {
         self.harness.input_mut().modifiers = modifiers;
         self.harness.step();
@@ -41,7 +41,7 @@ impl Window {
     }
 
     pub(super) fn click_with(&mut self, at: Pos2, button: PointerButton, modifiers: Modifiers) {
-        // Two clicks at once would be one double click.
+        // Waits, or two clicks would be a double click.
         self.pause();
         self.hold(modifiers);
         self.point(at);
@@ -60,7 +60,7 @@ impl Window {
         self.settle();
     }
 
-    /// Lets half a second pass.
+    /// Waits half a second.
     pub(super) fn pause(&mut self) {
         let now = self.harness.ctx.input(|input| input.time);
         self.harness.input_mut().time = Some(now + 0.5);
@@ -68,7 +68,7 @@ impl Window {
         self.harness.input_mut().time = None;
     }
 
-    /// Presses a button and drags along these places.
+    /// Presses a button and drags along places.
     pub(super) fn pull(&mut self, way: &[Pos2], button: PointerButton, modifiers: Modifiers) {
         self.pause();
         self.hold(modifiers);
@@ -81,7 +81,7 @@ impl Window {
         }
     }
 
-    /// Drags along these places and lets go at the last.
+    /// Drags along places and releases the button at the last.
     pub(super) fn drag_along(&mut self, way: &[Pos2], button: PointerButton, modifiers: Modifiers) {
         self.pull(way, button, modifiers);
         let end = way[way.len() - 1];
@@ -102,7 +102,7 @@ impl Window {
         self.drag_along(&[from, to], PointerButton::Primary, modifiers);
     }
 
-    /// Turns the wheel so far over a place, and waits until what is smoothed has come to rest.
+    /// Scrolls over a place, and waits until smooth scrolling has ended.
     pub(super) fn wheel(&mut self, at: Pos2, points: f32) {
         self.point(at);
         self.harness.event(Event::MouseWheel {
@@ -122,7 +122,7 @@ impl Window {
     }
 
     pub(super) fn keys(&mut self, modifiers: Modifiers, key: Key) {
-        // The system tells of these as what they usually mean.
+        // Systems report these keys as clipboard events.
         let told = match key {
             Key::C if modifiers == Modifiers::COMMAND => Some(Event::Copy),
             Key::X if modifiers == Modifiers::COMMAND => Some(Event::Cut),
@@ -150,15 +150,15 @@ impl Window {
     }
 }
 
-/// Things in the window.
+/// Places in the window.
 impl Window {
-    /// Where an empty place of the canvas is: `[0, 0]` is its upper left corner, `[1, 1]` the lower right one.
+    /// Place on the screen in the canvas panel: `[0, 0]` is its upper left corner, `[1, 1]` the lower right one.
     pub(super) fn on_canvas(&self, share: [f32; 2]) -> Pos2 {
         let rect = self.editor().shell.dock.rects[&Panel::Canvas];
         rect.min + vec2(share[0] * rect.width(), share[1] * rect.height())
     }
 
-    /// Screen points in a canvas point.
+    /// Zoom of the canvas.
     pub(super) fn zoom(&self) -> f32 {
         let middle = self.on_canvas([0.5, 0.5]);
         let place = |at| self.editor().views.canvas.place_at(at).expect("a place on the canvas");
@@ -166,7 +166,7 @@ impl Window {
         100.0 / (other[0] - one[0])
     }
 
-    /// Where a place of the canvas is on the screen.
+    /// Place on the screen of a place on the canvas.
     pub(super) fn screen(&self, place: [f32; 2]) -> Pos2 {
         let middle = self.on_canvas([0.5, 0.5]);
         let there = self
@@ -178,14 +178,14 @@ impl Window {
         middle + vec2(place[0] - there[0], place[1] - there[1]) * self.zoom()
     }
 
-    /// The rectangle of a node on the screen.
+    /// Rectangle of a node on the screen.
     pub(super) fn rect(&self, id: &NodeId) -> Rect {
         let pos = self.document().node(id).expect("a node").pos;
         let size = Vec2::from(self.document().size(id)) * self.zoom();
         Rect::from_min_size(self.screen(pos), size)
     }
 
-    /// Where a node is taken: its title.
+    /// Place of a node's title, at which it is dragged.
     pub(super) fn title(&self, id: &NodeId) -> Pos2 {
         let rect = self.rect(id);
         rect.center_top() + vec2(0.0, TITLE_HEIGHT / 2.0 * self.zoom())
@@ -207,14 +207,14 @@ impl Window {
         added.unwrap_or_else(|| panic!("nothing is called '{query}'"))
     }
 
-    /// Where a port of a node is on the screen: its input of that name, or else its output.
+    /// Place on the screen of a node's input, or else of its output with the name.
     pub(super) fn port(&self, node: &NodeId, name: &str) -> Pos2 {
         let face = self.document().face(node).expect("a node");
         let side = if face.input(name).is_some() { "input" } else { "output" };
         self.port_at(node, side, name)
     }
 
-    /// Where a port is, found by what is said of it to those who do not see it.
+    /// Place of a port, found by its accessible name.
     pub(super) fn port_at(&self, node: &NodeId, side: &str, name: &str) -> Pos2 {
         let document = self.document();
         let face = document.face(node).expect("a node");
@@ -232,7 +232,7 @@ impl Window {
             .unwrap_or_else(|| panic!("no port '{said}'"))
     }
 
-    /// Drags a wire from one port to another: from an output where there is one of that name.
+    /// Drags a wire from one port to another.
     pub(super) fn wire(&mut self, from: (&NodeId, &str), to: (&NodeId, &str)) {
         let face = self.document().face(from.0).expect("a node");
         let side = if face.output(Some(from.1)).is_some() {
@@ -252,7 +252,7 @@ impl Window {
         self.document().wire_into(&slot).cloned()
     }
 
-    /// What an input reads, as the file has it; empty where it reads nothing.
+    /// Output that an input reads, as files name it; empty where it is not connected.
     pub(super) fn reads(&self, node: &NodeId, input: &str) -> String {
         self.wire_into(node, input)
             .map_or_else(String::new, |from| from.to_string())
@@ -286,7 +286,7 @@ impl Window {
         );
     }
 
-    /// Names of everything that can be seen.
+    /// Accessible names of everything that is shown.
     pub(super) fn labels(&self) -> Vec<String> {
         let nodes = self.harness.query_all(by().predicate(|_| true));
         let named = |node: egui_kittest::Node<'_>| node.accesskit_node().label().or(node.value());
@@ -294,7 +294,7 @@ impl Window {
     }
 }
 
-/// Whether a tab is called so: by its panel, and maybe with a count.
+/// Whether a tab has this title, perhaps with a count.
 fn is_tab(label: &str, panel: Panel) -> bool {
     let rest = label.strip_prefix(panel.title());
     rest.is_some_and(|rest| rest.trim().chars().all(|letter| letter.is_ascii_digit()))
@@ -305,7 +305,7 @@ pub(super) fn id(text: &str) -> NodeId {
     text.parse().expect("an id")
 }
 
-/// So far from a place.
+/// Place at an offset.
 pub(super) fn beside(at: Pos2, way: [f32; 2]) -> Pos2 {
     at + Vec2::from(way)
 }
@@ -315,9 +315,9 @@ pub(super) fn between(one: Pos2, other: Pos2) -> Pos2 {
     pos2((one.x + other.x) / 2.0, (one.y + other.y) / 2.0)
 }
 
-/// Knobs in the panel of parameters.
+/// Rows of the panel of parameters.
 impl Window {
-    /// Where the widget of that name is in the panel of parameters.
+    /// Place of a widget in the panel of parameters.
     pub(super) fn knob(&self, name: &str) -> Pos2 {
         let panel = self.editor().shell.dock.rects[&Panel::Parameters];
         let mut found = self.harness.query_all_by_label(name).map(|node| node.rect().center());
@@ -326,7 +326,7 @@ impl Window {
             .unwrap_or_else(|| panic!("no knob '{name}'"))
     }
 
-    /// Types a number into the bar of that name, over what is there.
+    /// Types a number into a bar in place of its value.
     pub(super) fn set_number(&mut self, name: &str, text: &str) {
         self.click_at(self.knob(name));
         self.key(Key::Enter);
@@ -341,7 +341,7 @@ impl Window {
         self.key(Key::Enter);
     }
 
-    /// What a parameter of a node is set to, as text.
+    /// Value of a node's parameter as text.
     pub(super) fn param(&self, node: &NodeId, name: &str) -> Option<String> {
         let node = self.document().node(node).expect("a node");
         node.params.get(name).map(sabi_graph::Value::to_json)

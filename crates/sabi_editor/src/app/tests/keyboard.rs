@@ -7,7 +7,7 @@ use super::Window;
 use super::hands::id;
 use crate::dock::Panel;
 
-/// What has the keyboard, by name.
+/// Accessible name of what has the keyboard.
 fn focused(window: &Window) -> String {
     let found = window.harness.query_all(by().predicate(|node| node.is_focused()));
     found
@@ -40,7 +40,7 @@ fn a_graph_is_built_turned_and_taken_back_by_keys_alone() {
     window.key(Key::W);
     assert_eq!(window.reads(&layer, "mask"), noise.to_string());
     assert_eq!(window.steps(), 3);
-    // A knob of the noise.
+    // A parameter of the noise node.
     while window.editor().shell.keyboard.active != Panel::Parameters {
         window.key(Key::F6);
     }
@@ -188,7 +188,7 @@ fn keys_act_on_what_the_pointer_is_over_whatever_was_turned_before() {
     );
 }
 
-/// A second mask on its way to an input that has one, by keys alone.
+/// Drag of a second mask to an input that has one, by keys alone.
 fn asked_about_masks() -> Window {
     let mut window = Window::opened(
         r#"

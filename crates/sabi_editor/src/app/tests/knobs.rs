@@ -1,4 +1,4 @@
-//! Knobs in the window: one step a drag, on nodes and in the panel, of several nodes, published.
+//! Parameters in the window: one step for each drag, on nodes and in the panel, of several nodes, published.
 
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable;
@@ -174,7 +174,7 @@ fn a_drag_whose_node_is_gone_ends_with_the_button_outside_of_the_window() {
         Modifiers::NONE,
     );
     assert!(window.editor().documents.is_dragging);
-    // Nodes are cards from so far.
+    // Nodes are cards at this zoom.
     window.wheel(beside(bar, [25.0, 0.0]), -900.0);
     let outside = egui::pos2(-40.0, -40.0);
     window.point(outside);

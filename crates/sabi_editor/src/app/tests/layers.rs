@@ -1,4 +1,4 @@
-//! The list of layers, as somebody who comes from a layer tool uses it.
+//! The panel of layers, used as in layer tools.
 
 use egui::{Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
@@ -29,7 +29,7 @@ fn titles(window: &Window) -> Vec<String> {
     stacks[0].layers.iter().map(|layer| layer.title.clone()).collect()
 }
 
-/// The picture in the row of a layer; the canvas shows a node of the same name.
+/// Row of a layer, as opposed to the node of the same name on the canvas.
 fn row(window: &Window, title: &str) -> egui::Pos2 {
     let panel = window.editor().shell.dock.rects[&Panel::Stack];
     let mut rows = window.harness.get_all_by_label(title).map(|node| node.rect());

@@ -1,4 +1,4 @@
-//! What else could be lost: by opening, by replacing, and by closing while something goes on.
+//! Protection against loss: by opening, by replacing, and by closing during an export.
 
 use std::fs;
 use std::time::Duration;
@@ -82,7 +82,7 @@ fn the_file_of_another_graph_is_not_replaced_without_a_question() {
         fs::read_to_string(window.path("other.sabi.bak")).expect("a file"),
         "theirs"
     );
-    // Its own file is no other's.
+    // The graph's own file is replaced without a question.
     window.mute();
     save_as(&mut window);
     assert!(!window.says("There is such a file already"));
@@ -143,7 +143,7 @@ fn the_window_stays_until_textures_are_written() {
     assert!(window.path("maps").is_dir());
 }
 
-/// A window that writes textures and is to write them at every save.
+/// A window that is exporting, and exports again at every save.
 fn exporting_at_every_save() -> Window {
     let mut window = Window::opened(
         r#""clouds": { "kind": "noise/simplex" },
@@ -220,7 +220,7 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
     window.press("New node from here");
     window.fill("Id of the node", "noise/mine");
     window.settle();
-    // A save lets go of the graph's own changes alone.
+    // A save deletes the copy of the graph alone.
     window.keys(Modifiers::COMMAND, Key::S);
     window.settle();
     let unsaved = window.editor().views.page.unsaved();
@@ -353,7 +353,7 @@ fn the_window_is_called_after_its_graph() {
 fn textures_of_a_saved_graph_are_written_although_another_one_is_opened_meanwhile() {
     let mut window = exporting_at_every_save();
     let editor = window.harness.state_mut();
-    // What the save writes has names of its own, so that it is seen which of the two is there.
+    // The second export has other file names, which shows that it ran.
     editor.shell.settings.export.names = "saved_{channel}".to_owned();
     editor.save();
     let other = window.path("deeper").join("other.sabi");

@@ -1,4 +1,4 @@
-//! The library, favorites, the page of a node and dropped folders, as somebody uses them.
+//! The library, favorites, the page of a node and dropped folders.
 
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable;
@@ -19,7 +19,7 @@ fn kinds(window: &Window) -> Vec<String> {
     nodes.map(|(_, node)| node.kind.clone()).collect()
 }
 
-/// Selects the only node that there is.
+/// Selects the only node.
 fn select_only(window: &mut Window) -> NodeId {
     let id = window
         .editor()
@@ -127,7 +127,7 @@ fn the_library_follows_its_folder_and_says_what_there_cannot_be_read() {
         found.any(|candidate| candidate.section == "project library")
     };
     window.until("the watch", |editor| editor.documents.watching.is_watching());
-    // As another program puts it there.
+    // As another program writes it.
     let group = r#"{ "format": "sabi", "version": 1, "outputs": { "mask": "n" },
         "nodes": { "n": { "kind": "noise/cells" } } }"#;
     let file = library.join("wear.sabi");

@@ -1,4 +1,4 @@
-//! How one looks: at the graph (zoom, pan, the edge, the mini map), and at results.
+//! Views of the graph (zoom, pan, scrolling at edges, the mini map), and of results.
 
 mod around;
 mod eyedropper;

@@ -1,11 +1,11 @@
-//! A device that is lost takes no work with it.
+//! The loss of a device loses no work.
 
 use sabi_engine::Session;
 
 use super::{Window, open};
 
 impl Window {
-    /// Destroys the device while nobody uploads to it: wgpu 29 would let the two wait for each other.
+    /// Destroys the device while nothing is uploaded to it, since wgpu 29 would deadlock.
     pub(super) fn destroy_device(&mut self) {
         self.until("rest", |editor| {
             editor.views.model.is_ready_made() && editor.views.model.drawn > 0 && !editor.evaluation.is_busy()

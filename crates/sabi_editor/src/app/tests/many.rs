@@ -1,4 +1,4 @@
-//! Large graphs: what is off the screen costs nothing, and nothing is drawn while nothing changes.
+//! Large graphs: nodes outside of the panel cost nothing, and nothing is drawn while nothing changes.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use egui_kittest::kittest::{Queryable, by};
 use super::Window;
 use super::hands::id;
 
-/// Five hundred nodes in a field of 25 by 20.
+/// Five hundred nodes in a grid of 25 by 20.
 fn field() -> String {
     let nodes = (0..500).map(|at| {
         let pos = [at % 25 * 260, at / 25 * 330];

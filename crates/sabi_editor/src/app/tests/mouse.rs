@@ -1,4 +1,4 @@
-//! Drags by the habits of each tool, on the canvas and on the model.
+//! Drags in each preset, on the canvas and on the model.
 
 use egui::{Modifiers, PointerButton, Pos2};
 
@@ -10,7 +10,7 @@ use crate::dock::Panel;
 
 const NONE: Modifiers = Modifiers::NONE;
 
-/// What of the view of the model a drag changes: where it is seen from, what is looked at, and how much is seen.
+/// Parts of the camera that a drag changes: direction, target and distance.
 fn turned(window: &mut Window, button: PointerButton, modifiers: Modifiers) -> [bool; 3] {
     let seen = |window: &Window| {
         let camera = window.editor().views.model.camera;
@@ -68,7 +68,7 @@ fn the_model_is_turned_by_the_usual_drags() {
     assert_eq!(turned(&mut window, Secondary, NONE), ZOOMS);
 }
 
-/// How far a drag over an empty place moves the canvas, and whether it comes nearer.
+/// Movement of the canvas by a drag over an empty place, and whether it zooms in.
 fn moved(window: &mut Window, button: PointerButton, modifiers: Modifiers) -> (egui::Vec2, bool) {
     let from = window.on_canvas([0.9, 0.9]);
     let held = window.editor().views.canvas.place_at(from).expect("a place");

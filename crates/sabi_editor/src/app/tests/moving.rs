@@ -118,7 +118,7 @@ const FRAMED: &str = r#"
     "invert": { "kind": "adjust/invert", "pos": [0, 400] }
 "#;
 
-/// Where the title of the frame around clouds and dots is taken.
+/// Place of the title of the frame around clouds and dots.
 fn strip(window: &Window) -> Pos2 {
     let corner = window.rect(&id("clouds")).left_top();
     corner + egui::vec2(60.0, -35.0) * window.zoom()

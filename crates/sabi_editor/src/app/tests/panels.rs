@@ -1,4 +1,4 @@
-//! What is handed on: published knobs, variants, inputs and outputs, as somebody changes them in the window.
+//! Published parameters, variants, inputs and outputs, changed in the window.
 
 use std::collections::BTreeSet;
 
@@ -46,7 +46,7 @@ impl Window {
         self.settle();
     }
 
-    /// Clicks something of which a panel has another one of that name.
+    /// Clicks something that has a namesake in another panel.
     pub(super) fn click_beside(&mut self, panel: Panel, name: &str) {
         let rect = self.editor().shell.dock.rects[&panel];
         let mut all = self.harness.get_all_by_label(name);
@@ -56,7 +56,7 @@ impl Window {
         self.settle();
     }
 
-    /// Types into a line of text in place of what it holds, and finishes it.
+    /// Types into a text field in place of its text, and finishes by Enter.
     pub(super) fn fill(&mut self, name: &str, text: &str) {
         self.harness.get_by_label(name).click();
         self.settle();
@@ -66,7 +66,7 @@ impl Window {
         self.key(Key::Enter);
     }
 
-    /// Opens the menu of something and clicks an entry.
+    /// Opens a context menu and clicks an entry.
     pub(super) fn choose(&mut self, name: &str, entry: &str) {
         self.harness.get_by_label(name).click_secondary();
         self.settle();

@@ -1,4 +1,4 @@
-//! What is on the screen is more than its background.
+//! The window paints more than its background.
 
 use std::collections::BTreeSet;
 

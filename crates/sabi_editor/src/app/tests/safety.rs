@@ -1,4 +1,4 @@
-//! No work is lost: saving, the questions before, and what is kept for a crash.
+//! No work is lost: saving, the questions before, and copies in case of a crash.
 
 use std::fs;
 use std::path::PathBuf;
@@ -15,14 +15,14 @@ use crate::files::system_dialog::SystemDialog;
 pub(super) const CLOUDS: &str = r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#;
 
 impl Window {
-    /// Types a path into the question for one, over what is there.
+    /// Types a path into the question for a path, in place of its text.
     pub(super) fn answer_path(&mut self, path: &std::path::Path) {
         self.keys(Modifiers::COMMAND, Key::A);
         self.typed(&path.display().to_string());
         self.key(Key::Enter);
     }
 
-    /// Opens a dialog that is answered as this says.
+    /// Opens a system dialog with this answer.
     fn opens_dialog(&mut self, answers: impl FnOnce() -> Option<PathBuf> + Send + 'static) {
         let dialog = SystemDialog::waiting(&self.harness.ctx, answers);
         self.harness.state_mut().views.questions.dialog = Some(dialog);
@@ -39,7 +39,7 @@ impl Window {
         self.key(Key::M);
     }
 
-    /// Asks the window to close, as its frame does; tells whether it goes on to close.
+    /// Asks the window to close, as its frame does; gives whether it closes.
     pub(super) fn asks_to_close(&mut self) -> bool {
         let viewport = self.harness.input_mut().viewports.entry(ViewportId::ROOT).or_default();
         viewport.events.push(ViewportEvent::Close);
@@ -64,7 +64,7 @@ fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
     window.until("the answer", |editor| editor.views.questions.open.is_none());
     assert_eq!(window.document().session.file(), Some(&*file));
     assert!(file.exists());
-    // One that is closed without an answer leaves the question as it was, and so does one that cannot be opened.
+    // A dialog that is closed or cannot be opened leaves the question as it was.
     window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     for answered in [true, false] {
         let (answers, answer) = channel::<Option<PathBuf>>();
@@ -176,7 +176,7 @@ fn work_that_could_not_be_saved_stays() {
     window.answer_path(&window.path("taken").join("kept.sabi"));
     assert_eq!(window.text(), text);
     assert!(window.is_dirty());
-    // Without a name nothing is saved either.
+    // Without a name nothing is saved.
     window.keys(Modifiers::COMMAND, Key::N);
     window.press("Save");
     window.key(Key::Escape);
@@ -265,13 +265,13 @@ fn an_end_that_nobody_asked_for_keeps_what_is_not_saved() {
     let mut window = Window::opened(CLOUDS);
     window.mute();
     let text = window.text();
-    // The system ends the program: nothing is asked, but its last word is heard.
+    // The system ends the program: nothing is asked, but changes are kept.
     eframe::App::on_exit(window.harness.state_mut());
     let mut window = window.after_a_crash();
     assert!(window.says("The program ended before this was saved"));
     window.press("Recover");
     assert_eq!(window.text(), text);
-    // What was let go is not kept.
+    // Discarded changes are not kept.
     window.harness.state_mut().may_close = true;
     eframe::App::on_exit(window.harness.state_mut());
     assert!(sabi_engine::recoveries(&window.path("unsaved")).is_empty());

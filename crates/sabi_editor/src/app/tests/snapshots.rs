@@ -1,7 +1,7 @@
-//! What parts of the window look like, beside pictures that somebody looked at: `crates/sabi_editor/tests/snapshots/`.
+//! Parts of the window, compared with reviewed pictures in `crates/sabi_editor/tests/snapshots/`.
 //!
-//! `cargo xtask bless window` writes them again. A texel may differ by what drivers round differently, and a few of the
-//! letters' edges by more.
+//! `cargo xtask bless window` writes them again. Pixels may differ by the rounding of drivers, and a few at the edges of
+//! letters by more.
 
 use egui::{Key, Rect, vec2};
 use egui_kittest::{SnapshotOptions, SnapshotResult, SnapshotResults, try_image_snapshot_options};
@@ -20,7 +20,7 @@ const NODES: &str = r##"
 "##;
 
 impl Window {
-    /// A window of this shade that shows a node's knobs and its result, with the pointer over nothing.
+    /// A window of a shade that shows a node's parameters and its result, without the pointer.
     fn on(node: &str, shade: Shade) -> Window {
         let mut window = Window::opened(NODES);
         let context = window.harness.ctx.clone();
@@ -39,15 +39,15 @@ impl Window {
         window
     }
 
-    /// The upper left of a panel, at most so large.
+    /// Upper left part of a panel.
     fn part_of(&self, panel: Panel, largest: [f32; 2]) -> Rect {
         let panel = self.editor().shell.dock.rects[&panel];
         Rect::from_min_size(panel.min, panel.size().min(largest.into()))
     }
 
-    /// Compares a part of the screen with the picture of that name.
+    /// Compares a part of the screen with a stored picture.
     fn compare(&mut self, name: &str, part: Rect) -> SnapshotResult {
-        // What moves comes to rest.
+        // Waits until animations have ended.
         self.harness.run_steps(30);
         let picture = self.harness.render().expect("a picture of the window");
         let [left, top] = [part.left(), part.top()].map(|at| at.round() as u32);

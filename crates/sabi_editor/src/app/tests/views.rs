@@ -1,4 +1,4 @@
-//! Keys for the model and for the texture, and the list of all keys.
+//! Keys of the viewport and of the 2D view, and the list of keys.
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -11,7 +11,7 @@ use crate::command::{Command, InputPreset, Scope, ViewportCommand};
 use crate::dock::Panel;
 
 impl Window {
-    /// Whether a switch is on, told to those who do not see it.
+    /// Whether a switch is on, by its accessible state.
     pub(super) fn is_on(&self, label: &str) -> bool {
         let mut found = self.harness.query_all(
             by().label(label)
@@ -20,11 +20,11 @@ impl Window {
         found.next().is_some()
     }
 
-    /// Clicks an entry of a menu, which is named with its keys.
+    /// Clicks an entry of a menu, whose name contains its keys.
     pub(super) fn press_entry(&mut self, menu: &str, entry: &str) {
         self.press(menu);
         let found = self.harness.query_all(by().role(Role::Button).label_contains(entry));
-        // Others have longer names that begin with it.
+        // Other entries have longer names that begin with it.
         let found = found.min_by_key(|found| found.accesskit_node().label().map_or(0, |label| label.len()));
         let at = found.map(|found| found.rect().center());
         self.click_at(at.unwrap_or_else(|| panic!("{menu} has no {entry}")));
@@ -163,7 +163,7 @@ fn paste_works_by_the_menu_and_by_any_key_wherever_the_pointer_is() {
     let copied = window.harness.state_mut().documents.document.copied().expect("a copy");
     let count = window.document().graph().len();
     window.press_entry("Edit", "Paste");
-    // The system answers.
+    // The clipboard arrives.
     window.harness.event(egui::Event::Paste(copied.clone()));
     window.settle();
     assert_eq!(window.document().graph().len(), count + 1);
@@ -189,7 +189,7 @@ fn what_the_menu_opens_on_the_canvas_brings_the_canvas_up_and_no_hidden_menu_hol
         window.key(Key::Escape);
         assert!(!window.editor().views.canvas.holds_keys(), "{entry}");
     }
-    // By the mouse the view can be changed while a menu is open.
+    // A click can change the view while a menu is open.
     window.prepare(&["mix"], Scope::Canvas);
     window.key(Key::Tab);
     assert!(window.editor().views.canvas.holds_keys());

@@ -8,7 +8,7 @@ use sabi_engine::Session;
 
 use super::{Editor, Window};
 
-/// Writes a file in one step, as careful editors save.
+/// Replaces a file atomically, as many editors save.
 fn write(path: &Path, contents: impl AsRef<[u8]>) {
     let folder = path.parent().expect("a folder");
     fs::create_dir_all(folder).expect("a folder");
@@ -21,8 +21,8 @@ fn graph_of(nodes: &str) -> String {
     format!(r#"{{ "format": "sabi", "version": 1, "preview": {{ "size": 64 }}, "nodes": {{ {nodes} }} }}"#)
 }
 
-/// A window on a graph of these nodes with files beside it, all of them watched. It looks at the node `seen`, which has this
-/// value first.
+/// A window on a graph of these nodes with files beside it, all of them watched. It shows the node `seen`, which has this value
+/// first.
 struct Watched {
     window: Window,
     folder: PathBuf,
@@ -59,7 +59,7 @@ impl Watched {
         self.window.until("the value", |editor| value_of(editor) == Some(value));
     }
 
-    /// Waits until nothing is on its way, and all that is named is watched.
+    /// Waits until all results have arrived and all files are watched.
     fn rest(&mut self) {
         self.window.until("rest", |editor| {
             editor.evaluation.loaded_model().1
@@ -69,7 +69,7 @@ impl Watched {
     }
 }
 
-/// What the node that is looked at gives.
+/// Value of the shown node.
 fn value_of(editor: &Editor) -> Option<f32> {
     let (_, values) = editor.evaluation.inspected.as_ref()?;
     let at = values.is_on_surface.iter().position(|is_there| *is_there)?;
@@ -236,7 +236,7 @@ fn saving_is_no_news() {
         Some(sabi_graph::Value::Text("triplanar".to_owned())),
     );
     editor.save();
-    // What is written later is told later.
+    // Another change is reported again.
     watched.write("gray.bmp", picture(255));
     watched.until_value(1.0);
     assert!(!watched.window.editor().documents.is_file_foreign);
@@ -253,7 +253,7 @@ fn a_device_that_goes_while_nothing_is_evaluated_is_noticed() {
     assert_eq!(kept.document.session.file(), Some(watched.path("graph.sabi").as_path()));
 }
 
-/// An environment of the same light all around, as a Radiance file.
+/// Environment of constant light, as a Radiance file.
 fn light(value: u8) -> Vec<u8> {
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();
     bytes.extend([value, value, value, 128].repeat(8));

@@ -6,7 +6,7 @@ use sabi_editing::{ROW_HEIGHT, TITLE_HEIGHT};
 use super::Window;
 use super::hands::{beside, between, id};
 
-/// Two masks, a blend of nothing yet, and a layer on paint.
+/// Two masks, a blend without inputs, and a layer on paint.
 const LOOSE: &str = r#"
     "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
     "dots": { "kind": "noise/dots", "pos": [0, 330] },
@@ -14,7 +14,7 @@ const LOOSE: &str = r#"
     "paint": { "kind": "source/material", "pos": [0, 660] }
 "#;
 
-/// The same with clouds in the layer's mask.
+/// The same with clouds as the layer's mask.
 const WIRED: &str = r#"
     "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
     "dots": { "kind": "noise/dots", "pos": [0, 330] },
@@ -56,7 +56,7 @@ fn a_wire_that_fits_nowhere_near_offers_the_nodes_that_it_fits() {
     assert!(window.says("What fits the wire"));
     let labels = window.labels();
     assert!(labels.iter().any(|label| label == "Adjust material"), "{labels:?}");
-    // The list is searched: a mask's node is not offered for a material.
+    // The list offers no mask nodes for a material.
     window.typed("threshold");
     assert!(window.says("No node is called that"), "a threshold takes no material");
     window.keys(Modifiers::COMMAND, Key::A);

@@ -1,4 +1,4 @@
-//! What each command does to a graph, as far as one key shows it.
+//! Proofs of commands, as far as one key press shows their effect.
 
 use egui::{Key, Modifiers};
 use sabi_engine::ViewSubject;

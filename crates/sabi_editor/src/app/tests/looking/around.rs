@@ -1,4 +1,4 @@
-//! What stands around the model: the strip of models, light and mode, and how long a length is.
+//! The viewport's surroundings: the strip of models, light, mode, and bars of lengths.
 
 use egui::accesskit::Role;
 use egui::{Key, PointerButton, Pos2, pos2};
@@ -26,7 +26,7 @@ impl Window {
             .collect()
     }
 
-    /// The entry of a model on the strip.
+    /// Entry of a model on the strip.
     fn entry(&self, name: &str) -> Pos2 {
         let label = format!("{} {name}", icon::CUBE);
         self.harness.get_by_label(&label).rect().center()
@@ -153,7 +153,7 @@ fn a_length_that_is_pointed_at_is_a_bar_on_the_model_with_its_length_in_both_uni
     window.point(window.knob("Radius"));
     window.settle();
     assert!(says(&window) && window.editor().views.model.length == Some(0.05));
-    // What is told on the picture comes and goes, and the menus beside it are the same.
+    // Words on the picture appear and disappear without a change of the menus beside them.
     window.open_menu(icon::EYE, "Show");
     window.harness.get_by_role_and_label(Role::CheckBox, "Relief");
     window.key(Key::Escape);

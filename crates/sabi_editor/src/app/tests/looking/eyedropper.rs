@@ -1,4 +1,4 @@
-//! Taking a color where it is seen.
+//! Colors taken from the model and the 2D view.
 
 use egui::{CursorIcon, Key};
 use sabi_engine::{Session, ViewSubject};
@@ -7,7 +7,7 @@ use sabi_graph::NodeId;
 use super::super::Window;
 use super::super::hands::id;
 
-/// Paint on the model, a mask, and a color that wants to be like the paint.
+/// Paint on the model, a mask, and a color that is to match the paint.
 const NODES: &str = r##"
     "clouds": { "kind": "noise/simplex", "pos": [0, 330] },
     "out": { "kind": "output/material", "inputs": { "material": "paint" }, "pos": [300, 0] },
@@ -16,7 +16,7 @@ const NODES: &str = r##"
 "##;
 
 impl Window {
-    /// Asks for a color for a knob of the node that is clicked.
+    /// Asks for a color for a parameter of a node.
     fn take_dropper(&mut self, node: &NodeId) {
         self.click_at(self.title(node));
         self.press("Color: take from the model or the texture");

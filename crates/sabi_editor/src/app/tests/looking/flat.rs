@@ -20,7 +20,7 @@ fn painted() -> Window {
 }
 
 impl Window {
-    /// Where the texture is.
+    /// Rectangle of the texture.
     pub(super) fn texture(&self) -> Rect {
         self.harness.get_by_label_contains("Texture of").rect()
     }
@@ -40,7 +40,7 @@ impl Window {
         lines.collect()
     }
 
-    /// What is said of the texel under a place.
+    /// Text about the texel under a place.
     fn probed(&mut self, at: Pos2) -> String {
         self.point(at);
         self.settle();

@@ -1,4 +1,4 @@
-//! What is kept: choices between runs, and of pictures no more than are of use.
+//! What is kept: choices between runs, and a bounded number of results.
 
 use egui::Modifiers;
 use sabi_engine::Session;
@@ -7,7 +7,7 @@ use sabi_engine::view::{Background, ViewTransform};
 use super::super::Window;
 use super::super::hands::id;
 
-/// So many nodes of a kind that looks different by its seed.
+/// Nodes of one kind with different seeds.
 fn many(count: usize) -> String {
     let node = |at: usize| {
         let place = at * 260;

@@ -1,4 +1,4 @@
-//! Lists that lead to nodes and steps: what nodes took, and what was done.
+//! Panels of times and of steps.
 
 use egui_kittest::kittest::Queryable;
 

@@ -43,7 +43,7 @@ impl Window {
         self.press(&format!("{sign} {name}"));
     }
 
-    /// Waits until the model is there, so that there is something to say of it.
+    /// Waits until the model is loaded.
     pub(super) fn until_model(&mut self) {
         self.until("the model", |editor| {
             editor.views.model.drawn > 0 && editor.evaluation.loaded_model().1 && !editor.evaluation.is_busy()

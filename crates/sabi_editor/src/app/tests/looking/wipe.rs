@@ -1,4 +1,4 @@
-//! The line between two pictures of the model, and what a drag takes.
+//! Drags of the line between two pictures of the model.
 
 use egui::{CursorIcon, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 
