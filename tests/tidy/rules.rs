@@ -2,20 +2,22 @@
 
 /// A crate, the crates of ours it may name, and the outside crates that it alone owns. An arrow that is not here is a
 /// design change, not a detail: it changes ARCHITECTURE.md first.
-pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 14] = [
+pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 15] = [
     ("sabi_color", &[], &[]),
+    ("sabi_files", &[], &["tempfile"]),
     ("sabi_graph", &[], &["petgraph"]),
     ("sabi_nodes", &["sabi_color", "sabi_graph"], &["naga"]),
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
-    ("sabi_surface", &[], &["gltf", "obvhs", "uvunwrap"]),
+    ("sabi_surface", &["sabi_files"], &["gltf", "obvhs", "uvunwrap"]),
     ("sabi_image", &["sabi_color"], &["image", "png", "exr"]),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
     ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),
-    ("sabi_export", &["sabi_image", "sabi_surface"], &[]),
+    ("sabi_export", &["sabi_files", "sabi_image", "sabi_surface"], &[]),
     (
         "sabi_engine",
         &[
             "sabi_color",
+            "sabi_files",
             "sabi_graph",
             "sabi_nodes",
             "sabi_plan",

@@ -4,7 +4,6 @@ mod advice;
 mod arguments;
 mod commands;
 mod defect;
-mod disk;
 mod exit;
 mod progress;
 mod quiet_driver;

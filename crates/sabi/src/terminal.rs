@@ -3,12 +3,11 @@
 use std::fmt;
 use std::io::{self, ErrorKind, Write};
 
-use sabi_engine::Warning;
+use sabi_engine::{Warning, io_reason};
 use serde_json::Value as Json;
 
 use crate::advice::with_flags;
 use crate::arguments::Global;
-use crate::disk::reason;
 use crate::exit::{Exit, Failure};
 
 /// Output of a command.
@@ -78,7 +77,7 @@ impl Terminal {
             // A reader of a pipe may stop when it has enough, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             Err(error) => {
-                let why = format!("cannot write to standard output: {}", reason(&error));
+                let why = format!("cannot write to standard output: {}", io_reason(&error));
                 Err(Failure::new(Exit::CannotWrite, why))
             }
             Ok(()) => Ok(()),

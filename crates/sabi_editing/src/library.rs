@@ -43,7 +43,7 @@ impl OpenDocument {
                 Some(file)
             }
             Err(error) => {
-                self.say(format!("{} cannot be written: {error}", file.display()));
+                self.say(format!("{} cannot be written: {}", file.display(), error.reason()));
                 None
             }
         }

@@ -126,8 +126,13 @@ impl Settings {
             }
         }
         let text = format!("{:#}", Json::Object(kept));
-        write_whole(&file, text.as_bytes())
-            .map_err(|error| format!("the settings cannot be kept in {}: {error}", folder.display()))
+        write_whole(&file, text.as_bytes()).map_err(|error| {
+            format!(
+                "the settings cannot be kept in {}: {}",
+                folder.display(),
+                error.reason()
+            )
+        })
     }
 
     /// Settings as the file has them.

@@ -6,6 +6,7 @@ use std::io;
 use std::sync::Arc;
 
 use sabi_export::ExportError;
+use sabi_files::{FileError, StagedError};
 use sabi_gpu::GpuError;
 use sabi_image::ImageError;
 use sabi_surface::atlas::AtlasError;
@@ -205,6 +206,18 @@ impl From<ExportError> for EngineError {
 
 fn is_full(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+}
+
+impl From<FileError> for EngineError {
+    fn from(error: FileError) -> Self {
+        ExportError::from(error).into()
+    }
+}
+
+impl From<StagedError> for EngineError {
+    fn from(error: StagedError) -> Self {
+        ExportError::from(error).into()
+    }
 }
 
 impl From<LoadError> for EngineError {

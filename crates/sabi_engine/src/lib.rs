@@ -65,11 +65,13 @@ pub use catalog::node_file::{
 
 // Sessions: edits, files and what watches them.
 pub use session::watch::{Changes, Watched, Watcher};
-pub use session::whole_file::{canonical, free_graph_file, write_whole};
-pub use session::{FileState, Recovery, Session, moved_to, recoveries, with_whole_paths};
+pub use session::{FileState, Recovery, Session, free_graph_file, moved_to, recoveries, with_whole_paths};
 
 // Types of other crates that stand in this interface.
 pub use sabi_export::SetKey;
+pub use sabi_files::{
+    FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, stored, stored_path, write_whole,
+};
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,
 };

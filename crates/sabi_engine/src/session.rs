@@ -1,20 +1,21 @@
 //! A graph that is being worked on: its edits and how they are taken back, its file, and what is kept of it in case the
 //! program ends before it is saved.
 
+mod free_file;
 mod moving;
 mod recovery;
 #[cfg(test)]
 mod tests;
 pub(crate) mod watch;
-pub(crate) mod whole_file;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use sabi_export::Staging;
+use sabi_files::{StagedSet, behind_links};
 use sabi_graph::{Document, Edit, EditError, History};
 
+pub use free_file::free_graph_file;
 use moving::Moving;
 pub use moving::{moved_to, with_whole_paths};
 use recovery::UnsavedWork;
@@ -24,7 +25,6 @@ use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::remedy::Remedy;
-use crate::session::whole_file::behind_links;
 
 /// What a graph is called before it has a file.
 const UNTITLED: &str = "untitled.sabi";
@@ -359,7 +359,7 @@ impl Session {
     }
 }
 
-/// Writes a file whole, and keeps the one that it replaces. A link stays one: the file that it leads to is written.
+/// Writes a graph file durably and keeps the replaced one as a backup. The file behind a symbolic link is written.
 fn write_with_backup(path: &Path, text: &str) -> Result<(), EngineError> {
     let path = &behind_links(path);
     if fs::metadata(path).is_ok_and(|known| known.permissions().readonly()) {
@@ -367,19 +367,19 @@ fn write_with_backup(path: &Path, text: &str) -> Result<(), EngineError> {
         let refused = EngineError::new(ErrorKind::CannotWrite, why);
         return Err(refused.with_remedies([Remedy::AllowWriting, Remedy::SaveUnderOtherName]));
     }
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
-    let Some(name) = name.filter(|name| !name.is_empty()) else {
+    let Some(name) = path.file_name() else {
         let why = format!("{} names no file; add a name that ends in .sabi", path.display());
         return Err(EngineError::new(ErrorKind::CannotWrite, why));
     };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let mut staging = Staging::create(folder.unwrap_or(Path::new(".")))?;
+    let mut staged = StagedSet::create(path.parent().unwrap_or(Path::new(".")))?;
     if let Ok(before) = fs::read(path)
         && before != text.as_bytes()
     {
-        staging.stage(&format!("{name}{BACKUP}"), &before)?;
+        let mut backup = name.to_owned();
+        backup.push(BACKUP);
+        staged.stage(backup, &before)?;
     }
-    staging.stage(&name, text.as_bytes())?;
-    staging.commit()?;
+    staged.stage(name, text.as_bytes())?;
+    staged.commit()?;
     Ok(())
 }

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use sabi_files::{FileError, Operation, StagedError, io_reason};
 use sabi_image::ImageError;
 use thiserror::Error;
 
@@ -11,7 +12,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum ExportError {
     /// The output folder is not there and cannot be made.
-    #[error("cannot create the folder {}: {}", path.display(), reason(source))]
+    #[error("cannot create the folder {}: {}", path.display(), io_reason(source))]
     CreateFolder {
         /// The folder.
         path: PathBuf,
@@ -19,7 +20,7 @@ pub enum ExportError {
         source: io::Error,
     },
     /// A file could not be written to its end.
-    #[error("cannot write {}, so nothing was changed: {}", path.display(), reason(source))]
+    #[error("cannot write {}, so nothing was changed: {}", path.display(), io_reason(source))]
     Write {
         /// The file that was to be.
         path: PathBuf,
@@ -27,7 +28,7 @@ pub enum ExportError {
         source: io::Error,
     },
     /// A complete file could not be put in its place.
-    #[error("cannot replace {}: {}; {replaced} of {total} files of this bake were put in place before it", path.display(), reason(source))]
+    #[error("cannot replace {}: {}; {replaced} of {total} files of this bake were put in place before it", path.display(), io_reason(source))]
     Replace {
         /// The file that was to be.
         path: PathBuf,
@@ -105,28 +106,38 @@ pub enum ExportError {
     },
 }
 
-impl ExportError {
-    pub(crate) fn write(path: &Path, source: io::Error) -> ExportError {
-        ExportError::Write {
-            path: path.to_owned(),
+impl From<FileError> for ExportError {
+    fn from(error: FileError) -> ExportError {
+        let FileError {
+            operation,
+            path,
             source,
+        } = error;
+        match operation {
+            Operation::CreateFolder => ExportError::CreateFolder { path, source },
+            Operation::List | Operation::Write | Operation::Replace | Operation::SyncFolder | Operation::Lock => {
+                ExportError::Write { path, source }
+            }
         }
     }
 }
 
-/// The usual cases in plain words, without the system's error numbers.
-fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::PermissionDenied => "you have no permission".into(),
-        io::ErrorKind::StorageFull => "the disk is full".into(),
-        io::ErrorKind::QuotaExceeded => "your disk quota is used up".into(),
-        io::ErrorKind::ReadOnlyFilesystem => "the disk is read-only".into(),
-        io::ErrorKind::NotADirectory => "a part of its path is a file, not a folder".into(),
-        io::ErrorKind::AlreadyExists => "a file of that name is in the way".into(),
-        io::ErrorKind::IsADirectory => "a folder of that name is in the way".into(),
-        io::ErrorKind::NotFound => "the folder is gone".into(),
-        io::ErrorKind::InvalidFilename => "its name is not allowed there".into(),
-        _ => error.to_string(),
+impl From<StagedError> for ExportError {
+    fn from(error: StagedError) -> ExportError {
+        match error {
+            StagedError::File(error) => error.into(),
+            StagedError::Protected { path } => ExportError::Input { path },
+            StagedError::NotAFile { path } => ExportError::NotAFile { path },
+            StagedError::SameName { file_name } => ExportError::SameName {
+                file_name: Path::new(&file_name).display().to_string(),
+            },
+            StagedError::Commit { error, replaced, total } => ExportError::Replace {
+                path: error.path,
+                source: error.source,
+                replaced,
+                total,
+            },
+        }
     }
 }
 
@@ -136,7 +147,10 @@ mod tests {
 
     #[test]
     fn each_error_says_what_and_why() {
-        let full = ExportError::write(Path::new("out/a.png"), io::ErrorKind::StorageFull.into());
+        let full = ExportError::Write {
+            path: "out/a.png".into(),
+            source: io::ErrorKind::StorageFull.into(),
+        };
         assert_eq!(
             full.to_string(),
             "cannot write out/a.png, so nothing was changed: the disk is full"

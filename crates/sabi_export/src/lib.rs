@@ -31,7 +31,6 @@ pub mod preset;
 mod record;
 mod seams;
 mod shared;
-mod staging;
 mod write;
 
 pub use channel::{Channel, ChannelPixels};
@@ -45,5 +44,4 @@ pub use pattern::NamePattern;
 pub use record::{ConstantRecord, OutputRecord};
 pub use seams::SeamSamples;
 pub use shared::SharedTexels;
-pub use staging::Staging;
 pub use write::{BakeWriter, Committed, SetOptions, SetWriter, Written};

@@ -139,11 +139,12 @@ impl ModelCopy {
 
     /// The copy, with these maps on these materials of the model; the one set of a sheet, of material 0, goes on all. Maps
     /// of a `.glb` go into its binary chunk; those of a `.gltf`, or of a `.glb` whose first buffer is no such chunk, stay
-    /// beside it. `taken` are file names, in lower case, that the bake has given away already.
+    /// beside it. `is_taken` tells the file names that
+    /// the bake has given away already.
     pub fn finish(
         mut self,
         mut baked: BTreeMap<u32, MaterialMaps>,
-        taken: &BTreeSet<String>,
+        is_taken: &dyn Fn(&str) -> bool,
     ) -> Result<FinishedCopy, ExportError> {
         if self.is_one_sheet
             && let Some(maps) = baked.remove(&0)
@@ -180,7 +181,7 @@ impl ModelCopy {
         extensions::keep_lists_true(&mut self.document, &known);
         let mut beside = placed.files;
         let mut warnings = std::mem::take(&mut self.warnings);
-        self.bring_along(&placed.new, taken.clone(), &mut beside, &mut warnings);
+        self.bring_along(&placed.new, is_taken, &mut beside, &mut warnings);
         let name = self.file_name();
         let joined = self.container.join(&mut self.document);
         let bytes = joined.map_err(|bytes| ExportError::CopyTooLarge { path: self.path, bytes })?;
@@ -206,11 +207,12 @@ impl ModelCopy {
     fn bring_along(
         &mut self,
         new: &BTreeSet<usize>,
-        mut taken: BTreeSet<String>,
+        is_taken: &dyn Fn(&str) -> bool,
         files: &mut Vec<CopiedFile>,
         warnings: &mut Vec<String>,
     ) {
-        taken.extend(files.iter().map(|file| file.name.to_lowercase()));
+        let mut own: BTreeSet<String> = files.iter().map(|file| file.name.to_lowercase()).collect();
+        let mut take = |name: &str| !is_taken(name) && own.insert(name.to_lowercase());
         let mut brought: Vec<(String, String)> = Vec::new();
         for list in ["buffers", "images"] {
             let entries = self.document.get_mut(list).and_then(Json::as_array_mut);
@@ -234,7 +236,7 @@ impl ModelCopy {
                          model's folder; copy it by hand if it belongs to the model"
                     )),
                     Some(Ok((bytes, file))) => {
-                        let name = free_name(&file, list, &self.stem, &mut taken);
+                        let name = free_name(&file, list, &self.stem, &mut take);
                         entry["uri"] = json!(pictures::uri_of(&name));
                         brought.push((uri, name.clone()));
                         files.push(CopiedFile { name, bytes });
@@ -258,7 +260,7 @@ fn is_beside(model: &Path, file: &Path) -> bool {
 }
 
 /// A plain name for a copied file: a buffer goes by the model's name, a picture by its own.
-fn free_name(file: &Path, list: &str, stem: &str, taken: &mut BTreeSet<String>) -> String {
+fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> bool) -> String {
     let part = |part: Option<&OsStr>| file_stem(&part.unwrap_or_default().to_string_lossy());
     let first = match part(file.file_stem()) {
         _ if list == "buffers" => stem.to_owned(),
@@ -272,7 +274,7 @@ fn free_name(file: &Path, list: &str, stem: &str, taken: &mut BTreeSet<String>) 
             1 => format!("{first}.{ending}"),
             number => format!("{first}_{number}.{ending}"),
         };
-        if taken.insert(name.to_lowercase()) {
+        if take(&name) {
             return name;
         }
         number += 1;

@@ -4,12 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use sabi_files::StagedSet;
+
 use crate::constant::{constant_value, survey};
 use crate::encode::encode;
 use crate::layout::SetLayout;
 use crate::model_copy::{Gathering, MapFile, MaterialMaps, Passing};
 use crate::preset::{Codes, Format, Preset, When, raw};
-use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, NamePattern, OutputRecord, Staging, Value};
+use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, NamePattern, OutputRecord, Value};
 
 /// How a texture set is written.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +37,7 @@ impl Default for SetOptions {
 /// Writes the texture sets of one bake into a folder; they take their places together, in [`BakeWriter::commit`].
 #[derive(Debug)]
 pub struct BakeWriter {
-    staging: Staging,
+    staged: StagedSet,
     /// Files that this bake could have written but did not need to.
     spared: BTreeSet<String>,
     /// Maps for a copy of the model, where there is to be one.
@@ -67,7 +69,7 @@ impl BakeWriter {
     /// Makes the folder if need be, and finds out early when it cannot be written to.
     pub fn create(folder: &Path) -> Result<BakeWriter, ExportError> {
         Ok(BakeWriter {
-            staging: Staging::create(folder)?,
+            staged: StagedSet::create(folder)?,
             spared: BTreeSet::new(),
             gathering: None,
         })
@@ -83,19 +85,19 @@ impl BakeWriter {
         self.gathering.take().map(Gathering::finish).unwrap_or_default()
     }
 
-    /// Names of the files so far, in lower case.
-    pub fn names(&self) -> &BTreeSet<String> {
-        self.staging.names()
+    /// Returns whether the bake has a file of that name already, on a file system that ignores case.
+    pub fn contains(&self, file_name: &str) -> bool {
+        self.staged.contains(file_name)
     }
 
     /// Whether a file may be written under a name; refused for one that is read, or that is no file.
     pub fn check(&self, file_name: &str) -> Result<(), ExportError> {
-        self.staging.check(file_name)
+        Ok(self.staged.check(file_name)?)
     }
 
     /// Names files that this bake reads: to write over one of them is refused.
     pub fn protect(&mut self, inputs: impl IntoIterator<Item = PathBuf>) {
-        self.staging.protect(inputs);
+        self.staged.protect(inputs);
     }
 
     /// Begins a texture set. `name` is the stem of its files, from [`crate::set_names`].
@@ -110,13 +112,13 @@ impl BakeWriter {
 
     /// Adds a file of the caller's own, such as the report, that takes its place with the maps.
     pub fn extra_file(&mut self, file_name: &str, bytes: &[u8]) -> Result<(), ExportError> {
-        self.staging.stage(file_name, bytes)
+        Ok(self.staged.stage(file_name, bytes)?)
     }
 
     /// Puts all files in place.
     pub fn commit(self) -> Result<Committed, ExportError> {
-        let folder = self.staging.folder().to_owned();
-        let files = self.staging.commit()?;
+        let folder = self.staged.folder().to_owned();
+        let files = self.staged.commit()?;
         let left_over = self
             .spared
             .iter()
@@ -234,7 +236,7 @@ impl SetWriter<'_> {
             file_name: file_name.clone(),
             source,
         })?;
-        self.bake.staging.stage(&file_name, &encoded.bytes)?;
+        self.bake.staged.stage(&file_name, &encoded.bytes)?;
         let spans_range = matches!(
             format,
             Format::Png {

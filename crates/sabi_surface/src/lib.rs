@@ -30,7 +30,6 @@
 
 pub mod atlas;
 pub mod bvh;
-pub mod disk;
 pub mod displace;
 pub mod load;
 pub mod model;

@@ -10,19 +10,17 @@ mod gltf;
 mod normals;
 mod obj;
 mod piece;
-mod plain_file;
 mod tangents;
-mod uri;
 mod warnings;
 
 use std::path::{Path, PathBuf};
 
 use glam::{DMat3, DMat4, DVec3};
+use sabi_files::{PathBase, Unread, Uri, read_plain};
 
 pub use self::error::{Fault, LoadError};
 use self::format::{Format, format_of, refused_format};
 pub(crate) use self::piece::Piece;
-pub use self::plain_file::{Unread, read_plain};
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
 use crate::model::Model;
 
@@ -90,16 +88,16 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
     let bytes = read_file(path).map_err(|unread| fault(reason(unread).map_or(Fault::NoFile, Fault::Unreadable)))?;
-    let folder = path.parent().unwrap_or(Path::new(""));
+    let base = PathBase::of_file(path);
     let mut files = vec![path.to_owned()];
     let mut absent = Vec::new();
-    let mut resolve = |uri: &str| match beside(folder, uri) {
+    let mut resolve = |uri: &str| match beside(&base, uri) {
         Ok((bytes, file)) => {
             files.push(file);
             Ok(bytes)
         }
         Err(reason) => {
-            absent.extend(places(folder, uri));
+            absent.extend(base.places(uri));
             absent.truncate(MOST_ABSENT);
             Err(reason)
         }
@@ -139,13 +137,11 @@ pub fn load_bytes(
 /// A file that a glTF model at `path` names by a `uri`, looked for as [`load`] does: its bytes and its path, or the reason
 /// why not; `None` where the `uri` holds the bytes itself.
 pub fn named_file(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    match uri::Uri::parse(uri) {
-        uri::Uri::Data(_) => None,
-        uri::Uri::Unusable(reason) => Some(Err(reason)),
-        uri::Uri::Beside(decoded) => {
-            Some(beside(folder, &decoded).or_else(|reason| beside(folder, uri).map_err(|_| reason)))
-        }
+    let base = PathBase::of_file(path);
+    match Uri::parse(uri) {
+        Uri::Data(_) => None,
+        Uri::Damaged(reason) | Uri::Unusable(reason) => Some(Err(reason)),
+        Uri::Beside(decoded) => Some(beside(&base, &decoded).or_else(|reason| beside(&base, uri).map_err(|_| reason))),
     }
 }
 
@@ -176,10 +172,9 @@ fn reason(unread: Unread) -> Option<String> {
     }
 }
 
-/// A file that a model names: as named, with the other system's separators, or by its bare name in the model's folder,
-/// since artists' files carry the paths of another machine.
-fn beside(folder: &Path, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
-    for file in places(folder, uri) {
+/// Reads a file that a model names from the first of its places where it exists.
+fn beside(base: &PathBase, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
+    for file in base.places(uri) {
         match read_file(&file) {
             Ok(bytes) => return Ok((bytes, file)),
             Err(unread) => {
@@ -190,11 +185,4 @@ fn beside(folder: &Path, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
         }
     }
     Err("there is no such file".into())
-}
-
-/// Where a file is looked for that a model names, the likeliest place first.
-fn places(folder: &Path, uri: &str) -> [PathBuf; 3] {
-    let slashed = uri.replace('\\', "/");
-    let bare = slashed.rsplit('/').next().unwrap_or_default();
-    [uri, &slashed, bare].map(|place| folder.join(place))
 }

@@ -62,7 +62,10 @@ fn a_report_that_cannot_be_written_is_found_before_the_work() {
         "none/report.json",
         "cannot write the report none/report.json: there is no folder none; make it, or name another file",
     );
-    refuse(".", "cannot write the report .: it is a folder; name another file");
+    refuse(
+        ".",
+        "cannot write the report .: a folder of that name is in the way; name another file",
+    );
     refuse(
         "cube.glb/report.json",
         "cannot write the report cube.glb/report.json: a part of its path is a file, not a folder; name another file",

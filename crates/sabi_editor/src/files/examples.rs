@@ -102,7 +102,7 @@ fn write_where_none(file: &Path, bytes: &[u8]) -> io::Result<()> {
     if file.exists() {
         return Ok(());
     }
-    write_whole(file, bytes)
+    write_whole(file, bytes).map_err(|error| error.source)
 }
 
 #[cfg(test)]

@@ -91,7 +91,7 @@ pub(crate) fn write_copy(
 ) -> Result<(), EngineError> {
     let Some(copy) = copy else { return Ok(()) };
     let maps = writer.take_model_maps();
-    let finished = copy.finish(maps, writer.names())?;
+    let finished = copy.finish(maps, &|name| writer.contains(name))?;
     written
         .warnings
         .extend(finished.warnings.into_iter().map(Warning::from));

@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use sabi_files::{absolute, path_from_stored, stored_path, write_whole};
 use sabi_nodes::{SourceFile, read_kind};
 use serde_json::{Value, json};
 
 use crate::catalog::readable;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
-use crate::session::whole_file::{rooted, write_whole};
 
 /// One thing that is wrong with the text of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -108,7 +108,7 @@ impl NodeDraft {
         match write_whole(&file, self.text.as_bytes()) {
             Ok(()) => Ok(file),
             Err(error) => {
-                let why = format!("{} cannot be written: {error}", file.display());
+                let why = format!("{} cannot be written: {}", file.display(), error.reason());
                 Err(EngineError::new(ErrorKind::CannotWrite, why).caused_by(error))
             }
         }
@@ -116,7 +116,7 @@ impl NodeDraft {
 
     pub(crate) fn to_json(&self) -> Value {
         json!({
-            "folder": rooted(&self.folder).to_string_lossy(),
+            "folder": stored_path(&absolute(&self.folder)),
             "id": self.id,
             "text": self.text,
             "known": self.known,
@@ -126,7 +126,7 @@ impl NodeDraft {
     pub(crate) fn from_json(kept: &Value) -> Option<NodeDraft> {
         let text = |name: &str| kept[name].as_str().map(str::to_owned);
         Some(NodeDraft {
-            folder: text("folder")?.into(),
+            folder: path_from_stored(&text("folder")?)?,
             id: text("id")?,
             text: text("text")?,
             known: text("known"),

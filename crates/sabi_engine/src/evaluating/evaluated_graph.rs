@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use sabi_files::PathBase;
 use sabi_graph::{Fit, FlatGraph, FlatNode};
 use sabi_nodes::kind::Shape;
 use sabi_plan::{FileContents, Target};
@@ -71,16 +72,16 @@ impl EvaluatedGraph {
         &self.path
     }
 
-    /// Folder from which paths in the graph start.
-    fn folder(&self) -> &Path {
-        self.path.parent().unwrap_or(Path::new("")) // A bare file name lies in the current folder.
+    /// Returns the base that resolves paths in the graph.
+    fn base(&self) -> PathBase {
+        PathBase::of_file(&self.path)
     }
 
     /// Access to the files that nodes name.
     pub(crate) fn files(&self) -> Files<'_> {
         Files {
             pictures: &self.pictures,
-            folder: self.folder(),
+            base: self.base(),
             graph: &self.flat,
         }
     }
@@ -90,7 +91,7 @@ impl EvaluatedGraph {
         let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
         let wanted = self.flat.upstream(&wanted);
         self.pictures
-            .contents(self.folder(), &self.flat, &self.kinds.sources, wanted)
+            .contents(&self.base(), &self.flat, &self.kinds.sources, wanted)
     }
 
     /// Whether any node is a filter, which may run on coarser levels of the atlas.
@@ -104,9 +105,10 @@ impl EvaluatedGraph {
 
     /// Lists the files of the graph: its own, its groups and its pictures.
     pub(crate) fn read_files(&self, open: &OpenGraph) -> Vec<PathBuf> {
+        let base = open.base();
         let groups = self.flat.nodes.iter().filter_map(|node| node.file.as_ref());
-        let groups = groups.map(|file| open.folder().join(file));
-        let named = files(open.folder(), &self.flat, &self.kinds.sources);
+        let groups = groups.map(|file| base.resolve(file));
+        let named = files(&base, &self.flat, &self.kinds.sources);
         let own = std::iter::once(open.path.clone()).chain(groups);
         own.chain(named).collect()
     }

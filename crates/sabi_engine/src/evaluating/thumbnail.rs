@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use sabi_files::{Cache, CacheKind};
 use sabi_image::{PngData, PngOptions, decode, encode_png, linear_from_srgb, srgb8_from_linear};
-use sabi_surface::disk::{self, Kind};
 use sabi_view::Pixels;
 
 use crate::error::{EngineError, ErrorKind};
@@ -11,10 +11,10 @@ use crate::error::{EngineError, ErrorKind};
 /// Side of a thumbnail, pixels.
 const SIDE: u32 = 128;
 
-/// The version in the magic rises whenever older pictures must not be shown.
-const KIND: Kind = Kind {
-    magic: b"sabi thumb1\n",
+/// Stored thumbnails; the version changes whenever earlier ones should no longer be shown.
+const KIND: CacheKind = CacheKind {
     prefix: "thumb",
+    version: 1,
     limit_bytes: 64 << 20,
 };
 
@@ -89,12 +89,14 @@ pub fn keep_thumbnail(cache_dir: &Path, of: &[&str], picture: &Pixels) -> Result
         )
     };
     let bytes = encode_png(width, height, PngData::U8(&picture.rgba), options).map_err(|error| cannot(&error))?;
-    disk::keep(&folder(cache_dir), &KIND, &key(of), &bytes).map_err(|error| cannot(&error))
+    cache(cache_dir)
+        .write(&key(of), &bytes)
+        .map_err(|error| cannot(&error.reason()))
 }
 
 /// Reads the thumbnail of a key, if there is one and it is intact.
 pub fn find_thumbnail(cache_dir: &Path, of: &[&str]) -> Option<Pixels> {
-    let bytes = disk::read(&folder(cache_dir), &KIND, &key(of))?;
+    let bytes = cache(cache_dir).read(&key(of))?;
     let picture = decode("thumbnail.png", &bytes).ok()?;
     let size = [picture.width, picture.height];
     match picture.pixels {
@@ -103,8 +105,8 @@ pub fn find_thumbnail(cache_dir: &Path, of: &[&str]) -> Option<Pixels> {
     }
 }
 
-fn folder(cache_dir: &Path) -> std::path::PathBuf {
-    cache_dir.join("thumbnails")
+fn cache(cache_dir: &Path) -> Cache {
+    Cache::new(cache_dir.join("thumbnails"), KIND)
 }
 
 /// Hashes the texts, each after its length, so that no two lists collide.

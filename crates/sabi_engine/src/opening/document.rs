@@ -5,9 +5,9 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use sabi_files::{PathBase, Unread, read_plain};
 use sabi_graph::{Document, FlatGraph, FlattenError, Found, NodeRef, Overrides, flatten_and_find, locate};
 use sabi_plan::{FileContents, PlanError};
-use sabi_surface::load::{Unread, read_plain};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
@@ -44,9 +44,14 @@ impl OpenGraph {
         })
     }
 
-    /// The folder that paths in the file start from.
+    /// Returns the folder that paths in the file start from.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new("")) // A bare file name lies in the current folder.
+    }
+
+    /// Returns the base that resolves paths in the file.
+    pub fn base(&self) -> PathBase {
+        PathBase::of_file(&self.path)
     }
 
     /// Looks at these pictures again when they are used next, however little they seem to have changed.
@@ -61,7 +66,7 @@ impl OpenGraph {
         kinds: &Kinds,
         nodes: impl IntoIterator<Item = usize>,
     ) -> FileContents {
-        self.pictures.contents(self.folder(), graph, &kinds.sources, nodes)
+        self.pictures.contents(&self.base(), graph, &kinds.sources, nodes)
     }
 
     /// A sentence about the graph, with the file's path before it.
@@ -117,10 +122,10 @@ impl OpenGraph {
         wanted: &[NodeRef],
         groups: &mut BTreeSet<PathBuf>,
     ) -> Result<(FlatGraph, Vec<Found>), (FlattenError, ErrorKind)> {
-        let folder = self.folder().to_owned();
+        let base = self.base();
         let mut kind = ErrorKind::BadInput;
         let mut group_file = |name: &str| {
-            let path = folder.join(name);
+            let path = base.resolve(name);
             groups.insert(path.clone());
             let text = read_text(&path).map_err(|error| {
                 kind = error.kind;

@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use sabi_files::{Cache, CacheKind, Unread, read_plain};
 use sabi_graph::nearest;
 use sabi_image::{Declared, Pixels};
-use sabi_surface::disk::{self, Kind};
-use sabi_surface::load::{Unread, read_plain};
 use sabi_view::{Environment, Panorama};
 
 use crate::Gpu;
@@ -30,10 +29,10 @@ const BUILT_IN: [(&str, &[u8]); 3] = [
 /// Files of environments larger than this are not read.
 const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 
-/// The number in the magic rises whenever what is kept of the same panorama comes out differently. Each takes 1 or 4 MiB.
-const KIND: Kind = Kind {
-    magic: b"sabi light2\n",
+/// Stored environments of 1 or 4 MiB each; the version changes whenever the same panorama is prefiltered differently.
+const KIND: CacheKind = CacheKind {
     prefix: "light",
+    version: 2,
     limit_bytes: 64 << 20,
 };
 
@@ -62,22 +61,23 @@ pub(crate) fn environment_of(
     panorama: &Panorama,
     cache_dir: Option<&Path>,
 ) -> Result<(Environment, Option<String>), EngineError> {
-    let Some(folder) = cache_dir.map(|folder| folder.join("light")) else {
+    let Some(cache) = cache_dir.map(|folder| Cache::new(folder.join("light"), KIND)) else {
         return Ok((Environment::new(gpu, panorama)?, None));
     };
     let key = key_of(gpu, panorama);
-    if let Some(kept) = disk::read(&folder, &KIND, &key)
+    if let Some(kept) = cache.read(&key)
         && let Ok(environment) = Environment::from_prefiltered(gpu, panorama, &kept)
     {
         return Ok((environment, None));
     }
     let environment = Environment::new(gpu, panorama)?;
     let mut remark = None;
-    if let Err(error) = disk::keep(&folder, &KIND, &key, &environment.prefiltered_bytes(gpu)?) {
+    if let Err(error) = cache.write(&key, &environment.prefiltered_bytes(gpu)?) {
         remark = Some(format!(
-            "what was made of the environment could not be kept in {} ({error}), so it will be made again; free some \
+            "what was made of the environment could not be kept in {} ({}), so it will be made again; free some \
              space there or choose another cache folder",
-            folder.display()
+            cache.folder().display(),
+            error.reason()
         ));
     }
     Ok((environment, remark))

@@ -1,25 +1,25 @@
-//! Paths in a graph that is saved to another folder: they lead where they led before.
+//! Paths in a graph that is saved to another folder: they are rewritten to lead to the same files.
 
 use std::collections::BTreeMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
+use sabi_files::{AbsolutePaths, NotText, PathBase, absolute, canonical, without_detours};
 use sabi_graph::{Document, Relocation};
 use sabi_nodes::kind::Role;
 
-use crate::session::whole_file::canonical;
 use crate::source;
 
-/// The way from one folder to another.
+/// Move of a graph from one folder to another.
 pub(super) struct Moving {
-    from: PathBuf,
-    to: PathBuf,
-    /// Whether the graph gets its first file: until then it had no folder that paths could begin at.
-    is_first: bool,
-    /// Parameters that are paths of files, by kind. Nodes in WGSL name no files.
+    from: PathBase,
+    to: PathBase,
+    /// Treatment of absolute paths.
+    absolute: AbsolutePaths,
+    /// Parameters that hold paths of files, by kind. Nodes in WGSL name no files.
     files: BTreeMap<String, Vec<String>>,
 }
 
-/// A graph as a file in folder `to` writes it, out of one in folder `from`: its paths lead where they led.
+/// Returns a graph of a file in folder `from` for a file in folder `to`, with paths to the same files.
 pub fn moved_to(document: &Document, from: &Path, to: &Path) -> Document {
     match Moving::between(from, to, false) {
         Some(moving) => moving.relocate(|relocation| document.relocated(relocation)),
@@ -27,13 +27,10 @@ pub fn moved_to(document: &Document, from: &Path, to: &Path) -> Document {
     }
 }
 
-/// A graph whose paths, which begin at a folder, are whole: they lead there from everywhere.
+/// Returns a graph whose paths are absolute; relative ones start from `folder`.
 pub fn with_whole_paths(document: &Document, folder: &Path) -> Document {
-    let folder = real(folder);
-    let whole = |path: &str| match path.trim().is_empty() {
-        true => path.to_owned(),
-        false => slashed(&plain(&folder.join(path.replace('\\', "/")))),
-    };
+    let base = real(folder);
+    let whole = |path: &str| or_as_written(base.rewrite_absolute(path), path);
     let files = Moving::files();
     let is_file = |kind: &str, param: &str| is_file(&files, kind, param);
     document.relocated(Relocation {
@@ -43,7 +40,8 @@ pub fn with_whole_paths(document: &Document, folder: &Path) -> Document {
 }
 
 impl Moving {
-    /// The way between two folders; none where both are the same, unless the graph gets its first file there.
+    /// Creates the move between two folders; `None` where both are the same, unless the graph gets its first file there:
+    /// before that it had no folder that relative paths could start from.
     pub(super) fn between(from: &Path, to: &Path, is_first: bool) -> Option<Moving> {
         let [from, to] = [from, to].map(real);
         if from == to && !is_first {
@@ -52,7 +50,10 @@ impl Moving {
         Some(Moving {
             from,
             to,
-            is_first,
+            absolute: match is_first {
+                true => AbsolutePaths::Shorten,
+                false => AbsolutePaths::Keep,
+            },
             files: Moving::files(),
         })
     }
@@ -65,10 +66,10 @@ impl Moving {
         files.collect()
     }
 
-    /// What is done with this move as a relocation.
+    /// Calls `done` with this move as a relocation.
     pub(super) fn relocate<T>(&self, done: impl FnOnce(Relocation<'_>) -> T) -> T {
         let is_file = |kind: &str, param: &str| is_file(&self.files, kind, param);
-        let moved = |path: &str| moved(path, &self.from, &self.to, self.is_first);
+        let moved = |path: &str| or_as_written(self.to.rewrite(path, &self.from, self.absolute), path);
         done(Relocation {
             is_file: &is_file,
             moved: &moved,
@@ -81,100 +82,21 @@ fn is_file(files: &BTreeMap<String, Vec<String>>, kind: &str, param: &str) -> bo
     files.is_some_and(|files| files.iter().any(|known| known == param))
 }
 
-/// A folder by its one name, as far as it is there.
-fn real(folder: &Path) -> PathBuf {
-    let whole = canonical(folder).or_else(|_| std::path::absolute(folder));
-    plain(&whole.unwrap_or_else(|_| folder.to_owned()))
+/// Returns the base of a folder, in canonical form where the folder exists.
+fn real(folder: &Path) -> PathBase {
+    let whole = canonical(folder).unwrap_or_else(|_| absolute(folder));
+    PathBase::of_folder(without_detours(&whole))
 }
 
-/// A path without steps back and forth.
-fn plain(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
-                plain.pop();
-            }
-            // Nothing lies above the root.
-            Component::ParentDir if plain.has_root() => {}
-            part => plain.push(part),
-        }
-    }
-    plain
-}
-
-/// A path out of a file in folder `from` as a file in folder `to` writes it: relative where both lie on one drive. Absolute
-/// paths stay, since whoever wrote them wanted them so, except in a graph's `first` file, as far as they share more than the
-/// root with its folder. Those of nothing stay.
-fn moved(path: &str, from: &Path, to: &Path, is_first: bool) -> String {
-    let written = path.replace('\\', "/");
-    let has_drive = written.as_bytes().get(1) == Some(&b':');
-    let is_absolute = written.starts_with('/') || has_drive;
-    if path.trim().is_empty() || is_absolute && !is_first {
-        return path.to_owned();
-    }
-    let target = plain(&from.join(&written));
-    let [there, here] = [target.components(), to.components()].map(Iterator::collect::<Vec<_>>);
-    let shared = there.iter().zip(&here).take_while(|(one, other)| one == other).count();
-    let is_near = there[..shared].iter().any(|part| matches!(part, Component::Normal(_)));
-    if is_absolute && !is_near {
-        return path.to_owned();
-    }
-    if shared == 0 {
-        return slashed(&target);
-    }
-    let up = std::iter::repeat_n(Component::ParentDir, here.len() - shared);
-    slashed(&up.chain(there[shared..].iter().copied()).collect::<PathBuf>())
-}
-
-/// As files have it on every system.
-fn slashed(path: &Path) -> String {
-    path.to_string_lossy().replace('\\', "/")
+/// Returns a rewritten path; one that would contain a name that is not Unicode cannot be written, so it stays, and its node
+/// reports the missing file.
+fn or_as_written(rewritten: Result<String, NotText>, written: &str) -> String {
+    rewritten.unwrap_or_else(|_| written.to_owned())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_path_leads_where_it_led_from_another_folder() {
-        for (path, from, to, written) in [
-            ("a.png", "/w/here", "/w/there", "../here/a.png"),
-            ("a.png", "/w", "/w/there", "../a.png"),
-            ("there/a.png", "/w", "/w/there", "a.png"),
-            ("../a.png", "/w/here", "/w", "a.png"),
-            ("./b/../a.png", "/w", "/w/x/y", "../../a.png"),
-            ("b\\a.png", "/w", "/w/x", "../b/a.png"),
-            ("../../../a.png", "/w", "/v", "../a.png"),
-            ("/x/a.png", "/w", "/v", "/x/a.png"),
-            ("C:\\x\\a.png", "/w", "/v", "C:\\x\\a.png"),
-            ("", "/w", "/v", ""),
-        ] {
-            assert_eq!(
-                moved(path, Path::new(from), Path::new(to), false),
-                written,
-                "{path} from {from} to {to}"
-            );
-        }
-    }
-
-    #[test]
-    fn the_first_file_of_a_graph_names_what_is_near_by_the_way_there() {
-        for (path, to, written) in [
-            ("/w/assets/a.png", "/w/graphs", "../assets/a.png"),
-            ("/w/a.png", "/w", "a.png"),
-            ("/x/a.png", "/w", "/x/a.png"),
-            ("b/a.png", "/w", "../here/b/a.png"),
-            ("", "/w", ""),
-        ] {
-            assert_eq!(
-                moved(path, Path::new("/here"), Path::new(to), true),
-                written,
-                "{path} in {to}"
-            );
-        }
-    }
 
     #[test]
     fn only_the_picture_of_an_image_is_a_file() {

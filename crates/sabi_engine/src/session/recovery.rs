@@ -1,17 +1,16 @@
 //! What is kept of a graph between saves, for the case that the program ends without asking.
 
-use std::fs::{self, File, TryLockError};
-use std::io;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use sabi_files::{FileError, FileLock, LockError, absolute, is_locked, path_from_stored, stored_path, write_unsynced};
 use serde_json::{Value as Json, json};
 
 use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
 use crate::remedy::Remedy;
-use crate::session::whole_file::{rooted, write_whole};
 
 /// Tells two sessions of one process apart.
 static SESSIONS: AtomicU64 = AtomicU64::new(0);
@@ -30,7 +29,7 @@ pub struct Recovery {
     kept: Option<UnsavedWork>,
     /// Why what was kept cannot be read.
     fault: Option<EngineError>,
-    lock: Option<File>,
+    lock: Option<FileLock>,
 }
 
 /// What is not saved.
@@ -53,7 +52,7 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
             let path = entry.ok()?.path();
             let is_kept = path.extension().is_some_and(|ending| ending == ENDING);
             let when = fs::metadata(&path).and_then(|metadata| metadata.modified()).ok()?;
-            (is_kept && !is_in_use(&path)).then_some((when, path))
+            (is_kept && !is_locked(&lock_of(&path))).then_some((when, path))
         })
         .collect();
     found.sort();
@@ -79,12 +78,6 @@ fn lock_of(path: &Path) -> PathBuf {
     path.with_extension("lock")
 }
 
-/// Whether a session that lives keeps a file.
-fn is_in_use(path: &Path) -> bool {
-    let lock = File::open(lock_of(path));
-    lock.is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
-}
-
 impl Recovery {
     /// A file of its own for a session in a folder, which is made when there is something to keep.
     pub(super) fn new(folder: &Path, file: Option<&Path>) -> Recovery {
@@ -95,7 +88,7 @@ impl Recovery {
         let name = format!("{}-{}-{number}.{ENDING}", std::process::id(), now.as_millis());
         Recovery {
             path: folder.join(name),
-            file: file.map(rooted),
+            file: file.map(absolute),
             kept: None,
             fault: None,
             lock: None,
@@ -124,7 +117,7 @@ impl Recovery {
 
     /// Says where the graph is saved from now on.
     pub(super) fn name(&mut self, file: Option<&Path>) {
-        self.file = file.map(rooted);
+        self.file = file.map(absolute);
     }
 
     /// Whether the graph itself is kept, and not only node files.
@@ -154,7 +147,13 @@ impl Recovery {
             graph,
             drafts: drafts.ok_or_else(|| damaged("a node in it has no text".to_owned()))?,
         };
-        Ok((kept_here, kept["file"].as_str().map(PathBuf::from)))
+        let file = match &kept["file"] {
+            Json::String(stored) => {
+                Some(path_from_stored(stored).ok_or_else(|| damaged("its path is damaged".to_owned()))?)
+            }
+            _ => None,
+        };
+        Ok((kept_here, file))
     }
 
     /// Keeps a graph's text and node files that are being written, unless they are those that were kept last; no
@@ -164,18 +163,18 @@ impl Recovery {
         if self.kept.as_ref().is_some_and(is_known) {
             return Ok(false);
         }
-        let file = self.file.as_ref().map(|file| file.to_string_lossy());
+        let file = self.file.as_deref().map(stored_path);
         let written: Vec<Json> = drafts.iter().map(NodeDraft::to_json).collect();
         let bytes = json!({ "file": file, "graph": graph, "drafts": written }).to_string();
         let folder = self.path.parent().unwrap_or(Path::new("."));
-        let refused = |error: io::Error| {
-            let why = format!("{} cannot be written: {error}", folder.display());
+        let refused = |error: FileError| {
+            let why = format!("{} cannot be written: {}", folder.display(), error.reason());
             let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
             refused.with_remedies([Remedy::FreeSpace])
         };
-        // Whole or not at all for whoever reads it after a crash of the program. The disk is not waited for, since a window is
-        // at work meanwhile.
-        write_whole(&self.path, bytes.as_bytes()).map_err(refused)?;
+        // Complete after a crash of the program. Waiting for the disk would stop the window, which calls this every few
+        // seconds.
+        write_unsynced(&self.path, bytes.as_bytes()).map_err(refused)?;
         self.take();
         self.kept = Some(UnsavedWork {
             graph: graph.map(str::to_owned),
@@ -190,27 +189,22 @@ impl Recovery {
             // One that is gone already is what is wanted.
             let _ = fs::remove_file(&self.path);
         }
-        if self.lock.take().is_some() {
-            let _ = fs::remove_file(lock_of(&self.path));
+        if let Some(lock) = self.lock.take() {
+            lock.remove();
         }
     }
 
-    /// Says to others that it is in use; says whether that was free to say.
+    /// Marks the file as in use; returns whether no other session has marked it.
     pub(super) fn take(&mut self) -> bool {
         if self.lock.is_some() {
             return true;
         }
-        let Ok(lock) = File::create(lock_of(&self.path)) else {
-            // Without a place to say so nobody is kept out.
-            return true;
-        };
-        match lock.try_lock() {
-            Err(TryLockError::WouldBlock) => false,
-            // Some shares have no locks.
-            Ok(()) | Err(TryLockError::Error(_)) => {
-                self.lock = Some(lock);
-                true
-            }
+        match FileLock::acquire(&lock_of(&self.path)) {
+            Ok(lock) => self.lock = Some(lock),
+            Err(LockError::InUse { .. }) => return false,
+            // Some network shares have no locks; work on them is still recovered, only not told apart from work in use.
+            Err(LockError::Unavailable(_)) => {}
         }
+        true
     }
 }

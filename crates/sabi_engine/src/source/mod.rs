@@ -15,9 +15,9 @@ mod texture_set;
 mod vertex_color;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
+use sabi_files::PathBase;
 use sabi_gpu::{RayScene, SourceFill};
 use sabi_graph::FlatGraph;
 use sabi_nodes::link::Plane;
@@ -65,11 +65,11 @@ fn by_id(kinds: impl IntoIterator<Item = SourceKind>) -> SourceKinds {
 }
 
 /// Access to the files that nodes name.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) struct Files<'a> {
     pub(crate) pictures: &'a Pictures,
-    /// Folder of the graph file.
-    pub(crate) folder: &'a Path,
+    /// Base of paths in the graph.
+    pub(crate) base: PathBase,
     pub(crate) graph: &'a FlatGraph,
 }
 
@@ -100,7 +100,7 @@ impl Files<'_> {
     /// Opens the picture of a `source/image`.
     fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
         let written = step.values.text("file");
-        let path = path_of(self.folder, &self.graph.nodes[step.node], written);
+        let path = path_of(&self.base, &self.graph.nodes[step.node], written);
         let opened = self.pictures.open(&path, written);
         opened.map_err(|(why, _)| format!("node '{}' ({}): {why}", step.id, step.kind))
     }

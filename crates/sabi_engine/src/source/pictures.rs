@@ -6,11 +6,11 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::SystemTime;
 use std::{fmt, fs};
 
+use sabi_files::{PathBase, Unread, read_plain};
 use sabi_graph::{FlatGraph, FlatNode, Value};
 use sabi_image::{Picture, Pixels};
 use sabi_nodes::kind::Role;
 use sabi_plan::{FileContents, FileFault};
-use sabi_surface::load::{Unread, read_plain};
 
 use super::SourceKinds;
 use super::mip_chain::MipChain;
@@ -119,7 +119,7 @@ impl Pictures {
     /// What is in the files that these nodes name; muted nodes name none.
     pub(crate) fn contents(
         &self,
-        folder: &Path,
+        base: &PathBase,
         graph: &FlatGraph,
         sources: &SourceKinds,
         nodes: impl IntoIterator<Item = usize>,
@@ -127,7 +127,7 @@ impl Pictures {
         let named = nodes.into_iter().filter_map(|index| {
             let node = graph.nodes.get(index).filter(|node| !node.muted)?;
             let (param, path) = named_file(node, sources)?;
-            let content = self.content(&path_of(folder, node, path), path);
+            let content = self.content(&path_of(base, node, path), path);
             let content = content.map_err(|(why, is_missing)| FileFault {
                 param: param.to_owned(),
                 why,
@@ -193,20 +193,20 @@ impl Pictures {
 }
 
 /// The files that the nodes of a graph name.
-pub(crate) fn files(folder: &Path, graph: &FlatGraph, sources: &SourceKinds) -> Vec<PathBuf> {
+pub(crate) fn files(base: &PathBase, graph: &FlatGraph, sources: &SourceKinds) -> Vec<PathBuf> {
     let named = graph.nodes.iter().filter_map(|node| {
         let (_, path) = named_file(node, sources)?;
-        (!path.is_empty()).then(|| path_of(folder, node, path))
+        (!path.is_empty()).then(|| path_of(base, node, path))
     });
     named.collect()
 }
 
-/// Where a path in a node leads: it starts at the folder of the file that the node was written in. `folder` is the
+/// Returns the file that a path in a node leads to; the path starts from the file that defines the node. `base` is the
 /// graph's.
-pub(crate) fn path_of(folder: &Path, node: &FlatNode, path: &str) -> PathBuf {
+pub(crate) fn path_of(base: &PathBase, node: &FlatNode, path: &str) -> PathBuf {
     match &node.file {
-        Some(group) => folder.join(group).with_file_name("").join(path),
-        None => folder.join(path),
+        Some(group) => base.base_of(group).resolve(path),
+        None => base.resolve(path),
     }
 }
 

@@ -1,47 +1,48 @@
 //! Disk cache of ray results: rays take long to trace, and models seldom change.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use sabi_surface::disk::{self, Kind};
+use sabi_files::{Cache, CacheKind};
 
-/// The version in the magic rises whenever rays are generated or traced differently: keys name nodes, kernels and adapters, but
-/// not the code between them. A result takes four bytes per texel or more.
-const KIND: Kind = Kind {
-    magic: b"sabi rays 2\n",
+/// Stored results of rays, four bytes a texel and more. The version changes whenever rays start or are traced differently:
+/// keys contain nodes, kernels and adapters, but not the code between them.
+const KIND: CacheKind = CacheKind {
     prefix: "rays",
+    version: 2,
     limit_bytes: 2 << 30,
 };
 
-/// Disk cache of ray results.
+/// Cache of ray results.
 pub(crate) struct RayCache {
-    folder: Option<PathBuf>,
+    cache: Option<Cache>,
 }
 
 impl RayCache {
-    /// Creates the cache in a cache folder; without one nothing is cached.
+    /// Creates the cache in a cache folder; nothing is stored without one.
     pub(crate) fn new(cache_dir: Option<&Path>) -> RayCache {
         RayCache {
-            folder: cache_dir.map(|folder| folder.join("rays")),
+            cache: cache_dir.map(|folder| Cache::new(folder.join("rays"), KIND)),
         }
     }
 
     pub(crate) fn is_open(&self) -> bool {
-        self.folder.is_some()
+        self.cache.is_some()
     }
 
-    /// Reads the result of a key, if it is cached and intact.
+    /// Returns the results stored under a key.
     pub(crate) fn find(&self, key: &[u8; 32]) -> Option<Vec<u8>> {
-        disk::read(self.folder.as_ref()?, &KIND, key)
+        self.cache.as_ref()?.read(key)
     }
 
-    /// Caches results; returns a warning where that fails.
+    /// Stores results; returns a warning where that fails.
     pub(crate) fn keep(&self, key: &[u8; 32], results: &[u8]) -> Option<String> {
-        let folder = self.folder.as_ref()?;
-        let error = disk::keep(folder, &KIND, key, results).err()?;
+        let cache = self.cache.as_ref()?;
+        let error = cache.write(key, results).err()?;
         Some(format!(
-            "what rays found could not be kept in {} ({error}), so they will be shot again; free some space there or \
+            "what rays found could not be kept in {} ({}), so they will be shot again; free some space there or \
              choose another cache folder",
-            folder.display()
+            cache.folder().display(),
+            error.reason()
         ))
     }
 }

@@ -134,7 +134,7 @@ fn copied(name: &str, files: &[(&str, &[u8])], maps: &[(u32, MaterialMaps)]) -> 
     let model = load(&path, &LoadOptions::default()).unwrap();
     let baked = maps.iter().map(|(material, _)| *material).collect();
     let copy = ModelCopy::open(&path, &model, 0, &baked).unwrap();
-    copy.finish(maps.iter().cloned().collect(), &BTreeSet::new()).unwrap()
+    copy.finish(maps.iter().cloned().collect(), &|_| false).unwrap()
 }
 
 /// A file's document and the bytes of a buffer view.

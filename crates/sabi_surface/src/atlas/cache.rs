@@ -2,24 +2,24 @@
 
 use std::path::Path;
 
+use sabi_files::{Cache, CacheKind};
+
 use super::codec::{decode, encode};
 use super::{Atlas, AtlasError, AtlasOptions};
-use crate::disk::{self, Kind};
 use crate::model::Mesh;
 
-/// Rises whenever building or the bytes change.
-const FORMAT_VERSION: u32 = 3;
-const KIND: Kind = Kind {
-    magic: b"sabi atlas\r\n",
+/// Stored atlases; the version changes whenever building or encoding does.
+const KIND: CacheKind = CacheKind {
     prefix: "atlas",
-    limit_bytes: 4 << 30,
+    version: 3,
+    limit_bytes: 3 << 30,
 };
 
 /// A name for the atlas of a mesh: a hash of everything that can change it.
 pub fn atlas_key(mesh: &Mesh, options: &AtlasOptions) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new_derive_key("sabi linked atlas");
     for number in [
-        FORMAT_VERSION,
+        KIND.version,
         options.size,
         options.page_limit,
         u32::from(mesh.is_one_sheet),
@@ -46,16 +46,18 @@ pub fn cached(cache_dir: Option<&Path>, mesh: &Mesh, options: &AtlasOptions) -> 
     let Some(folder) = cache_dir else {
         return Ok((Atlas::build(mesh, options)?, false));
     };
+    let cache = Cache::new(folder, KIND);
     let key = atlas_key(mesh, options);
-    if let Some(atlas) = disk::read(folder, &KIND, &key).and_then(|payload| decode(&payload)) {
+    if let Some(atlas) = cache.read(&key).and_then(|payload| decode(&payload)) {
         return Ok((atlas, true));
     }
     let mut atlas = Atlas::build(mesh, options)?;
-    if let Err(error) = disk::keep(folder, &KIND, &key, &encode(&atlas)) {
+    if let Err(error) = cache.write(&key, &encode(&atlas)) {
         atlas.report.warnings.push(format!(
-            "the atlas could not be kept in {} ({error}), so the next start takes a little longer; free some space \
+            "the atlas could not be kept in {} ({}), so the next start takes a little longer; free some space \
              there or choose another cache folder",
-            folder.display()
+            folder.display(),
+            error.reason()
         ));
     }
     Ok((atlas, false))

@@ -2,22 +2,22 @@
 
 use std::path::Path;
 
+use sabi_files::{Cache, CacheKind};
+
 use super::{Sheet, UnwrapReport};
-use crate::disk::{self, Kind};
 use crate::model::Mesh;
 
-/// Rises whenever unwrapping or the bytes change.
-const FORMAT_VERSION: u32 = 2;
-const KIND: Kind = Kind {
-    magic: b"sabi sheet\r\n",
+/// Stored sheets; the version changes whenever unwrapping or encoding does.
+const KIND: CacheKind = CacheKind {
     prefix: "sheet",
-    limit_bytes: 4 << 30,
+    version: 2,
+    limit_bytes: 1 << 30,
 };
 
 /// A name for a sheet: a hash of everything that can change it.
 pub(super) fn key(mesh: &Mesh) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new_derive_key("sabi unwrapped sheet");
-    hasher.update(&FORMAT_VERSION.to_le_bytes());
+    hasher.update(&KIND.version.to_le_bytes());
     let mut list = |bytes: &[u8]| {
         hasher.update(&(bytes.len() as u64).to_le_bytes());
         hasher.update(bytes);
@@ -32,16 +32,17 @@ pub(super) fn key(mesh: &Mesh) -> [u8; 32] {
 
 /// The sheet of a mesh with so many triangles, where it is there and whole.
 pub(super) fn read(folder: &Path, key: &[u8; 32], triangles: usize) -> Option<Sheet> {
-    decode(&disk::read(folder, &KIND, key)?, triangles)
+    decode(&Cache::new(folder, KIND).read(key)?, triangles)
 }
 
 /// Keeps a sheet; a sentence when that cannot be done.
 pub(super) fn write(folder: &Path, key: &[u8; 32], sheet: &Sheet) -> Option<String> {
-    let error = disk::keep(folder, &KIND, key, &encode(sheet)).err()?;
+    let error = Cache::new(folder, KIND).write(key, &encode(sheet)).err()?;
     Some(format!(
-        "the unwrapped UVs could not be kept in {} ({error}), so the next start takes longer; free some space there or \
+        "the unwrapped UVs could not be kept in {} ({}), so the next start takes longer; free some space there or \
          choose another cache folder",
-        folder.display()
+        folder.display(),
+        error.reason()
     ))
 }
 

@@ -47,7 +47,7 @@ impl Worker {
                 return None;
             }
         };
-        files.extend(pictures::files(request.graph.folder(), &graph, &request.kinds.sources));
+        files.extend(pictures::files(&request.graph.base(), &graph, &request.kinds.sources));
         self.send_files(job, files);
         let mut other = clashes(&graph);
         let mut targets = BTreeMap::new();

@@ -63,7 +63,7 @@ fn only_files_in_the_folder_of_the_model_come_along() {
     fs::write(&path, document.to_string()).unwrap();
     let model = load(&path, &LoadOptions::default()).unwrap();
     let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new()).unwrap();
-    let finished = copy.finish(BTreeMap::new(), &BTreeSet::new()).unwrap();
+    let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
     let is: Json = serde_json::from_slice(&finished.copy.bytes).unwrap();
     for (at, uri) in uris.iter().enumerate() {
         assert_eq!(is["images"][first + at]["uri"], *uri);

@@ -4,7 +4,6 @@ use std::fs;
 
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasOptions, atlas_key, cached};
-use crate::disk::make_room;
 
 #[test]
 fn an_atlas_comes_back_from_disk_as_it_was() {
@@ -48,7 +47,7 @@ fn a_damaged_file_is_replaced() {
         &[],
         &flipped,
         &longer,
-        b"sabi atlas\r\n",
+        b"sabi cache\r\n",
     ] {
         fs::write(&file, damaged).unwrap();
         let (again, from_disk) = cached(Some(folder.path()), &mesh, &options).unwrap();
@@ -120,28 +119,4 @@ fn the_key_changes_with_everything_that_changes_the_atlas() {
         change(&mut other);
         assert_ne!(key, atlas_key(&other, &options));
     }
-}
-
-#[test]
-fn a_full_cache_drops_its_oldest_atlases_and_never_the_newest() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str| folder.path().join(name);
-    let start = std::time::SystemTime::UNIX_EPOCH;
-    for (age, name) in ["atlas-a.bin", "atlas-b.bin", "atlas-c.bin", "other.bin"]
-        .iter()
-        .enumerate()
-    {
-        let out = fs::File::create(file(name)).unwrap();
-        out.set_len(100).unwrap();
-        out.set_modified(start + std::time::Duration::from_secs(age as u64))
-            .unwrap();
-    }
-    make_room(folder.path(), &file("atlas-a.bin"), 200).unwrap();
-    let left = |name: &str| file(name).is_file();
-    assert_eq!(
-        ["atlas-a.bin", "atlas-b.bin", "atlas-c.bin", "other.bin"].map(left),
-        [true, false, true, true]
-    );
-    make_room(folder.path(), &file("atlas-a.bin"), 0).unwrap();
-    assert!(left("atlas-a.bin") && !left("atlas-c.bin") && left("other.bin"));
 }

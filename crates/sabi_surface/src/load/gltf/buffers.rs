@@ -4,10 +4,11 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use sabi_files::Uri;
+
 use super::Resolve;
 use super::document::Document;
 use crate::load::error::{Fault, damaged};
-use crate::load::uri::Uri;
 use crate::load::warnings::Warnings;
 
 /// All buffers of a file. One that is missing is a fault only once something reads it.
@@ -161,7 +162,7 @@ fn fetch<'a>(
     };
     match Uri::parse(uri) {
         Uri::Data(bytes) => Ok(Bytes::Whole(Cow::Owned(bytes))),
-        Uri::Unusable(reason) if reason.starts_with("its data URI") => damaged(format!("buffers[{index}]: {reason}")),
+        Uri::Damaged(reason) => damaged(format!("buffers[{index}]: {reason}")),
         Uri::Unusable(reason) => Err(fault(reason)),
         Uri::Beside(path) => fetched
             .entry(path.to_string())

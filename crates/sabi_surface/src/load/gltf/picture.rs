@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use sabi_files::Uri;
+
 use super::Resolve;
 use super::primitive::Source;
-use crate::load::uri::Uri;
 use crate::model::ModelImage;
 
 /// Pictures that were read, so that a model that names one a thousand times takes its memory once.
@@ -41,7 +42,7 @@ impl Shelf {
                 let known = self.beside.entry(raw.to_string());
                 known.or_insert_with(|| read().map(Arc::from)).clone()
             }
-            (_, Some(Uri::Unusable(reason)), _) => Err(reason),
+            (_, Some(Uri::Damaged(reason) | Uri::Unusable(reason)), _) => Err(reason),
             (_, None, Some(view)) => self.in_view(source, view.value()),
             (_, None, None) => Err("the file does not say where it is".to_string()),
         };

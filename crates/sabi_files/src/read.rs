@@ -1,25 +1,28 @@
-//! Plain files read whole: a pipe or a device could go on for ever.
+//! Reading of ordinary files of limited size; a pipe or device may have no end.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Why a file was not read.
+/// Reason why a file was not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unread {
-    /// It is not there.
+    /// It does not exist.
     Missing,
     /// It is a folder.
     Folder,
-    /// It is a pipe, a device, or something else that may have no end.
+    /// It is a pipe, a device or a socket, which may have no end.
     NotPlain,
-    /// It has more bytes than asked for: as many, as far as that is known.
+    /// It exceeds the limit; its size in bytes, as far as it was read.
     TooLarge(u64),
-    /// The system's reason.
+    /// Reason of the system.
     Other(String),
 }
 
-/// The bytes of a plain file that has at most `limit` of them.
+/// Returns the bytes of an ordinary file of at most `limit` bytes.
+///
+/// # Errors
+/// See [`Unread`].
 pub fn read_plain(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
     let unread = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Unread::Missing,
@@ -35,7 +38,7 @@ pub fn read_plain(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
     if metadata.len() > limit {
         return Err(Unread::TooLarge(metadata.len()));
     }
-    // Some files tell no length, and others grow.
+    // Some files report no length, and others grow meanwhile.
     let mut bytes = Vec::new();
     let mut start = File::open(path).map_err(unread)?.take(limit.saturating_add(1));
     start.read_to_end(&mut bytes).map_err(unread)?;

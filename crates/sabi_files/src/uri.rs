@@ -1,21 +1,23 @@
-//! What a glTF `uri` holds: bytes of its own, or the path of a file beside the model.
+//! URI references in files (RFC 3986): data of their own, or the path of another file.
 
 use std::borrow::Cow;
 
-/// A `uri`, taken apart.
+/// URI reference of a file, by what it refers to.
 #[derive(Debug, PartialEq)]
-pub(super) enum Uri<'a> {
-    /// Bytes in the file itself.
+pub enum Uri<'a> {
+    /// Bytes that the URI contains.
     Data(Vec<u8>),
-    /// A path relative to the model, `%20` and its like decoded.
+    /// Path relative to the file, percent-decoded.
     Beside(Cow<'a, str>),
-    /// Something that is not fetched or not readable, as a reason.
+    /// Data that is damaged, as a reason.
+    Damaged(String),
+    /// Address that is not read, as a reason.
     Unusable(String),
 }
 
 impl<'a> Uri<'a> {
-    /// Takes a `uri` apart.
-    pub(super) fn parse(uri: &'a str) -> Uri<'a> {
+    /// Parses a URI reference.
+    pub fn parse(uri: &'a str) -> Uri<'a> {
         if let Some(rest) = uri
             .get(..5)
             .filter(|head| head.eq_ignore_ascii_case("data:"))
@@ -23,7 +25,7 @@ impl<'a> Uri<'a> {
         {
             return data(rest);
         }
-        let scheme = uri.split([':', '/', '\\', '?']).next().unwrap_or_default();
+        let scheme = uri.split_once([':', '/', '\\', '?']).map_or(uri, |(scheme, _)| scheme);
         // One letter is a drive, not a scheme.
         if scheme.len() > 1 && uri[scheme.len()..].starts_with(':') && scheme.bytes().all(is_scheme_byte) {
             return Uri::Unusable(format!("`{scheme}:` addresses are not fetched"));
@@ -41,7 +43,7 @@ fn is_scheme_byte(byte: u8) -> bool {
 
 fn data(rest: &str) -> Uri<'_> {
     let Some((head, body)) = rest.split_once(',') else {
-        return Uri::Unusable("its data URI has no comma before the data".into());
+        return Uri::Damaged("its data URI has no comma before the data".into());
     };
     let bytes = if head.to_ascii_lowercase().ends_with(";base64") {
         percent_decoded(body).and_then(|body| base64(&body))
@@ -50,7 +52,7 @@ fn data(rest: &str) -> Uri<'_> {
     };
     match bytes {
         Some(bytes) => Uri::Data(bytes),
-        None => Uri::Unusable("its data URI is not proper base64".into()),
+        None => Uri::Damaged("its data URI is not proper base64".into()),
     }
 }
 
@@ -108,6 +110,7 @@ mod tests {
     #[test]
     fn a_uri_is_taken_apart() {
         let beside = |path: &str| Uri::Beside(Cow::Owned(path.to_string()));
+        let damaged = |reason: &str| Uri::Damaged(reason.to_string());
         let unusable = |reason: &str| Uri::Unusable(reason.to_string());
         for (uri, expected) in [
             (
@@ -117,10 +120,10 @@ mod tests {
             ("data:;base64,AAECAw", Uri::Data(vec![0, 1, 2, 3])),
             ("DATA:;BASE64,-_8=", Uri::Data(vec![0xfb, 0xff])),
             ("data:,a%20b", Uri::Data(b"a b".to_vec())),
-            ("data:;base64,A", unusable("its data URI is not proper base64")),
-            ("data:;base64,A!==", unusable("its data URI is not proper base64")),
-            ("data:;base64,AAAA====", unusable("its data URI is not proper base64")),
-            ("data:base64", unusable("its data URI has no comma before the data")),
+            ("data:;base64,A", damaged("its data URI is not proper base64")),
+            ("data:;base64,A!==", damaged("its data URI is not proper base64")),
+            ("data:;base64,AAAA====", damaged("its data URI is not proper base64")),
+            ("data:base64", damaged("its data URI has no comma before the data")),
             ("Box%20With%20Spaces.bin", beside("Box With Spaces.bin")),
             ("100%.bin", beside("100%.bin")),
             ("a/b.bin", beside("a/b.bin")),

@@ -1,0 +1,195 @@
+//! Content cache: results that can be computed again, stored under a hash of everything they depend on.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::error::{FileError, Operation};
+use crate::whole::{Durability, WholeFile, create_folder};
+
+/// First bytes of every stored file.
+const MAGIC: &[u8; 12] = b"sabi cache\r\n";
+/// Hash of everything that a stored result depends on.
+pub type CacheKey = [u8; 32];
+
+/// Kind of stored result, defined by the crate that stores it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CacheKind {
+    /// Start of the file names, before a dash and the key. No two kinds of one folder share it.
+    pub prefix: &'static str,
+    /// Version of the stored bytes: results of other versions are not returned.
+    pub version: u32,
+    /// Size of all results of this kind in a folder, above which the oldest are removed.
+    pub limit_bytes: u64,
+}
+
+/// Stored results of one kind in one folder. Every file carries its kind's version, its key, its length and a hash, so that
+/// a damaged or incomplete one is never returned.
+#[derive(Clone, Debug)]
+pub struct Cache {
+    folder: PathBuf,
+    kind: CacheKind,
+}
+
+impl Cache {
+    /// Creates the cache of a kind in a folder, which is created by the first [`Cache::write`].
+    pub fn new(folder: impl Into<PathBuf>, kind: CacheKind) -> Cache {
+        Cache {
+            folder: folder.into(),
+            kind,
+        }
+    }
+
+    /// Folder of the files.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Returns the result stored under a key; `None` where it is missing, incomplete, damaged or of another version.
+    pub fn read(&self, key: &CacheKey) -> Option<Vec<u8>> {
+        let mut bytes = fs::read(self.file(key)).ok()?;
+        let rest = bytes.strip_prefix(MAGIC)?;
+        let rest = rest.strip_prefix(&self.kind.version.to_le_bytes())?.strip_prefix(key)?;
+        let (length, rest) = rest.split_first_chunk::<8>()?;
+        let (hash, payload) = rest.split_first_chunk::<32>()?;
+        let is_whole = u64::from_le_bytes(*length) == payload.len() as u64 && blake3::hash(payload) == *hash;
+        let start = bytes.len() - payload.len();
+        is_whole.then(|| bytes.split_off(start))
+    }
+
+    /// Stores a result under a key, then removes the oldest results of its kind while they exceed the limit. A power
+    /// failure may lose the result, which costs only its computation.
+    ///
+    /// # Errors
+    /// The folder cannot be created, written to or listed.
+    pub fn write(&self, key: &CacheKey, payload: &[u8]) -> Result<(), FileError> {
+        create_folder(&self.folder)?;
+        let file = self.file(key);
+        // Left by a process that was killed, it counts as a result and is removed like one.
+        let mut temporary_prefix = OsString::from(self.kind.prefix);
+        temporary_prefix.push("-");
+        let mut whole = WholeFile::create_named(&file, &temporary_prefix)?;
+        whole.write(MAGIC)?;
+        whole.write(&self.kind.version.to_le_bytes())?;
+        whole.write(key)?;
+        whole.write(&(payload.len() as u64).to_le_bytes())?;
+        whole.write(blake3::hash(payload).as_bytes())?;
+        whole.write(payload)?;
+        whole.place(Durability::Unsynced)?;
+        self.remove_oldest(&file)
+    }
+
+    fn file(&self, key: &CacheKey) -> PathBuf {
+        let key = blake3::Hash::from_bytes(*key).to_hex();
+        self.folder.join(format!("{}-{key}.bin", self.kind.prefix))
+    }
+
+    /// Removes the oldest results of this kind, never `newest`, until all together are within the limit.
+    fn remove_oldest(&self, newest: &Path) -> Result<(), FileError> {
+        let unlisted = |error| FileError::new(Operation::List, &self.folder, error);
+        let mut stored = Vec::new();
+        for entry in fs::read_dir(&self.folder).map_err(unlisted)? {
+            let path = entry.map_err(unlisted)?.path();
+            let name = path.file_name().and_then(|name| name.to_str());
+            let after_prefix = name.and_then(|name| name.strip_prefix(self.kind.prefix));
+            let is_of_kind = after_prefix.is_some_and(|rest| rest.starts_with('-'));
+            // Another process may have removed it since the listing.
+            if let (true, Ok(metadata)) = (is_of_kind, fs::metadata(&path)) {
+                let modified = metadata.modified().map_err(unlisted)?;
+                stored.push((modified, path, metadata.len()));
+            }
+        }
+        stored.sort();
+        let mut total: u64 = stored.iter().map(|(.., bytes)| bytes).sum();
+        for (_, path, bytes) in stored {
+            if total > self.kind.limit_bytes && path != newest && fs::remove_file(&path).is_ok() {
+                total -= bytes;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, SystemTime};
+
+    use super::*;
+
+    const KIND: CacheKind = CacheKind {
+        prefix: "kind",
+        version: 3,
+        limit_bytes: 1 << 20,
+    };
+    const KEY: CacheKey = [7; 32];
+
+    #[test]
+    fn a_result_comes_back_under_its_key_kind_and_version_only() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::new(folder.path().join("below"), KIND);
+        assert_eq!(cache.read(&KEY), None);
+        cache.write(&KEY, b"payload").unwrap();
+        assert_eq!(cache.read(&KEY).unwrap(), b"payload");
+        assert_eq!(cache.read(&[8; 32]), None);
+        let other = |kind| Cache::new(cache.folder(), kind).read(&KEY);
+        assert_eq!(other(CacheKind { prefix: "kin", ..KIND }), None);
+        assert_eq!(other(CacheKind { version: 4, ..KIND }), None);
+        cache.write(&KEY, b"").unwrap();
+        assert_eq!(cache.read(&KEY).unwrap(), b"");
+    }
+
+    #[test]
+    fn a_damaged_result_is_not_returned() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::new(folder.path(), KIND);
+        cache.write(&KEY, b"payload").unwrap();
+        let file = cache.file(&KEY);
+        let whole = fs::read(&file).unwrap();
+        for at in 0..whole.len() {
+            let mut flipped = whole.clone();
+            flipped[at] ^= 4;
+            for damaged in [&flipped, &whole[..at]] {
+                fs::write(&file, damaged).unwrap();
+                assert_eq!(cache.read(&KEY), None, "byte {at}");
+            }
+        }
+        fs::write(&file, [whole.as_slice(), b"0"].concat()).unwrap();
+        assert_eq!(cache.read(&KEY), None);
+        fs::write(&file, &whole).unwrap();
+        assert!(cache.read(&KEY).is_some());
+    }
+
+    #[test]
+    fn the_oldest_results_of_a_kind_make_room_and_other_files_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        let names = ["kind-a.bin", "kind-b.tmp", "kind-c.bin", "kinds-d.bin", "other.bin"];
+        for (age, name) in names.iter().enumerate() {
+            let out = fs::File::create(file(name)).unwrap();
+            out.set_len(100).unwrap();
+            let modified = SystemTime::UNIX_EPOCH + Duration::from_secs(age as u64);
+            out.set_modified(modified).unwrap();
+        }
+        let left = || names.map(|name| file(name).is_file());
+        let limited = |limit_bytes| Cache::new(folder.path(), CacheKind { limit_bytes, ..KIND });
+        limited(300).remove_oldest(&file("kind-a.bin")).unwrap();
+        assert_eq!(left(), [true; 5]);
+        limited(200).remove_oldest(&file("kind-a.bin")).unwrap();
+        assert_eq!(left(), [true, false, true, true, true]);
+        limited(0).remove_oldest(&file("kind-a.bin")).unwrap();
+        assert_eq!(left(), [true, false, false, true, true]);
+        // The result that was just stored stays, however large.
+        limited(0).write(&KEY, b"payload").unwrap();
+        assert!(limited(0).read(&KEY).is_some());
+        assert_eq!(left(), [false, false, false, true, true]);
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_written_to_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, b"in the way").unwrap();
+        let error = Cache::new(&file, KIND).write(&KEY, b"1").unwrap_err();
+        assert_eq!((error.operation, error.path), (Operation::CreateFolder, file));
+    }
+}

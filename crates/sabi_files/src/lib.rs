@@ -1,0 +1,42 @@
+//! Disk access on a user's behalf.
+//!
+//! [`write_whole`] replaces one file durably, [`StagedSet`] several files together, [`Cache`] stores results that can be
+//! computed again, [`FileLock`] marks a file as in use, [`PathBase`]
+//! resolves paths that files name. Paths are [`std::path::Path`] from end to end, so that a name that
+//! is not UTF-8 reaches exactly its file.
+//!
+//! Invariants: a target file holds its earlier bytes or all new ones at every moment; a temporary file is opened with
+//! `create_new` and never shared; no function looks at what the bytes mean.
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let folder = tempfile::tempdir()?;
+//! let file = folder.path().join("notes.txt");
+//! sabi_files::write_whole(&file, b"first")?;
+//! sabi_files::write_whole(&file, b"second")?;
+//! assert_eq!(std::fs::read(&file)?, b"second");
+//! # Ok(())
+//! # }
+//! ```
+
+mod cache;
+mod error;
+mod lock;
+mod named;
+mod paths;
+mod read;
+mod staged;
+pub mod stored;
+mod uri;
+mod whole;
+
+pub use cache::{Cache, CacheKey, CacheKind};
+pub use error::{FileError, Operation, io_reason};
+pub use lock::{FileLock, LockError, is_locked};
+pub use named::{AbsolutePaths, NotText, PathBase, without_detours};
+pub use paths::{absolute, behind_links, canonical, free_file};
+pub use read::{Unread, read_plain};
+pub use staged::{StagedError, StagedSet};
+pub use stored::{path_from_stored, stored_path};
+pub use uri::Uri;
+pub use whole::{WholeFile, write_unsynced, write_whole};

@@ -1,0 +1,96 @@
+//! Locks that tell other processes that a file is in use.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::error::{FileError, Operation};
+use crate::whole::{create_folder, folder_of};
+
+/// Lock on a file, held until it is dropped or the process ends in any way.
+#[derive(Debug)]
+pub struct FileLock {
+    /// Closing it unlocks it.
+    _file: File,
+    path: PathBuf,
+}
+
+/// Why a lock was not acquired.
+#[derive(Debug, Error)]
+pub enum LockError {
+    /// Another holder, in this process or another, has the lock.
+    #[error("{} is in use by another program", path.display())]
+    InUse {
+        /// File of the lock.
+        path: PathBuf,
+    },
+    /// The file cannot be created, or its file system has no locks.
+    #[error(transparent)]
+    Unavailable(#[from] FileError),
+}
+
+impl FileLock {
+    /// Locks a file without waiting; the file and its folder are created where they are missing.
+    ///
+    /// # Errors
+    /// The lock is held already, or the file system does not offer it.
+    pub fn acquire(path: &Path) -> Result<FileLock, LockError> {
+        let unavailable = |error| FileError::new(Operation::Lock, path, error);
+        create_folder(folder_of(path))?;
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
+        let file = file.map_err(unavailable)?;
+        match file.try_lock() {
+            Ok(()) => Ok(FileLock {
+                _file: file,
+                path: path.to_owned(),
+            }),
+            Err(TryLockError::WouldBlock) => Err(LockError::InUse { path: path.to_owned() }),
+            Err(TryLockError::Error(error)) => Err(unavailable(error).into()),
+        }
+    }
+
+    /// Unlocks the file and removes it.
+    pub fn remove(self) {
+        // A file that cannot be removed is not locked any more, which is all that others look at.
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// Returns whether a [`FileLock`] on a file is held, in this process or another.
+pub fn is_locked(path: &Path) -> bool {
+    File::open(path).is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lock_has_one_holder_until_it_is_dropped() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("below/file.lock");
+        assert!(!is_locked(&path));
+        let lock = FileLock::acquire(&path).unwrap();
+        assert!(is_locked(&path));
+        let error = FileLock::acquire(&path).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            format!("{} is in use by another program", path.display())
+        );
+        drop(lock);
+        assert!(!is_locked(&path));
+        let lock = FileLock::acquire(&path).unwrap();
+        lock.remove();
+        assert!(!path.exists());
+        FileLock::acquire(&path).unwrap();
+    }
+
+    #[test]
+    fn a_lock_that_cannot_be_created_is_unavailable() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = FileLock::acquire(folder.path()).unwrap_err();
+        assert!(matches!(error, LockError::Unavailable(_)), "{error}");
+        assert!(!is_locked(folder.path()));
+    }
+}

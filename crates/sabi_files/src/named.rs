@@ -1,0 +1,168 @@
+//! Paths that files name: where they lead, and how they are written.
+//!
+//! In a file both `/` and `\` separate folders, whatever system wrote it. Relative paths start from the folder of the file
+//! that names them.
+
+use std::path::{Component, Path, PathBuf};
+
+use thiserror::Error;
+
+/// Folder from which the relative paths in a file start.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PathBase {
+    folder: PathBuf,
+}
+
+/// Path that a text file cannot name.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{} cannot be named in a file, because its name is not Unicode text; rename it", path.display())]
+pub struct NotText {
+    /// The path.
+    pub path: PathBuf,
+}
+
+/// Treatment of absolute paths when the file that names them gets another folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AbsolutePaths {
+    /// They stay absolute.
+    Keep,
+    /// Those that share more than the root with the new folder become relative.
+    Shorten,
+}
+
+impl PathBase {
+    /// Creates the base of files in a folder.
+    pub fn of_folder(folder: impl Into<PathBuf>) -> PathBase {
+        PathBase { folder: folder.into() }
+    }
+
+    /// Creates the base of one file: the folder it is in.
+    pub fn of_file(file: &Path) -> PathBase {
+        // A path without a folder is relative to the current one, as its base is.
+        PathBase::of_folder(file.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Folder of the base.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Returns the file that a path leads to. A backslash is part of a name only where such a file exists.
+    pub fn resolve(&self, written: &str) -> PathBuf {
+        let literal = self.folder.join(written);
+        if !written.contains('\\') || literal.exists() {
+            return literal;
+        }
+        self.folder.join(slashed(written))
+    }
+
+    /// Returns the base of a file that this base's file names.
+    pub fn base_of(&self, written: &str) -> PathBase {
+        PathBase::of_file(&self.resolve(written))
+    }
+
+    /// Returns the places of a file that a model names, the likeliest first: as written, with `/` between folders, and by
+    /// its bare name in the model's folder, because models carry the paths of the computer they were made on.
+    pub fn places(&self, written: &str) -> [PathBuf; 3] {
+        let slashed = slashed(written);
+        let bare = slashed.rsplit('/').next().unwrap_or(&slashed);
+        [written, &slashed, bare].map(|place| self.folder.join(place))
+    }
+
+    /// Writes an existing or future file's path for a file of this base: relative where both share more than the root.
+    /// Both paths are absolute.
+    ///
+    /// # Errors
+    /// A part of the path is not Unicode.
+    pub fn write(&self, target: &Path) -> Result<String, NotText> {
+        let [there, here] = [target, &self.folder].map(|path| path.components().collect::<Vec<_>>());
+        let shared = shared(&there, &here);
+        if !is_near(&there[..shared]) {
+            return text_of(target);
+        }
+        text_of(&stepped(&there, &here, shared))
+    }
+
+    /// Rewrites a path that stands in a file of the base `from` for the same file in this base. It stays as it is when it
+    /// is empty, or absolute and to be kept so.
+    ///
+    /// # Errors
+    /// A part of the path is not Unicode.
+    pub fn rewrite(&self, written: &str, from: &PathBase, absolute: AbsolutePaths) -> Result<String, NotText> {
+        let slashed = slashed(written);
+        let has_drive = slashed.as_bytes().get(1) == Some(&b':');
+        let is_absolute = slashed.starts_with('/') || has_drive;
+        if written.trim().is_empty() || is_absolute && absolute == AbsolutePaths::Keep {
+            return Ok(written.to_owned());
+        }
+        let target = without_detours(&from.folder.join(&slashed));
+        let [there, here] = [&target, &self.folder].map(|path| path.components().collect::<Vec<_>>());
+        let shared = shared(&there, &here);
+        if is_absolute && !is_near(&there[..shared]) {
+            return Ok(written.to_owned());
+        }
+        if shared == 0 {
+            // On another drive, or in another relative folder.
+            return text_of(&target);
+        }
+        text_of(&stepped(&there, &here, shared))
+    }
+
+    /// Rewrites a path that stands in a file of this base as an absolute one, which is valid everywhere; an empty one stays.
+    /// The base's folder is absolute.
+    ///
+    /// # Errors
+    /// A part of the path is not Unicode.
+    pub fn rewrite_absolute(&self, written: &str) -> Result<String, NotText> {
+        if written.trim().is_empty() {
+            return Ok(written.to_owned());
+        }
+        text_of(&without_detours(&self.folder.join(slashed(written))))
+    }
+}
+
+/// Removes `.` and resolves `..` as far as the text of a path allows, without looking at links.
+pub fn without_detours(path: &Path) -> PathBuf {
+    let mut direct = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(direct.components().next_back(), Some(Component::Normal(_))) => {
+                direct.pop();
+            }
+            // Nothing is above the root.
+            Component::ParentDir if direct.has_root() => {}
+            part => direct.push(part),
+        }
+    }
+    direct
+}
+
+fn slashed(written: &str) -> String {
+    written.replace('\\', "/")
+}
+
+/// Number of leading components that two paths share.
+fn shared(one: &[Component<'_>], other: &[Component<'_>]) -> usize {
+    one.iter().zip(other).take_while(|(one, other)| one == other).count()
+}
+
+/// Whether shared components are more than a root.
+fn is_near(shared: &[Component<'_>]) -> bool {
+    shared.iter().any(|part| matches!(part, Component::Normal(_)))
+}
+
+/// Path from one folder to a target, up to what they share and down again.
+fn stepped(there: &[Component<'_>], here: &[Component<'_>], shared: usize) -> PathBuf {
+    let up = std::iter::repeat_n(Component::ParentDir, here.len() - shared);
+    up.chain(there[shared..].iter().copied()).collect()
+}
+
+/// Text of a path with `/` between folders.
+fn text_of(path: &Path) -> Result<String, NotText> {
+    let text = path.to_str().ok_or_else(|| NotText { path: path.to_owned() })?;
+    Ok(if cfg!(windows) { slashed(text) } else { text.to_owned() })
+}
+
+#[cfg(test)]
+mod tests;

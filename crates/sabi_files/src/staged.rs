@@ -1,0 +1,251 @@
+//! Sets of files that take their places together.
+
+use std::collections::BTreeSet;
+use std::ffi::{OsStr, OsString};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::{fs, mem};
+
+use tempfile::{NamedTempFile, TempPath};
+use thiserror::Error;
+
+use crate::error::{FileError, Operation};
+use crate::whole::{WholeFile, create_folder, replace_error, sync_folder, temporary_names};
+
+/// Start of the temporary names under which replaced files wait until a commit has succeeded.
+const EARLIER_PREFIX: &str = ".sabi-earlier-";
+
+/// Files of one folder that are written under temporary names and take their places together in [`StagedSet::commit`].
+/// Dropping the set removes what it has written. A process that ends without destructors leaves hidden `.tmp` files, never
+/// a part of a file.
+#[derive(Debug)]
+pub struct StagedSet {
+    folder: PathBuf,
+    /// Temporary and final files, in the order of staging.
+    files: Vec<(PathBuf, NamedTempFile)>,
+    /// Names in use, as file systems compare them that ignore case.
+    names: BTreeSet<OsString>,
+    /// Canonical paths of files that must not be replaced.
+    protected: BTreeSet<PathBuf>,
+    /// Folders that the set has created, outermost first; removed on drop where they stay empty.
+    created: Vec<PathBuf>,
+}
+
+/// Why a set of files could not be written.
+#[derive(Debug, Error)]
+pub enum StagedError {
+    /// A folder or temporary file could not be written; no target has changed.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The target is an input of the same work.
+    #[error("{} is read by the work that would replace it", path.display())]
+    Protected {
+        /// Target that was refused.
+        path: PathBuf,
+    },
+    /// The target is a device, pipe or socket.
+    #[error("{} is no ordinary file", path.display())]
+    NotAFile {
+        /// Target that was refused.
+        path: PathBuf,
+    },
+    /// Two files of the set have the same name.
+    #[error("two files would be written to {}", Path::new(file_name).display())]
+    SameName {
+        /// Name without folder.
+        file_name: OsString,
+    },
+    /// A complete file could not be renamed to its final name.
+    #[error("{error}; {replaced} of {total} files are new")]
+    Commit {
+        /// Rename that failed.
+        error: FileError,
+        /// Files that are new all the same, because the file system could not bring the earlier ones back. 0: every file
+        /// is as it was before.
+        replaced: usize,
+        /// Files of the set.
+        total: usize,
+    },
+}
+
+/// Earlier state of a target, to be brought back when a later file of the set fails.
+enum Earlier {
+    /// No file existed.
+    Missing,
+    /// Second name of the earlier file.
+    Linked(TempPath),
+    /// The file system has no second names for a file.
+    Unknown,
+}
+
+impl StagedSet {
+    /// Creates the folder where it is missing and checks that files can be written there, so that long work learns of a
+    /// refusal at its start.
+    ///
+    /// # Errors
+    /// The folder cannot be created or written to.
+    pub fn create(folder: &Path) -> Result<StagedSet, StagedError> {
+        // An empty path is the current folder.
+        let folder = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
+        let is_missing = |part: &&Path| !part.as_os_str().is_empty() && !part.exists();
+        let mut created: Vec<PathBuf> = folder.ancestors().take_while(is_missing).map(Path::to_owned).collect();
+        created.reverse();
+        let mut set = StagedSet {
+            folder: folder.to_owned(),
+            files: Vec::new(),
+            names: BTreeSet::new(),
+            protected: BTreeSet::new(),
+            created,
+        };
+        create_folder(folder)?;
+        set.stage("probe", b"probe")?;
+        set.files.clear();
+        set.names.clear();
+        Ok(set)
+    }
+
+    /// Folder of the files.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Returns whether a file of that name is staged, on a file system that ignores case.
+    pub fn contains(&self, file_name: impl AsRef<OsStr>) -> bool {
+        self.names.contains(&folded(file_name.as_ref()))
+    }
+
+    /// Refuses to replace these files from now on, because the work that writes the set reads them.
+    pub fn protect(&mut self, inputs: impl IntoIterator<Item = PathBuf>) {
+        // A missing file cannot be replaced.
+        let real = inputs.into_iter().filter_map(|path| path.canonicalize().ok());
+        self.protected.extend(real);
+    }
+
+    /// Checks that a file may be written under a plain name.
+    ///
+    /// # Errors
+    /// The name contains a folder, or the target is protected or no ordinary file.
+    pub fn check(&self, file_name: impl AsRef<OsStr>) -> Result<(), StagedError> {
+        let file_name = file_name.as_ref();
+        let target = self.folder.join(file_name);
+        if Path::new(file_name).file_name() != Some(file_name) {
+            let error = FileError::new(Operation::Write, &target, ErrorKind::InvalidFilename.into());
+            return Err(error.into());
+        }
+        if target.canonicalize().is_ok_and(|real| self.protected.contains(&real)) {
+            return Err(StagedError::Protected { path: target });
+        }
+        if fs::metadata(&target).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+            return Err(StagedError::NotAFile { path: target });
+        }
+        Ok(())
+    }
+
+    /// Writes a file completely under a temporary name. `file_name` contains no folder.
+    ///
+    /// # Errors
+    /// The name is refused (see [`StagedSet::check`]) or used twice, or the disk refuses the bytes.
+    pub fn stage(&mut self, file_name: impl AsRef<OsStr>, bytes: &[u8]) -> Result<(), StagedError> {
+        let file_name = file_name.as_ref();
+        self.check(file_name)?;
+        if !self.names.insert(folded(file_name)) {
+            let file_name = file_name.to_owned();
+            return Err(StagedError::SameName { file_name });
+        }
+        let mut file = WholeFile::create(&self.folder.join(file_name))?;
+        file.write(bytes)?;
+        file.sync()?;
+        self.files.push(file.into_parts());
+        Ok(())
+    }
+
+    /// Puts all files in place and returns their paths in the order of staging. When one cannot be put in place, those
+    /// before it get their earlier content back, as far as the file system can do that.
+    ///
+    /// # Errors
+    /// A file could not be put in place; [`StagedError::Commit`] tells how many are new all the same.
+    pub fn commit(self) -> Result<Vec<PathBuf>, StagedError> {
+        self.commit_with(|file, target| file.persist(target).map(drop).map_err(|refused| refused.error))
+    }
+
+    fn commit_with(
+        mut self,
+        mut place: impl FnMut(NamedTempFile, &Path) -> io::Result<()>,
+    ) -> Result<Vec<PathBuf>, StagedError> {
+        let total = self.files.len();
+        let refused = |target: &Path, error, replaced| StagedError::Commit {
+            error: FileError::new(Operation::Replace, target, error),
+            replaced,
+            total,
+        };
+        // A known failure is found before the first file is touched.
+        let is_folder = |target: &Path| fs::symlink_metadata(target).is_ok_and(|found| found.is_dir());
+        if let Some((target, _)) = self.files.iter().find(|(target, _)| is_folder(target)) {
+            return Err(refused(target, ErrorKind::IsADirectory.into(), 0));
+        }
+        let mut placed: Vec<(PathBuf, Earlier)> = Vec::with_capacity(total);
+        for (target, file) in mem::take(&mut self.files) {
+            let earlier = earlier(&self.folder, &target);
+            if let Err(error) = place(file, &target) {
+                let error = replace_error(&target, error);
+                let replaced = restore(placed);
+                if replaced > 0 {
+                    self.created.clear();
+                }
+                return Err(refused(&target, error, replaced));
+            }
+            placed.push((target, earlier));
+        }
+        self.created.clear();
+        sync_folder(&self.folder).map_err(|error| StagedError::Commit {
+            error,
+            replaced: total,
+            total,
+        })?;
+        Ok(placed.into_iter().map(|(target, _)| target).collect())
+    }
+}
+
+impl Drop for StagedSet {
+    fn drop(&mut self) {
+        // Temporary files first: a folder must be empty to be removed.
+        self.files.clear();
+        for folder in self.created.iter().rev() {
+            // Refused where another program has put something into it, as intended.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Gives an earlier file a second name, under which it outlives its replacement.
+fn earlier(folder: &Path, target: &Path) -> Earlier {
+    if fs::symlink_metadata(target).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
+        return Earlier::Missing;
+    }
+    let linked = temporary_names(OsStr::new(EARLIER_PREFIX)).make_in(folder, |name| fs::hard_link(target, name));
+    linked.map_or(Earlier::Unknown, |linked| Earlier::Linked(linked.into_temp_path()))
+}
+
+/// Brings earlier files back, the last one first; returns how many stay new.
+fn restore(placed: Vec<(PathBuf, Earlier)>) -> usize {
+    let restored = placed.into_iter().rev().map(|(target, earlier)| match earlier {
+        Earlier::Missing => fs::remove_file(&target).is_ok(),
+        Earlier::Linked(name) => name.persist(&target).is_ok(),
+        Earlier::Unknown => false,
+    });
+    restored.filter(|is_restored| !is_restored).count()
+}
+
+/// Lower-case form of a name; a name that is not Unicode has none and stays.
+fn folded(file_name: &OsStr) -> OsString {
+    file_name
+        .to_str()
+        .map_or_else(|| file_name.to_owned(), |name| name.to_lowercase().into())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,220 @@
+//! Tests of staged sets.
+
+use super::*;
+
+fn listing(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_file_that_is_read_is_never_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let texture = folder.path().join("bottle_normal.png");
+    fs::write(&texture, b"the artist's own").unwrap();
+    let mut set = StagedSet::create(folder.path()).unwrap();
+    set.protect([
+        folder.path().join(".").join("bottle_normal.png"),
+        folder.path().join("missing.png"),
+    ]);
+    let error = set.stage("bottle_normal.png", b"baked").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        format!("{} is read by the work that would replace it", texture.display())
+    );
+    set.stage("bottle_height.png", b"baked").unwrap();
+    set.commit().unwrap();
+    assert_eq!(fs::read(&texture).unwrap(), b"the artist's own");
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_not_replaced_by_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let socket = folder.path().join("map.png");
+    let _listening = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    let mut set = StagedSet::create(folder.path()).unwrap();
+    let error = set.stage("map.png", b"baked").unwrap_err();
+    assert!(error.to_string().ends_with("is no ordinary file"), "{error}");
+}
+
+#[test]
+fn nothing_shows_under_its_name_before_everything_is_complete() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = root.path().join("a/b");
+    let mut set = StagedSet::create(&folder).unwrap();
+    set.stage("one.png", b"1").unwrap();
+    set.stage("two.png", b"2").unwrap();
+    let names = listing(&folder);
+    assert_eq!(names.len(), 2);
+    assert!(
+        names.iter().all(|name| name.starts_with('.') && name.ends_with(".tmp")),
+        "{names:?}"
+    );
+    let placed = set.commit().unwrap();
+    assert_eq!(placed, [folder.join("one.png"), folder.join("two.png")]);
+    assert_eq!(listing(&folder), ["one.png", "two.png"]);
+}
+
+#[test]
+fn what_is_dropped_leaves_the_old_files_and_nothing_else() {
+    let root = tempfile::tempdir().unwrap();
+    fs::write(root.path().join("one.png"), b"old").unwrap();
+    let mut set = StagedSet::create(root.path()).unwrap();
+    set.stage("one.png", b"new").unwrap();
+    drop(set);
+    assert_eq!(listing(root.path()), ["one.png"]);
+    assert_eq!(fs::read(root.path().join("one.png")).unwrap(), b"old");
+    let folder = root.path().join("x/y");
+    drop(StagedSet::create(&folder).unwrap());
+    assert_eq!(listing(root.path()), ["one.png"], "folders made for it are gone");
+}
+
+#[test]
+fn a_folder_in_the_way_of_one_file_leaves_all_old_files() {
+    let root = tempfile::tempdir().unwrap();
+    fs::write(root.path().join("one.png"), b"old").unwrap();
+    fs::create_dir(root.path().join("two.png")).unwrap();
+    let mut set = StagedSet::create(root.path()).unwrap();
+    set.stage("one.png", b"new").unwrap();
+    set.stage("two.png", b"new").unwrap();
+    let error = set.commit().unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("two.png: a folder of that name is in the way; 0 of 2 files are new"),
+        "{error}"
+    );
+    assert_eq!(fs::read(root.path().join("one.png")).unwrap(), b"old");
+    assert_eq!(listing(root.path()), ["one.png", "two.png"]);
+}
+
+#[test]
+fn a_rename_that_fails_brings_back_the_files_before_it() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = root.path().join("new folder");
+    for has_earlier in [true, false] {
+        let mut set = StagedSet::create(&folder).unwrap();
+        if has_earlier {
+            fs::write(folder.join("one.png"), b"old").unwrap();
+        }
+        for name in ["one.png", "two.png", "three.png"] {
+            set.stage(name, b"new").unwrap();
+        }
+        let error = set
+            .commit_with(|file, target| match target.ends_with("three.png") {
+                true => Err(ErrorKind::PermissionDenied.into()),
+                false => file.persist(target).map(drop).map_err(|refused| refused.error),
+            })
+            .unwrap_err();
+        assert!(
+            matches!(
+                &error,
+                StagedError::Commit {
+                    replaced: 0,
+                    total: 3,
+                    ..
+                }
+            ),
+            "{error}"
+        );
+        if has_earlier {
+            assert_eq!(fs::read(folder.join("one.png")).unwrap(), b"old");
+            assert_eq!(listing(&folder), ["one.png"]);
+            fs::remove_dir_all(&folder).unwrap();
+        } else {
+            assert_eq!(listing(root.path()), [""; 0], "the folder was created for the set");
+        }
+    }
+}
+
+#[test]
+fn files_that_cannot_be_brought_back_are_counted() {
+    let root = tempfile::tempdir().unwrap();
+    let placed = ["one.png", "two.png", "three.png"].map(|name| {
+        let target = root.path().join(name);
+        fs::write(&target, b"new").unwrap();
+        (
+            target,
+            if name == "two.png" {
+                Earlier::Unknown
+            } else {
+                Earlier::Missing
+            },
+        )
+    });
+    assert_eq!(restore(placed.into()), 1);
+    assert_eq!(listing(root.path()), ["two.png"]);
+}
+
+#[test]
+fn a_commit_leaves_no_second_names_of_earlier_files() {
+    let root = tempfile::tempdir().unwrap();
+    for text in [b"first".as_slice(), b"second"] {
+        let mut set = StagedSet::create(root.path()).unwrap();
+        set.stage("one.png", text).unwrap();
+        set.stage("two.png", text).unwrap();
+        set.commit().unwrap();
+        assert_eq!(fs::read(root.path().join("two.png")).unwrap(), text);
+        assert_eq!(listing(root.path()), ["one.png", "two.png"]);
+    }
+}
+
+#[test]
+fn a_file_where_the_folder_should_be_is_a_sentence() {
+    let root = tempfile::tempdir().unwrap();
+    let file = root.path().join("file");
+    fs::write(&file, b"x").unwrap();
+    for folder in [file.clone(), file.join("below")] {
+        let error = StagedSet::create(&folder).unwrap_err();
+        assert!(error.to_string().starts_with("cannot create the folder "), "{error}");
+    }
+    assert_eq!(fs::read(&file).unwrap(), b"x");
+}
+
+#[test]
+fn a_name_is_used_once_and_stays_in_its_folder() {
+    let root = tempfile::tempdir().unwrap();
+    let mut set = StagedSet::create(root.path()).unwrap();
+    set.stage("a.png", b"1").unwrap();
+    assert!(set.contains("A.PNG") && !set.contains("b.png"));
+    assert!(matches!(set.stage("A.PNG", b"2"), Err(StagedError::SameName { .. })));
+    for name in ["../a.png", "b/c.png", "", "..", "/a"] {
+        assert!(matches!(set.stage(name, b"2"), Err(StagedError::File(_))), "{name}");
+    }
+}
+
+#[test]
+fn temporary_files_of_an_earlier_process_stay_untouched() {
+    let root = tempfile::tempdir().unwrap();
+    let mut killed = StagedSet::create(root.path()).unwrap();
+    killed.stage("a.png", b"half").unwrap();
+    let left = killed.files[0].1.path().to_owned();
+    mem::forget(killed);
+    let mut set = StagedSet::create(root.path()).unwrap();
+    set.stage("a.png", b"whole").unwrap();
+    set.commit().unwrap();
+    assert_eq!(fs::read(root.path().join("a.png")).unwrap(), b"whole");
+    assert_eq!(fs::read(left).unwrap(), b"half");
+}
+
+#[cfg(unix)]
+#[test]
+fn names_that_are_not_utf_8_are_told_apart() {
+    use std::os::unix::ffi::OsStrExt;
+    let root = tempfile::tempdir().unwrap();
+    let names = [b"a\xfe.png".as_slice(), b"a\xff.png"].map(OsStr::from_bytes);
+    let mut set = StagedSet::create(root.path()).unwrap();
+    for name in names {
+        set.stage(name, name.as_bytes()).unwrap();
+    }
+    assert!(matches!(set.stage(names[0], b"2"), Err(StagedError::SameName { .. })));
+    set.commit().unwrap();
+    for name in names {
+        assert_eq!(fs::read(root.path().join(name)).unwrap(), name.as_bytes());
+    }
+}
