@@ -1,9 +1,8 @@
 //! Nodes as text: a graph file of its own, so that it can be mailed, kept and read.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
-use sabi_engine::canonical;
+use sabi_engine::{canonical, path_from_stored, stored_path};
 use sabi_graph::{Body, Document, Edit, Node, NodeId, Value};
 
 use super::duplication::frames_around;
@@ -48,8 +47,7 @@ impl OpenDocument {
             copy.apply(Edit::AddFrame { body, id, frame }).ok()?;
         }
         if let Ok(folder) = canonical(self.session.graph().folder()) {
-            copy.extra
-                .insert(FROM.to_owned(), Value::Text(folder.display().to_string()));
+            copy.extra.insert(FROM.to_owned(), Value::Text(stored_path(&folder)));
         }
         Some(copy.to_json())
     }
@@ -57,7 +55,11 @@ impl OpenDocument {
     /// A copied document with paths that lead from here to where they led from there. Those of a folder that is not there, as on
     /// another machine, stay as they are.
     fn brought_here(&self, document: Document) -> Document {
-        let from = document.extra.get(FROM).and_then(Value::as_text).map(PathBuf::from);
+        let from = document
+            .extra
+            .get(FROM)
+            .and_then(Value::as_text)
+            .and_then(path_from_stored);
         match from.filter(|from| from.is_dir()) {
             Some(from) => self.moved_here(&document, &from),
             None => document,

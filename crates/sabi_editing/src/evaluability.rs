@@ -1,8 +1,7 @@
 //! Edits that would leave no graph to evaluate. What is wrong with a node is told at that node, and the rest goes on; what is
 //! wrong with an instance of a group takes the whole graph, and is refused instead.
 
-use std::path::Path;
-
+use sabi_engine::PathBase;
 use sabi_graph::{Document, Edit, GROUP_KIND, Overrides, flatten};
 
 use super::OpenDocument;
@@ -17,9 +16,9 @@ impl OpenDocument {
         let mut after = self.contents().clone();
         // One that is refused breaks nothing.
         after.apply(Edit::Batch(edits.to_vec())).ok()?;
-        let folder = self.session.graph().folder().to_owned();
-        let why = why_broken(&after, &folder, &mut self.group_files)?;
-        let is_broken_anyway = why_broken(self.session.document(), &folder, &mut self.group_files).is_some();
+        let base = self.session.graph().base();
+        let why = why_broken(&after, &base, &mut self.group_files)?;
+        let is_broken_anyway = why_broken(self.session.document(), &base, &mut self.group_files).is_some();
         (!is_broken_anyway).then_some(why)
     }
 
@@ -45,9 +44,9 @@ impl OpenDocument {
     }
 }
 
-fn why_broken(document: &Document, folder: &Path, files: &mut GroupFiles) -> Option<String> {
+fn why_broken(document: &Document, base: &PathBase, files: &mut GroupFiles) -> Option<String> {
     let mut read = |name: &str| {
-        let file = files.read(&folder.join(name));
+        let file = files.read(&base.resolve(name));
         file.ok_or_else(|| "it cannot be read; open it to see why".to_owned())
     };
     let flat = flatten(document, &Overrides::default(), &mut read);

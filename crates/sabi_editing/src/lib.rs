@@ -370,9 +370,9 @@ impl OpenDocument {
         if self.faces.0 == Some(now) {
             return;
         }
-        let folder = self.session.graph().folder().to_owned();
+        let base = self.session.graph().base();
         let files = &mut self.group_files;
-        let mut read = |name: &str| files.read(&folder.join(name));
+        let mut read = |name: &str| files.read(&base.resolve(name));
         let faces = Faces::new(&self.catalog, self.session.document(), &mut read);
         self.faces = (Some(now), faces);
         let depth = self.bodies().len() - 1;

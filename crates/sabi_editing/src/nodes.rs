@@ -1,7 +1,6 @@
 //! Nodes: adding, removing, copying, changing.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Entry, Faces, KnobRole};
@@ -102,11 +101,11 @@ impl OpenDocument {
         if !is_file(group) {
             return None;
         }
-        let path = self.session.graph().folder().join(group);
+        let base = self.session.graph().base();
         let files = &mut self.group_files;
-        let document = files.read(&path)?;
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let mut read = |name: &str| files.read(&folder.join(name));
+        let document = files.read(&base.resolve(group))?;
+        let base = base.base_of(group);
+        let mut read = |name: &str| files.read(&base.resolve(name));
         Faces::new(&self.catalog, &document, &mut read).of_whole().cloned()
     }
 

@@ -1,43 +1,35 @@
-//! Paths as the document names them: from its own folder on.
+//! Paths as the document names them: relative to its own folder.
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::canonical;
+use sabi_engine::{NotText, PathBase, canonical, path_text};
 
 use super::OpenDocument;
 
 impl OpenDocument {
-    /// Writes a path as the document names it: from its own folder on where that is possible.
-    pub fn relative(&self, path: &Path) -> String {
+    /// Writes a path as the document names it: relative to its own folder where that is possible, absolute while the
+    /// document has no file.
+    ///
+    /// # Errors
+    /// The path cannot be named in a file.
+    pub fn relative(&self, path: &Path) -> Result<String, NotText> {
         match self.session.file() {
             Some(_) => self.seen_from_own_folder(path),
-            None => absolute(path).display().to_string(),
+            None => path_text(&absolute(path)),
         }
     }
 
-    /// Writes a path from the document's folder on. A document without a file has the working directory as its folder.
-    pub fn seen_from_own_folder(&self, path: &Path) -> String {
+    /// Writes a path relative to the document's folder. A document without a file has the working directory as its folder.
+    ///
+    /// # Errors
+    /// The path cannot be named in a file.
+    pub fn seen_from_own_folder(&self, path: &Path) -> Result<String, NotText> {
         let folder = absolute(self.session.graph().folder());
-        let path = absolute(path);
-        let common = folder
-            .components()
-            .zip(path.components())
-            .take_while(|(one, other)| one == other)
-            .count();
-        // With nothing but the root in common, the absolute path is clearer.
-        if common <= 1 {
-            return path.display().to_string();
-        }
-        let up = folder.components().skip(common).map(|_| "..".to_owned());
-        let down = path
-            .components()
-            .skip(common)
-            .map(|part| part.as_os_str().to_string_lossy().into_owned());
-        up.chain(down).collect::<Vec<String>>().join("/")
+        PathBase::of_folder(folder).write(&absolute(path))
     }
 }
 
-/// The canonical path of a file that exists, and the path itself of one that does not.
+/// Returns the canonical path of a file that exists, and the path itself of one that does not.
 fn absolute(path: &Path) -> PathBuf {
     canonical(path).unwrap_or_else(|_| path.to_owned())
 }

@@ -96,8 +96,12 @@ impl Adding<'_> {
         let mut image = Node::new(IMAGE);
         let (input, _) = ports(map);
         image.label = Some(readable(input));
-        let path = self.document.relative(file);
-        image.params.insert("file".to_owned(), Value::Text(path));
+        match self.document.relative(file) {
+            Ok(path) => {
+                image.params.insert("file".to_owned(), Value::Text(path));
+            }
+            Err(refused) => self.document.say(refused.to_string()),
+        }
         if map == (Map::Normal { is_down: true }) {
             image
                 .params

@@ -62,8 +62,9 @@ impl Questions {
 
     /// Asks for a file to save the graph to.
     pub(crate) fn ask_to_save(&mut self, document: &OpenDocument) {
-        let file = document.session.file().map(|file| file.display().to_string());
-        self.ask_path(PathFor::Save, file.unwrap_or_else(|| "untitled.sabi".to_owned()));
+        // A path that is not Unicode cannot stand in the field, and a similar one would be another file.
+        let file = document.session.file().and_then(Path::to_str);
+        self.ask_path(PathFor::Save, file.unwrap_or("untitled.sabi").to_owned());
     }
 
     /// Asks for a model file.
@@ -111,11 +112,9 @@ impl Questions {
             PathFor::Model => ("Add a model", "Add"),
             PathFor::Image(_) => ("Choose a picture", "Choose"),
         };
-        let mut chosen = false;
-        if let Some(path) = answer_of(&mut self.dialog) {
-            text = path.display().to_string();
-            chosen = true;
-        }
+        // The system's dialog also gives paths that are not Unicode, which the field cannot hold.
+        let picked = answer_of(&mut self.dialog);
+        let mut chosen = picked.is_some();
         let waits = self.dialog.is_some();
         let modal = Modal::new(Id::new("path question")).show(ui.ctx(), |ui| {
             ui.set_width(460.0);
@@ -147,7 +146,7 @@ impl Questions {
             }
             cancels.clicked()
         });
-        let path = PathBuf::from(text.trim());
+        let path = picked.unwrap_or_else(|| PathBuf::from(text.trim()));
         if chosen && !path.as_os_str().is_empty() {
             return Some(action_for(what, path));
         }

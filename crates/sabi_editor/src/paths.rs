@@ -57,5 +57,5 @@ pub(crate) fn with_graph_ending(path: PathBuf) -> PathBuf {
 /// File of the model that a graph names.
 pub(crate) fn model_of(session: &Session) -> Option<PathBuf> {
     let named = session.document().preview.as_ref()?.mesh.clone()?;
-    Some(session.graph().folder().join(named))
+    Some(session.graph().base().resolve(&named))
 }

@@ -8,7 +8,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::write_whole;
+use sabi_engine::{stored, write_whole};
 use serde_json::Value as Json;
 
 use crate::command::InputPreset;
@@ -37,15 +37,19 @@ pub(crate) struct Settings {
     /// Keys of commands that have others than the habit's, by the command's name.
     pub(crate) keys: BTreeMap<String, Vec<String>>,
     /// Recent graph files, the last one first.
+    #[serde(with = "stored::list")]
     pub(crate) recent: Vec<PathBuf>,
     /// Models on the strip above the viewport.
+    #[serde(with = "stored::list")]
     pub(crate) models: Vec<PathBuf>,
     /// Options for reading models that differ from the default.
+    #[serde(with = "stored::map")]
     pub(crate) readings: BTreeMap<PathBuf, ImportOptions>,
     /// Whether node pictures show texture space.
     pub(crate) is_flat: bool,
     pub(crate) export: ExportChoices,
     /// Export targets of recent graphs.
+    #[serde(with = "stored::map")]
     pub(crate) export_places: BTreeMap<PathBuf, ExportPlace>,
     /// Environment of the viewport: a built-in name, or a file.
     pub(crate) environment: String,
@@ -237,6 +241,27 @@ mod tests {
         assert_eq!(fault, None);
         assert_eq!((read.scale, read.habit), (1.5, InputPreset::Blender));
         assert_eq!(read.recent, [PathBuf::from("one.sabi"), PathBuf::from("two.sabi")]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn settings_with_a_path_that_is_not_utf_8_come_back() {
+        use std::os::unix::ffi::OsStrExt;
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = Path::new(std::ffi::OsStr::from_bytes(b"/no such folder/a\xff.sabi"));
+        let mut kept = Settings::default();
+        kept.remember(file);
+        kept.models.push(file.to_owned());
+        kept.remember_export(file, &ExportPlace::default());
+        kept.readings.insert(file.to_owned(), ImportOptions::default());
+        kept.save(folder.path(), &Json::Null).expect("saved");
+        let (read, fault) = Settings::load(Some(folder.path()));
+        assert_eq!(fault, None);
+        assert_eq!(
+            (read.recent.as_slice(), read.models.as_slice()),
+            ([file.to_owned()].as_slice(), [file.to_owned()].as_slice())
+        );
+        assert!(read.export_places.contains_key(file) && read.readings.contains_key(file));
     }
 
     #[test]

@@ -70,7 +70,8 @@ pub use session::{FileState, Recovery, Session, free_graph_file, moved_to, recov
 // Types of other crates that stand in this interface.
 pub use sabi_export::SetKey;
 pub use sabi_files::{
-    FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, stored, stored_path, write_whole,
+    FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, path_text, stored, stored_path,
+    write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,

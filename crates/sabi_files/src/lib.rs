@@ -33,7 +33,7 @@ mod whole;
 pub use cache::{Cache, CacheKey, CacheKind};
 pub use error::{FileError, Operation, io_reason};
 pub use lock::{FileLock, LockError, is_locked};
-pub use named::{AbsolutePaths, NotText, PathBase, without_detours};
+pub use named::{AbsolutePaths, NotText, PathBase, path_text, without_detours};
 pub use paths::{absolute, behind_links, canonical, free_file};
 pub use read::{Unread, read_plain};
 pub use staged::{StagedError, StagedSet};

@@ -78,9 +78,9 @@ impl PathBase {
         let [there, here] = [target, &self.folder].map(|path| path.components().collect::<Vec<_>>());
         let shared = shared(&there, &here);
         if !is_near(&there[..shared]) {
-            return text_of(target);
+            return path_text(target);
         }
-        text_of(&stepped(&there, &here, shared))
+        path_text(&stepped(&there, &here, shared))
     }
 
     /// Rewrites a path that stands in a file of the base `from` for the same file in this base. It stays as it is when it
@@ -103,9 +103,9 @@ impl PathBase {
         }
         if shared == 0 {
             // On another drive, or in another relative folder.
-            return text_of(&target);
+            return path_text(&target);
         }
-        text_of(&stepped(&there, &here, shared))
+        path_text(&stepped(&there, &here, shared))
     }
 
     /// Rewrites a path that stands in a file of this base as an absolute one, which is valid everywhere; an empty one stays.
@@ -117,7 +117,7 @@ impl PathBase {
         if written.trim().is_empty() {
             return Ok(written.to_owned());
         }
-        text_of(&without_detours(&self.folder.join(slashed(written))))
+        path_text(&without_detours(&self.folder.join(slashed(written))))
     }
 }
 
@@ -158,8 +158,11 @@ fn stepped(there: &[Component<'_>], here: &[Component<'_>], shared: usize) -> Pa
     up.chain(there[shared..].iter().copied()).collect()
 }
 
-/// Text of a path with `/` between folders.
-fn text_of(path: &Path) -> Result<String, NotText> {
+/// Returns the text of a path with `/` between folders.
+///
+/// # Errors
+/// A part of the path is not Unicode.
+pub fn path_text(path: &Path) -> Result<String, NotText> {
     let text = path.to_str().ok_or_else(|| NotText { path: path.to_owned() })?;
     Ok(if cfg!(windows) { slashed(text) } else { text.to_owned() })
 }

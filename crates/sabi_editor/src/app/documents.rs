@@ -196,8 +196,12 @@ impl Documents {
         if is_named || named.is_none() && is_example || has_redo || evaluation.model_failure.is_some() {
             return;
         }
+        let mesh = match self.document.seen_from_own_folder(model) {
+            Ok(mesh) => mesh,
+            Err(refused) => return self.document.say(refused.to_string()),
+        };
         let preview = Preview {
-            mesh: Some(self.document.seen_from_own_folder(model)),
+            mesh: Some(mesh),
             // A document without a preview has no size of it either.
             ..self.document.contents().preview.clone().unwrap_or_default()
         };

@@ -131,8 +131,12 @@ impl Editor {
 
     fn set_image(&mut self, parameter: &KnobTarget, file: &Path) {
         let document = &mut self.documents.document;
-        let text = document.relative(file);
-        document.set_at(parameter, Value::Text(text));
+        match document.relative(file) {
+            Ok(text) => {
+                document.set_at(parameter, Value::Text(text));
+            }
+            Err(refused) => document.say(refused.to_string()),
+        }
     }
 
     fn perform_on_model(&mut self, action: ModelAction) {

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use egui::{Button, Grid, Label, ProgressBar, RichText, TextEdit, Ui};
-use sabi_engine::{DEFAULT_NAMES, Remedy, export_channels, export_presets, why_no_names};
+use sabi_engine::{DEFAULT_NAMES, Remedy, export_channels, export_presets, path_text, why_no_names};
 
 use crate::action::{Action, ExportAction};
 use crate::context::{View, ViewContext};
@@ -17,6 +17,8 @@ use crate::theme::{Theme, space};
 pub(crate) struct ExportPanel {
     /// System dialog for the folder, while it is open.
     dialog: Option<SystemDialog>,
+    /// Reason why the folder of the dialog is not used.
+    refused: Option<String>,
 }
 
 impl View for ExportPanel {
@@ -97,10 +99,18 @@ impl ExportPanel {
                 self.dialog = Some(SystemDialog::folder(ui.ctx()));
             }
             if let Some(folder) = answer_of(&mut self.dialog) {
-                place.folder = folder.display().to_string();
+                match path_text(&folder) {
+                    Ok(folder) => (place.folder, self.refused) = (folder, None),
+                    Err(refused) => self.refused = Some(refused.to_string()),
+                }
             }
         });
         ui.end_row();
+        if let Some(refused) = &self.refused {
+            ui.label("");
+            ui.label(refused);
+            ui.end_row();
+        }
     }
 }
 

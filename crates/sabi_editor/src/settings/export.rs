@@ -60,6 +60,7 @@ pub(crate) struct ExportPlace {
     /// Whether they are exported again at every save.
     pub(crate) again: bool,
     /// Model that the textures in the folder were exported for.
+    #[serde(with = "sabi_engine::stored::optional")]
     pub(crate) model: Option<PathBuf>,
 }
 

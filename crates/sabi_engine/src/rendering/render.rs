@@ -161,8 +161,13 @@ fn file_names(request: &RenderRequest) -> Result<Vec<PathBuf>, EngineError> {
             "a turntable has 1 to {MOST_FRAMES} frames, not {frames}"
         )));
     }
-    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
-    let frame = |number: u32| output.with_file_name(format!("{stem}_{number:04}.{ending}"));
+    // A path with an ending has a stem.
+    let stem = output.file_stem().unwrap_or_default();
+    let frame = |number: u32| {
+        let mut name = stem.to_owned();
+        name.push(format!("_{number:04}.{ending}"));
+        output.with_file_name(name)
+    };
     Ok((0..frames).map(frame).collect())
 }
 

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use egui::Ui;
+use sabi_engine::path_text;
 use sabi_graph::Value;
 
 use super::super::Editor;
@@ -53,7 +54,9 @@ impl Editor {
     }
 
     fn take_environment(&mut self, path: &Path) {
-        let choice = canonical_if_present(path).display().to_string();
+        let Some(choice) = self.shell.report(path_text(&canonical_if_present(path))) else {
+            return;
+        };
         self.views.model.choose_environment(&choice);
         self.shell.settings.environment = choice;
     }
@@ -61,7 +64,10 @@ impl Editor {
     fn add_image(&mut self, path: &Path, ui: &Ui) {
         let place = self.views.canvas.place_for_new(ui);
         let document = &mut self.documents.document;
-        let text = document.relative(path);
+        let text = match document.relative(path) {
+            Ok(text) => text,
+            Err(refused) => return document.say(refused.to_string()),
+        };
         document.session.begin("Add picture");
         let added = document.add("source/image", place, None);
         if let Some(id) = &added {
