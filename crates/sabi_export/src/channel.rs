@@ -84,7 +84,7 @@ impl Channel {
         }
     }
 
-    /// What stands where nothing is known: no metal, no relief, nothing buried, opaque, half rough, middle gray.
+    /// Returns the neutral value: no metal, no relief, no occlusion, opaque, half rough, middle gray.
     pub fn neutral(&self) -> &'static [f32] {
         match self {
             // These are `PLAIN_MATERIAL` of `lib/core.wgsl`; a test compares them.
@@ -108,7 +108,7 @@ pub struct ChannelPixels {
 }
 
 impl ChannelPixels {
-    /// So many pixels of what the channel is where nothing sets it.
+    /// Creates pixels of a channel's neutral value.
     pub fn neutral(channel: &Channel, pixels: usize) -> ChannelPixels {
         let components = channel.components();
         ChannelPixels {

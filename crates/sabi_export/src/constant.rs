@@ -9,19 +9,19 @@ use crate::{Channel, ChannelPixels};
 /// The value of a constant channel, linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
-    /// Of a channel with one component.
+    /// Value of a channel with one component.
     Number(f32),
-    /// Of a color or a normal.
+    /// Value of a color or a normal.
     Triple([f32; 3]),
 }
 
 /// Lowest and highest of each component.
 pub(crate) type Bounds = ([f32; 3], [f32; 3]);
 
-/// What the pixels of a channel are like.
+/// Bounds of a channel's pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Survey {
-    /// Over the owned pixels; none if there are none.
+    /// Bounds over the owned pixels; `None` if there are none.
     pub(crate) bounds: Option<Bounds>,
     /// Values that were no numbers or infinite.
     pub(crate) not_finite: u64,
@@ -114,6 +114,7 @@ fn shortest_near(value: f32) -> f32 {
     let step = 2.0_f64.powi((f64::from(value).abs().log2().floor() as i32).max(-14) - 10);
     let decimal = |digits: usize| format!("{value:.digits$e}").parse::<f32>().ok();
     let near = |short: &f32| (f64::from(*short) - f64::from(value)).abs() <= step && *short != 0.0;
+    // The value itself is exact.
     (0..8).filter_map(decimal).find(near).unwrap_or(value)
 }
 

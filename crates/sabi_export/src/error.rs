@@ -16,7 +16,7 @@ pub enum ExportError {
     CreateFolder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
     /// A file could not be written to its end.
@@ -24,7 +24,7 @@ pub enum ExportError {
     Write {
         /// The file that was to be.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
     /// A complete file could not be put in its place.
@@ -32,7 +32,7 @@ pub enum ExportError {
     Replace {
         /// The file that was to be.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
         /// Files already in place.
         replaced: usize,
@@ -45,10 +45,10 @@ pub enum ExportError {
         /// The file.
         path: PathBuf,
     },
-    /// A device, pipe or socket stands where the file would be.
+    /// The target is a device, pipe or socket.
     #[error("{} is no ordinary file", path.display())]
     NotAFile {
-        /// What stands there.
+        /// Target that was refused.
         path: PathBuf,
     },
     /// A pattern for the names of maps that cannot be one.
@@ -56,7 +56,7 @@ pub enum ExportError {
     Names {
         /// The pattern.
         pattern: String,
-        /// What is wrong with it and what to do.
+        /// Fault of the pattern and its remedy.
         why: String,
     },
     /// Two maps of a bake would have the same file.
@@ -73,7 +73,7 @@ pub enum ExportError {
     Model {
         /// The model's file.
         path: PathBuf,
-        /// What stands in the way.
+        /// Reason as a clause.
         reason: String,
     },
     /// The copy of the model does not fit into a GLB file.
@@ -101,7 +101,7 @@ pub enum ExportError {
     Encode {
         /// The file, without its folder.
         file_name: String,
-        /// Why.
+        /// Error of the encoder.
         source: ImageError,
     },
 }

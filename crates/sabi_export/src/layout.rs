@@ -1,4 +1,4 @@
-//! Which atlas texel feeds each pixel of a texture set.
+//! Layout of a texture set: the atlas texel of each pixel.
 
 mod grid;
 
@@ -9,17 +9,17 @@ use sabi_surface::atlas::{Atlas, Chart, EMPTY, GHOST_BIT};
 
 pub(crate) use grid::{Fallen, Grid};
 
-/// Stands for no texel or no pixel.
+/// Marks the absence of a texel or pixel.
 pub const NONE: u32 = u32::MAX;
 
-/// What wrote a pixel.
+/// Source of a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cover {
-    /// Nothing: padding may.
+    /// None; padding may fill it.
     Empty,
-    /// A texel of the ring around a chart: the surface as it goes on over the seam.
+    /// Ghost of a chart: the surface beyond the seam.
     Ghost,
-    /// A texel of a chart.
+    /// Owned texel of a chart.
     Owned,
 }
 
@@ -36,24 +36,25 @@ pub struct SetKey {
 }
 
 impl SetKey {
-    /// Whether a chart lies in the set: on its sheet, and of several tiles in its own.
+    /// Returns whether a chart belongs to the set: it is on its sheet and, of several tiles, in its own.
     pub fn is_home_of(&self, chart: &Chart) -> bool {
         chart.sheet == self.material && (self.udim.is_none() || chart.uv_tile == self.uv_tile)
     }
 }
 
-/// A texture set's pixels and where their values come from.
+/// Pixels of a texture set with the atlas texels that give them their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetLayout {
-    /// Which set this is.
+    /// Material and tile of the set.
     pub key: SetKey,
     /// Pixels across and down.
     pub size: u32,
     /// For each pixel, row by row from the top, the atlas texel (page by page, row by row) or [`NONE`].
     pub source: Vec<u32>,
-    /// For each pixel what wrote it.
+    /// Source of each pixel's value.
     pub cover: Vec<Cover>,
-    /// What else claims a pixel the way [`SetLayout::source`] does: pixel and texel, pixels rising. Empty unless asked for.
+    /// Further texels that claim a pixel like [`SetLayout::source`] does: pixel and texel, pixels rising. Filled by
+    /// [`SetLayout::merged`] only.
     pub shared: Vec<(u32, u32)>,
     /// Owned texels that found their pixel taken by a chart before theirs: overlapping or tiling UVs.
     pub collisions: u64,
@@ -91,6 +92,7 @@ pub fn set_keys(atlas: &Atlas) -> Vec<SetKey> {
             }
             _ => keys.push(SetKey {
                 material,
+                // A material without charts has the unit square.
                 uv_tile: tiles.first().copied().unwrap_or([0, 0]),
                 udim: None,
             }),
@@ -114,7 +116,7 @@ impl SetLayout {
         SetLayout::gather(atlas, key, false)
     }
 
-    /// As [`SetLayout::new`], with all texels of pixels that several charts claim, for the mean of them.
+    /// Creates the layout like [`SetLayout::new`], with all texels of pixels that several charts claim, for their mean.
     pub fn merged(atlas: &Atlas, key: SetKey) -> SetLayout {
         let mut layout = SetLayout::gather(atlas, key, true);
         let SetLayout { shared, cover, .. } = &mut layout;
@@ -125,7 +127,7 @@ impl SetLayout {
         layout
     }
 
-    /// Goes over all texels; with `shares`, those that find their pixel taken, or lose it, are listed as they come.
+    /// Assigns all texels to pixels; with `shares`, texels that do not get their pixel, or lose it, are listed.
     fn gather(atlas: &Atlas, key: SetKey, shares: bool) -> SetLayout {
         let pixels = atlas.size as usize * atlas.size as usize;
         let mut layout = SetLayout {
@@ -156,7 +158,7 @@ impl SetLayout {
             .map(|texel| texel as usize)
     }
 
-    /// Gives a texel its pixel, unless one that goes before it has it: that pixel, and which of the two did not get it.
+    /// Assigns a texel to its pixel unless a texel of lower rank has it; returns the pixel and the texel without one.
     fn place(&mut self, atlas: &Atlas, fallen: &Fallen) -> Option<(u32, u32)> {
         let Fallen {
             texel, cover, pixel, ..
@@ -180,8 +182,8 @@ impl SetLayout {
     }
 }
 
-/// Of two texels that claim a pixel in the same way, the one that ranks lower goes first: that of the inner ring, which is
-/// read wherever its chart ends, before that of the outer one; then the lower chart's.
+/// Returns the rank of a texel among those that claim a pixel in the same way; the lowest gets it: the inner ring, which is
+/// read wherever its chart ends, before the outer one, then the lower chart.
 fn rank(atlas: &Atlas, texel: usize) -> (bool, u32) {
     match claim(atlas, texel) {
         Some((chart, Cover::Ghost)) => (!is_beside(atlas, texel, chart), chart),

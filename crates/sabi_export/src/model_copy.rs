@@ -1,6 +1,6 @@
 //! A glTF copy of the model that uses the new maps: only what the baked materials look like is changed, on the JSON and
-//! the buffers themselves, so that animations, skins, extensions and all else that Sabi does not know stay as they were. Of
-//! a model that is no glTF or was unwrapped, one written anew from the loaded mesh.
+//! the buffers themselves, so that animations, skins, extensions and everything else that Sabi does not read stay unchanged. The
+//! copy of a model that is no glTF, or that was unwrapped, is made from the loaded mesh.
 
 mod container;
 mod edit;
@@ -38,14 +38,14 @@ pub struct CopiedFile {
     pub bytes: Vec<u8>,
 }
 
-/// What a copy consists of.
+/// Files and warnings of a copy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FinishedCopy {
     /// The `.gltf` or `.glb` file.
     pub copy: CopiedFile,
     /// Files that it names and that are not maps of the bake.
     pub beside: Vec<CopiedFile>,
-    /// What could not be brought along, as sentences.
+    /// Warnings about files that were not copied, as sentences.
     pub warnings: Vec<String>,
 }
 
@@ -53,7 +53,7 @@ pub struct FinishedCopy {
 #[derive(Debug)]
 pub struct ModelCopy {
     path: PathBuf,
-    /// By material of the model.
+    /// Materials of the model.
     materials: Vec<CopiedMaterial>,
     uv_set: u32,
     /// Whether one set of maps is for all materials.
@@ -61,21 +61,21 @@ pub struct ModelCopy {
     stem: String,
     container: Container,
     document: Json,
-    /// What a copy made anew does not have.
+    /// Warnings about content that a copy made from the loaded mesh lacks.
     warnings: Vec<String>,
 }
 
-/// A material of the model, as the copy has to know it.
+/// Material of the model, with what the copy needs of it.
 #[derive(Debug)]
 struct CopiedMaterial {
     /// Its place in the file; none for glTF's default material.
     file_index: Option<usize>,
-    /// What its maps do outside 0..1.
+    /// Wrap mode of its maps outside 0..1.
     wrap: u32,
 }
 
 impl ModelCopy {
-    /// Reads the file anew: `model` is what was loaded from it, with `uv_set` as the set of the maps. Models that are no
+    /// Reads the file again: `model` is what was loaded from it, with `uv_set` as the set of the maps. Models that are no
     /// glTF, and those on one sheet ([`sabi_surface::model::Mesh::is_one_sheet`]), are copied as they were loaded: turned,
     /// scaled, triangulated; `baked` are their materials that get maps.
     pub fn open(path: &Path, model: &Model, uv_set: u32, baked: &BTreeSet<u32>) -> Result<ModelCopy, ExportError> {
@@ -230,7 +230,7 @@ impl ModelCopy {
                     Some(Err(reason)) => warnings.push(format!(
                         "the copy of the model names {uri} as the model does, but it was not copied: {reason}"
                     )),
-                    // A model from elsewhere must not gather what else lies on this machine.
+                    // A downloaded model must not collect other files of this computer.
                     Some(Ok((_, file))) if !is_beside(&self.path, &file) => warnings.push(format!(
                         "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the \
                          model's folder; copy it by hand if it belongs to the model"
@@ -247,7 +247,7 @@ impl ModelCopy {
     }
 }
 
-/// Whether a file lies in the model's folder or below, wherever links and `..` lead.
+/// Returns whether a file is in the model's folder or below, with links and `..` resolved.
 fn is_beside(model: &Path, file: &Path) -> bool {
     let folder = match model.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -261,7 +261,7 @@ fn is_beside(model: &Path, file: &Path) -> bool {
 
 /// A plain name for a copied file: a buffer goes by the model's name, a picture by its own.
 fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> bool) -> String {
-    let part = |part: Option<&OsStr>| file_stem(&part.unwrap_or_default().to_string_lossy());
+    let part = |part: Option<&OsStr>| part.map_or_else(String::new, |part| file_stem(&part.to_string_lossy()));
     let first = match part(file.file_stem()) {
         _ if list == "buffers" => stem.to_owned(),
         own if own.is_empty() => "picture".to_owned(),
@@ -281,13 +281,13 @@ fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> 
     }
 }
 
-/// How far UVs may lie outside the unit square and still mean its edge.
+/// Largest distance of UVs outside the unit square that still counts as its edge.
 const EDGE: f32 = 1e-4;
 /// glTF's numbers for what happens outside 0..1.
 const CLAMP_TO_EDGE: u32 = 33071;
 const REPEAT: u32 = 10497;
 
-/// By material. Maps repeat where UVs leave the unit square. Where they do not, repeating would only let opposite edges
+/// Returns the wrap mode of each material. Maps repeat where UVs leave the unit square; elsewhere repeating would let opposite edges
 /// bleed into each other.
 fn wraps(model: &Model) -> Vec<u32> {
     let mesh = &model.mesh;

@@ -37,7 +37,7 @@ pub fn file_stem(name: &str) -> String {
     stem
 }
 
-/// What Windows drops from the end of a name, and nobody sees.
+/// Returns whether Windows silently drops a letter from the end of a name.
 fn is_loose_end(letter: char) -> bool {
     letter == '.' || letter.is_whitespace()
 }
@@ -47,6 +47,7 @@ fn is_device(stem: &str) -> bool {
     let first = stem
         .split('.')
         .next()
+        // A split has at least one part.
         .unwrap_or_default()
         .trim_end()
         .to_ascii_uppercase();
@@ -76,7 +77,7 @@ pub fn set_names(model: &Model) -> Vec<String> {
             _ => format!("{model_stem}_{}", index + 1),
         })
         .collect();
-    // Names that stand in the file are kept where possible, so a number never takes one of them.
+    // Names from the file are kept where possible, so a number is never one of them.
     let given: BTreeSet<String> = wanted.iter().map(|name| name.to_lowercase()).collect();
     let mut used = BTreeSet::new();
     wanted

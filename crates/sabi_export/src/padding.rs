@@ -1,16 +1,16 @@
-//! What stands outside the charts: the nearest covered pixel, found once for a texture set and used for every channel.
+//! Padding outside the charts: the nearest covered pixel, found once for a texture set and used for every channel.
 
 use rayon::prelude::*;
 
 use crate::layout::{Cover, NONE, SetLayout};
 use crate::{Channel, ChannelPixels};
 
-/// How far values reach out of the charts.
+/// Distance over which padding extends the charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Padding {
-    /// So many texels, measured straight; what is further has the channel's neutral value.
+    /// Number of texels, Euclidean; pixels further away have the channel's neutral value.
     Texels(u32),
-    /// Over the whole picture, so that no mip level ever meets an empty texel.
+    /// The whole picture, so that no mip level contains an empty texel.
     #[default]
     Infinite,
 }
@@ -89,12 +89,14 @@ impl PaddingMap {
     ) -> Vec<f32> {
         let of_texel = |at: usize| {
             let stored = texel(at);
+            // A texel has four values; components beyond them are neutral.
             std::array::from_fn(|index| stored.get(first + index).copied().unwrap_or(neutral[index]))
         };
         let mut data = vec![0.0; self.source.len() * N];
         let parts = data.par_chunks_mut(PART * N).zip(self.source.par_chunks(PART));
         parts.for_each(|(values, sources)| {
             for (values, &pixel) in values.as_chunks_mut::<N>().0.iter_mut().zip(sources) {
+                // A pixel beyond the distance of the padding is `NONE`, which is no index.
                 let from = layout.source.get(pixel as usize).copied().unwrap_or(NONE);
                 *values = if from == NONE { neutral } else { of_texel(from as usize) };
             }

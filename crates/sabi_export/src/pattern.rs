@@ -1,9 +1,9 @@
-//! How the files of a texture set are called.
+//! Names of the files of a texture set.
 
 use crate::names::file_stem;
 use crate::{Channel, ExportError};
 
-/// Names of files without their endings: text with `{material}` and `{channel}` where those names are to stand.
+/// Pattern of file names without their endings: text with the placeholders `{material}` and `{channel}`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamePattern {
     pieces: Vec<Piece>,
@@ -25,13 +25,13 @@ impl Default for NamePattern {
 }
 
 impl NamePattern {
-    /// What stands for a pattern that nobody wrote.
+    /// Pattern that is used where none is given.
     pub const DEFAULT: &str = "{material}_{channel}";
 
-    /// Reads a pattern. `words` are further names in braces and what they stand for, which is made fit for file names.
+    /// Parses a pattern. `words` are further placeholders and their values, which are converted to file names.
     ///
     /// # Errors
-    /// It has no `{channel}`, a word in braces that nobody knows, or letters that no file name may have.
+    /// It has no `{channel}`, an unknown placeholder, or letters that no file name may have.
     pub fn parse(text: &str, words: &[(&str, &str)]) -> Result<NamePattern, ExportError> {
         let fault = |why: String| ExportError::Names {
             pattern: text.to_owned(),
@@ -93,6 +93,7 @@ impl NamePattern {
         let Some(first) = self.pieces.iter().position(is_material) else {
             return stem == text(&self.pieces);
         };
+        // The first one exists, so a last one does.
         let last = self.pieces.iter().rposition(is_material).unwrap_or(first);
         let [before, after] = [text(&self.pieces[..first]), text(&self.pieces[last + 1..])];
         let middle = stem.strip_prefix(&before).and_then(|rest| rest.strip_suffix(&after));

@@ -1,4 +1,4 @@
-//! Which files a texture set becomes: data, so that a preset is a list and no code.
+//! Presets: the files of a texture set as data.
 
 mod raw;
 
@@ -6,7 +6,7 @@ pub use raw::raw;
 
 use crate::Channel;
 
-/// A way to spread channels over files.
+/// Assignment of channels to files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preset {
     /// Name on the command line.
@@ -18,24 +18,24 @@ pub struct Preset {
 /// One file of a preset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// What it holds.
+    /// Content of the file.
     pub holds: Holds,
-    /// How it is encoded.
+    /// Encoding of the file.
     pub format: Format,
-    /// When it is written.
+    /// Condition for writing it.
     pub when: When,
 }
 
-/// What a file holds.
+/// Content of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Holds {
     /// One channel.
     Channel(Channel),
-    /// Each mask of the graph's own has such a file.
+    /// Each mask output of the graph, one file for each.
     EveryMask,
 }
 
-/// When a file is written.
+/// Condition for writing a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum When {
     /// Whenever its channel varies.
@@ -44,14 +44,14 @@ pub enum When {
     AboveOne,
 }
 
-/// How a file is encoded.
+/// Encoding of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// PNG of whole numbers.
     Png {
         /// 8 or 16.
         bits: u8,
-        /// What the codes mean.
+        /// Meaning of the codes.
         codes: Codes,
         /// Whether gradients are dithered; areas of one value never are.
         dither: bool,
@@ -60,7 +60,7 @@ pub enum Format {
     Exr,
 }
 
-/// What the codes of a PNG file mean.
+/// Meaning of the codes of a PNG file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Codes {
     /// Colors through the sRGB curve; the file says so.
@@ -91,7 +91,7 @@ impl Map {
             Format::Png { .. } => "png",
             Format::Exr => "exr",
         };
-        let tile = udim.map(|number| format!(".{number}")).unwrap_or_default();
+        let tile = udim.map_or_else(String::new, |number| format!(".{number}"));
         format!("{stem}{tile}.{ending}")
     }
 }

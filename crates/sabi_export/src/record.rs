@@ -1,4 +1,4 @@
-//! What was written, for the report file.
+//! Records of written files and constants, for the report file.
 
 use serde_json::{Value as Json, json};
 
@@ -11,7 +11,7 @@ use crate::{Channel, Value};
 pub struct OutputRecord {
     /// The file, relative to the output folder.
     pub path: String,
-    /// Which channel it holds.
+    /// Channel of the file.
     pub channel: Channel,
     /// Stem of the set's files: the material.
     pub material: String,
@@ -25,7 +25,7 @@ pub struct OutputRecord {
     pub bits: u8,
     /// `srgb` or `linear`.
     pub color_space: &'static str,
-    /// What the lowest and highest code stand for, in the model's own units; heights in whole numbers only.
+    /// Values of the lowest and highest code, in model units; only for heights as integers.
     pub range: Option<[f32; 2]>,
     /// BLAKE3 of the file's bytes, hexadecimal.
     pub blake3: String,
@@ -34,7 +34,7 @@ pub struct OutputRecord {
 /// A channel that has no file because it is the same everywhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstantRecord {
-    /// Which channel.
+    /// Channel that is constant.
     pub channel: Channel,
     /// Stem of the set's files: the material.
     pub material: String,

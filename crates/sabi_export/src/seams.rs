@@ -18,12 +18,12 @@ use sabi_surface::seams::Seam;
 
 use crate::layout::SetLayout;
 
-/// Samples for a texel along a seam: more than one, so that all texels beside it have a say.
+/// Samples for a texel along a seam: more than one, so that all texels beside it count.
 const SAMPLES_A_TEXEL: f64 = 3.0;
 /// Most samples that long seams get; where all seams together are longer, samples lie further apart.
 const MOST_SAMPLES: f64 = (1 << 21) as f64;
 
-/// Where a renderer reads a texture set on both sides of its seams.
+/// Places where a renderer reads a texture set on both sides of its seams.
 ///
 /// Seams inside the set only: between two sets, each keeps its own side. Places where one side reads a texel that is not
 /// its chart's count as no seam: under overlapping charts, and beyond the border of the picture.
@@ -39,7 +39,7 @@ pub struct SeamSamples {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Sample {
     sides: [Reading; 2],
-    /// The length of seam that it stands for, in texels of the finer side.
+    /// Length of seam that the sample represents, in texels of the finer side.
     length: f32,
     /// An index into the seams.
     seam: u32,
@@ -107,7 +107,7 @@ impl SeamSamples {
     }
 }
 
-/// What samples are looked up in.
+/// Mesh, atlas and layout in which samples are looked up.
 struct Ground<'a> {
     mesh: &'a Mesh,
     atlas: &'a Atlas,
@@ -122,7 +122,7 @@ impl Ground<'_> {
         seam.vertices(self.mesh, side).map(uv)
     }
 
-    /// How long a seam is, in texels of the finer side; 0 where the set does not have both sides.
+    /// Returns the length of a seam in texels of the finer side; 0 where the set does not have both sides.
     fn length(&self, seam: &Seam) -> f64 {
         let chart = |triangle: u32| &self.atlas.charts[self.atlas.triangle_chart[triangle as usize] as usize];
         let is_here =
@@ -158,7 +158,7 @@ impl Ground<'_> {
         })
     }
 
-    /// What a renderer reads at a share of the way along an edge; none unless all four texels are the chart's own.
+    /// Returns the bilinear reading at a share of the length of an edge; `None` unless all four texels are the chart's own.
     fn reading(&self, triangle: u32, [from, to]: [[f64; 2]; 2], along: f64) -> Option<Reading> {
         let point = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * along - 0.5);
         let corner = point.map(f64::floor);

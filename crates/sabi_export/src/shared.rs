@@ -1,17 +1,17 @@
-//! Texels that have no place of their own on the maps, and what stands there instead.
+//! Texels without a pixel of their own on the maps, and the pixel that is shown there.
 
 use sabi_surface::atlas::Atlas;
 
 use crate::layout::{Cover, Fallen, Grid, NONE, SetLayout, claim};
 
-/// Which texels of an atlas an engine would see as what other texels hold: a map has one value for each pixel, even where
-/// several charts are laid over it. Of charts that have all their pixels to themselves there is nothing here.
+/// Atlas texels that show the values of other texels in an exported map: a map has one value for each pixel, even where
+/// several charts overlap. Charts that share no pixel do not appear here.
 ///
 /// Texels are numbered page by page and row by row, and come in groups: each of a group's targets shows the mean of its
 /// sources.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SharedTexels {
-    /// Where each group's sources end in `texels`, and where its targets do.
+    /// End of each group's sources and of its targets in `texels`.
     ends: Vec<[usize; 2]>,
     texels: Vec<u32>,
 }
@@ -29,10 +29,10 @@ impl SharedTexels {
         groups.map(|(start, &[middle, end])| [&self.texels[start..middle], &self.texels[middle..end]])
     }
 
-    /// Adds those of one texture set of an atlas.
+    /// Adds the shared texels of one texture set of an atlas.
     ///
-    /// Where a chart lost a pixel or shares one, all of its texels show what the map has, those of its ring too, which
-    /// filtering reads: a neighbor's pixel, or what a ring has written.
+    /// Where a chart lost or shares a pixel, all of its texels show the map's values, also those of its rings, which filtering
+    /// reads.
     pub fn add(&mut self, atlas: &Atlas, layout: &SetLayout) {
         if layout.collisions == 0 {
             return;
@@ -92,17 +92,17 @@ fn lost(grid: &Grid<'_>, layout: &SetLayout) -> (Vec<Fallen>, Vec<Fallen>) {
     (on_map, beside)
 }
 
-/// What is shown by a ghost that claims no pixel, since it lies outside of its chart's tile.
+/// Source of a ghost that claims no pixel, because it is outside of its chart's tile.
 enum Beside {
-    /// What its pixel holds.
+    /// Value of its pixel.
     Pixel,
-    /// What these texels do.
+    /// Mean of these texels.
     Texels(Vec<u32>),
 }
 
-/// Beyond the border of a tile no map says what is there: the map's other side or the same pixel once more, as a texture is
-/// repeated or not. All charts are shown with what their own ring holds there, and so is one that takes the place of
-/// another: with the ring of that one. None where nothing is known.
+/// Returns the source of a ghost beyond the border of its tile, where the exported map has no pixel: whether a renderer
+/// reads the opposite side or repeats the edge depends on its wrap mode. Such ghosts keep the value of the ring of the chart
+/// whose pixels are shown. `None` where there is no such value.
 fn next_to(grid: &Grid<'_>, layout: &SetLayout, ghost: &Fallen) -> Option<Beside> {
     let atlas = grid.atlas;
     let at = place_of(atlas, ghost.texel);
@@ -121,6 +121,7 @@ fn next_to(grid: &Grid<'_>, layout: &SetLayout, ghost: &Fallen) -> Option<Beside
         let chart = |texel: usize| claim(atlas, texel).map(|(chart, _)| chart);
         let beside = moved(atlas, place_of(atlas, source), [-x, -y]).map(|place| texel_at(atlas, place));
         let beside = beside.filter(|&texel| chart(texel) == chart(source));
+        // Without such a texel in the same chart, the source itself is closest.
         beside.unwrap_or(source) as u32
     };
     let sources = near.is_here.then(|| layout.sources(near.pixel).map(stand_in));

@@ -13,14 +13,14 @@ use crate::model_copy::{Gathering, MapFile, MaterialMaps, Passing};
 use crate::preset::{Codes, Format, Preset, When, raw};
 use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, NamePattern, OutputRecord, Value};
 
-/// How a texture set is written.
+/// Options of writing a texture set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetOptions {
-    /// Which files.
+    /// Files to write.
     pub preset: Preset,
-    /// How they are called.
+    /// Names of the files.
     pub names: NamePattern,
-    /// Whether channels that are the same all over get a map all the same.
+    /// Whether constant channels get a map, too.
     pub all_maps: bool,
 }
 
@@ -44,12 +44,12 @@ pub struct BakeWriter {
     gathering: Option<Gathering>,
 }
 
-/// What a channel became.
+/// Result of writing a channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
     /// Its files; none when it is constant and maps of constants were not asked for.
     pub outputs: Vec<OutputRecord>,
-    /// Its value where it is the same all over.
+    /// Its value where it is constant.
     pub constant: Option<ConstantRecord>,
     /// Values that were no numbers or infinite, and were replaced by the channel's neutral value.
     pub not_finite: u64,
@@ -75,13 +75,14 @@ impl BakeWriter {
         })
     }
 
-    /// Keeps the maps that a copy of the model needs: of all channels from now on that are no masks.
+    /// Collects the maps that a copy of the model needs from now on: those of all channels that are no masks.
     pub fn keep_model_maps(&mut self) {
         self.gathering = Some(Gathering::default());
     }
 
-    /// The maps that were kept, by material of the model.
+    /// Takes the collected maps, by material of the model.
     pub fn take_model_maps(&mut self) -> BTreeMap<u32, MaterialMaps> {
+        // Maps are collected only after `keep_model_maps`.
         self.gathering.take().map(Gathering::finish).unwrap_or_default()
     }
 
@@ -95,7 +96,7 @@ impl BakeWriter {
         Ok(self.staged.check(file_name)?)
     }
 
-    /// Names files that this bake reads: to write over one of them is refused.
+    /// Refuses to replace these files, which the bake reads.
     pub fn protect(&mut self, inputs: impl IntoIterator<Item = PathBuf>) {
         self.staged.protect(inputs);
     }
@@ -160,6 +161,7 @@ impl SetWriter<'_> {
             udim,
             value,
         });
+        // A set without owned pixels has an empty range.
         let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
         let above_one = high[..components].iter().any(|&value| value > 1.0);
         let stem = self.options.names.stem(&self.name, channel);
@@ -197,7 +199,7 @@ impl SetWriter<'_> {
         })
     }
 
-    /// Keeps what a copy of the model needs of a channel.
+    /// Collects what a copy of the model needs of a channel.
     fn keep(
         &mut self,
         channel: &Channel,

@@ -18,7 +18,7 @@ const JPEG_PIXELS_A_BYTE: u64 = 8 * 8 * 8;
 const TGA_PIXELS_A_BYTE: u64 = 64;
 
 /// The picture in the bytes of a PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR file, recognized by its content (TGA,
-/// which has no mark, by the name's ending). `name` stands in messages. Sizes are checked before memory is taken.
+/// which has no mark, by the name's ending). `name` is used in messages. Sizes are checked before memory is taken.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     guarded(name, bytes, |format| match format {
         Format::Png => decode_png(name, bytes),
@@ -37,8 +37,7 @@ pub fn check_header(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
     })
 }
 
-/// What `read` makes of the bytes in their format. The decoders are careful but not ours: a slip in one of them must not
-/// take the program along.
+/// Calls `read` with the format of the bytes. A panic in a third-party decoder becomes an error.
 fn guarded<T>(name: &str, bytes: &[u8], read: impl FnOnce(Format) -> Result<T, ImageError>) -> Result<T, ImageError> {
     let format = recognize(name, bytes)?;
     catch_unwind(AssertUnwindSafe(|| read(format)))
@@ -172,7 +171,7 @@ fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     })
 }
 
-/// What the chunks say, the newest kind of chunk first (PNG specification, third edition, 4.3).
+/// Returns the color space that the chunks declare, the newest kind of chunk first (PNG specification, third edition, 4.3).
 fn declared_by_png(info: &png::Info<'_>) -> Declared {
     if let Some(cicp) = &info.coding_independent_code_points {
         // ITU-T H.273: 8 is linear, 13 is the sRGB curve.
@@ -195,7 +194,7 @@ fn declared_by_png(info: &png::Info<'_>) -> Declared {
     }
 }
 
-/// Why one of the `image` crate's decoders failed.
+/// Converts an error of the `image` crate's decoders.
 fn explain_other(name: &str, format: ImageFormat, error: image::ImageError) -> ImageError {
     let format = Format::Other(format).name();
     match error {
@@ -267,7 +266,7 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     })
 }
 
-/// The samples as they are, or what kind they are of that is not read.
+/// Returns the samples unchanged, or the name of their kind where it is not read.
 fn samples_of(picture: DynamicImage) -> Result<Pixels, String> {
     Ok(match picture {
         DynamicImage::ImageLuma8(samples) => Pixels::U8(samples.into_raw()),
@@ -284,7 +283,7 @@ fn samples_of(picture: DynamicImage) -> Result<Pixels, String> {
     })
 }
 
-/// Whether the end-of-image mark follows the last scan. Decoders fill what is missing with gray and say nothing.
+/// Returns whether the end-of-image marker follows the last scan. Decoders fill missing data with gray without an error.
 fn jpeg_is_complete(bytes: &[u8]) -> bool {
     let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
     last([0xff, 0xd9]).is_some_and(|end| last([0xff, 0xda]).is_none_or(|scan| scan < end))

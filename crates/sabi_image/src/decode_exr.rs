@@ -14,12 +14,12 @@ use crate::{Declared, ImageError, Picture, Pixels};
 
 const FORMAT: &str = "OpenEXR";
 const DEEP: &str = "it holds deep samples, several for each pixel";
-/// Stands for what is infinite: the largest number of most files.
+/// Replacement for infinity: the largest half float, which most files use.
 const LARGEST_HALF: f32 = 65504.0;
 
 type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
-/// Refuses what is not read, by the headers alone.
+/// Rejects unsupported files by their headers alone.
 pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
     // The flag of files with deep parts (OpenEXR file layout, version field, bit 11).
     if bytes.get(5).is_some_and(|flags| flags & 0x08 != 0) {
@@ -49,10 +49,10 @@ pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
     picked_of(name, &names).map(drop)
 }
 
-/// What is shown is the display window; pixels of it that the file does not have are 0.
+/// Decodes the display window; pixels of it that the file does not have are 0.
 pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     check_exr(name, bytes)?;
-    // One thread: a slip in a worker of the decoder could not be caught.
+    // One thread: a panic in a worker thread of the decoder could not be caught.
     let image: Image<Layers<AnyChannels<FlatSamples>>> = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -86,7 +86,7 @@ fn unsupported(name: &str, feature: &str) -> ImageError {
     }
 }
 
-/// Refuses what is not read; gives the bytes that the layer takes.
+/// Rejects unsupported layers; returns the bytes that the layer takes.
 fn check_header(name: &str, header: &Header) -> Result<u64, ImageError> {
     if header.deep {
         return Err(unsupported(name, DEEP));
@@ -160,7 +160,7 @@ fn pick_channels(names: &[String]) -> Option<Vec<usize>> {
 
 fn compose(layer: &FlatLayer, window: IntegerBounds, picked: &[usize]) -> Picture {
     let (width, height) = (window.size.0, window.size.1);
-    // Where the data's corner lies in the window.
+    // Offset of the data window in the display window.
     let corner_x = i64::from(layer.attributes.layer_position.0) - i64::from(window.position.0);
     let corner_y = i64::from(layer.attributes.layer_position.1) - i64::from(window.position.1);
     let columns = overlap(corner_x, layer.size.0, width);
@@ -191,10 +191,11 @@ fn overlap(corner: i64, length: usize, window: usize) -> std::ops::Range<usize> 
     (corner.clamp(0, window as i64) as usize).min(end)..end
 }
 
-/// A sample that can be reckoned with: renderers leave behind what is no number, and any filter would spread it.
+/// Returns a finite sample: renderers write NaN and infinity, which any filter would spread.
 fn sample(samples: &FlatSamples, index: usize) -> f32 {
     let value = match samples {
         FlatSamples::F16(list) => list.get(index).map_or(0.0, |value| value.to_f32()),
+        // Pixels outside of the data window are 0.
         FlatSamples::F32(list) => list.get(index).copied().unwrap_or(0.0),
         FlatSamples::U32(list) => list.get(index).map_or(0.0, |&value| value as f32),
     };

@@ -5,15 +5,14 @@ use rayon::prelude::*;
 
 use crate::ImageError;
 
-/// What a PNG file is to hold.
+/// Format of a PNG file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PngOptions {
     /// 1 gray, 2 gray and alpha, 3 RGB, 4 RGB and alpha.
     pub channels: u8,
     /// Bits of a sample, 8 or 16.
     pub bits: u8,
-    /// Whether the file says that it holds sRGB colors (an `sRGB` chunk, perceptual). Without it the file says nothing of
-    /// color, which is what data wants.
+    /// Whether the file declares sRGB colors (an `sRGB` chunk, perceptual). Data maps declare no color space.
     pub srgb_chunk: bool,
 }
 
@@ -56,7 +55,7 @@ pub fn encode_png(width: u32, height: u32, data: PngData<'_>, options: PngOption
     let write = || -> Result<(), png::EncodingError> {
         let mut writer = encoder.write_header()?;
         if options.srgb_chunk {
-            // Written by hand: the encoder would add the gamma and primaries that `sRGB` already stands for.
+            // Written directly: the encoder would add gamma and primaries, which `sRGB` implies.
             writer.write_chunk(png::chunk::sRGB, &[0])?;
         }
         writer.write_chunk(png::chunk::IDAT, &stream)?;
@@ -199,7 +198,7 @@ fn choose_filter(row: &[u8], above: &[u8], pixel_bytes: usize, trials: &mut [Vec
     for ((out, &byte), ((&left, &over), &corner)) in paeth[first..].iter_mut().zip(&row[first..]).zip(neighbors) {
         *out = byte.wrapping_sub(paeth_predictor(left, over, corner));
     }
-    // Names of filters in the file: 0 none, 1 left, 2 up, 4 Paeth. On a tie the earlier one.
+    // Filter numbers of the file format: 0 none, 1 left, 2 up, 4 Paeth. On a tie the lower one wins.
     let mut best = (cost(row), 0, None);
     for (index, (number, trial)) in [(1, &*sub), (2, &*up), (4, &*paeth)].into_iter().enumerate() {
         let cost = cost(trial);

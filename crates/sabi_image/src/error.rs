@@ -1,8 +1,8 @@
-//! What can be wrong with a picture, as sentences.
+//! Errors of decoding and encoding pictures.
 
 use thiserror::Error;
 
-/// Why a picture could not be read or written.
+/// Reason why a picture could not be decoded or encoded.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ImageError {
     /// The file holds nothing at all.
@@ -28,7 +28,7 @@ pub enum ImageError {
         name: String,
         /// `PNG`, `OpenEXR`…
         format: &'static str,
-        /// What it holds.
+        /// Feature that is not read.
         feature: String,
     },
     /// The file contradicts itself or ends early.
@@ -38,7 +38,7 @@ pub enum ImageError {
         name: String,
         /// `PNG`, `OpenEXR`…
         format: &'static str,
-        /// What the decoder said.
+        /// Message of the decoder.
         detail: String,
     },
     /// More pixels than are read.
@@ -60,7 +60,7 @@ pub enum ImageError {
         width: u32,
         /// Height asked for, pixels.
         height: u32,
-        /// What does not fit.
+        /// Contradiction between size and samples.
         reason: String,
     },
 }

@@ -1,18 +1,18 @@
-//! A decoded picture, as its file has it, and the linear numbers in it.
+//! Decoded pictures and their conversion to linear values.
 
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
 use sabi_color::{linear_from_srgb, linear_from_srgb_f64};
 
-/// What a file says about the meaning of its numbers.
+/// Color space that a file declares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Declared {
     /// Encoded with the sRGB curve.
     Srgb,
     /// Proportional to light.
     Linear,
-    /// It says nothing, as most files do.
+    /// None is declared, as in most files.
     Unknown,
 }
 
@@ -38,7 +38,7 @@ pub struct Picture {
     pub channels: u8,
     /// `width × height × channels` samples.
     pub pixels: Pixels,
-    /// What the file says of its colors.
+    /// Color space that the file declares.
     pub color_space: Declared,
 }
 

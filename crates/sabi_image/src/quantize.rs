@@ -1,6 +1,6 @@
-//! Floats to whole codes: rounding half up, and dithering from the pixel's place alone.
+//! Quantization of floats to integer codes: rounding half up, and ordered dithering.
 
-/// Whether and how rounding is varied from pixel to pixel.
+/// Variation of rounding from pixel to pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Dither {
     /// Every pixel rounds half up.
@@ -23,7 +23,7 @@ pub fn quantize_u16(value: f32) -> u16 {
 
 /// Threshold in 0..1 for the pixel: the lattice of the plastic number (Roberts 2018), whose neighbors are far apart as in
 /// blue noise, in whole numbers so that every machine gives the same one. Never nearer to 0 or 1 than 1/8192, which is
-/// more than the error of a float that stands for a code: those do not change.
+/// more than the rounding error of a float that represents a code: exact codes do not change.
 pub fn dither_threshold(x: u32, y: u32) -> f32 {
     let place = x
         .wrapping_mul(3_242_174_889)
@@ -41,8 +41,7 @@ impl Dither {
     }
 }
 
-/// The product is rounded to a float as everywhere in graphics, so that 0.7, which no float is exactly, gives 178.5 and
-/// rounds up as on paper.
+/// The product is rounded to a float, so that 0.7, which is no exact float, gives 178.5 and rounds up.
 fn quantize(value: f32, highest: f32, threshold: f64) -> u32 {
     // `clamp` keeps not-a-number.
     let unit = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };

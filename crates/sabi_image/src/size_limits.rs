@@ -7,7 +7,7 @@ pub const MAX_SIDE: u32 = 16384;
 /// Most bytes that a picture may take once decoded.
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 
-/// Refuses sizes that are not read, before anything is allocated for them.
+/// Rejects unsupported sizes before anything is allocated for them.
 pub(crate) fn check_size(name: &str, width: u64, height: u64, pixel_bytes: u64) -> Result<(), ImageError> {
     let bytes = width
         .checked_mul(height)

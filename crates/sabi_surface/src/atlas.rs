@@ -1,4 +1,4 @@
-//! The linked atlas: UV charts on pages of texels, with ghost texels that know the surface point over the seam.
+//! The linked atlas: UV charts on pages of texels, with ghost texels that are linked to the surface point beyond the seam.
 //!
 //! Texel coordinates: the center of texel `(x, y)` lies at `(x + 0.5, y + 0.5)`; `y` grows downward like `v`.
 //!
@@ -45,10 +45,10 @@ pub const TILE: u32 = 8;
 /// Rings of ghost texels around a chart.
 pub const RINGS: u32 = 2;
 
-/// Pairs of overlapping charts that a report lists; more would tell nobody more.
+/// Most pairs of overlapping charts that a report lists.
 pub const PAIRS_LIMIT: usize = 10_000;
 
-/// What an atlas is built for.
+/// Size and page limit of an atlas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AtlasOptions {
     /// Texels for one unit of UV, 16 to 16384.
@@ -64,19 +64,19 @@ impl AtlasOptions {
     }
 }
 
-/// What a texel holds.
+/// Content of a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Owner {
-    /// Nothing.
+    /// Neither surface nor ghost.
     Empty,
-    /// The surface itself, with the number of the triangle.
+    /// Surface; the number of the triangle.
     Triangle(u32),
-    /// A ghost, with its index in [`Atlas::ghosts`].
+    /// Ghost; its index in [`Atlas::ghosts`].
     Ghost(u32),
 }
 
 impl Atlas {
-    /// What texel `(x, y)` of `page` holds; [`Owner::Empty`] outside of the pages.
+    /// Returns the content of texel `(x, y)` of `page`; [`Owner::Empty`] outside of the pages.
     pub fn owner(&self, x: u32, y: u32, page: u32) -> Owner {
         let [width, height] = self.page_size;
         if x >= width || y >= height || page >= self.pages {
@@ -116,14 +116,14 @@ pub struct Atlas {
     /// For each texel the radius in texels within which a straight step stays inside the chart and does not reach
     /// a texel whose metric differs by more than 5 % from its neighbor's; 0 outside and beside such a jump.
     pub leap: Vec<u8>,
-    /// What was found and done.
+    /// Measurements and warnings of the build.
     pub report: AtlasReport,
 }
 
 /// A chart: triangles connected through edges that are not seams, placed at a whole-texel offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// Page it lies on.
+    /// Page of the chart.
     pub page: u32,
     /// Add to `uv × size` to get texel coordinates on the page.
     pub texel_from_uv: [i32; 2],
@@ -131,7 +131,7 @@ pub struct Chart {
     pub bounds: [u32; 4],
     /// Material, an index into the model's materials.
     pub material: u32,
-    /// Sheet of texture coordinates that it lies on: its material, or 0 for all where they share one
+    /// Sheet of texture coordinates: the chart's material, or 0 for all where they share one
     /// ([`crate::model::Mesh::is_one_sheet`]). Charts of different sheets never overlap.
     pub sheet: u32,
     /// UV tile, `[floor(u), floor(v)]` of the chart's center; `[0, 0]` is the unit square.
@@ -144,7 +144,7 @@ pub struct Chart {
     pub texels: u32,
 }
 
-/// A texel just outside a chart, and the surface point one reaches by walking straight over the seam.
+/// Texel just outside a chart, with the surface point that a straight walk over the seam leads to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ghost {
     /// Column, row, page.
@@ -160,7 +160,7 @@ pub struct Ghost {
     /// A triangle of the chart in which stored values are read for it: the target's, or where neither chart has a texel of
     /// its own near the target, that over the seam.
     pub read_triangle: u32,
-    /// The same point, or one right beside it, in texel coordinates of that chart.
+    /// Texel coordinates of that point, or of one next to it, on the page of that chart.
     pub read_texel: [f32; 2],
 }
 
@@ -175,7 +175,7 @@ pub struct TileRef {
     pub column: u32,
 }
 
-/// What was found while building, for `sabi mesh` and the report file.
+/// Measurements and warnings of a build, for reports.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AtlasReport {
     /// Owned texels of all charts divided by the texels of the unit squares in use, one for each sheet.

@@ -24,7 +24,7 @@ pub struct Bvh {
     scale: f32,
 }
 
-/// What a ray met.
+/// Intersection of a ray with a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Triangle number in the mesh.
@@ -38,7 +38,7 @@ pub struct Hit {
 impl Bvh {
     /// Builds the hierarchy; the same one for the same mesh.
     pub fn build(mesh: &Mesh) -> Bvh {
-        // What is not a number lies in the middle, where a triangle without area is met by no ray.
+        // NaN positions become the center: the triangle has no area there, so that no ray hits it.
         let corner = |vertex: u32| {
             let position = mesh
                 .positions
@@ -128,7 +128,7 @@ impl Bvh {
         &self.tree
     }
 
-    /// What turns model space into scaled space: `(position − center) × scale`.
+    /// Center and scale of the map from model space to scaled space: `(position − center) × scale`.
     pub fn scaled_from_model(&self) -> ([f32; 3], f32) {
         (self.center.to_array(), self.scale)
     }

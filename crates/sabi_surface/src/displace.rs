@@ -1,12 +1,12 @@
-//! A finer copy of a mesh whose vertices stand where a height field lifts them: real relief, with an outline of its own.
+//! Displacement: a finer copy of a mesh whose vertices are moved by a height field, with a silhouette of its own.
 //!
-//! An edge is halved as long as it is longer than a length, and a triangle is cut along whatever of its edges were. Whether an
-//! edge is halved and where its middle lies depends on its two ends alone, so both neighbors cut it alike and no T-junction
+//! An edge is halved as long as it is longer than a length, and a triangle is split along its halved edges. Whether an
+//! edge is halved and where its middle is depends on its two ends alone, so both neighbors split it alike and no T-junction
 //! arises; nothing has to be stitched, and long thin triangles are cut along their length only. The price is that lengths
 //! come in powers of two.
 //!
-//! Watertight by bits: what stands at one place, whatever triangles, charts and parts it belongs to, moves by the mean of
-//! the heights that the charts give there, along the mean of the shading normals (as Castaño does on the GPU).
+//! Watertight bit by bit: vertices at one position, of whatever triangles, charts and parts, move by the mean of
+//! the heights that the charts have there, along the mean of the shading normals (as Castaño does on the GPU).
 
 mod lift;
 mod plane;
@@ -26,13 +26,13 @@ use lift::lift;
 pub use plane::HeightPlane;
 use split::{Split, count};
 
-/// How fine a displaced copy is to be.
+/// Resolution of a displaced copy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplaceOptions {
-    /// Edges are halved until none is longer, model units; 0 for as fine as the budget allows. [`texel_length`] tells from
-    /// where on finer ones show no more.
+    /// Edges are halved until none is longer, model units; 0 for as fine as the budget allows. [`texel_length`] is
+    /// the length below which finer edges show no more.
     pub edge_length: f32,
-    /// Triangles at most; a mesh that has more keeps those that it has.
+    /// Most triangles; a mesh that has more is not subdivided.
     pub triangle_budget: usize,
 }
 
@@ -48,7 +48,7 @@ impl Default for DisplaceOptions {
 /// A finer, displaced copy of a mesh. Vertices of different triangles of the mesh are never shared.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Displaced {
-    /// Where the vertices stand, model units.
+    /// Positions of the vertices, model units.
     pub positions: Vec<[f32; 3]>,
     /// Shading normals of the mesh, for each vertex. As tangents they are those of the undisplaced surface, which a normal
     /// map is meant in, and interpolated without being made unit length, as they are over the triangle that was cut.
@@ -61,16 +61,16 @@ pub struct Displaced {
     pub texels: Vec<[f32; 2]>,
     /// Corners as vertex numbers, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// The triangle of the mesh that each was cut from, rising: it tells chart, material and part.
+    /// Triangle of the mesh that each was split from, rising; it determines chart, material and part.
     pub triangle_from: Vec<u32>,
     /// The length above which edges were halved, model units; infinite when none were.
     pub edge_length: f32,
-    /// Why it is coarser than asked for, as a sentence.
+    /// Reason why it is coarser than requested, as a sentence.
     pub note: Option<String>,
 }
 
-/// Cuts a mesh finer and displaces it. `height` gives the height at a place of a chart in texels, model units along the
-/// normal, none where the chart knows none; what is not finite counts as 0. See [`HeightPlane::at`]. Surfaces that lie on one
+/// Cuts a mesh finer and displaces it. `height` returns the height at a place of a chart in texels, model units along the
+/// normal, `None` where the chart has none; values that are not finite count as 0. See [`HeightPlane::at`]. Surfaces that lie on one
 /// another and face opposite ways share no direction and stay where they are.
 pub fn displaced(
     mesh: &Mesh,
@@ -87,7 +87,7 @@ pub fn displaced(
     let mut whole = joined(&splits);
     whole.edge_length = edge_length;
     whole.note = note;
-    let chart_of = |triangle: usize| atlas.triangle_chart.get(triangle).copied().unwrap_or(0);
+    let chart_of = |triangle: usize| atlas.triangle_chart[triangle];
     whole.positions = lift(&splits, &whole.positions, chart_of, height);
     whole
 }

@@ -28,15 +28,15 @@ use crate::model::Model;
 pub const MAX_TRIANGLES: u64 = 50_000_000;
 /// Room for the vertices and corners of that many triangles, written out as text.
 const MAX_FILE_BYTES: u64 = 32 << 30;
-/// No more places of files that are not there are taken down.
+/// Most places of missing files that are recorded.
 const MOST_ABSENT: usize = 256;
 
-/// How a model is to be read.
+/// Options of reading a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadOptions {
-    /// Which UV set becomes [`crate::model::Mesh::uvs`]: glTF's `TEXCOORD_n`; OBJ has set 0 alone.
+    /// UV set that becomes [`crate::model::Mesh::uvs`]: glTF's `TEXCOORD_n`; OBJ has set 0 alone.
     pub uv_set: u32,
-    /// Which axis of the file points up; the model is turned so that it becomes +Y.
+    /// Axis of the file that points up; the model is rotated so that it becomes +Y.
     pub up: Up,
     /// All lengths are multiplied by this; finite and above 0.
     pub scale: f32,
@@ -81,6 +81,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
         model: path.display().to_string(),
         fault,
     };
+    // A path without a file name, such as `..`, is refused below under its own text.
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     if let Some(sentence) = refused_format(&name) {
         // A missing file is the better news than a wrong ending.
@@ -162,7 +163,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, Unread> {
     read_plain(path, MAX_FILE_BYTES)
 }
 
-/// Why a model's file was not read; `None` when it is not there.
+/// Returns why a model's file was not read; `None` when it does not exist.
 fn reason(unread: Unread) -> Option<String> {
     match unread {
         Unread::Missing => None,

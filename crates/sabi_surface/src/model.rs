@@ -11,28 +11,28 @@ pub struct Model {
     pub stem: String,
     /// All triangles.
     pub mesh: Mesh,
-    /// What is the origin of [`Model::mesh`] in the file's own world: zero, but for models that stand far from it.
+    /// Origin of [`Model::mesh`] in the file's own world: zero, except for models far from it.
     pub middle: [f64; 3],
     /// Materials in use, in the file's order. Never empty: a model without any has one unnamed.
     pub materials: Vec<ModelMaterial>,
     /// Encoded pictures that the materials name.
     pub images: Vec<ModelImage>,
-    /// Names of the parts (mesh instances), indexed by [`Mesh::triangle_part`]. What hangs together inside a part is a piece:
-    /// see [`crate::pieces`].
+    /// Names of the parts (mesh instances), indexed by [`Mesh::triangle_part`]. Connected triangles
+    /// of a part are a piece: see [`crate::pieces`].
     pub parts: Vec<String>,
     /// Files that it was read from: the model's own, buffers, pictures, material libraries. Empty when read from memory.
     pub files: Vec<PathBuf>,
-    /// Files that it names and that are not there, where they were looked for; of very many only the first.
+    /// Places of files that it names and that do not exist; of very many only the first.
     pub absent: Vec<PathBuf>,
     /// Whether the file is glTF, text or binary; a copy of any other is made from what was loaded.
     pub is_gltf: bool,
-    /// What of it has no UVs of the chosen set although other triangles have: materials as warnings name them.
+    /// Materials, as warnings name them, with triangles that lack the chosen UV set although others have it.
     pub without_uvs: Vec<String>,
-    /// What was repaired, reduced or left out, as sentences for the artist.
+    /// Warnings about repairs and omissions, as sentences for the artist.
     pub warnings: Vec<String>,
 }
 
-/// Indexed triangles in world space around [`Model::middle`]: right-handed, +Y up, meters as far as the file knows.
+/// Indexed triangles in world space around [`Model::middle`]: right-handed, +Y up, meters where the file says so.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions, finite.
@@ -44,7 +44,7 @@ pub struct Mesh {
     /// Texture coordinates that the atlas is built from and maps are laid out by: those of the chosen set, or unwrapped.
     /// glTF convention (v grows downward), one for each vertex; empty when there are none.
     pub uvs: Vec<[f32; 2]>,
-    /// Which set of the file [`Mesh::uvs`] is (`TEXCOORD_n`); none when there are no UVs or they were unwrapped.
+    /// Set of the file that [`Mesh::uvs`] is (`TEXCOORD_n`); `None` when there are no UVs or they were unwrapped.
     pub uv_set: Option<u32>,
     /// Whether all materials share one sheet of [`Mesh::uvs`], and so one set of maps; otherwise each has its own.
     pub is_one_sheet: bool,
@@ -73,7 +73,7 @@ pub struct TextureUvs {
     pub tangents: Vec<[f32; 4]>,
 }
 
-/// Triangles one after the other whose vertices have no coordinates of a set: what stands there is zero and means nothing.
+/// Range of triangles whose vertices have no coordinates of a set; the stored zeros have no meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissingUvs {
     /// The set's number: `TEXCOORD_n`.
@@ -115,9 +115,9 @@ pub struct ModelMaterial {
     pub roughness_factor: f32,
     /// Emission factor, linear, emissive strength included.
     pub emission_factor: [f32; 3],
-    /// How strongly the normal map tilts.
+    /// Scale of the normal map's tilt.
     pub normal_scale: f32,
-    /// How strongly the occlusion map darkens.
+    /// Strength of the occlusion map.
     pub occlusion_strength: f32,
     /// Base color (sRGB) and alpha.
     pub base_color: Option<TextureRef>,
@@ -166,7 +166,7 @@ pub struct TextureRef {
     pub uv_set: u32,
 }
 
-/// What happens outside 0..1.
+/// Wrap mode outside 0..1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
     /// Tiles.

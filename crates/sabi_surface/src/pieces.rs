@@ -1,7 +1,7 @@
-//! Pieces of a model: what hangs together inside a part, and the box that each piece stands in.
+//! Pieces of a model: connected triangles of a part, each with an oriented box.
 //!
-//! A bench of one mesh is one part and many pieces, a plank each. `connect` says which triangles hang together, `tightest`
-//! finds the box.
+//! A bench of one mesh is one part and many pieces, a plank each. `connect` finds connected triangles, `tightest`
+//! the box.
 
 mod connect;
 mod moments;
@@ -23,9 +23,9 @@ pub struct Pieces {
     pub boxes: Vec<PieceBox>,
 }
 
-/// A box around a piece, turned as the piece stands.
+/// Oriented bounding box of a piece.
 ///
-/// Pieces that are equal but for how they are turned have equal boxes, as far as their shape tells the axes apart: sides
+/// Pieces that differ by a rotation only have equal boxes, as far as their shape distinguishes the axes: sides
 /// whose lengths differ by less than 2 % are in the order of the model's axes that they are nearest to, and the first two
 /// axes point the way in which their largest component grows. A piece that no turned box fits better than an upright one
 /// by 2 %, such as a cube or a ball, has the upright one.
@@ -42,7 +42,7 @@ pub struct PieceBox {
 }
 
 impl Pieces {
-    /// Finds the pieces of a mesh whose triangles name vertices that are there and have a part each.
+    /// Finds the pieces of a mesh. Its triangles refer to existing vertices and have a part each.
     ///
     /// Triangles that share an edge in space are one piece if they are of one part. Solids that only touch stay apart,
     /// even where edges of both lie in one place.
@@ -54,7 +54,7 @@ impl Pieces {
     }
 }
 
-/// The boxes of `count` groups of triangles, whatever makes them groups; `triangle_group` has one for each triangle.
+/// Returns the oriented boxes of `count` groups of triangles; `triangle_group` holds the group of each triangle.
 pub fn boxes(mesh: &Mesh, triangle_group: &[u32], count: usize) -> Vec<PieceBox> {
     let (starts, sorted) = by_group(triangle_group, count);
     (0..count)
@@ -66,7 +66,7 @@ pub fn boxes(mesh: &Mesh, triangle_group: &[u32], count: usize) -> Vec<PieceBox>
         .collect()
 }
 
-/// Where each group's triangles begin in the second list, which has them group by group in the order of the mesh.
+/// Returns the start of each group in the second list, which holds the triangles by group, in the order of the mesh.
 fn by_group(triangle_group: &[u32], count: usize) -> (Vec<u32>, Vec<u32>) {
     let mut starts = vec![0_u32; count + 1];
     for group in triangle_group {

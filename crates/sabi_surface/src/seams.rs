@@ -10,7 +10,7 @@ use crate::model::Mesh;
 pub struct Seam {
     /// The two triangles, indices into [`Mesh::triangles`].
     pub triangles: [u32; 2],
-    /// For each of them which of its three corners stand at the start and at the end of the edge: the same two places.
+    /// For each of them the corners at the start and at the end of the edge, which are the same two places.
     pub corners: [[u8; 2]; 2],
 }
 

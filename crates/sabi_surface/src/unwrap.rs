@@ -25,13 +25,13 @@ pub const GAP: u32 = 4;
 
 /// Texels along a side of the sheet while it is packed.
 const PACKED_SIZE: u32 = 1024;
-/// The same where there are too many charts for that, however many there are.
+/// Largest size of the sheet, texels, where there are too many charts for [`PACKED_SIZE`].
 const FINEST_SIZE: u32 = 16_384;
 
 /// A mesh on one sheet.
 ///
 /// `mesh` has the triangles of the mesh it was made from, in their order and with their materials and parts, and looks the
-/// same: only vertices along the borders of charts are there several times. To write it into a file, write its positions,
+/// same: only vertices along the borders of charts are duplicated. To write it into a file, write its positions,
 /// normals, tangents, colors and [`Mesh::texture_uvs`] as they are, and [`Mesh::uvs`] as one more `TEXCOORD`: the one after
 /// the last of `texture_uvs`, or 0 if there is none. To change a file in place instead, `source_vertex` says for each vertex
 /// which vertex of the loaded mesh it was.
@@ -41,22 +41,22 @@ pub struct Unwrapped {
     pub mesh: Mesh,
     /// For each vertex of `mesh` its vertex in the mesh that was unwrapped.
     pub source_vertex: Vec<u32>,
-    /// What came of it.
+    /// Measurements and warnings.
     pub report: UnwrapReport,
 }
 
-/// How well a mesh could be unwrapped.
+/// Quality of an unwrapping.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnwrapReport {
     /// Charts on the sheet.
     pub charts: u32,
-    /// Connected pieces, and how many of them are not just copies of another.
+    /// Connected pieces, and the number of them that are no copies of another.
     pub pieces: [u32; 2],
     /// Share of the sheet that triangles cover.
     pub coverage: f32,
-    /// How much longer the longest direction of a triangle got than its shortest, averaged by area: 1 is none.
+    /// Stretch: longest over shortest direction of a triangle, averaged by area; 1 is none.
     pub stretch: f32,
-    /// The same at its worst, among the triangles with 99.9 % of the area.
+    /// Worst stretch among the triangles with 99.9 % of the area.
     pub worst_stretch: f32,
     /// Texels between charts on maps of 1024 × 1024: [`GAP`], unless there are too many charts for it.
     pub gap: f32,
@@ -74,13 +74,13 @@ impl UnwrapReport {
 /// Unwraps a mesh: the same bytes for the same mesh, with any number of threads.
 ///
 /// Texture coordinates that the mesh has stay in [`Mesh::texture_uvs`], and its normal maps with the frames they were made
-/// for; [`Mesh::tangents`] are made anew.
+/// for; [`Mesh::tangents`] are recomputed.
 pub fn unwrap(mesh: &Mesh) -> Result<Unwrapped, UnwrapError> {
     finish(mesh, lay_out(mesh)?)
 }
 
-/// As [`unwrap`], from the cache where it is there and whole, else written there. The second value says whether it came
-/// from the cache; one that cannot be written is a warning in the report.
+/// Unwraps like [`unwrap`], from the cache where the result is stored and intact. The second value is whether it came from
+/// the cache; a cache that cannot be written is a warning in the report.
 pub fn unwrap_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(Unwrapped, bool), UnwrapError> {
     let Some(folder) = cache_dir else {
         return Ok((unwrap(mesh)?, false));
@@ -96,7 +96,7 @@ pub fn unwrap_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(Unwrapped
     Ok((finish(mesh, sheet)?, false))
 }
 
-/// Where every corner of every triangle lies on the sheet.
+/// Position on the sheet of every corner of every triangle.
 #[derive(Clone, Debug, PartialEq)]
 struct Sheet {
     corners: Vec<[[f32; 2]; 3]>,

@@ -1,4 +1,4 @@
-//! Where texels of an atlas fall on the pixels of a texture set.
+//! Map from atlas texels to the pixels of a texture set.
 
 use std::collections::BTreeSet;
 
@@ -14,14 +14,14 @@ pub(crate) struct Grid<'a> {
     siblings: BTreeSet<[i32; 2]>,
 }
 
-/// Where a texel falls.
+/// Pixel that a texel maps to.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fallen {
     /// The texel, page by page and row by row.
     pub(crate) texel: usize,
     /// Its chart.
     pub(crate) chart: u32,
-    /// How it belongs to the chart.
+    /// Whether the chart owns it or it is a ghost.
     pub(crate) cover: Cover,
     /// UV tile it falls in, v downward.
     pub(crate) tile: [i32; 2],
@@ -65,7 +65,7 @@ impl<'a> Grid<'a> {
         }
     }
 
-    /// Where a texel at a column and row of a page falls; none where it is no chart's, or one's of another sheet.
+    /// Returns the pixel of a texel at a column, row and page; `None` where it belongs to no chart of the set's sheet.
     pub(crate) fn fallen(&self, [x, y, page]: [u32; 3]) -> Option<Fallen> {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
         let texel = (page as usize * height + y as usize) * width + x as usize;

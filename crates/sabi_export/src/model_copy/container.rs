@@ -1,8 +1,8 @@
-//! What a glTF document comes in: a file of its own, or a GLB container with a binary chunk.
+//! Container of a glTF document: a JSON file, or a GLB file with a binary chunk.
 
 use serde_json::{Value as Json, json};
 
-/// Cuts keep the alignment of what stands behind them: a multiple of every element size that glTF knows.
+/// Granularity of cuts, which keeps the alignment of the bytes after them: a multiple of every element size of glTF.
 const ALIGNMENT: usize = 16;
 /// Chunks of a GLB file are filled up to a multiple of this.
 const ALIGNMENT_OF_CHUNKS: usize = 4;
@@ -20,6 +20,7 @@ pub(super) struct Container {
 }
 
 fn without_mark(bytes: &[u8]) -> &[u8] {
+    // The byte order mark is optional.
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
@@ -75,10 +76,10 @@ impl Container {
         Ok((container, document))
     }
 
-    /// Keeps the binary chunk as the first buffer, or as a chunk that nothing is said about.
+    /// Takes the binary chunk as the first buffer, or as a chunk of unknown kind.
     fn take_binary(&mut self, chunk: &[u8], buffer: &Json) {
         if !buffer.is_object() || !buffer["uri"].is_null() {
-            // The chunk stands right behind the JSON, whatever else there is.
+            // The binary chunk directly follows the JSON.
             let size = (chunk.len() as u32).to_le_bytes();
             self.others.splice(0..0, [&size, BINARY_CHUNK, chunk].concat());
             return;
@@ -103,6 +104,7 @@ impl Container {
     /// The binary chunk.
     #[cfg(test)]
     pub(super) fn binary(&self) -> &[u8] {
+        // A file without a binary chunk has no bytes.
         self.binary.as_deref().unwrap_or_default()
     }
 
@@ -115,7 +117,8 @@ impl Container {
         Some(view)
     }
 
-    /// Cuts out of the binary chunk what only the `dead` buffer views held. All else keeps its order and alignment.
+    /// Removes from the binary chunk the bytes that only the `dead` buffer views refer to. Other bytes keep order and
+    /// alignment.
     pub(super) fn forget(&mut self, document: &mut Json, dead: &[Json]) {
         let Some(binary) = &mut self.binary else { return };
         let views = document["bufferViews"].as_array_mut();
@@ -125,7 +128,7 @@ impl Container {
         };
         let mut cuts = cuts(views.iter().filter_map(range).collect(), dead);
         cuts.retain(|[_, to]| *to <= binary.len());
-        // By cut: all bytes cut out up to its end.
+        // For each cut, the total of removed bytes up to its end.
         let mut sum = 0;
         let mut cut_before = vec![0];
         for [from, to] in &cuts {
@@ -172,7 +175,7 @@ impl Container {
     }
 }
 
-/// What only the `dead` buffer views held, in multiples of [`ALIGNMENT`]: rising and apart from each other.
+/// Returns the ranges that only the `dead` buffer views refer to, in multiples of [`ALIGNMENT`]: rising and disjoint.
 fn cuts(mut live: Vec<[usize; 2]>, dead: &[Json]) -> Vec<[usize; 2]> {
     live.sort_unstable();
     // Joined where they overlap, so that not only starts rise but ends as well.
@@ -199,6 +202,7 @@ fn range(view: &Json) -> Option<[usize; 2]> {
     if number("buffer") != Some(0) {
         return None;
     }
+    // 0 is glTF's default.
     let from = usize::try_from(number("byteOffset").unwrap_or(0)).ok()?;
     Some([from, from.checked_add(usize::try_from(number("byteLength")?).ok()?)?])
 }

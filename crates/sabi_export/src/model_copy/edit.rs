@@ -1,4 +1,4 @@
-//! What a baked material looks like, in the JSON of a glTF file.
+//! Baked materials in the JSON of a glTF file.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -11,7 +11,7 @@ pub(super) struct TextureUse {
 }
 
 impl TextureUse {
-    /// As materials write it: the first set goes without saying.
+    /// Returns the JSON of the use; the first UV set is glTF's default and not written.
     pub(super) fn to_json(&self) -> Json {
         match self.uv_set {
             0 => json!({ "index": self.index }),
@@ -23,7 +23,7 @@ impl TextureUse {
 /// Extensions of a material that say what it looks like in place of what is written, or on top of it.
 const REPLACED: [&str; 2] = [
     "KHR_materials_emissive_strength",
-    // Viewers that know it would not look at metallic and roughness.
+    // Viewers that support it ignore metallic and roughness.
     "KHR_materials_pbrSpecularGlossiness",
 ];
 const STRENGTH: &str = "KHR_materials_emissive_strength";
@@ -59,7 +59,7 @@ pub(super) fn remove(object: &mut Json, key: &str) {
     }
 }
 
-/// Takes off a material what its maps and factors stand for.
+/// Removes the maps and factors of a material.
 pub(super) fn strip(material: &mut Json) {
     for key in ["normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor"] {
         remove(material, key);
@@ -85,7 +85,7 @@ pub(super) fn strip(material: &mut Json) {
     }
 }
 
-/// Gives a stripped material its new maps and factors; what is glTF's default goes without saying.
+/// Adds the new maps and factors to a stripped material; glTF's defaults are not written.
 pub(super) fn dress(
     document: &mut Json,
     index: usize,
@@ -101,7 +101,7 @@ pub(super) fn dress(
     let material = &mut document["materials"][index];
     let pbr = metallic_roughness_model(&maps, base_color, metallic_roughness);
     if !pbr.is_empty() {
-        // What others keep there stays.
+        // Extensions of other programs stay.
         let held = &mut material["pbrMetallicRoughness"];
         if !held.is_object() {
             *held = json!({});
@@ -154,7 +154,7 @@ fn numbers(values: &[f32]) -> Json {
     values.iter().map(|value| number(*value)).collect()
 }
 
-/// As short as an f32 can be written.
+/// Returns the shortest number that reads back as the same f32.
 fn number(value: f32) -> Json {
     crate::record::short(value)
 }

@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use super::edit::{push, remove};
 
-/// Names of the extensions that stand anywhere in the document.
+/// Returns the names of all extensions used in the document.
 pub(super) fn present(document: &Json) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     collect(document, &mut found);
@@ -37,8 +37,9 @@ pub(super) fn keep_lists_true(document: &mut Json, before: &BTreeSet<String>) {
             continue;
         };
         names.retain(|name| {
-            let name = name.as_str().unwrap_or_default();
-            !before.contains(name) || now.contains(name)
+            // An entry that is no text is not the copy's to remove.
+            name.as_str()
+                .is_none_or(|name| !before.contains(name) || now.contains(name))
         });
         if names.is_empty() {
             remove(document, key);

@@ -16,13 +16,13 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// How a material is drawn, whatever it looks like.
+/// Keys of a material that control how it is drawn, not its looks.
 const DRAWN: [&str; 3] = ["alphaMode", "alphaCutoff", "doubleSided"];
 /// Numbers of UV sets up to which gaps are filled; no file in use has more.
 const MOST_SETS: u32 = 16;
 
 /// The document and its container, with the mesh's texture coordinates as `TEXCOORD` number `uv_set`. Materials that are
-/// `baked` get no looks of their own; how they are drawn is taken from the `file`, where that is a glTF. `warnings` gets a
+/// `baked` get no textures and factors; how they are drawn is taken from the `file`, where that is a glTF. `warnings` gets a
 /// sentence for each picture of the others that glTF cannot hold.
 pub(super) fn glb(
     model: &Model,
@@ -82,7 +82,7 @@ pub(super) fn glb(
     (container, document)
 }
 
-/// A node that stands where the model does.
+/// Returns a node at the model's position.
 fn node(name: &str, mesh: usize, middle: [f64; 3]) -> Json {
     let mut node = json!({ "name": name, "mesh": mesh });
     if middle != [0.0; 3] {
@@ -95,7 +95,7 @@ fn node(name: &str, mesh: usize, middle: [f64; 3]) -> Json {
 type UvSets<'m> = BTreeMap<u32, &'m [[f32; 2]]>;
 
 /// All sets of the mesh, its own as number `uv_set`. glTF has them follow on each other from 0: where a file has sets that
-/// were not loaded, the mesh's own stands in their places.
+/// were not loaded, the mesh's own set takes their place.
 fn uv_sets(mesh: &Mesh, uv_set: u32) -> UvSets<'_> {
     let own = &mesh.uvs[..];
     if own.is_empty() {
@@ -121,7 +121,7 @@ fn primitives(mesh: &Mesh) -> BTreeMap<u32, BTreeMap<u32, Vec<[u32; 3]>>> {
 /// Vertex data on its way into buffer views: indices first, then one view for each attribute.
 #[derive(Default)]
 struct Arrays {
-    /// By order: bytes, and bytes of an element.
+    /// Bytes and element size of each view, in order.
     views: BTreeMap<u64, (Vec<u8>, usize)>,
     accessors: Vec<Json>,
 }
@@ -221,8 +221,9 @@ impl Arrays {
             places.insert(*order, push(document, "bufferViews", view));
         }
         for accessor in &mut self.accessors {
-            let order = accessor["bufferView"].as_u64().unwrap_or_default();
-            accessor["bufferView"] = json!(places.get(&order));
+            // An accessor of a view that was not stored refers to none.
+            let place = accessor["bufferView"].as_u64().and_then(|order| places.get(&order));
+            accessor["bufferView"] = json!(place);
         }
         document["accessors"] = json!(self.accessors);
     }

@@ -1,4 +1,4 @@
-//! What a glTF file has that a copy written anew from the loaded mesh does not.
+//! Content of a glTF file that a copy made from the loaded mesh lacks.
 
 use serde_json::Value as Json;
 

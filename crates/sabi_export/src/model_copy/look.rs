@@ -1,4 +1,4 @@
-//! What a material of a loaded model looks like, written as glTF.
+//! Materials of a loaded model, written as glTF.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,7 +15,7 @@ fn exact(values: &[f32]) -> Json {
     values.iter().map(|value| short(*value)).collect()
 }
 
-/// Gives a material the factors and textures of its file; `place` adds a texture and gives its use.
+/// Adds the factors and textures of the loaded material; `place` adds a texture and returns its use.
 pub(super) fn look(
     material: &ModelMaterial,
     entry: &mut Json,

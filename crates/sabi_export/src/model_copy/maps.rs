@@ -21,8 +21,8 @@ pub struct MapFile {
     pub is_written: bool,
 }
 
-/// What a glTF material looks like: factors and maps. A channel that is the same all over is a factor; occlusion, which
-/// has none, is left out where it is 1.
+/// Factors and maps of a glTF material. A constant channel is a factor; occlusion, which has none, is left out where it is
+/// 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialMaps {
     /// Linear RGBA; white, and opaque, where the map has them.
@@ -45,7 +45,7 @@ pub struct MaterialMaps {
     pub normal: Option<MapFile>,
     /// Linear RGB up to 1; white where the map has it.
     pub emission_factor: [f32; 3],
-    /// What emission is multiplied by: 1 unless it exceeds 1.
+    /// Multiplier of emission: 1 unless emission exceeds 1.
     pub emission_strength: f32,
     /// sRGB, as a part of the strength.
     pub emission: Option<MapFile>,
@@ -102,7 +102,7 @@ impl Held {
     /// The code of a pixel.
     fn code(&self, pixel: usize) -> u8 {
         match self {
-            Held::Codes(codes) => codes.get(pixel).copied().unwrap_or_default(),
+            Held::Codes(codes) => codes[pixel],
             Held::Constant(Value::Number(value)) => sabi_image::quantize_u8(*value),
             Held::Constant(Value::Triple(_)) => 0,
         }
@@ -164,7 +164,7 @@ impl Gathering {
         Ok(())
     }
 
-    /// What came together, by material.
+    /// Returns the collected maps by material.
     pub(crate) fn finish(self) -> BTreeMap<u32, MaterialMaps> {
         self.done
     }
@@ -178,6 +178,7 @@ impl Gathering {
             return Ok(());
         };
         let alpha = opacity.number();
+        // A varying opacity is in the map, and its factor is 1.
         let mut factor = [1.0, 1.0, 1.0, alpha.unwrap_or(1.0)];
         let file = match (&color, alpha) {
             (Held::Constant(Value::Triple(rgb)), Some(_)) => {

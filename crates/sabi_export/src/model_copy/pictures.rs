@@ -19,11 +19,11 @@ pub(super) struct Pictures {
     /// In use before.
     textures: BTreeSet<usize>,
     images: BTreeSet<usize>,
-    /// In use no more, and not taken yet.
+    /// No longer used, and not reused yet.
     free_textures: BTreeSet<usize>,
     free_images: BTreeSet<usize>,
     free_views: BTreeSet<usize>,
-    /// Buffer views as they were whose bytes nobody needs.
+    /// Earlier buffer views whose bytes are no longer used.
     dead: Vec<Json>,
     /// Places of new pictures.
     new: BTreeSet<usize>,
@@ -31,9 +31,9 @@ pub(super) struct Pictures {
     files: Vec<CopiedFile>,
 }
 
-/// What became of the pictures.
+/// Placement of the pictures.
 pub(super) struct Placed {
-    /// Buffer views as they were whose bytes nobody needs.
+    /// Earlier buffer views whose bytes are no longer used.
     pub(super) dead: Vec<Json>,
     /// Places of new pictures.
     pub(super) new: BTreeSet<usize>,
@@ -46,7 +46,7 @@ fn count(document: &Json, list: &str) -> usize {
 }
 
 impl Pictures {
-    /// Sees what a file uses before anything is taken off.
+    /// Records what a file uses before anything is removed.
     pub(super) fn new(document: &Json) -> Pictures {
         let all = (0..count(document, "textures")).collect();
         Pictures {
@@ -128,7 +128,7 @@ impl Pictures {
             self.dead.retain(|dead| dead != entry);
         }
         cut(document, "bufferViews", &free);
-        // Nobody can point into a view that stays without use: its bytes would be cut, so it stays whole.
+        // A view that remains unused must keep its bytes: references into it would be invalid after a cut.
         for view in free {
             let entry = &document["bufferViews"][view];
             self.dead.retain(|dead| entry.is_null() || dead != entry);
@@ -152,7 +152,7 @@ fn put(document: &mut Json, list: &str, free: &mut BTreeSet<usize>, value: Json)
     }
 }
 
-/// Takes free entries off the end of a list; a list of nothing must not stand in a glTF file.
+/// Removes unused entries from the end of a list; glTF forbids empty lists.
 fn cut(document: &mut Json, list: &str, free: &BTreeSet<usize>) {
     let Some(entries) = document.get_mut(list).and_then(Json::as_array_mut) else {
         return;

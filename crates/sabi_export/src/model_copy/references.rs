@@ -1,11 +1,11 @@
-//! Who points at textures and pictures. Extensions that Sabi does not know may do so too, so whatever looks like a
-//! reference counts as one: a picture too many is no harm, one too few is.
+//! References to textures and pictures. Unknown extensions may contain them, so whatever looks like a reference counts as
+//! one: an unused picture does no harm, a missing one does.
 
 use std::collections::BTreeSet;
 
 use serde_json::Value as Json;
 
-/// Lists whose entries are what is pointed at, or that point at bytes alone.
+/// Lists whose entries are targets of references, or that refer to bytes only.
 const NOT_SEARCHED: [&str; 6] = ["accessors", "buffers", "bufferViews", "images", "samplers", "textures"];
 
 /// Textures that anything but a texture list points at: numbers under `index` or a key that speaks of textures.

@@ -7,7 +7,7 @@ const fn png(bits: u8, codes: Codes, dither: bool) -> Format {
     Format::Png { bits, codes, dither }
 }
 
-/// One file a channel. Colors are 8-bit sRGB, factors 8 bit, normals (Y+) and masks 16 bit; height is exact floats and, for
+/// One file for each channel. Colors are 8-bit sRGB, factors 8 bit, normals (Y+) and masks 16 bit; height is exact floats and, for
 /// programs without OpenEXR, 16 bit over its range; emission gets a float file beside it where it exceeds 1.
 pub fn raw() -> Preset {
     let always = |channel, format| Map {

@@ -13,7 +13,7 @@ type Vec3 = [f64; 3];
 const SMOOTH: f64 = 0.999;
 
 impl SeamSamples {
-    /// Makes heights alike on both sides of all seams. Padding is not touched; see [`crate::PaddingMap::pad`].
+    /// Equalizes heights on both sides of all seams. Padding is not touched; see [`crate::PaddingMap::pad`].
     ///
     /// Pixels of [`crate::Channel::Height`], laid out as the set is; others stay as they are.
     pub fn erase_heights(&self, pixels: &mut ChannelPixels) {
@@ -28,7 +28,7 @@ impl SeamSamples {
             for (&pixel, [change]) in self.pixels.iter().zip(changes) {
                 let height = &mut pixels.data[pixel as usize];
                 let changed = (f64::from(*height) + change) as f32;
-                // One that nothing asks to change keeps its bits, those of −0 too; and a relief keeps its depth.
+                // A texel without a change keeps its bits, also those of −0.
                 if change != 0.0 && changed.is_finite() {
                     *height = changed.max(low).min(high);
                 }
@@ -36,7 +36,7 @@ impl SeamSamples {
         }
     }
 
-    /// Makes normals alike, in space, on both sides of the seams over which the model is smooth, as the renderer reads
+    /// Equalizes normals, in space, on both sides of the seams over which the model is smooth, as a renderer reads
     /// them: interpolated between texels, then decoded in the frame of its side. Padding is not touched.
     ///
     /// Pixels of [`crate::Channel::Normal`], unit vectors, laid out as the set is; others stay as they are. `mesh` is
@@ -49,7 +49,7 @@ impl SeamSamples {
                 let normal = &mut pixels.data[first..first + 3];
                 let changed: Vec3 = std::array::from_fn(|at| f64::from(normal[at]) + change[at]);
                 let length = length(changed);
-                // As above: not even its length is touched.
+                // As above: not even its length changes.
                 if change != [0.0; 3] && length.is_finite() && length > 0.0 {
                     normal.copy_from_slice(&changed.map(|value| (value / length) as f32));
                 }
@@ -57,12 +57,12 @@ impl SeamSamples {
         }
     }
 
-    /// How much heights differ between both sides: root mean square along all seams, in the heights' unit.
+    /// Returns the difference of heights between both sides: root mean square along all seams, in the heights' unit.
     pub fn height_difference(&self, pixels: &ChannelPixels) -> f64 {
         self.heights(pixels).map_or(0.0, |system| system.mean_square().sqrt())
     }
 
-    /// The same of normals over the smooth seams: the angle between them, radians, as far as it is small.
+    /// Returns the difference of normals over the smooth seams: the angle between them, radians, for small angles.
     pub fn normal_difference(&self, mesh: &Mesh, pixels: &ChannelPixels) -> f64 {
         self.normals(mesh, pixels)
             .map_or(0.0, |system| system.mean_square().sqrt())
@@ -87,6 +87,7 @@ impl SeamSamples {
         let compare = |sample: &Sample| {
             let frames = [0, 1].map(|side| self.frame(mesh, sample, side));
             let read = sample.sides.map(|side| self.read::<3>(&side, pixels));
+            // A hard edge compares nothing: rows of zeros have no effect.
             compared_normals(frames, read).unwrap_or(([[[0.0; 3]; 2]; 2], [0.0; 2]))
         };
         Some(self.system(compare))
@@ -115,7 +116,7 @@ impl SeamSamples {
         system
     }
 
-    /// What a renderer reads; around the first texel, so that a constant stays what it is, bit by bit.
+    /// Returns the interpolated value; computed relative to the first texel, so that constants keep their bits.
     fn read<const N: usize>(&self, reading: &Reading, pixels: &ChannelPixels) -> [f64; N] {
         let texel = |index: u32| -> [f64; N] {
             let first = N * self.pixels[index as usize] as usize;
@@ -144,8 +145,8 @@ impl SeamSamples {
     }
 }
 
-/// How the decoded normals of two sides differ, across the way that they point, and what a change of what is read does to
-/// that; none over a hard edge. What the faces' own normals differ by is no difference.
+/// Returns the difference of the decoded normals of two sides, perpendicular to their direction, and its derivative by the
+/// values read; `None` over a hard edge. The difference of the faces' own normals is subtracted.
 fn compared_normals(frames: [[Vec3; 3]; 2], read: [Vec3; 2]) -> Option<Compared<3, 2>> {
     let decode = |side: usize| -> Vec3 {
         let (frame, read) = (frames[side], read[side]);

@@ -3,16 +3,16 @@
 
 use super::Sample;
 
-/// What a squared change of a texel weighs, against a squared difference over a texel's length of seam. A difference that
+/// Weight of a squared change of a texel, relative to a squared difference over a texel's length of seam. A difference that
 /// is even along the seam shrinks to this share of itself; one that changes from texel to texel keeps more, since to take
 /// it away texels would have to change by more than it is.
 const CHANGE_WEIGHT: f64 = 0.03;
-/// The residual that is good enough, as a share of the first one.
+/// Relative residual at which iterations end.
 const GOOD_ENOUGH: f64 = 1e-3;
-/// Iterations after which the best so far is taken.
+/// Most iterations.
 const MOST_ITERATIONS: usize = 100;
 
-/// For each side of a sample the rows that bring a reading to what is compared, and the first side's numbers minus the
+/// For each side of a sample the rows that map a reading to the compared values, and the first side's values minus the
 /// second's.
 pub(super) type Compared<const N: usize, const K: usize> = ([[[f32; N]; K]; 2], [f64; K]);
 

@@ -49,7 +49,7 @@ impl Atlas {
         }
     }
 
-    /// The atlas of the same charts at another size.
+    /// Builds the atlas of the same charts at another size.
     pub(super) fn rebuild(&self, mesh: &Mesh, size: u32, page_limit: u32) -> Result<Atlas, AtlasError> {
         let (triangles, expected) = (mesh.triangles.len(), self.triangle_chart.len());
         if triangles != expected {
@@ -72,7 +72,7 @@ impl Atlas {
     }
 }
 
-/// On which side of its texture coordinates each triangle lies.
+/// Returns the winding of each triangle in UV.
 fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
     (0..mesh.triangles.len() as u32)
         .into_par_iter()
@@ -83,7 +83,7 @@ fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
 /// Texels of all charts' rectangles together: a bit each while building.
 const RECTANGLES_LIMIT: u64 = 1 << 33;
 
-/// What is known before charts are placed.
+/// Inputs of the build that do not depend on the placement of charts.
 struct Plan<'a> {
     mesh: &'a Mesh,
     topology: &'a Topology,
@@ -214,7 +214,7 @@ impl Plan<'_> {
         })
     }
 
-    /// The ghosts around all charts, and where they lead.
+    /// Links the ghosts around all charts.
     fn links(
         &self,
         partition: &Partition,
@@ -230,7 +230,7 @@ impl Plan<'_> {
                 sound[triangle] && self.orientations[triangle] != 0 && !masks[chart].is_empty()
             })
             .collect();
-        let hanging = occupancy.hanging(owners, |triangle| usable[triangle as usize]);
+        let anchored = occupancy.anchored(owners, |triangle| usable[triangle as usize]);
         let ground = Ground {
             mesh: self.mesh,
             topology: self.topology,
@@ -244,11 +244,11 @@ impl Plan<'_> {
                 partition,
                 placement,
             },
-            &hanging,
+            &anchored,
         )
     }
 
-    /// Which triangles have area in space, beyond what rounding of their positions could make.
+    /// Returns which triangles have an area in space that exceeds the rounding error of their positions.
     fn sound_triangles(&self) -> Vec<bool> {
         self.mesh
             .triangles

@@ -1,4 +1,4 @@
-//! Atlases on disk, found by what they are made of.
+//! Disk cache of atlases.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ const KIND: CacheKind = CacheKind {
     limit_bytes: 3 << 30,
 };
 
-/// A name for the atlas of a mesh: a hash of everything that can change it.
+/// Returns the key of the atlas of a mesh: a hash of everything that can change it.
 pub fn atlas_key(mesh: &Mesh, options: &AtlasOptions) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new_derive_key("sabi linked atlas");
     for number in [
@@ -38,10 +38,10 @@ pub fn atlas_key(mesh: &Mesh, options: &AtlasOptions) -> [u8; 32] {
     *hasher.finalize().as_bytes()
 }
 
-/// The atlas of a mesh, from the cache where it is there and whole, else built and written there.
+/// Returns the atlas of a mesh, from the cache where it is stored and intact, and otherwise builds and stores it.
 ///
-/// The second value says whether it came from the cache. A cache that cannot be written is a warning in the atlas'
-/// report, no error; a damaged file is replaced.
+/// The second value is whether it came from the cache. A cache that cannot be written is a warning in the atlas'
+/// report, not an error; a damaged file is replaced.
 pub fn cached(cache_dir: Option<&Path>, mesh: &Mesh, options: &AtlasOptions) -> Result<(Atlas, bool), AtlasError> {
     let Some(folder) = cache_dir else {
         return Ok((Atlas::build(mesh, options)?, false));

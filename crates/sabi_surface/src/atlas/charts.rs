@@ -3,7 +3,7 @@
 use super::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
-/// Which chart each triangle belongs to; charts are numbered by material, then by first triangle.
+/// Assignment of triangles to charts, which are numbered by material, then by first triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Partition {
     /// Chart of each triangle.
@@ -18,6 +18,7 @@ impl Partition {
     /// Numbers the groups that any labels make.
     pub(super) fn from_labels(mesh: &Mesh, labels: &[u32]) -> Partition {
         // A label that no group has yet stands at its first triangle.
+        // No labels need no room.
         let mut first = vec![u32::MAX; labels.iter().map(|&label| label as usize + 1).max().unwrap_or(0)];
         for (triangle, &label) in labels.iter().enumerate() {
             let first = &mut first[label as usize];

@@ -1,9 +1,9 @@
-//! Why an atlas could not be built.
+//! Errors of building an atlas.
 
-/// Why an atlas could not be built, as a sentence to the person who can change it.
+/// Reason why an atlas could not be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum AtlasError {
-    /// Nothing to put on an atlas.
+    /// The model has no triangles.
     #[error("the model has no triangles, so there is no surface to work on; choose a model with faces")]
     NoTriangles,
     /// No UVs.
@@ -24,7 +24,7 @@ pub enum AtlasError {
     /// The mesh contradicts itself.
     #[error("the mesh is damaged: {what}; export the model again")]
     BrokenMesh {
-        /// What does not fit.
+        /// Contradiction that was found.
         what: String,
     },
     /// Size outside of what is supported.
@@ -78,9 +78,9 @@ pub enum AtlasError {
         size: u32,
         /// Number of charts.
         charts: usize,
-        /// What would be needed, with its unit.
+        /// Required amount, with its unit.
         needed: String,
-        /// What there is, with its unit.
+        /// Available amount, with its unit.
         limit: String,
     },
     /// A level below anything useful.

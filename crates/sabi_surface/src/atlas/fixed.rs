@@ -85,7 +85,7 @@ impl<'a> Uvs<'a> {
             .map(|corner| corner.map(|value| (value * UNIT as f64).round() as i64))
     }
 
-    /// Which way a triangle winds in UV: 1, −1, or 0 when it is thinner than its coordinates are exact.
+    /// Returns the winding of a triangle in UV: 1, −1, or 0 when it is thinner than its coordinates are exact.
     ///
     /// Independent of the size, so that every level has the same charts.
     pub(super) fn orientation(&self, triangle: u32) -> i8 {

@@ -12,7 +12,7 @@ use super::charts::Partition;
 use super::fixed::{Uvs, cross, sub};
 use crate::model::Mesh;
 
-/// Distances beyond this many texels are not told apart: leaps end at 255.
+/// Distances beyond this many texels count as equal: a leap is at most 255.
 const FAR: u16 = 258;
 /// Columns that one task takes downwards.
 const STRIP: usize = 256;

@@ -1,4 +1,4 @@
-//! Coarser levels: atlases of their own, packed anew, that know the same charts.
+//! Coarser levels: separately packed atlases of the same charts.
 
 use std::collections::BTreeMap;
 
@@ -7,13 +7,13 @@ use rayon::prelude::*;
 use super::{Atlas, AtlasError, Owner};
 use crate::model::Mesh;
 
-/// Pages of any adapter.
+/// Page size that every adapter takes.
 const PAGE_LIMIT: u32 = 8192;
 
-/// Steps over the surface in which a texel without a counterpart looks for one with.
+/// Most steps over the surface from a texel without a counterpart to one with a counterpart.
 const REACH: u32 = 64;
 
-/// A coarser atlas and the way between its texels and those of the atlas it was made for.
+/// Coarser atlas and the correspondence between its texels and those of the atlas it was made for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtlasLevel {
     /// The coarser atlas: its charts have the same numbers.
@@ -36,8 +36,9 @@ pub struct Orphan {
 }
 
 impl Atlas {
-    /// The atlas of the same charts at `size >> level`, packed anew with full gaps and rings.
+    /// Builds the atlas of the same charts at `size >> level`, packed with full gaps and rings.
     pub fn level(&self, mesh: &Mesh, level: u32) -> Result<AtlasLevel, AtlasError> {
+        // A shift by all bits leaves nothing, and is refused below.
         let level_size = self.size.checked_shr(level).unwrap_or(0);
         if level_size < 8 {
             return Err(AtlasError::LevelTooSmall {
@@ -90,7 +91,7 @@ impl Atlas {
         found.into_iter().filter_map(orphan).collect()
     }
 
-    /// Where a neighbor of a texel finds its counterpart: itself, or what it has found.
+    /// Returns the texel whose counterpart a neighbor of a texel uses: the neighbor itself, or the one found for it.
     fn known_beside(&self, texel: [u32; 3], found: &BTreeMap<[u32; 3], Option<[u32; 3]>>) -> Option<[u32; 3]> {
         const AROUND: [[i32; 2]; 8] = [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1]];
         AROUND.into_iter().find_map(|[x, y]| {
@@ -115,7 +116,7 @@ impl Atlas {
 }
 
 impl AtlasLevel {
-    /// Where a point of the finer atlas lies on this level: texel coordinates on the chart's page, by way of UV.
+    /// Maps a point of the finer atlas to this level, through UV: texel coordinates on the chart's page.
     /// Panics when there is no such chart.
     pub fn coarse_texel_from_fine(&self, chart: u32, texel: [f64; 2]) -> [f64; 2] {
         let scale = f64::from(self.atlas.size) / f64::from(self.fine_size);
@@ -123,7 +124,7 @@ impl AtlasLevel {
         [0, 1].map(|axis| (texel[axis] - fine[axis]) * scale + coarse[axis])
     }
 
-    /// Where a point of this level lies on the finer atlas: texel coordinates on the chart's page, by way of UV.
+    /// Maps a point of this level to the finer atlas, through UV: texel coordinates on the chart's page.
     /// Panics when there is no such chart.
     pub fn fine_texel_from_coarse(&self, chart: u32, texel: [f64; 2]) -> [f64; 2] {
         let scale = f64::from(self.fine_size) / f64::from(self.atlas.size);
@@ -136,7 +137,7 @@ impl AtlasLevel {
         self.fine_size / self.atlas.size
     }
 
-    /// As `restrict.wgsl` looks: whether a texel of this level covers a finer texel of its chart.
+    /// Returns whether a texel of this level covers a finer texel of its chart, as `restrict.wgsl` decides it.
     fn covers_a_finer(&self, fine: &Atlas, chart: u32, texel: [u32; 3]) -> bool {
         let corner = self.fine_texel_from_coarse(chart, [f64::from(texel[0]), f64::from(texel[1])]);
         let page = fine.charts[chart as usize].page;
@@ -150,7 +151,8 @@ impl AtlasLevel {
         })
     }
 
-    /// As `prolong.wgsl` looks: whether one of the four texels of this level around a finer one is of its chart.
+    /// Returns whether one of the four texels of this level around a finer one is of its chart, as `prolong.wgsl` decides
+    /// it.
     fn has_a_coarser(&self, chart: u32, texel: [u32; 3]) -> bool {
         let center = [f64::from(texel[0]) + 0.5, f64::from(texel[1]) + 0.5];
         let corner = self

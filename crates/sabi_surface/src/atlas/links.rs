@@ -1,28 +1,28 @@
-//! Links: the surface point that each ghost stands for.
+//! Ghost links: the surface point of each ghost.
 
 use rayon::prelude::*;
 
 use super::charts::Partition;
 use super::place::Placement;
-use super::ring::Hanging;
+use super::ring::Anchored;
 use super::walk::{Ground, Landing};
 use super::{EMPTY, Ghost};
 
-/// How far a link's end may lie from the owned texel it is pulled to.
+/// Largest distance from a link's end to the owned texel that it is pulled to, texels.
 const PULL_TEXELS: i64 = 4;
-/// Of a pulled end, the distance along the longer axis that remains to the texel's center.
+/// Distance from a pulled end to the texel's center, along the longer axis, texels.
 const PULLED_DISTANCE: f64 = 0.875;
 /// An owned texel counts for bilinear sampling from this weight on.
 const LEAST_WEIGHT: f64 = 1e-3;
 
-/// How far a walk goes beyond its end, in texels, until enough of what is there is owned.
+/// Distances, in texels, by which a walk is continued beyond its end until enough texels around it are owned.
 const BEYOND: [f64; 4] = [0.0, 0.25, 0.5, 1.0];
-/// Shares that differ by less are alike.
+/// Difference below which two shares count as equal.
 const ALIKE: f64 = 0.25;
-/// Share of owned texels that is enough.
+/// Share of owned texels at which a walk is not continued.
 const ENOUGH: f64 = 0.75;
 
-/// Owners and places to look links up in.
+/// Owners and placement in which links are looked up.
 pub(super) struct Pages<'a> {
     pub(super) owners: &'a [u32],
     pub(super) partition: &'a Partition,
@@ -36,7 +36,7 @@ pub(super) struct Links {
     pub(super) pulled: u32,
 }
 
-/// How a ghost got its link.
+/// Origin of a ghost's link.
 enum Way {
     Walked,
     Pulled,
@@ -44,8 +44,11 @@ enum Way {
 }
 
 /// Links all ghosts, in their order.
-pub(super) fn link(ground: &Ground, pages: &Pages, hanging: &[Hanging]) -> Links {
-    let linked: Vec<(Ghost, Way)> = hanging.par_iter().map(|hanging| pages.link(ground, hanging)).collect();
+pub(super) fn link(ground: &Ground, pages: &Pages, anchored: &[Anchored]) -> Links {
+    let linked: Vec<(Ghost, Way)> = anchored
+        .par_iter()
+        .map(|anchored| pages.link(ground, anchored))
+        .collect();
     let count = |way: fn(&Way) -> bool| linked.iter().filter(|linked| way(&linked.1)).count() as u32;
     Links {
         unlinked: count(|way| matches!(way, Way::Gave)),
@@ -55,12 +58,12 @@ pub(super) fn link(ground: &Ground, pages: &Pages, hanging: &[Hanging]) -> Links
 }
 
 impl Pages<'_> {
-    fn link(&self, ground: &Ground, hanging: &Hanging) -> (Ghost, Way) {
-        let Hanging {
+    fn link(&self, ground: &Ground, anchored: &Anchored) -> (Ghost, Way) {
+        let Anchored {
             texel,
             anchor,
             triangle,
-        } = *hanging;
+        } = *anchored;
         let chart = self.partition.triangle_chart[triangle as usize];
         let offset = self.placement.charts[chart as usize].offset.map(f64::from);
         let start = [0, 1].map(|axis| f64::from(anchor[axis]) + 0.5 - offset[axis]);
@@ -70,7 +73,7 @@ impl Pages<'_> {
             .and_then(|landing| self.reachable(landing));
         let read = self.read_place(ground, triangle, start, step);
         let ghost = |triangle, texel: [f64; 2], transport: [[f64; 2]; 2]| Ghost {
-            texel: hanging.texel,
+            texel: anchored.texel,
             chart,
             target_triangle: triangle,
             target_texel: texel.map(|value| value as f32),
@@ -88,11 +91,13 @@ impl Pages<'_> {
         }
     }
 
-    /// Where stored values are read for the end of a walk: a triangle of the chart, and texel coordinates on its page.
+    /// Returns the place from which stored values are read for the end of a walk: a triangle of the chart, and texel
+    /// coordinates on its page.
     ///
-    /// Between the last owned texel of a chart and the first of the next lies up to a texel of surface on which neither has
-    /// one. A walk that ends there goes on until it is over the seam, and its end is told in the coordinates of that chart:
-    /// of all ways to tell it the one that reads most from owned texels. Told by the own chart, a ghost would read itself.
+    /// Between the last owned texel of a chart and the first of the next there is up to a texel of surface that neither
+    /// owns. A walk that ends there is continued beyond the seam, and its end is given in the coordinates of that chart:
+    /// of all candidates the one that reads most from owned texels. In its own chart's coordinates a ghost would read
+    /// itself.
     fn read_place(&self, ground: &Ground, triangle: u32, start: [f64; 2], step: [f64; 2]) -> Option<(u32, [f64; 2])> {
         let length = step[0].hypot(step[1]).max(1.0);
         let ends = BEYOND.into_iter().filter_map(|beyond| {
@@ -111,7 +116,7 @@ impl Pages<'_> {
         let mut best: Option<(Landing, f64)> = None;
         for (landing, share) in ends {
             let is_better = best.as_ref().is_none_or(|(known, most)| {
-                // Where both charts end a texel before the seam: rather the other one.
+                // Both charts may end a texel before the seam; the other one is preferred.
                 let changes = chart(known) == own && chart(&landing) != own;
                 share > most + LEAST_WEIGHT || (changes && share > most - ALIKE)
             });

@@ -205,6 +205,7 @@ fn shifted_word(row: &[u64], index: usize, shift: i64) -> u64 {
             .ok()
             .and_then(|word| row.get(word))
             .copied()
+            // Beyond the ends of the row no bit is set.
             .unwrap_or(0)
     };
     if offset == 0 {

@@ -1,4 +1,4 @@
-//! Which charts share places in the user's layout, where maps have room for one of them only.
+//! Charts that share places in the user's layout, where a map holds only one of them.
 
 use std::collections::BTreeSet;
 
@@ -9,10 +9,10 @@ use super::fixed::{UNIT, Uvs};
 use super::mask::{Mask, for_each_run};
 use super::{Chart, PAIRS_LIMIT};
 
-/// Pairs that are looked at in the hope of listing them.
+/// Most pairs that are counted before the list is cut.
 const CANDIDATES_LIMIT: usize = 200_000;
 
-/// What charts share.
+/// Overlap of charts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Overlap {
     /// Owned texels whose place another chart claims, too.
@@ -62,7 +62,7 @@ fn overlap_of_sheet(
     let pairs = pairs(&crowded, room);
     for &(a, b, shared) in &pairs {
         let texels = |chart: u32| u64::from(charts[chart as usize].texels);
-        // The same texels by other triangles.
+        // The same texels, covered by other triangles.
         if shared == texels(a) && shared == texels(b) {
             stacked.insert(b as usize);
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::mask::{Mask, for_each_run};
 
-/// Where a shape went.
+/// Place of a packed shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Spot {
     pub(crate) page: u32,
@@ -17,7 +17,7 @@ pub(crate) struct Packer {
     columns: u32,
     rows_limit: u32,
     pages: Vec<Page>,
-    /// Where the search for a shape of this width and height starts: before it nothing of that size fitted.
+    /// Start of the search for a shape of this width and height: no shape of that size fits before it.
     starts: BTreeMap<(u32, u32), (u32, u32)>,
 }
 
@@ -57,9 +57,10 @@ impl Packer {
         self.pages[spot.page as usize].take(shape, spot.column, spot.row, self.columns);
     }
 
-    /// Where a shape that fits on an empty page would go.
+    /// Finds the place of a shape that fits on an empty page.
     pub(crate) fn find(&mut self, shape: &Mask) -> Spot {
         let size = (shape.width, shape.height);
+        // The first search for a size starts at the first page.
         let (mut page, mut row) = self.starts.get(&size).copied().unwrap_or((0, 0));
         loop {
             if page as usize == self.pages.len() {
@@ -85,6 +86,7 @@ impl Packer {
 
     /// Columns and rows in use on the fullest page, at least one.
     pub(crate) fn extent(&self) -> (u32, u32) {
+        // No page is in use yet.
         let rows = self.pages.iter().map(|page| page.rows.len()).max().unwrap_or(0);
         let last = |row: &Vec<u64>| {
             row.iter()
@@ -96,6 +98,7 @@ impl Packer {
             .iter()
             .flat_map(|page| page.rows.iter().map(last))
             .max()
+            // No row is in use yet.
             .unwrap_or(0);
         (columns.max(1) as u32, rows.max(1) as u32)
     }

@@ -1,4 +1,4 @@
-//! Where charts go: whole texels away from their place in the user's layout, so that export is a copy.
+//! Placement of charts: whole texels away from their place in the user's layout, so that export is a copy.
 
 use rayon::prelude::*;
 
@@ -94,7 +94,7 @@ fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
     })
 }
 
-/// Charts packed anew in cells, the largest first.
+/// Charts packed in cells, the largest first.
 fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
     // About 256 cells for the unit square: fine enough to waste little, coarse enough to be quick at any size.
     let mut cell = (size / 256).clamp(1, 64).next_power_of_two();
@@ -109,6 +109,7 @@ fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
         })
         .collect();
     let area = grown.iter().map(|(_, shape)| shape.count()).sum();
+    // No charts have no width.
     let widest = grown.iter().map(|(_, shape)| shape.width).max().unwrap_or(0);
     let mut packer = Packer::new(area, widest, page_limit / cell);
     let mut order: Vec<usize> = (0..masks.len()).filter(|&chart| !masks[chart].is_empty()).collect();

@@ -1,4 +1,4 @@
-//! Which texel centers a triangle covers: integers only, so every center belongs to exactly one of two neighbors.
+//! Texel centers that a triangle covers, in integers only: every center belongs to exactly one of two neighbors.
 
 use super::fixed::UNIT;
 

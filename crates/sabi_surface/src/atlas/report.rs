@@ -1,4 +1,4 @@
-//! What was found while building, in numbers and in sentences.
+//! Measurements of a build and the warnings that follow from them.
 
 use std::collections::BTreeSet;
 
@@ -13,10 +13,10 @@ use crate::model::Mesh;
 
 /// Densest against sparsest chart beyond which texels differ visibly in size.
 const DENSITY_RATIO: f64 = 4.0;
-/// Charts below this share of the surface say nothing about density.
+/// Charts below this share of the surface are ignored when densities are compared.
 const DENSITY_LEAST_SHARE: f64 = 1e-3;
 
-/// What the report is made from.
+/// Inputs of the report.
 pub(super) struct Findings<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,

@@ -1,11 +1,11 @@
-//! Rings: the texels around charts that become ghosts, each with the owned texel it hangs on.
+//! Rings: the texels around charts that become ghosts, each with its anchor, the owned texel that its walk starts from.
 
 use rayon::prelude::*;
 
 use super::mask::{for_each_run, or_shifted};
 use super::{EMPTY, RINGS, TILE, TileRef};
 
-/// Rows that one task looks at.
+/// Rows of one parallel task.
 const BAND_ROWS: usize = 32;
 
 /// Owned texels, a bit each.
@@ -18,7 +18,7 @@ pub(super) struct Occupancy {
 
 /// A ghost before it is linked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Hanging {
+pub(super) struct Anchored {
     /// Column, row, page.
     pub(super) texel: [u32; 3],
     /// The nearest owned texel, on the same page.
@@ -76,12 +76,12 @@ impl Occupancy {
         grown
     }
 
-    /// All ghosts in the order of their texels. `prefer` says which triangles are good to hang on; others are taken
-    /// only where there is no such triangle.
-    pub(super) fn hanging(&self, owners: &[u32], prefer: impl Fn(u32) -> bool + Sync) -> Vec<Hanging> {
+    /// Returns all ghosts with their anchors, in the order of their texels. `prefer` tells which triangles are good
+    /// anchors; others are used only where there is no such triangle.
+    pub(super) fn anchored(&self, owners: &[u32], prefer: impl Fn(u32) -> bool + Sync) -> Vec<Anchored> {
         let around = neighborhood();
         let bands: Vec<usize> = (0..self.rows()).step_by(BAND_ROWS).collect();
-        let found: Vec<Vec<Hanging>> = bands
+        let found: Vec<Vec<Anchored>> = bands
             .into_par_iter()
             .map(|top| {
                 let mut found = Vec::new();
@@ -108,7 +108,7 @@ impl Occupancy {
         row: usize,
         around: &[[i64; 2]],
         prefer: &impl Fn(u32) -> bool,
-    ) -> Option<Hanging> {
+    ) -> Option<Anchored> {
         let (page, y) = (row / self.height, row % self.height);
         let mut fallback = None;
         for [dx, dy] in around {
@@ -120,15 +120,15 @@ impl Occupancy {
             if triangle == EMPTY {
                 continue;
             }
-            let hanging = Hanging {
+            let anchored = Anchored {
                 texel: [x as u32, y as u32, page as u32],
                 anchor: [near_x as u32, near_y as u32],
                 triangle,
             };
             if prefer(triangle) {
-                return Some(hanging);
+                return Some(anchored);
             }
-            fallback = fallback.or(Some(hanging));
+            fallback = fallback.or(Some(anchored));
         }
         fallback
     }

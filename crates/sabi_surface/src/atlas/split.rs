@@ -10,7 +10,7 @@ use crate::model::Mesh;
 
 const NOBODY: u32 = u32::MAX;
 
-/// What a split looks at.
+/// Inputs of a split.
 pub(super) struct Splitter<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,
@@ -19,10 +19,10 @@ pub(super) struct Splitter<'a> {
 }
 
 impl Splitter<'_> {
-    /// Grows a chart anew from its first triangle, over neighbors, as long as no texel center is claimed by two
-    /// triangles that do not touch in UV; what is left over grows further charts the same way.
+    /// Splits a chart: grows charts from its first remaining triangle over neighbors, as long as no texel center is claimed
+    /// by two triangles that do not touch in UV.
     ///
-    /// Gives the first triangle of its new chart for each of the chart's triangles, in their order.
+    /// Returns the first triangle of its new chart for each of the chart's triangles, in their order.
     pub(super) fn split(&self, chart: usize) -> Vec<u32> {
         let triangles = self.partition.triangles(chart);
         let mut grid = Grid::around(&self.uvs, triangles);

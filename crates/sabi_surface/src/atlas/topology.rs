@@ -1,4 +1,4 @@
-//! Which triangles meet at an edge in space, whatever their texture coordinates do.
+//! Triangles that meet at an edge in space, regardless of their texture coordinates.
 
 use rayon::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Straightest paths over a triangle mesh: in each triangle a straight line, over an edge as if both were flat.
 //!
-//! Everything is done in the plane of the current triangle, in coordinates along (`x`) and away from (`y`) the edge
+//! Computes in the plane of the current triangle, in coordinates along (`x`) and away from (`y`) the edge
 //! it was entered by. Crossing an edge keeps both coordinates of every vector, which is the rotation about that edge.
 //! At a border vectors are mirrored, which keeps them as well.
 
@@ -8,7 +8,7 @@ use super::fixed::{Uvs, cross, sub};
 use super::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
-/// A path gives up after this many edges.
+/// Most edges that a path crosses.
 const CROSSINGS_LIMIT: u32 = 64;
 /// Paths keep this share of an edge away from its ends, where it would be unclear which triangle comes next.
 const VERTEX_MARGIN: f64 = 1e-6;
@@ -16,7 +16,7 @@ const VERTEX_MARGIN: f64 = 1e-6;
 type Vec2 = [f64; 2];
 type Vec3 = [f64; 3];
 
-/// A mesh to walk on.
+/// Mesh that paths run over.
 pub(super) struct Ground<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,
@@ -25,7 +25,7 @@ pub(super) struct Ground<'a> {
     pub(super) usable: &'a [bool],
 }
 
-/// Where a path ended.
+/// End of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Landing {
     pub(super) triangle: u32,
@@ -69,7 +69,7 @@ impl Flat {
     }
 }
 
-/// The way on: the edge by which a triangle is left.
+/// Edge by which a path leaves a triangle.
 struct Exit {
     /// Share of the whole path used until there.
     time: f64,
@@ -124,14 +124,14 @@ impl Ground<'_> {
     }
 }
 
-/// A path on its way.
+/// Path that has not ended yet.
 struct Path<'a> {
     ground: &'a Ground<'a>,
-    /// The whole way in texels of the start.
+    /// Whole step in texels of the start.
     step: Vec2,
     /// Texel axes of the start, carried to the current triangle's plane.
     axes: [Vec2; 2],
-    /// Share of the way that is left.
+    /// Share of the step that remains.
     remaining: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How wide texels are, and how coarse an atlas may become before charts get lost.
+//! Width of texels on the surface, and the coarsest size at which an atlas keeps all charts.
 
 use rayon::prelude::*;
 
@@ -43,6 +43,7 @@ impl Atlas {
             finer += area;
             finer > wanted
         });
+        // Sides whose triangles have no area count as the unit.
         let step = step.unwrap_or(STEPS / 2) as f64 - (STEPS / 2) as f64;
         unit * (step / STEPS_A_DOUBLING).exp2()
     }

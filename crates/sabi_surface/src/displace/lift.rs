@@ -1,4 +1,4 @@
-//! Where vertices go: all that stand at one place go to one place.
+//! Displacement of vertices: all at one position move to one position.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -8,7 +8,7 @@ use super::split::Split;
 /// Normals that cancel each other out to less than this share of their weights point nowhere.
 const LEAST_AGREEMENT: f64 = 1e-3;
 
-/// One vertex of the finer mesh, as the place it stands at sees it.
+/// Vertex of the finer mesh that shares a position with others.
 struct Member {
     chart: u32,
     texel: [f32; 2],

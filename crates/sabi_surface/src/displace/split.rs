@@ -47,14 +47,17 @@ pub(super) struct Split {
 impl Split {
     pub(super) fn new(mesh: &Mesh, atlas: &Atlas, triangle: usize, edge_length: f32) -> Split {
         let corners = mesh.triangles[triangle];
-        let texels = atlas.triangle_texels.get(triangle).copied().unwrap_or_default();
+        let texels = atlas.triangle_texels[triangle];
         let vertices: Vec<Vertex> = corners
             .iter()
             .zip(texels)
             .map(|(&vertex, texel)| Vertex {
                 position: mesh.positions[vertex as usize],
+                // Attributes that the mesh lacks are zero in its copy, too.
                 normal: mesh.normals.get(vertex as usize).copied().unwrap_or_default(),
+                // As above.
                 tangent: mesh.tangents.get(vertex as usize).copied().unwrap_or_default(),
+                // As above.
                 uv: mesh.uvs.get(vertex as usize).copied().unwrap_or_default(),
                 texel,
             })

@@ -1,4 +1,4 @@
-//! Why a model could not be loaded, as sentences.
+//! Errors of loading a model.
 
 /// A model that could not be loaded: which one, and why.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -6,7 +6,7 @@
 pub struct LoadError {
     /// The model's file as the artist named it.
     pub model: String,
-    /// What is wrong with it.
+    /// Fault of the model.
     pub fault: Fault,
 }
 
@@ -20,13 +20,13 @@ impl LoadError {
     }
 }
 
-/// What is wrong with a model.
+/// Fault of a model file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// The model file is not there.
     #[error("there is no such file; check the path")]
     NoFile,
-    /// The model file is there and cannot be read.
+    /// The model file exists and cannot be read.
     #[error("the file cannot be read: {0}")]
     Unreadable(String),
     /// A file of vertex data beside the model cannot be read.
@@ -36,7 +36,7 @@ pub enum Fault {
     NoBuffer {
         /// The file as the model names it.
         uri: String,
-        /// Why it cannot be read.
+        /// Reason of the system.
         reason: String,
     },
     /// A kind of file that is not read.
@@ -47,7 +47,7 @@ pub enum Fault {
     Extension {
         /// The extension's name.
         extension: String,
-        /// What to do about it.
+        /// Remedy as a clause.
         advice: &'static str,
     },
     /// The UV set that was asked for is in no part of the model.
@@ -55,13 +55,13 @@ pub enum Fault {
     UvSet {
         /// The set that was asked for.
         asked: u32,
-        /// Which sets there are.
+        /// Sets that exist.
         there: String,
     },
     /// The file contradicts itself or its format.
     #[error("the file is damaged: {0}")]
     Damaged(String),
-    /// Nothing to texture; with the reasons that were found.
+    /// No triangles; with the reasons that were found.
     #[error("it has no triangles{0}")]
     NoTriangles(String),
     /// More than can be handled.

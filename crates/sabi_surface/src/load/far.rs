@@ -1,16 +1,16 @@
-//! Models that stand far from the middle of their scene, as parts of maps and buildings do: numbers of 32 bits would leave
-//! little of their shape there, and of rays that start on it.
+//! Models far from the origin of their scene, such as parts of maps and buildings: 32-bit floats would lose their shape
+//! there, and the rays that start on it.
 
 use glam::{DMat4, DVec3, Vec3};
 
 use super::Piece;
 
-/// A model that is this many times as far away as it is large is brought to the middle. Nearer, a place on it is known to
-/// better than a hundred-thousandth of its size.
+/// Ratio of distance to size from which on a model is moved to the origin. Below it positions are exact to better than a
+/// hundred-thousandth of the model's size.
 const FAR: f64 = 100.0;
 
-/// What places pieces, each with what places it in the file, near the middle of the world, and where that is in the file's
-/// own: zero, unless they are far away.
+/// Returns the transform that moves pieces near the origin, and the new origin in the file's own world: zero unless they are
+/// far away. Each piece comes with its transform in the file.
 pub(super) fn brought_near<'p>(
     world_from_file: DMat4,
     pieces: impl Iterator<Item = (&'p Piece, DMat4)>,
@@ -25,7 +25,7 @@ fn far_middle<'p>(placed: impl Iterator<Item = (&'p Piece, DMat4)>) -> DVec3 {
     for (piece, world_from_mesh) in placed {
         for at in &piece.positions {
             let at = world_from_mesh.transform_point3(Vec3::from(*at).as_dvec3());
-            // What is beyond all numbers is left out when it is placed.
+            // Positions that are not finite are left out when pieces are placed.
             if at.abs().max_element() <= f64::from(f32::MAX) {
                 (low, high) = (low.min(at), high.max(at));
             }

@@ -1,4 +1,4 @@
-//! Which reader a file belongs to, and what to do with one that is not read.
+//! Format of a model file, and advice for formats that are not read.
 
 use super::ending;
 use super::error::Fault;
@@ -9,7 +9,7 @@ pub(super) enum Format {
     Obj,
 }
 
-/// Decides by the name's ending, and by the first bytes where the ending says nothing or plainly lies.
+/// Returns the format by the ending of the name, or by the first bytes where the ending is unknown or contradicts them.
 pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
     if let Some(sentence) = refused_format(name).or_else(|| disguised(bytes)) {
         return Err(Fault::Format(sentence));
@@ -31,7 +31,7 @@ pub(super) fn refused_format(name: &str) -> Option<String> {
     Some(format!(".{ending} files are not read here: {}", way_from(&ending)?))
 }
 
-/// How to get from a format to one that is read.
+/// Steps from a format to one that is read.
 fn way_from(ending: &str) -> Option<&'static str> {
     Some(match ending {
         "fbx" | "ply" | "stl" | "abc" | "usd" | "usda" | "usdc" | "usdz" => {

@@ -91,7 +91,8 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     Ok(model)
 }
 
-/// What places the file's meshes in the world, and where the middle of that is; see [`Model::middle`].
+/// Returns the transform from the file to the world, and the middle of the model in the file's own world; see
+/// [`Model::middle`].
 fn world(options: &LoadOptions, instances: &[Instance], pieces: &BTreeMap<usize, Vec<Outcome>>) -> (DMat4, [f64; 3]) {
     let placed = instances.iter().flat_map(|instance| {
         let pieces = pieces.get(&instance.mesh).into_iter().flatten();

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::piece::{Piece, Smoothing, direction};
 
-/// How missing normals are made.
+/// Computation of missing normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Missing {
     /// Every triangle shades flat, as glTF asks.
@@ -96,6 +96,7 @@ fn smooth(piece: &Piece, faces: &[DVec3]) -> Vec<DVec3> {
 }
 
 fn is_smooth(piece: &Piece, faces: &[DVec3], first: usize, second: usize) -> bool {
+    // Formats without smoothing groups have none.
     let smoothing = |triangle: usize| piece.smoothing.get(triangle).copied().unwrap_or(Smoothing::ByAngle);
     match (smoothing(first), smoothing(second)) {
         (Smoothing::ByAngle, Smoothing::ByAngle) => faces[first].dot(faces[second]) > CREASE_DEGREES.to_radians().cos(),

@@ -109,19 +109,24 @@ fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Piece, Vec<
                 *vertices.entry(*corner).or_insert_with(|| {
                     let at = |index: u32| index as usize;
                     piece.positions.push(statements.positions[at(corner.position)]);
+                    // Corners without a value get one that is never used: missing UVs are listed, missing normals computed,
+                    // and missing colors are white.
                     if with_uvs {
                         piece
                             .uvs
+                            // `NONE` for a corner without UVs.
                             .push(statements.uvs.get(at(corner.uv)).copied().unwrap_or_default());
                     }
                     if with_normals {
                         piece
                             .normals
+                            // `NONE` for a corner without a normal.
                             .push(statements.normals.get(at(corner.normal)).copied().unwrap_or_default());
                     }
                     if !statements.colors.is_empty() {
                         piece
                             .colors
+                            // Colors may end before positions do.
                             .push(statements.colors.get(at(corner.position)).copied().unwrap_or([1.0; 4]));
                     }
                     piece.positions.len() as u32 - 1
@@ -192,6 +197,7 @@ fn number_materials(
                 if name.is_empty() {
                     usize::MAX
                 } else {
+                    // Unknown names come after those of the libraries.
                     library.place(name).unwrap_or(usize::MAX - 1)
                 },
                 slot,

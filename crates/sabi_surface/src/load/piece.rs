@@ -19,7 +19,7 @@ pub(crate) struct Piece {
     pub(crate) texture_uvs: Vec<TextureUvs>,
     /// The set of its material's normal map.
     pub(crate) normal_set: Option<u32>,
-    /// The vertex that each was in an earlier mesh; empty where nobody asks.
+    /// Vertex of the source mesh for each vertex; empty where it is not needed.
     pub(crate) sources: Vec<u32>,
     pub(crate) colors: Vec<[f32; 4]>,
     pub(crate) triangles: Vec<[u32; 3]>,
@@ -31,10 +31,10 @@ pub(crate) struct Piece {
     pub(crate) smoothing: Vec<Smoothing>,
 }
 
-/// What a file says about shading over a triangle's edges.
+/// Smoothing of shading over a triangle's edges, as the file has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Smoothing {
-    /// Nothing: edges are smooth unless they turn sharply.
+    /// Not given: edges are smooth unless they turn sharply.
     ByAngle,
     /// Flat.
     Off,
@@ -150,6 +150,7 @@ impl Piece {
             repeat(&mut other.uvs, &origins);
             repeat(&mut other.tangents, &origins);
         }
+        // A vertex that no triangle uses has no corner; its value is never read.
         values.into_iter().map(|value| value.unwrap_or([0.0; N])).collect()
     }
 
@@ -172,6 +173,7 @@ impl Piece {
                 .into();
         }
         for normal in &mut placed.normals {
+            // A singular transform leaves no direction; the normal of the file stays.
             *normal = direction(normal_from_normal * Vec3::from(*normal).as_dvec3()).unwrap_or(*normal);
         }
         let others = placed.texture_uvs.iter_mut().map(|other| &mut other.tangents);
@@ -216,7 +218,7 @@ impl Piece {
             let (uvs, tangents) = own.map_or((&[][..], &[][..]), |own| (&own.uvs, &own.tangents));
             set.uvs.extend(uvs);
             set.uvs.resize(first as usize + count, [0.0; 2]);
-            // Where no normal map looks at them any will do.
+            // No normal map uses them, so any tangent is valid.
             let tangents = if tangents.is_empty() { &self.tangents } else { tangents };
             set.tangents.extend(tangents);
         }
@@ -250,7 +252,7 @@ pub(super) fn direction(vector: DVec3) -> Option<[f32; 3]> {
 
 fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
     let mut keep = keep.iter();
-    values.retain(|_| keep.next().copied().unwrap_or(false));
+    values.retain(|_| keep.next() == Some(&true));
     // Primitives that share their vertices would each hold on to room for all of them.
     values.shrink_to_fit();
 }

@@ -7,13 +7,13 @@ use super::normals::places;
 use super::piece::{Piece, direction};
 use super::warnings::Warnings;
 
-/// Where positions or texture coordinates reach beyond this, single precision squares them into infinity or zero.
+/// Magnitude of positions and texture coordinates beyond which their squares overflow or underflow in single precision.
 const SAFE_EXPONENT: i32 = 24;
 
 /// More pairs than this are not waited for (a few seconds' work; real models have some dozens a place).
 const MOST_CROWDED: u64 = 1 << 30;
 
-/// Gives every vertex a tangent; normals must be there. `who` names the piece in warnings.
+/// Gives every vertex a tangent; normals must exist. `who` names the piece in warnings.
 ///
 /// glTF's convention: the bitangent is `cross(normal, tangent) × w` and points up in the picture, against v.
 /// Without texture coordinates the tangent is any direction along the surface.
@@ -104,7 +104,7 @@ fn normalize(tangent: &mut [f32; 4]) -> bool {
     true
 }
 
-/// 1, or the power of two that brings extreme values near 1: directions stay what they are, bit for bit.
+/// Returns 1, or the power of two that scales extreme values to about 1; directions keep their bits.
 fn power_of_two_scale(values: &[f32]) -> f32 {
     let largest = values.iter().fold(0.0f32, |largest, x| largest.max(x.abs()));
     if largest == 0.0 {

@@ -1,8 +1,8 @@
-//! What was repaired or left out, gathered while reading.
+//! Warnings about repairs and omissions, collected while reading.
 
 use super::error::Fault;
 
-/// At most this many sentences: a broken file repeats itself.
+/// Most sentences that are collected: a broken file repeats itself.
 const MOST: usize = 40;
 
 /// Sentences for the artist, each once, in the order they came up.
@@ -17,9 +17,9 @@ pub(super) fn counted(count: usize, [one, more]: [&str; 2]) -> String {
     format!("{count} {}", if count == 1 { one } else { more })
 }
 
-/// What is counted most.
+/// Singular and plural for [`Warnings::counted`].
 pub(super) const TRIANGLES: [&str; 2] = ["triangle", "triangles"];
-/// What is counted most.
+/// Singular and plural for [`Warnings::counted`].
 pub(super) const VERTICES: [&str; 2] = ["vertex", "vertices"];
 
 impl Warnings {
@@ -49,7 +49,7 @@ impl Warnings {
         self.left_out += other.left_out;
     }
 
-    /// Why nothing was left, for the message that says so.
+    /// Returns the fault of a model of which nothing is left, with the warnings as reasons.
     pub(super) fn into_fault(self) -> Fault {
         let reasons = self
             .sentences

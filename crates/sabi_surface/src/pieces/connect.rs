@@ -1,11 +1,11 @@
-//! Which triangles hang together.
+//! Connected triangles.
 
 use glam::{DVec3, Vec3};
 
 use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
-/// Sets of triangles; a set is known by its first triangle.
+/// Disjoint sets of triangles; the first triangle of a set identifies it.
 struct Sets {
     parents: Vec<u32>,
 }

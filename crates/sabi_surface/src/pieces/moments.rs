@@ -1,4 +1,4 @@
-//! How a piece's surface and its normals are spread, as sums that do not depend on how it is cut into triangles.
+//! Moments of a piece's surface and normals, as sums that do not depend on its triangulation.
 //!
 //! No arc functions: they may differ in their last bits from system to system.
 
@@ -54,7 +54,7 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// By Jacobi's rotations (Golub and Van Loan, "Matrix Computations", 8.5).
+    /// Computes them by Jacobi rotations (Golub and Van Loan, "Matrix Computations", 8.5).
     fn of(mut matrix: DMat3) -> Axes {
         let mut directions = DMat3::IDENTITY;
         let scale = matrix.to_cols_array().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -88,14 +88,14 @@ impl Axes {
         }
     }
 
-    /// The axis that stands alone while the other two may be equal.
+    /// Returns the axis that differs from the other two, which may be equal.
     pub(super) fn lone(&self) -> DVec3 {
         let is_first = self.values.x - self.values.y > self.values.y - self.values.z;
         self.directions.col(if is_first { 0 } else { 2 })
     }
 }
 
-/// How the normals around an axis fall into a cross: a square bar has them in two directions only, a round one in all.
+/// Fourfold symmetry of the normals around an axis: a square bar has normals in two directions only, a round one in all.
 pub(super) struct Cross {
     along: DVec3,
     across: [DVec3; 2],

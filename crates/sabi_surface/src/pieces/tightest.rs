@@ -26,7 +26,7 @@ pub(super) fn piece_box(mesh: &Mesh, triangles: &[u32]) -> PieceBox {
         for triangle in triangles {
             cross.add(corners(triangle));
         }
-        // Sides that stand at right angles say best how the piece stands; the spread helps where there are none.
+        // Perpendicular sides give the best orientation; the moments serve where there are none.
         frames.extend(cross.axes());
         frames.extend([normals.directions, spread.directions]);
     }
@@ -88,7 +88,7 @@ impl Reach {
         (self.low + self.high) * 0.5
     }
 
-    /// Half the surface of the box: unlike its volume it tells boxes around flat pieces apart.
+    /// Returns half the surface of the box, which unlike its volume distinguishes boxes around flat pieces.
     fn face(&self) -> f64 {
         let DVec3 { x, y, z } = self.size();
         x * y + y * z + z * x

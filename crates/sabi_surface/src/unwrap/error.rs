@@ -1,14 +1,14 @@
-//! Why a mesh cannot be unwrapped.
+//! Errors of unwrapping.
 
 use crate::model::Mesh;
 
-/// Why a mesh cannot be unwrapped, as a sentence to the person who can change it.
+/// Reason why a mesh cannot be unwrapped.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum UnwrapError {
-    /// Nothing to put on a sheet.
+    /// The model has no triangles.
     #[error("the model has no triangles, so there is no surface to work on; choose a model with faces")]
     NoTriangles,
-    /// Nothing that would cover a texel.
+    /// No triangle covers a texel.
     #[error(
         "no triangle of the model has an area, so there is no surface to work on; look for a scale of zero in your \
          modeling program"
@@ -17,7 +17,7 @@ pub enum UnwrapError {
     /// The mesh contradicts itself.
     #[error("the mesh is damaged: {what}; export the model again")]
     BrokenMesh {
-        /// What does not fit.
+        /// Contradiction that was found.
         what: String,
     },
     /// More charts than have room on a sheet.
@@ -26,12 +26,12 @@ pub enum UnwrapError {
          triangles, reduce it or split it in your modeling program"
     )]
     TooManyCharts {
-        /// How many there are.
+        /// Number of charts.
         charts: usize,
     },
 }
 
-/// Refuses what no step after this could work with.
+/// Checks the mesh before any other step.
 pub(super) fn check(mesh: &Mesh) -> Result<(), UnwrapError> {
     let triangles = mesh.triangles.len();
     if triangles == 0 {

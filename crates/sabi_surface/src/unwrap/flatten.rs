@@ -76,7 +76,7 @@ type LocalChart = (Vec<u32>, Vec<[[f64; 2]; 3]>);
 
 /// The charts of a piece, and why it was torn into its triangles if it was.
 fn charts_of(mesh: &Mesh, piece: &Piece) -> (Vec<LocalChart>, Option<String>) {
-    // One triangle needs no solver, and a soup of a million of them no million calls.
+    // A single triangle needs no solver; a model of a million loose triangles would need a million calls.
     if let [triangle] = piece.triangles[..] {
         return (one_by_one(mesh, &[triangle]), None);
     }
@@ -158,7 +158,7 @@ fn charts(mesh: &Mesh, piece: &Piece, found: &uvunwrap::OutputMesh, page: [f64; 
     Some(by_chart.into_values().collect())
 }
 
-/// Every triangle as a chart of its own, in its own plane: what is left for a piece that nothing can lay flat.
+/// Returns every triangle as a chart in its own plane, for a piece that the solver cannot flatten.
 fn one_by_one(mesh: &Mesh, triangles: &[u32]) -> Vec<LocalChart> {
     let with_area = (0..triangles.len() as u32).filter(|&member| area(mesh, triangles[member as usize]) > 0.0);
     with_area

@@ -1,4 +1,4 @@
-//! Sheets on disk, found by what they are made of.
+//! Disk cache of unwrapped sheets.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ const KIND: CacheKind = CacheKind {
     limit_bytes: 1 << 30,
 };
 
-/// A name for a sheet: a hash of everything that can change it.
+/// Returns the key of a sheet: a hash of everything that can change it.
 pub(super) fn key(mesh: &Mesh) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new_derive_key("sabi unwrapped sheet");
     hasher.update(&KIND.version.to_le_bytes());
@@ -30,12 +30,12 @@ pub(super) fn key(mesh: &Mesh) -> [u8; 32] {
     *hasher.finalize().as_bytes()
 }
 
-/// The sheet of a mesh with so many triangles, where it is there and whole.
+/// Returns the stored sheet of a mesh with this number of triangles.
 pub(super) fn read(folder: &Path, key: &[u8; 32], triangles: usize) -> Option<Sheet> {
     decode(&Cache::new(folder, KIND).read(key)?, triangles)
 }
 
-/// Keeps a sheet; a sentence when that cannot be done.
+/// Stores a sheet; returns a warning when that fails.
 pub(super) fn write(folder: &Path, key: &[u8; 32], sheet: &Sheet) -> Option<String> {
     let error = Cache::new(folder, KIND).write(key, &encode(sheet)).err()?;
     Some(format!(
@@ -46,7 +46,7 @@ pub(super) fn write(folder: &Path, key: &[u8; 32], sheet: &Sheet) -> Option<Stri
     ))
 }
 
-/// Counts, shares, corners, and after them the warnings as lines.
+/// Encodes counts, shares, corners and then the warnings as lines.
 fn encode(sheet: &Sheet) -> Vec<u8> {
     let report = &sheet.report;
     let mut bytes = Vec::with_capacity(24 * sheet.corners.len() + 64);

@@ -8,10 +8,10 @@ use super::sheet::area;
 use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
-/// How far edges of two alike pieces may differ, as a share of their length: what placing a copy elsewhere rounds away.
+/// Largest relative difference between edges of congruent pieces, from rounding of a copy placed elsewhere.
 const ALIKE: f64 = 1e-3;
 
-/// Triangles of one material that hang together over edges.
+/// Triangles of one material that are connected over edges.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Piece {
     /// In rising order.
@@ -71,6 +71,7 @@ pub(super) fn pieces(mesh: &Mesh) -> Vec<Piece> {
 fn first_alike(mesh: &Mesh) -> Vec<u32> {
     // + 0.0 turns −0 into 0.
     let bits = |values: [f32; 3]| values.map(|value| (value + 0.0).to_bits());
+    // Without normals, vertices are alike by position alone.
     let normal = |vertex: usize| mesh.normals.get(vertex).copied().unwrap_or_default();
     let mut order: Vec<([u32; 3], [u32; 3], u32)> = mesh
         .positions
@@ -113,7 +114,7 @@ fn numbered(mesh: &Mesh, triangles: Vec<u32>, first: &[u32], local: &mut [u32]) 
 }
 
 /// Finds copies: the same corners in the same order, the same neighbors, and edges of the same lengths up to one factor.
-/// Such a piece lies flat the same way, wherever it stands.
+/// Such a piece is flattened the same way, wherever it is.
 fn find_alike(mesh: &Mesh, topology: &Topology, pieces: &mut [Piece]) {
     let mut first_of: BTreeMap<[u8; 32], Vec<usize>> = BTreeMap::new();
     for index in 0..pieces.len() {
@@ -122,6 +123,7 @@ fn find_alike(mesh: &Mesh, topology: &Topology, pieces: &mut [Piece]) {
         let found = candidates
             .iter()
             .find_map(|&first| Some((first, factor(&edge_lengths(mesh, &pieces[first]), &lengths)?)));
+        // A piece without an earlier copy is alike itself.
         pieces[index].like = found.unwrap_or((index, 1.0));
         // A handful of shapes with the same connections is compared, not thousands.
         if found.is_none() && candidates.len() < 16 {
@@ -130,7 +132,7 @@ fn find_alike(mesh: &Mesh, topology: &Topology, pieces: &mut [Piece]) {
     }
 }
 
-/// Names how a piece's triangles hang together, in its own numbers.
+/// Returns a hash of the connectivity of a piece's triangles, in its own numbering.
 fn connections(piece: &Piece, topology: &Topology) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     hasher.update(bytemuck::cast_slice(&piece.corners));
@@ -158,7 +160,7 @@ fn edge_lengths(mesh: &Mesh, piece: &Piece) -> Vec<f64> {
     piece.triangles.iter().flat_map(of_triangle).collect()
 }
 
-/// By what the first lengths have to be multiplied to be the second ones; none if they differ in more.
+/// Returns the factor from the first lengths to the second ones; `None` if they differ by more than a factor.
 fn factor(from: &[f64], to: &[f64]) -> Option<f64> {
     let (before, after): (f64, f64) = (from.iter().sum(), to.iter().sum());
     let factor = after / before;

@@ -1,4 +1,4 @@
-//! The mesh drawn anew with its texture coordinates: vertices split along the charts' borders, tangents made for them.
+//! Mesh with new texture coordinates: vertices split along the charts' borders, tangents recomputed.
 
 use crate::load::{Piece, tangents_for_uvs};
 use crate::model::{Mesh, TextureUvs};

@@ -14,7 +14,7 @@ use crate::model::Mesh;
 const CELLS: [u32; 2] = [512, 4096];
 /// More charts than this are too small for the coarser cells.
 const MANY: usize = 10_000;
-/// How often the scale is refined: to 1/2⁷ of the range between what surely fits and what surely does not.
+/// Bisection steps of the scale: to 1/2⁷ of the range between a scale that fits and one that does not.
 const STEPS: u32 = 7;
 /// Share of the sheet that charts never cover together.
 const TOO_FULL: f64 = 0.95;
@@ -79,7 +79,7 @@ impl Shape<'_> {
         [0, 1].map(|axis| (corner[axis] - self.origin[axis]) * scale)
     }
 
-    /// Whole texels that the shape takes at a scale.
+    /// Returns the width and height of the shape at a scale, in whole texels.
     fn texels(&self, scale: f64) -> [u32; 2] {
         self.side.map(|side| (side * scale).floor() as u32 + 1)
     }
@@ -123,13 +123,13 @@ impl Shape<'_> {
     }
 }
 
-/// Where charts go.
+/// Placement of all charts on the sheet.
 struct Packing {
     /// Texels a unit of length.
     scale: f64,
     /// Texels along a side of the sheet that it was packed for.
     size: u32,
-    /// How often each chart is turned, and the texel of its corner then.
+    /// Quarter turns of each chart, and the texel of its corner after them.
     places: Vec<(u32, [f64; 2])>,
 }
 
@@ -234,6 +234,7 @@ fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
         let found = turned[index].each_ref().map(|mask| packer.find(mask));
         // The turn that leaves most room below.
         let reach = |turns: usize| (found[turns].page, found[turns].row + turned[index][turns].height, turns);
+        // The minimum of four turns exists.
         let turns = (0..4).min_by_key(|&turns| reach(turns)).unwrap_or(0);
         let spot = found[turns];
         if spot.page > 0 {

@@ -17,21 +17,21 @@ struct Head<'a> {
     accessor: &'a json::Accessor,
     component: ComponentType,
     shape: Type,
-    /// How messages name it.
+    /// Name in messages.
     who: String,
-    /// What it holds, for sentences to the artist: `positions of mesh 3`.
+    /// Content in messages: `positions of mesh 3`.
     what: String,
 }
 
 /// The numbers of corners.
 pub(super) struct Indices {
     pub(super) corners: Vec<u32>,
-    /// The number that is no vertex but begins anew (glTF 2.0, 3.7.2.1: files are not to use it).
+    /// Primitive restart value (glTF 2.0, 3.7.2.1: files must not use it).
     pub(super) restart: u32,
 }
 
 impl Source<'_> {
-    /// How many elements an accessor may have without storing them.
+    /// Returns the most elements that an accessor may have without storing them.
     pub(super) fn most_unstored(&self) -> u64 {
         UNSTORED.max(self.buffers.total_bytes())
     }
@@ -184,6 +184,7 @@ impl Source<'_> {
         let count = accessor.count.0;
         let mut values: Vec<T> = match accessor.buffer_view {
             Some(view) => {
+                // 0 is glTF's default.
                 let offset = accessor.byte_offset.unwrap_or_default().0;
                 let elements = self
                     .buffers
@@ -253,7 +254,7 @@ impl Source<'_> {
     }
 }
 
-/// How sentences name a component type.
+/// Returns the name of a component type in messages.
 fn kind(component: ComponentType) -> &'static str {
     match component {
         ComponentType::I8 => "signed bytes",
@@ -273,11 +274,12 @@ fn unsigned(bytes: &[u8]) -> u32 {
         .fold(0, |number, byte| number << 8 | u32::from(*byte))
 }
 
-/// glTF 2.0, 3.6.2.2 and 3.11: normalized integers stand for 0..1 or -1..1, plain ones for themselves.
+/// glTF 2.0, 3.6.2.2 and 3.11: normalized integers mean 0..1 or -1..1, others their own value.
 fn number<const N: usize>(bytes: &[u8], component: ComponentType, normalized: bool) -> [f32; N] {
     let mut parts = bytes.chunks_exact(component.size());
     // A mark on floats says nothing.
     std::array::from_fn(|_| {
+        // An element has bytes for all of its N components.
         let part = parts.next().unwrap_or_default();
         let raw = unsigned(part);
         let (value, largest) = match component {

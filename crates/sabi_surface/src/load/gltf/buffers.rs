@@ -83,7 +83,7 @@ impl<'a> Buffers<'a> {
         Buffers { buffers }
     }
 
-    /// How much the file brings altogether.
+    /// Returns the size of all buffers together.
     pub(super) fn total_bytes(&self) -> u64 {
         let lengths = self.buffers.iter().flatten().map(|bytes| bytes.get().len() as u64);
         lengths.sum()
@@ -101,6 +101,7 @@ impl<'a> Buffers<'a> {
             ));
         };
         let bytes = bytes.as_ref().map_err(Clone::clone)?.get();
+        // 0 is glTF's default.
         let (offset, length) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
         let range = usize::try_from(offset)
             .ok()
@@ -114,7 +115,7 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// `count` elements of `size` bytes in a buffer view; `who` asks for them.
+    /// `count` elements of `size` bytes in a buffer view; `who` names the reader in messages.
     pub(super) fn elements(
         &self,
         document: &Document,
@@ -139,7 +140,7 @@ impl<'a> Buffers<'a> {
                 bytes.len()
             ));
         }
-        // Both fit: they lie within bytes that are there.
+        // Both fit into usize: they are within the bytes.
         let bytes = if count == 0 { &[] } else { &bytes[offset as usize..] };
         Ok(Elements {
             bytes,

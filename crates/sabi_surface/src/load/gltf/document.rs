@@ -36,6 +36,7 @@ impl Document {
         } else {
             (bytes, None)
         };
+        // The byte order mark is optional.
         let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
         let root: Value = serde_json::from_slice(text)
             .map_err(|error| Fault::Damaged(format!("its JSON cannot be read ({error})")))?;
@@ -45,7 +46,7 @@ impl Document {
         let version = root.get("asset").and_then(|asset| asset.get("version"));
         match version
             .and_then(Value::as_str)
-            .map(|version| version.split('.').next().unwrap_or_default())
+            .map(|version| version.split_once('.').map_or(version, |(major, _)| major))
         {
             Some("2") => {}
             Some("") => return damaged("its asset does not say which version of glTF it is"),

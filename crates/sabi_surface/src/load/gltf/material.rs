@@ -37,6 +37,7 @@ impl Materials {
         let next = self.slots.len() as u32;
         *self
             .slots
+            // The first part of the key already distinguishes glTF's default material.
             .entry((material.is_none(), material.unwrap_or(0)))
             .or_insert(next)
     }
@@ -87,7 +88,7 @@ struct Pictures<'a> {
     warnings: &'a mut Warnings,
 }
 
-/// What the kinds of texture use have in common.
+/// Common part of all kinds of texture use.
 struct Use<'a> {
     texture: usize,
     uv_set: u32,
@@ -117,6 +118,7 @@ impl Pictures<'_> {
         let metallic_roughness = info(&pbr.metallic_roughness_texture);
         let emission = info(&material.emissive_texture);
         ModelMaterial {
+            // A name is optional in glTF; an empty one means unnamed.
             name: material.name.clone().unwrap_or_default(),
             file_index: Some(index),
             base_color_factor,
@@ -299,6 +301,7 @@ fn raw_transform(others: Option<&Map<String, Value>>) -> Option<json::extensions
 
 /// KHR_texture_transform may name another UV set than the texture's use does.
 fn overridden(uv_set: u32, transform: Option<&json::extensions::texture::TextureTransform>) -> u32 {
+    // Without a set of its own the transform keeps the texture's.
     transform.and_then(|transform| transform.tex_coord).unwrap_or(uv_set)
 }
 

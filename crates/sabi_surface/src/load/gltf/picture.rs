@@ -28,21 +28,23 @@ impl Shelf {
         resolve: &mut Resolve,
     ) -> ModelImage {
         let image = &source.document.images[index];
-        let uri = image.uri.as_deref().map(Uri::parse);
+        let uri = image.uri.as_deref().map(|raw| (raw, Uri::parse(raw)));
         let name = match &uri {
-            Some(Uri::Beside(path)) => path.rsplit(['/', '\\']).next().unwrap_or_default().to_string(),
+            Some((_, Uri::Beside(path))) => path
+                .rsplit_once(['/', '\\'])
+                .map_or(&**path, |(_, name)| name)
+                .to_string(),
             _ => format!("image {index} of {model}"),
         };
         let bytes: Result<Arc<[u8]>, String> = match (unread, uri, image.buffer_view) {
             (Some(extension), ..) => Err(format!("it is stored with {extension}, which is not read here")),
-            (_, Some(Uri::Data(bytes)), _) => Ok(bytes.into()),
-            (_, Some(Uri::Beside(path)), _) => {
-                let raw = image.uri.as_deref().unwrap_or_default();
+            (_, Some((_, Uri::Data(bytes))), _) => Ok(bytes.into()),
+            (_, Some((raw, Uri::Beside(path))), _) => {
                 let mut read = || resolve(&path).or_else(|reason| resolve(raw).map_err(|_| reason));
                 let known = self.beside.entry(raw.to_string());
                 known.or_insert_with(|| read().map(Arc::from)).clone()
             }
-            (_, Some(Uri::Damaged(reason) | Uri::Unusable(reason)), _) => Err(reason),
+            (_, Some((_, Uri::Damaged(reason) | Uri::Unusable(reason))), _) => Err(reason),
             (_, None, Some(view)) => self.in_view(source, view.value()),
             (_, None, None) => Err("the file does not say where it is".to_string()),
         };

@@ -58,14 +58,14 @@ impl Source<'_> {
         Ok(pieces)
     }
 
-    /// How many vertices a primitive claims to have, as far as the file could have them.
+    /// Returns the number of vertices that a primitive claims to have, limited by the size of the file.
     pub(super) fn vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
         let positions = attribute(primitive, Semantic::Positions);
         let claimed = positions.map_or(0, |index| self.claimed_count(index.value()));
         claimed.min(self.most_unstored())
     }
 
-    /// How many triangles a primitive claims to have.
+    /// Returns the number of triangles that a primitive claims to have.
     pub(super) fn claim(&self, primitive: &json::mesh::Primitive) -> u64 {
         let counted = primitive.indices.or_else(|| attribute(primitive, Semantic::Positions));
         let corners = counted.map_or(0, |index| self.claimed_count(index.value()));
@@ -151,7 +151,7 @@ impl Source<'_> {
         if !corners.contains(&restart) {
             return Ok(triangles(mode, &corners, label, warnings));
         }
-        // What every graphics interface makes of it, in lists as well as in strips.
+        // As every graphics interface treats it, in lists as well as in strips.
         warnings.add(format!(
             "The indices of {label} use {restart}, by which strips begin anew, as no vertex; no triangle reaches over it."
         ));
@@ -200,6 +200,7 @@ impl Source<'_> {
         let material = material.and_then(|index| self.document.materials.get(index));
         let sets = material.map_or_else(TextureSets::default, TextureSets::of);
         // glTF 2.0, 3.7.2.1: a file's tangents are those of the normal map's texture coordinates.
+        // Without a normal map the tangents are those of set 0.
         let framed_set = sets.normal.unwrap_or(0);
         piece.normal_set = sets.normal;
         let mut wanted = sets.all;
@@ -279,7 +280,7 @@ fn complete(outcome: &mut Outcome, label: &str) {
     }
 }
 
-/// Says that the chosen UV set is nowhere, unless no set at all is what the default set may mean.
+/// Returns the fault that no mesh has the chosen UV set; a model without any set is no fault for the default set.
 pub(super) fn check_uv_set<'a>(asked: u32, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<(), Fault> {
     let sets: BTreeSet<u32> = outcomes.flat_map(|outcome| &outcome.uv_sets).copied().collect();
     let there = match sets.iter().map(u32::to_string).collect::<Vec<_>>().as_slice() {

@@ -1,4 +1,4 @@
-//! Scenes and nodes: which meshes stand where.
+//! Scenes and nodes: placed meshes.
 
 use glam::{DMat4, DQuat, DVec3, Vec3};
 use gltf::json;
@@ -10,7 +10,7 @@ use super::skin;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
-/// How far from unit length a quaternion may be by its digits alone: exporters keep as few as three.
+/// Largest deviation of a quaternion from unit length by rounding alone: exporters write as few as three digits.
 const ROUNDED: f64 = 2e-3;
 
 /// A mesh that a node places.
@@ -53,9 +53,10 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
             if is_hidden {
                 warnings.add("Nodes that the file hides (KHR_node_visibility) are left out.");
             } else {
-                shown.push((index, mesh));
+                shown.push((index, mesh, placed));
             }
         }
+        // A leaf has no list.
         let children = node.children.as_deref().unwrap_or_default();
         let children: Vec<u64> = children.iter().map(|child| child.value() as u64).collect();
         stack.extend(below(&children, placed, is_hidden));
@@ -72,7 +73,7 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
     }
     Ok(shown
         .into_iter()
-        .map(|(node, mesh)| instance(source, node, mesh, &file_from_node, warnings))
+        .map(|(node, mesh, placed)| instance(source, node, mesh, placed, &file_from_node, warnings))
         .collect())
 }
 
@@ -95,6 +96,7 @@ fn instance(
     source: &Source,
     index: usize,
     mesh: usize,
+    placed: DMat4,
     file_from_node: &[Option<DMat4>],
     warnings: &mut Warnings,
 ) -> Instance {
@@ -103,7 +105,7 @@ fn instance(
     let name = name(document, node.name.as_deref(), mesh);
     let file_from_mesh = match &node.skin {
         Some(skin) => skin::file_from_bound(source, skin.value(), &name, file_from_node, warnings),
-        None => file_from_node[index].unwrap_or(DMat4::IDENTITY),
+        None => placed,
     };
     Instance {
         mesh,
@@ -112,8 +114,9 @@ fn instance(
     }
 }
 
-/// Root nodes of the default scene, else of the first one, else all nodes that are nobody's child.
+/// Root nodes of the default scene, else of the first one, else all nodes without a parent.
 fn roots(document: &Document) -> Result<Vec<u64>, Fault> {
+    // The first scene is shown where the file names none.
     let index = document.default_scene.unwrap_or(0);
     match usize::try_from(index).ok().and_then(|index| document.scenes.get(index)) {
         Some(nodes) => Ok(nodes.clone()),

@@ -7,10 +7,10 @@ use super::primitive::Source;
 use super::storage::Meaning;
 use crate::load::warnings::Warnings;
 
-/// How far joints at rest may disagree by the digits that files keep, against the largest number involved.
+/// Largest relative difference between joints at rest that rounding in files explains.
 const SAME: f64 = 1e-3;
 
-/// Where the skin `skin` of the mesh instance `name` puts it as it was bound; no pose bends it.
+/// Returns the transform of the mesh instance `name` in the bind pose of the skin `skin`.
 pub(super) fn file_from_bound(
     source: &Source,
     skin: usize,
@@ -40,7 +40,7 @@ pub(super) fn file_from_bound(
     first.file_from_mesh
 }
 
-/// What one joint makes of the mesh.
+/// Placement of the mesh by one joint.
 struct Placement {
     file_from_mesh: DMat4,
     /// The largest length that went into it.

@@ -1,8 +1,8 @@
-//! How the numbers of a vertex may be stored: the tables of glTF 2.0 (3.7.2.1) and KHR_mesh_quantization.
+//! Permitted storage of vertex attributes: the tables of glTF 2.0 (3.7.2.1) and KHR_mesh_quantization.
 
 use gltf::json::accessor::ComponentType;
 
-/// What the numbers of an accessor stand for.
+/// Meaning of an accessor's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
     Position,
@@ -14,16 +14,16 @@ pub(super) enum Meaning {
     Matrix,
 }
 
-/// What a file's choice of storage comes to.
+/// Verdict on a file's choice of storage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Storage {
-    /// As glTF has it.
+    /// Permitted by glTF.
     Plain,
-    /// As KHR_mesh_quantization adds it.
+    /// Permitted by KHR_mesh_quantization.
     Quantized,
-    /// As glTF has it but for the missing `normalized`, without which the numbers make no sense.
+    /// Permitted by glTF but for the missing `normalized`, without which the numbers have no meaning.
     Unmarked,
-    /// What no reader could interpret.
+    /// Not interpretable.
     Forbidden,
 }
 
@@ -44,7 +44,7 @@ impl Meaning {
         }
     }
 
-    /// How sentences name several of them.
+    /// Plural in messages.
     pub(super) fn plural(self) -> &'static str {
         match self {
             Meaning::Position => "positions",

@@ -26,7 +26,7 @@ pub(super) fn plain() -> ModelMaterial {
 }
 
 impl Library {
-    /// Where a material stands in its library.
+    /// Index of a material by its name.
     pub(super) fn place(&self, name: &str) -> Option<usize> {
         self.places.get(name).copied()
     }
@@ -36,10 +36,10 @@ impl Library {
         self.place(name).map(|place| self.materials[place].clone())
     }
 
-    /// Reads what stands behind one `mtllib`: a name that may have spaces, or several names.
+    /// Reads the libraries of one `mtllib` statement: a name that may have spaces, or several names.
     pub(super) fn read(&mut self, names: &str, resolve: &mut Resolve, warnings: &mut Warnings) {
         let whole = resolve(names);
-        // A space in a name may stand behind a backslash.
+        // A space in a name may be escaped with a backslash.
         let escaped = names.replace("\\ ", "\0");
         let all: Vec<String> = escaped
             .split_ascii_whitespace()
@@ -96,7 +96,7 @@ impl Library {
                 .filter(|x| x.is_finite())
         };
         match keyword {
-            // A picture stands in for the color, as the programs that write these files have it.
+            // A texture replaces the color, as in the programs that write these files.
             "map_Kd" if picture.is_some() => {
                 material.base_color = picture;
                 material.base_color_factor = [1.0, 1.0, 1.0, material.base_color_factor[3]];
@@ -110,7 +110,11 @@ impl Library {
                     material.base_color_factor = [r, g, b, material.base_color_factor[3]];
                 }
             }
-            "Ke" if material.emission.is_none() => material.emission_factor = color(rest).unwrap_or([0.0; 3]),
+            "Ke" if material.emission.is_none() => {
+                if let Some(emission) = color(rest) {
+                    material.emission_factor = emission;
+                }
+            }
             "d" => material.base_color_factor[3] = number().map_or(1.0, |d| d.clamp(0.0, 1.0)),
             "Tr" => material.base_color_factor[3] = number().map_or(1.0, |tr| 1.0 - tr.clamp(0.0, 1.0)),
             "Pr" => material.roughness_factor = number().map_or(1.0, |pr| pr.clamp(0.0, 1.0)),
@@ -125,7 +129,7 @@ impl Library {
         }
     }
 
-    /// A use of the picture that stands behind a `map_…`, options first.
+    /// Returns the texture use of a `map_…` statement, whose options precede the path.
     fn picture(&mut self, rest: &str) -> Option<TextureRef> {
         let (path, wrap) = map_path(rest);
         if path.is_empty() {
@@ -142,7 +146,7 @@ impl Library {
         })
     }
 
-    /// Reads the pictures that the model's materials name, and numbers them anew.
+    /// Reads the pictures that the model's materials name, and renumbers them.
     pub(super) fn read_images(&self, resolve: &mut Resolve, model: &mut Model, warnings: &mut Warnings) {
         let mut new_from_old = BTreeMap::new();
         let mut paths: Vec<(usize, &str)> = self
@@ -158,7 +162,7 @@ impl Library {
         for used in used.flatten() {
             used.image = *new_from_old.entry(used.image).or_insert_with(|| {
                 let (_, path) = paths[used.image];
-                let name = path.rsplit(['/', '\\']).next().unwrap_or_default().to_string();
+                let name = path.rsplit_once(['/', '\\']).map_or(path, |(_, name)| name).to_string();
                 let bytes: Result<Arc<[u8]>, String> = resolve(path)
                     .map(Arc::from)
                     .map_err(|reason| format!("The picture {name} cannot be read: {reason}."));
@@ -172,7 +176,7 @@ impl Library {
     }
 }
 
-/// One to three finite numbers; one stands for a gray.
+/// Parses a color of one to three finite numbers; a single number is a gray.
 fn color(rest: &str) -> Option<[f32; 3]> {
     let values: Vec<f32> = rest
         .split_ascii_whitespace()

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Vec3};
 /// Tests that a whole file may cost; hollow faces of thousands of corners would otherwise take for ever.
 const MOST_TESTS: u64 = 200_000_000;
 
-/// What is left of the tests.
+/// Remaining budget of tests.
 pub(super) struct Budget(u64);
 
 impl Default for Budget {

@@ -8,7 +8,7 @@ use crate::load::error::{Fault, damaged};
 use crate::load::piece::Smoothing;
 use crate::load::warnings::Warnings;
 
-/// Stands for an index that a corner does not give.
+/// Marks an index that a corner does not have.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// More material libraries than this are not looked for.
@@ -31,7 +31,7 @@ pub(super) struct Face {
     pub(super) smoothing: Smoothing,
 }
 
-/// What the file says, indices checked.
+/// Content of the file, with checked indices.
 #[derive(Default)]
 pub(super) struct Statements {
     pub(super) positions: Vec<[f32; 3]>,
@@ -46,11 +46,11 @@ pub(super) struct Statements {
     pub(super) materials: Vec<String>,
     /// Names that `o` and `g` give, and the empty one for faces before any.
     pub(super) parts: Vec<String>,
-    /// What stands behind each `mtllib`.
+    /// Arguments of each `mtllib`.
     pub(super) libraries: Vec<String>,
 }
 
-/// What holds for the faces that follow.
+/// State that applies to the faces that follow.
 struct State {
     material: u32,
     part: u32,
@@ -235,7 +235,7 @@ fn numbers<const N: usize>(rest: &str) -> Result<([f32; N], usize), String> {
         }
         *value = match word.parse() {
             Ok(value) => value,
-            // How some programs write what is no number: 1.#IND, -1.#QNAN.
+            // Some programs write NaN as 1.#IND or -1.#QNAN.
             Err(_) if word.contains(".#") => f32::NAN,
             Err(_) => return Err(format!("`{word}` is not a number")),
         };
@@ -282,6 +282,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
 
 /// The first word of a line and the rest.
 pub(super) fn split_word(line: &str) -> (&str, &str) {
+    // A line of one word has no rest.
     let (word, rest) = line.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((line, ""));
     (word, rest.trim_ascii())
 }
