@@ -1,4 +1,4 @@
-//! Results written as a set of textures.
+//! Baking: results written as texture sets.
 
 pub(crate) mod bake;
 pub(crate) mod bake_request;

@@ -1,4 +1,4 @@
-//! Bringing a graph, its node kinds and a model into memory.
+//! Opening: a graph, its node kinds, a model and environments are loaded.
 
 pub(crate) mod cache_dir;
 pub(crate) mod document;

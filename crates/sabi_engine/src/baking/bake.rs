@@ -1,4 +1,4 @@
-//! The main job: a graph on a model becomes a PBR set.
+//! Baking: a graph on a model becomes PBR texture sets.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -30,12 +30,12 @@ use crate::remedy::Remedy;
 use crate::source::{OUTPUT_MASK, mask_name};
 use crate::warning::Warning;
 
-/// How long one submission of a bake may take: long enough to cost nothing, short enough to be stopped.
+/// Longest time of one GPU submission of a bake: long enough for full throughput, short enough to cancel.
 const SUBMISSION: Duration = Duration::from_millis(200);
 
-/// Bakes; nothing is replaced before everything is complete, and no model is loaded for a graph with a fault.
+/// Bakes a graph file. No file is replaced before all are complete, and no model is loaded for a graph with a fault.
 pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
-    // A preset that is not there is said before anything is read.
+    // An unknown preset is reported before anything is read.
     set_options(request)?;
     let mut reading = PhaseTime::default();
     let open = reading.time(|| OpenGraph::open(&request.graph))?;
@@ -43,7 +43,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     bake_open(&open, kinds, reading, request, progress)
 }
 
-/// Bakes a graph as it is at hand, saved or not.
+/// Bakes a graph in memory, saved or not.
 pub fn bake_graph(
     open: &OpenGraph,
     kinds: &Kinds,
@@ -53,7 +53,7 @@ pub fn bake_graph(
     bake_open(open, kinds.clone(), PhaseTime::default(), request, progress)
 }
 
-/// Bakes what was read in that time.
+/// Bakes a graph; `reading` is the time it took to read it.
 fn bake_open(
     open: &OpenGraph,
     kinds: Kinds,
@@ -64,7 +64,7 @@ fn bake_open(
     let options = set_options(request)?;
     let graph = reading.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = reading.time(|| sound_outputs(open, &graph, &kinds))?;
-    // A folder that cannot be written to is found before the work, not after it.
+    // A folder that cannot be written to is reported before the work.
     refuse_foreign_folder(request, &graph)?;
     let mut writer = BakeWriter::create(&request.output)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
@@ -129,7 +129,7 @@ fn left_over(committed: &Committed) -> impl Iterator<Item = Warning> {
     paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now").into())
 }
 
-/// The graph's outputs, by id; refuses a graph that has none, or in which something that they need is at fault.
+/// Returns the graph's outputs, ordered by id. Refuses a graph without outputs, or with a fault that they depend on.
 fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<Vec<usize>, EngineError> {
     let found = outputs(graph);
     let mut messages: Vec<String> = nothing_comes_out(graph).into_iter().chain(clashes(graph)).collect();
@@ -148,17 +148,17 @@ fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<V
     Err(EngineError::several(ErrorKind::BadInput, messages))
 }
 
-/// Whether a bake would be refused because its folder has files but no earlier maps, and `force` would let it be made.
+/// Whether a bake needs `force`, because its folder has files but no earlier maps.
 pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
     let graph = open.flatten(&request.evaluator.overrides);
-    // What is wrong with either, the bake says.
+    // Other errors are reported by the bake itself.
     graph.is_ok_and(|graph| {
         refuse_foreign_folder(request, &graph)
             .is_err_and(|error| error.remedies.contains(&Remedy::IntoThisFolderAnyway))
     })
 }
 
-/// A mistyped folder must not fill somebody's pictures with maps.
+/// Refuses a folder with foreign files, so that a mistyped path does not mix maps into them.
 fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(), EngineError> {
     if request.force || !is_foreign_folder(&request.output, graph, &names(request)?) {
         return Ok(());
@@ -168,14 +168,14 @@ fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(),
     Err(refused.with_remedies([Remedy::OtherFolder, Remedy::IntoThisFolderAnyway]))
 }
 
-/// What is to be evaluated: outputs that serve a set, and masks.
+/// Lists the targets of a bake: outputs that serve a set, and masks.
 fn wanted(graph: &FlatGraph, outputs: &[usize], serving: &Serving) -> Vec<Target> {
     let is_served = |node: usize| serving.nodes.iter().any(|nodes| nodes.values().any(|of| *of == node));
     let is_used = |node: &usize| graph.nodes[*node].kind == OUTPUT_MASK || is_served(*node);
     targets(outputs.iter().copied().filter(is_used).chain(serving.model))
 }
 
-/// A report must not take the place of a picture, a group or a buffer.
+/// Refuses a report that would replace a file which the bake reads.
 fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), EngineError> {
     let Some((path, real)) = request
         .report
@@ -195,7 +195,7 @@ fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), Eng
     Err(EngineError::new(ErrorKind::CannotWrite, why))
 }
 
-/// Which planned results go into which set.
+/// Assigns the planned results to the texture sets.
 fn set_works<'p>(
     graph: &FlatGraph,
     plan: &'p Plan,
@@ -234,7 +234,7 @@ fn report(
     let mut nodes_ms = Map::new();
     for step in &run.report.steps {
         for (node, share) in &step.nodes {
-            // A fused kernel's time is shared out by cost: it cannot be measured node by node.
+            // The time of a fused kernel is divided by cost, since it cannot be measured for single nodes.
             let ms = step.run.as_secs_f64() * 1000.0 * f64::from(*share);
             // A node that has no time yet starts at 0.
             let before = nodes_ms.get(node).and_then(Json::as_f64).unwrap_or(0.0);

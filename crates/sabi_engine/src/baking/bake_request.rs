@@ -1,4 +1,4 @@
-//! What to bake, and what of that is settled before anything is read.
+//! Bake requests, and checks of them that need no file.
 
 use std::path::PathBuf;
 
@@ -9,80 +9,79 @@ use crate::baking::seams::Seams;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::EvaluatorOptions;
 
-/// What maps are usually called.
+/// Default pattern of map names.
 pub const DEFAULT_NAMES: &str = NamePattern::DEFAULT;
 
-/// What to bake.
+/// Request for a bake.
 pub struct BakeRequest {
-    /// The graph file.
+    /// Graph file.
     pub graph: PathBuf,
-    /// Model, overrides, fit, adapter.
+    /// Model, overrides, fit and adapter.
     pub evaluator: EvaluatorOptions,
     /// Folder for the maps.
     pub output: PathBuf,
-    /// Presets by name.
+    /// Names of export presets.
     pub presets: Vec<String>,
-    /// How maps are called, without their endings: text with `{material}`, `{channel}`, `{graph}` and `{size}` in it; none
-    /// for what they are usually called.
+    /// Pattern of map names without file extension, with the fields `{material}`, `{channel}`, `{graph}` and `{size}`; none for
+    /// the default.
     pub names: Option<String>,
-    /// Only maps of these channels, and `masks` for all masks of the graph's own; none for all.
+    /// Channels to export, and `masks` for all mask outputs; empty for all.
     pub channels: Vec<String>,
-    /// Only the set of this material.
+    /// Material whose texture set is exported; none for all.
     pub material: Option<String>,
-    /// Whether channels that are the same all over get maps too.
+    /// Whether constant channels are exported as maps, too.
     pub all_maps: bool,
-    /// How far maps reach out of the charts, texels; none for everywhere.
+    /// Padding around the charts, texels; none to fill everything.
     pub padding: Option<u32>,
-    /// What becomes of differences at seams.
+    /// Treatment of differences at seams.
     pub seams: Seams,
-    /// Whether point nodes are fused.
+    /// Whether to fuse point nodes.
     pub fuse: bool,
-    /// Whether a folder that has files but no earlier maps is taken all the same.
+    /// Whether to write into a folder that has files but no earlier maps.
     pub force: bool,
-    /// Whether a glTF copy of the model that uses the maps is written too.
+    /// Whether to write a glTF copy of the model with the new maps.
     pub model: bool,
-    /// The file that the caller writes the report to: refused if it is one of those that the bake reads.
+    /// File that the caller writes the report to; refused if the bake reads it.
     pub report: Option<PathBuf>,
 }
 
-/// Names of all presets, the one that is taken unless told otherwise first.
+/// Lists the names of all export presets, the default first.
 pub fn export_presets() -> impl Iterator<Item = &'static str> {
     ["raw"].into_iter()
 }
 
-/// How far maps reach out of the charts unless told otherwise, texels: as coarser levels of a map shrink it, the same part of
-/// it stays covered.
+/// Returns the padding for a game engine, texels: it grows with the size, so that the same mip levels are covered.
 pub fn default_padding(size: u32) -> u32 {
     (size / 128).max(2)
 }
 
-/// Stands for all masks of the graph's own, where channels are named.
+/// Name of all mask outputs in a list of channels.
 const MASKS: &str = "masks";
 
-/// Names of all channels that a bake writes maps of, and `masks`.
+/// Lists the names of all channels of a bake, and `masks`.
 pub fn export_channels() -> Vec<String> {
     let channels = Channel::ALL.map(|channel| channel.name().into_owned());
     channels.into_iter().chain([MASKS.to_owned()]).collect()
 }
 
-/// How maps of a request are called.
+/// Parses the name pattern of a request.
 pub(crate) fn names(request: &BakeRequest) -> Result<NamePattern, EngineError> {
     let Some(pattern) = &request.names else {
         return Ok(NamePattern::default());
     };
-    let graph = request.graph.file_stem().unwrap_or_default().to_string_lossy();
+    let graph = request.graph.file_stem().unwrap_or_default().to_string_lossy(); // A graph file has a name.
     let size = request.evaluator.model.size.to_string();
     let parsed = NamePattern::parse(pattern, &[("graph", &graph), ("size", &size)]);
     parsed.map_err(|error| EngineError::of(ErrorKind::Usage, error))
 }
 
-/// Why maps cannot be called so; none where they can.
+/// Explains why a name pattern is not valid; none where it is.
 pub fn why_no_names(pattern: &str) -> Option<String> {
     let parsed = NamePattern::parse(pattern, &[("graph", "graph"), ("size", "1024")]);
     parsed.err().map(|error| error.to_string())
 }
 
-/// The preset without the maps that are not asked for.
+/// Filters the maps of a preset by channels.
 fn chosen(mut preset: Preset, channels: &[String]) -> Result<Preset, EngineError> {
     let known = export_channels();
     if let Some(unknown) = channels.iter().find(|name| !known.contains(name)) {

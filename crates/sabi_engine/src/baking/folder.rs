@@ -1,4 +1,4 @@
-//! Whether an output folder is one that a bake may write into without being asked twice.
+//! Check whether an output folder may be written into without `force`.
 
 use std::fs;
 use std::path::Path;
@@ -8,9 +8,8 @@ use sabi_graph::FlatGraph;
 
 use crate::source::{OUTPUT_MASK, mask_name};
 
-/// Whether a folder has files but none that a bake of this graph may have left, `called` so or as maps usually are: then it
-/// is somebody else's. A folder that
-/// is not there or is empty is nobody's; hidden files do not count.
+/// Whether a folder has files, but none that look like maps of an earlier bake of this graph, named by the pattern `called` or
+/// the default one. A missing or empty folder is not foreign; hidden files do not count.
 pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph, called: &NamePattern) -> bool {
     let Ok(entries) = fs::read_dir(folder) else {
         return false;
@@ -27,7 +26,7 @@ pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph, called: &NameP
     !names.is_empty() && !names.iter().any(is_one)
 }
 
-/// Whether a file is called as maps are: `wood_base_color.png`, `wood_height.1001.exr`.
+/// Whether a file name looks like that of a map: `wood_base_color.png`, `wood_height.1001.exr`.
 fn is_map(name: &str, called: &NamePattern, channels: &[Channel]) -> bool {
     let Some(stem) = name.strip_suffix(".png").or_else(|| name.strip_suffix(".exr")) else {
         return false;

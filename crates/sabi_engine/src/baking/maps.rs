@@ -1,4 +1,4 @@
-//! Results become maps: read back, brought into the model's own layout, and written.
+//! Maps: results read back, laid out like the model's UVs, and written.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -23,31 +23,31 @@ use crate::evaluating::texture_space::set_layout;
 use crate::phases::{Phase, Progress, stop_if_canceled};
 use crate::warning::Warning;
 
-/// One texture set: which results go into it.
+/// Texture set with its results.
 pub(crate) struct SetWork<'p> {
-    /// Which set.
+    /// Key of the set.
     pub(crate) key: SetKey,
-    /// Stem of its files.
+    /// Stem of its file names.
     pub(crate) name: String,
-    /// By material of the model, the result that serves it; empty if none does.
+    /// Result that serves each material, by material index; empty if none does.
     pub(crate) materials: BTreeMap<u32, &'p PlannedResult>,
-    /// More maps by name.
+    /// Results of mask outputs, by map name.
     pub(crate) masks: Vec<(String, &'p PlannedResult)>,
 }
 
-/// What was written.
+/// Maps that were written.
 #[derive(Default)]
 pub(crate) struct WrittenMaps {
     pub(crate) outputs: Vec<OutputRecord>,
     pub(crate) constants: Vec<ConstantRecord>,
     pub(crate) warnings: Vec<Warning>,
-    /// The report's entry for the copy of the model.
+    /// Report entry of the model copy.
     pub(crate) copy: Option<serde_json::Value>,
-    /// Kernels that only exports need.
+    /// Number of kernels that ran for the export alone.
     pub(crate) finish_passes: usize,
 }
 
-/// Writes the maps of texture sets, one plane at a time.
+/// Writer of the maps of texture sets, one plane at a time.
 pub(crate) struct MapWriter<'a> {
     pub(crate) evaluator: &'a Evaluator,
     pub(crate) plan: &'a Plan,
@@ -57,12 +57,12 @@ pub(crate) struct MapWriter<'a> {
     pub(crate) run_options: RunOptions<'a>,
 }
 
-/// Layouts and padding of sets that are written together take at most about this much.
+/// Approximate memory limit for the layouts and paddings of sets that are written together.
 const LAYOUT_BUDGET_BYTES: usize = 1 << 30;
-/// A layout's source and cover, and the padding's source.
+/// Bytes per pixel of a layout's source and cover, and of the padding's source.
 const LAYOUT_PIXEL_BYTES: usize = 9;
 
-/// Stored channels, and for each the exported ones with the first of their values in a texel.
+/// Stored channels, each with its exported channels and the index of their first value in a texel.
 const MAPS: [(Stored, &[(Channel, usize)]); 4] = [
     (Stored::Color, &[(Channel::BaseColor, 0), (Channel::Opacity, 3)]),
     (
@@ -124,7 +124,7 @@ impl MapWriter<'_> {
             }
         }
         let mut written = maps.written;
-        // Planes were read one after the other; a reader of the report wants one set after the other.
+        // Planes were written plane by plane; the report lists them set by set.
         written
             .outputs
             .sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
@@ -143,7 +143,7 @@ impl MapWriter<'_> {
     }
 }
 
-/// A texture set with its layout at hand.
+/// Texture set with its layout.
 struct OpenSet<'a> {
     work: &'a SetWork<'a>,
     mixing: Mixing<'a>,
@@ -152,7 +152,7 @@ struct OpenSet<'a> {
     seams: OnceLock<SeamSamples>,
 }
 
-/// Maps on their way to disk.
+/// State of a writer.
 struct Maps<'a> {
     from: &'a MapWriter<'a>,
     writer: &'a mut BakeWriter,
@@ -163,7 +163,7 @@ struct Maps<'a> {
 }
 
 impl Maps<'_> {
-    /// The maps of a material, of all sets that take them from the same results.
+    /// Writes the maps of a material for all sets that take them from the same results.
     fn material(
         &mut self,
         run: &mut Run,
@@ -206,7 +206,7 @@ impl Maps<'_> {
         Ok(())
     }
 
-    /// The normals of a result; none where it is flat.
+    /// Computes the normals of a result; none where it has neither height nor slope.
     fn normals(&mut self, run: &mut Run, result: &PlannedResult) -> Result<Option<PlaneData>, EngineError> {
         let slot = |channel| slot_of(result, Plane::Material(channel));
         let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));
@@ -224,7 +224,7 @@ impl Maps<'_> {
         )?))
     }
 
-    /// The maps that mask outputs add to every set.
+    /// Writes the maps of a mask output for every set.
     fn masks(&mut self, run: &Run, result: &PlannedResult, sets: &[OpenSet<'_>]) -> Result<(), EngineError> {
         let mut planes = Vec::new();
         for set in sets {
@@ -248,8 +248,8 @@ impl Maps<'_> {
         self.progress.advance(Phase::Encode, self.done, self.of);
     }
 
-    /// Writes one channel; without a plane, what the channel is where nothing sets it. Planes are one for each result of the
-    /// set, or one for all of it.
+    /// Writes one channel; without a plane, its neutral value. There is one plane for each result of the set, or one for the
+    /// whole set.
     fn channel(
         &mut self,
         set: &OpenSet<'_>,
@@ -277,7 +277,7 @@ impl Maps<'_> {
             set.padding.gather(&set.layout, channel, first, texel)
         };
         if *channel == Channel::Normal && !set.layout.shared.is_empty() {
-            // The mean of unit vectors is shorter than one.
+            // The mean of unit vectors is shorter than 1.
             for normal in pixels.data.chunks_exact_mut(3) {
                 let length = normal.iter().map(|part| part * part).sum::<f32>().sqrt();
                 if length > 0.0 {

@@ -1,5 +1,5 @@
-//! Which result each texel of a texture set is read from: on a sheet that materials share, each texel from the one that
-//! serves its material.
+//! Assignment of results to the texels of a sheet that materials share: each texel is read from the result that serves its
+//! material.
 
 use std::collections::BTreeMap;
 
@@ -7,16 +7,16 @@ use sabi_gpu::PlaneData;
 use sabi_plan::PlannedResult;
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 
-/// The results of a set, and what is whose.
+/// Results of a texture set, and the texels that each serves.
 pub(crate) struct Mixing<'p> {
-    /// Each once, in the order of the first material that it serves.
+    /// Distinct results, in the order of the first material that each serves.
     pub(crate) results: Vec<&'p PlannedResult>,
-    /// For each texel of the atlas an index into the results; empty where there is but one.
+    /// Index into the results for each texel of the atlas; empty for a single result.
     of_texel: Vec<u16>,
 }
 
 impl<'p> Mixing<'p> {
-    /// The results that serve the materials of a set. A ring around a chart is read as the chart is.
+    /// Assigns the results that serve the materials of a set. Ghosts are read like their chart.
     pub(crate) fn new(atlas: &Atlas, serving: &BTreeMap<u32, &'p PlannedResult>) -> Mixing<'p> {
         let mut results: Vec<&PlannedResult> = Vec::new();
         let mut of_material: BTreeMap<u32, u16> = BTreeMap::new();
@@ -40,8 +40,8 @@ impl<'p> Mixing<'p> {
         Mixing { results, of_texel }
     }
 
-    /// A texel out of planes, one for each result; none where its own result does not have the plane. A lone plane is for
-    /// all texels.
+    /// Reads a texel from planes, one for each result; none where its result does not have the plane. A single plane serves all
+    /// texels.
     pub(crate) fn texel(&self, planes: &[Option<PlaneData>], texel: usize) -> Option<[f32; 4]> {
         let at = match planes {
             [_] => 0,
@@ -52,7 +52,7 @@ impl<'p> Mixing<'p> {
     }
 }
 
-/// The chart of an entry of [`Atlas::owners`].
+/// Returns the chart of an entry of [`Atlas::owners`].
 fn chart_of(atlas: &Atlas, owner: u32) -> Option<u32> {
     match owner {
         EMPTY => None,

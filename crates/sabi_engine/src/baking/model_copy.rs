@@ -1,4 +1,4 @@
-//! The copy of the model that wears the new maps.
+//! Copy of the model with the new maps.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Begins the copy where one is asked for; what an artist should know of it is added to the warnings of `serving`.
+/// Begins the copy if it is requested. Adds its warnings to those of `serving`.
 pub(crate) fn open_copy(
     request: &BakeRequest,
     linked: &LinkedModel,
@@ -40,7 +40,7 @@ pub(crate) fn open_copy(
         .as_ref()
         .map_or(options.uv, |unwrapped| unwrapped.uv_set);
     let copy = ModelCopy::open(&options.path, model, uv_set, &baked)?;
-    // Known to be refused now, and not after the work.
+    // A name that is refused is reported before the work.
     writer.check(&copy.file_name())?;
     writer.keep_model_maps();
     if has_vertex_colors(model, &baked) {
@@ -53,7 +53,7 @@ pub(crate) fn open_copy(
     Ok(Some(copy))
 }
 
-/// A glTF material has one texture for each map, so it cannot have tiles.
+/// Refuses UDIM tiles, since a glTF material has one texture per map.
 fn refuse_tiles(served: &[&TextureSet]) -> Result<(), EngineError> {
     let Some(set) = served.iter().find(|set| set.key.udim.is_some()) else {
         return Ok(());
@@ -73,7 +73,7 @@ fn refuse_tiles(served: &[&TextureSet]) -> Result<(), EngineError> {
     Err(refused.with_remedies([Remedy::WithoutModelCopy, Remedy::EditUvs]))
 }
 
-/// Whether any vertex of a baked material is colored other than white.
+/// Whether any vertex of a baked material has a color other than white.
 fn has_vertex_colors(model: &Model, baked: &BTreeSet<u32>) -> bool {
     let mesh = &model.mesh;
     let triangles = mesh.triangles.iter().zip(&mesh.triangle_material);
@@ -83,7 +83,7 @@ fn has_vertex_colors(model: &Model, baked: &BTreeSet<u32>) -> bool {
     !mesh.colors.is_empty() && vertices.any(|vertex| mesh.colors.get(*vertex as usize) != Some(&[1.0; 4]))
 }
 
-/// Stages the copy beside the maps, and adds it to what was written.
+/// Stages the copy beside the maps, and adds its report entry.
 pub(crate) fn write_copy(
     copy: Option<ModelCopy>,
     writer: &mut BakeWriter,

@@ -1,4 +1,4 @@
-//! What becomes of the differences that maps show at seams.
+//! Treatment of the differences between both sides of a seam.
 
 use std::sync::OnceLock;
 
@@ -7,17 +7,17 @@ use sabi_surface::seams::{Seam, seams};
 
 use crate::opening::linked_model::LinkedModel;
 
-/// What becomes of the little that heights and normals differ by on both sides of a seam, where two grids of texels meet.
+/// Treatment of the small differences of heights and normals between both sides of a seam, where two grids of texels meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Seams {
-    /// The texels beside seams are changed until both sides agree; all others stay as they are.
+    /// Adjusts the texels beside seams until both sides agree.
     #[default]
     Erase,
-    /// Every texel is written as it was evaluated.
+    /// Writes every texel as it was evaluated.
     Keep,
 }
 
-/// The seams of a model, found when the first set asks.
+/// Seams of a model, found on first use.
 pub(crate) struct ModelSeams<'a> {
     wanted: Seams,
     linked: &'a LinkedModel,
@@ -33,10 +33,10 @@ impl<'a> ModelSeams<'a> {
         }
     }
 
-    /// Makes both sides of a set's seams alike, in channels whose differences show: a step of the height is a crack, and
-    /// one of the normal a line in every highlight. `samples` are those of the set, once somebody has asked for them.
+    /// Adjusts both sides of a set's seams in channels whose differences are visible: a step in the height is a crack, and one in
+    /// the normal is a line in every highlight. `samples` caches the seam samples of the set.
     ///
-    /// Returns whether texels may have changed, so that what lies around the charts must follow them.
+    /// Returns whether texels may have changed, so that the padding must be updated.
     pub(crate) fn erase(
         &self,
         layout: &SetLayout,

@@ -1,4 +1,4 @@
-//! `sabi check`: everything about a graph that can be known without a model.
+//! Check of a graph without a model.
 
 use std::path::Path;
 
@@ -10,16 +10,16 @@ use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::modelless::{all_nodes, explained, planner, targets};
 
-/// What was found in one graph.
+/// Result of a check.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CheckReport {
     /// Number of nodes after groups are inlined.
     pub nodes: usize,
     /// Kernel passes of a bake.
     pub passes: usize,
-    /// What is wrong.
+    /// Faults.
     pub errors: Vec<String>,
-    /// What has no effect, or is probably not meant.
+    /// Values without effect, and probable mistakes.
     pub warnings: Vec<String>,
 }
 
@@ -27,7 +27,7 @@ pub struct CheckReport {
 pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
     let open = OpenGraph::open(path)?;
     let kinds = Kinds::beside(Some(path));
-    // A faulty file beside the graph is no fault of a graph that does not use it.
+    // A faulty node file is a fault only of graphs that use it.
     let mut report = CheckReport {
         warnings: kinds.faults.iter().map(ToString::to_string).collect(),
         ..CheckReport::default()
@@ -47,7 +47,7 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
     Ok(report)
 }
 
-/// What is wrong, and what has no effect.
+/// Lists faults and warnings of a flat graph.
 fn faults(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, Vec<String>) {
     let (mut errors, mut warnings) = (Vec::new(), Vec::new());
     let files = open.file_contents(graph, kinds, 0..graph.nodes.len());
@@ -59,7 +59,7 @@ fn faults(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, V
     (errors, warnings)
 }
 
-/// What a variant makes wrong that is right without it.
+/// Lists the faults that a variant adds.
 fn check_variant(open: &OpenGraph, kinds: &Kinds, variant: &str, report: &mut CheckReport) {
     let overrides = Overrides {
         variant: Some(variant.to_owned()),

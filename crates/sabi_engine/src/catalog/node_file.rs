@@ -69,7 +69,7 @@ pub fn check_node(kinds: &Kinds, folder: &Path, id: &str, text: &str) -> Vec<Nod
         id: id.to_owned(),
         text: text.to_owned(),
     };
-    let faults = read_kind(&file, kinds.library.libraries()).err().unwrap_or_default();
+    let faults = read_kind(&file, kinds.library.libraries()).err().unwrap_or_default(); // A kind that can be read has none.
     let told = faults.into_iter().map(|fault| NodeTextFault {
         line: fault.line,
         told: [fault.message, fault.advice].join(" ").trim().to_owned(),

@@ -1,4 +1,4 @@
-//! The texture sets of a model, and what of the graph goes into them.
+//! Texture sets of a model, and the nodes that serve them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,17 +14,17 @@ use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// One texture set of a model.
+/// Texture set of a model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureSet {
-    /// Which set.
+    /// Key of the set.
     pub key: SetKey,
-    /// Stem of its files.
+    /// Stem of its file names.
     pub name: String,
 }
 
 impl TextureSet {
-    /// What it is called among others: the stem of its files, and the number of its tile where its material has several.
+    /// Returns a name that is unique among the sets: the stem, and the tile number where its material has several tiles.
     pub fn title(&self) -> String {
         match self.key.udim {
             Some(number) => format!("{} {number}", self.name),
@@ -33,8 +33,7 @@ impl TextureSet {
     }
 }
 
-/// The sets of the model's materials, or of those that go by the wanted name: their own, or the stem of their files.
-/// Never empty.
+/// Lists the sets of all materials, or of those with the wanted name or stem. Never empty.
 pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -> Result<Vec<TextureSet>, EngineError> {
     let stems = sheet_names(model);
     let covering = atlas.charts.iter().filter(|chart| chart.texels > 0);
@@ -73,12 +72,12 @@ pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -
     }
 }
 
-/// A stem for each material's files; the model's own where all materials share one sheet.
+/// Returns the stem of each material's file names; that of the model where all materials share one sheet.
 fn sheet_names(model: &Model) -> Vec<String> {
     if !model.mesh.is_one_sheet {
         return set_names(model);
     }
-    // Named as a lone unnamed material would be.
+    // Named like a single unnamed material.
     set_names(&Model {
         stem: model.stem.clone(),
         materials: vec![ModelMaterial::default()],
@@ -86,7 +85,7 @@ fn sheet_names(model: &Model) -> Vec<String> {
     })
 }
 
-/// The materials in use, numbers rising.
+/// Lists the materials in use, in ascending order.
 fn used_materials(atlas: &Atlas) -> Vec<u32> {
     let used: BTreeSet<u32> = atlas.charts.iter().map(|chart| chart.material).collect();
     used.into_iter().collect()
@@ -111,7 +110,7 @@ pub(crate) fn bare_materials(model: &Model, atlas: &Atlas) -> Vec<Warning> {
     bare.into_iter().map(warning).collect()
 }
 
-/// A material's own name, or where it has none the stem of its files; and that stem.
+/// Returns the name of a material, or its stem where it has none, and its stem.
 fn names_of<'m>(model: &'m Model, stems: &'m [String], material: u32) -> [&'m str; 2] {
     let index = material as usize;
     let stem = stems.get(index).map_or(model.stem.as_str(), String::as_str);
@@ -136,7 +135,7 @@ pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<Warning> {
     })
 }
 
-/// What becomes of a material that no output serves.
+/// Warns about a material that no output serves.
 fn untouched(name: &str) -> String {
     format!(
         "the material '{name}' keeps the maps it has, since no output serves it; to bake it, list it in 'materials' of an \
@@ -144,20 +143,19 @@ fn untouched(name: &str) -> String {
     )
 }
 
-/// Which nodes each set's maps of a material come from.
+/// Nodes that serve the materials of each texture set.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Serving {
-    /// By set, and there by material of the model, the node: an output, or [`Serving::model`]. Empty for a set that no
-    /// output serves.
+    /// Node by material for each set: an output, or [`Serving::model`]. Empty for a set that no output serves.
     pub(crate) nodes: Vec<BTreeMap<u32, usize>>,
-    /// A node that the graph does not have yet, at its end, where a part of a sheet is to show the model's own looks.
+    /// Index of the node of the model's own materials, still to be appended, if a part of a sheet needs it.
     pub(crate) model: Option<usize>,
     /// What is probably not intended.
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// Finds the outputs that serve the sets; `outputs` are those of the graph. On a sheet, materials that no output serves
-/// keep their own looks.
+/// Finds the outputs that serve the sets; `outputs` are those of the graph. On a shared sheet, materials that no output serves
+/// keep their own look.
 pub(crate) fn serve(
     open: &OpenGraph,
     graph: &FlatGraph,
@@ -208,8 +206,8 @@ pub(crate) fn serve(
     })
 }
 
-/// Which node each material of a model is shown by: the output that serves it, or else a node of the model's own looks,
-/// which the graph does not have yet and is at its end. And outputs that serve nothing, in sentences.
+/// Finds the node that each material shows: the output that serves it, or else the node of the model's own materials, still to
+/// be appended. Also returns warnings about outputs that serve no material.
 pub(crate) fn shown_by(graph: &FlatGraph, linked: &LinkedModel) -> (BTreeMap<u32, usize>, Vec<String>) {
     let LinkedModel { model, atlas, .. } = linked;
     let outputs = outputs(graph);

@@ -1,4 +1,4 @@
-//! All node kinds of a session: the built-in ones, the artist's own, and those that are made here.
+//! Node kinds: built in, from the artist's folders, and written in Rust.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,21 +10,21 @@ use sabi_surface::model::Model;
 
 use crate::source;
 
-/// All node kinds.
+/// Collection of all node kinds.
 #[derive(Clone, Debug)]
 pub struct Kinds {
     /// Kinds from WGSL files.
     pub library: Library,
-    /// Kinds whose results are made here, by id.
+    /// Source kinds written in Rust, by id.
     pub sources: BTreeMap<String, SourceKind>,
-    /// Kinds that only take, by id.
+    /// Output kinds, by id.
     pub sinks: BTreeMap<String, SourceKind>,
-    /// What is wrong with node files; each leaves the others alone.
+    /// Faults of node files; other files are not affected.
     pub faults: Vec<Fault>,
 }
 
 impl Kinds {
-    /// The built-in kinds.
+    /// Returns the built-in kinds.
     pub fn builtin() -> Kinds {
         Kinds {
             library: Library::builtin(),
@@ -34,21 +34,22 @@ impl Kinds {
         }
     }
 
-    /// The built-in kinds, and those of a `nodes` folder beside the graph and of the user's folder.
+    /// Loads the built-in kinds, and those of the user's folder and of a `nodes` folder beside the graph.
     pub fn beside(graph: Option<&Path>) -> Kinds {
         let mut kinds = Kinds::builtin();
         kinds.reread(&Kinds::folders(graph));
         kinds
     }
 
-    /// The folders of own nodes that belong to a graph: the user's, and `nodes` beside it. They need not be there.
+    /// Lists the node folders of a graph: the user's, and `nodes` beside it. They need not exist.
     pub fn folders(graph: Option<&Path>) -> Vec<PathBuf> {
+        // A bare file name lies in the current folder.
         let beside = graph.map(|graph| graph.parent().unwrap_or(Path::new("")).join("nodes"));
         user_folder().into_iter().chain(beside).collect()
     }
 
-    /// Reads folders again: takes what changed, keeps the last good version of what has a fault now, and drops nodes whose
-    /// files are gone.
+    /// Reads folders again: takes changed files, keeps the last good version of faulty ones, and drops nodes whose files do not
+    /// exist any more.
     pub fn reread(&mut self, folders: &[PathBuf]) {
         for folder in folders {
             self.faults.retain(|fault| !fault.path.starts_with(folder));
@@ -60,7 +61,7 @@ impl Kinds {
         }
     }
 
-    /// Drops the nodes of a folder that is gone.
+    /// Drops the nodes of a folder that does not exist any more.
     fn drop_folder(&mut self, folder: &Path) {
         let own = self.library.kinds().filter(|kind| kind.path.starts_with(folder));
         let ids: Vec<String> = own.map(|kind| kind.id.clone()).collect();
@@ -69,7 +70,7 @@ impl Kinds {
         }
     }
 
-    /// Has the kinds that show the model know this one.
+    /// Sets the content of the kinds that show the model.
     pub(crate) fn adapt_to(&mut self, model: &Model) {
         let own = source::kinds_for(model);
         self.sources.extend(own.map(|kind| (kind.id.clone(), kind)));
@@ -87,7 +88,7 @@ impl Kinds {
         kind.param(name).map(|param| param.ty.clone()).or_else(of_input)
     }
 
-    /// One sentence about node files that have faults, for work that does not need them.
+    /// Warns about faulty node files, in one sentence.
     pub fn left_out(&self) -> Option<String> {
         let mut names: Vec<String> = self
             .faults
@@ -107,20 +108,20 @@ impl Kinds {
         }
     }
 
-    /// What is wrong with the file of a kind, if there is one that was refused.
+    /// Lists the faults of a kind's file.
     pub(crate) fn faults_of<'k>(&'k self, kind: &'k str) -> impl Iterator<Item = &'k Fault> {
         let is_of = move |fault: &&Fault| fault.path.with_extension("").ends_with(kind);
         self.faults.iter().filter(is_of)
     }
 
-    /// Adds the nodes of a folder; faults are collected.
+    /// Loads the nodes of a folder, and collects their faults.
     pub fn add_folder(&mut self, folder: &Path) {
         let faults = self.library.load_folder(folder);
         self.faults.extend(faults);
     }
 }
 
-/// The user's own nodes: `SABI_NODES`, else `sabi/nodes` where the system keeps settings.
+/// Returns the user's node folder: `SABI_NODES`, else `sabi/nodes` in the system's folder for settings.
 fn user_folder() -> Option<PathBuf> {
     let variable = |name: &str| {
         std::env::var_os(name)

@@ -1,4 +1,4 @@
-//! A model, made ready: loaded, its atlas built or found, its lengths known.
+//! Model with its linked atlas.
 
 mod fitted_model;
 
@@ -17,39 +17,39 @@ use crate::error::{EngineError, ErrorKind};
 use crate::phases::{Phase, Progress, stop_if_canceled};
 pub use fitted_model::FittedModel;
 
-/// How a model is taken.
+/// Options for loading a model.
 #[derive(Clone, Debug)]
 pub struct ModelOptions {
-    /// The file.
+    /// Model file.
     pub path: PathBuf,
-    /// Which UV set.
+    /// Number of the UV set.
     pub uv: u32,
-    /// Which axis of the file points up.
+    /// Up axis of the file.
     pub up: Up,
-    /// All lengths are multiplied by this.
+    /// Factor for all lengths of the file.
     pub scale: f32,
-    /// What charts that share a place on the maps get.
+    /// Treatment of overlapping charts.
     pub overlap: Overlap,
-    /// Texels for one unit of UV.
+    /// Texels per UV unit.
     pub size: u32,
-    /// Where atlases are kept; none to build anew.
+    /// Folder of the disk cache; none to build the atlas every time.
     pub cache_dir: Option<PathBuf>,
 }
 
-/// What charts that share a place on the maps get: stacked and mirrored ones, or those of a tiling texture.
+/// Treatment of charts that overlap on the maps: stacked and mirrored ones, or those of a tiling texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Overlap {
-    /// The first chart's result.
+    /// Writes the result of the first chart.
     #[default]
     First,
-    /// The mean of the results of all of them.
+    /// Writes the mean of the results of all charts.
     Merge,
-    /// Places of their own: the whole model is unwrapped anew onto one sheet for all its materials.
+    /// Unwraps the whole model onto one sheet for all its materials, so that no charts overlap.
     Unwrap,
 }
 
 impl ModelOptions {
-    /// A model as its file has it, at a size.
+    /// Creates the default options of a model at a size.
     pub fn new(path: &Path, size: u32) -> ModelOptions {
         ModelOptions {
             path: path.to_owned(),
@@ -67,48 +67,48 @@ impl ModelOptions {
     }
 }
 
-/// A model with its atlas.
+/// Model with its linked atlas.
 pub struct LinkedModel {
-    /// The model; where it was unwrapped, with its new mesh.
+    /// Model, with the new mesh if it was unwrapped.
     pub model: Arc<Model>,
-    /// How it was unwrapped; none where its own UVs are used.
+    /// Result of unwrapping; none where its own UVs are used.
     pub unwrapped: Option<Unwrapping>,
-    /// What charts that share a place on the maps get.
+    /// Treatment of overlapping charts.
     pub overlap: Overlap,
-    /// Its linked atlas.
+    /// Linked atlas.
     pub atlas: Atlas,
-    /// What hangs together inside its parts.
+    /// Connected pieces of its parts.
     pub pieces: Arc<Pieces>,
-    /// What its rays are followed through; built when the first one is shot, and by the live evaluator before one is.
+    /// Ray hierarchy; built for the first ray, and earlier by the live evaluator.
     pub bvh: Arc<OnceLock<Bvh>>,
     finest_texel: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
-    /// What rays cannot rely on, as sentences.
+    /// Warnings about what rays cannot rely on.
     pub(crate) solidity: OnceLock<Vec<String>>,
-    /// Whether the atlas was found on disk.
+    /// Whether the atlas was read from the cache.
     pub atlas_was_cached: bool,
-    /// The largest side of the box around it, model units.
+    /// Largest side of the bounding box, model units.
     pub largest_side: f64,
-    /// The largest coordinate, model units.
+    /// Largest coordinate, model units.
     pub(crate) farthest: f64,
-    /// Model units in one unit of the file: what all lengths of it were multiplied by.
+    /// Model units per unit of the file.
     pub scale: f64,
 }
 
-/// What is known about an unwrapped model.
+/// Result of unwrapping a model.
 ///
-/// To write it out with UVs that its maps fit: [`LinkedModel::model`] has the mesh that was unwrapped, in world space around
-/// [`Model::middle`]. Its positions, normals, tangents and colors go into the file as they are, every set of `texture_uvs` as the `TEXCOORD` of its
-/// number, and `uvs`, which the maps are laid out by, as [`Unwrapping::uv_set`].
+/// To export the model with UVs that fit its maps: [`LinkedModel::model`] has the unwrapped mesh in world space around
+/// [`Model::middle`]. Its positions, normals, tangents and colors are written unchanged, every set of `texture_uvs` as the
+/// `TEXCOORD` of its number, and `uvs`, the layout of the maps, as [`Unwrapping::uv_set`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unwrapping {
-    /// The `TEXCOORD` that the new coordinates are in a written file: the first that its textures leave free.
+    /// Number of the `TEXCOORD` for the new coordinates in an exported file: the first that its textures do not use.
     pub uv_set: u32,
-    /// For each vertex of the new mesh its vertex in the mesh as it was loaded.
+    /// Vertex of the loaded mesh for each vertex of the new mesh.
     pub source_vertex: Vec<u32>,
-    /// How well it went.
+    /// Quality of the result.
     pub report: UnwrapReport,
-    /// Whether it was found on disk.
+    /// Whether it was read from the cache.
     pub was_cached: bool,
 }
 
@@ -121,7 +121,7 @@ impl LinkedModel {
         LinkedModel::link(model, options, progress)
     }
 
-    /// Only loads the model.
+    /// Loads a model without its atlas.
     pub fn load_model(options: &ModelOptions) -> Result<Model, EngineError> {
         if !(options.scale.is_finite() && options.scale > 0.0) {
             let why = format!("the scale of a model is a number above 0, not {}", options.scale);
@@ -136,7 +136,7 @@ impl LinkedModel {
         Ok(load(&options.path, &load_options)?)
     }
 
-    /// Builds or finds the atlas of a loaded model, which is unwrapped first where it has to be.
+    /// Builds the atlas of a loaded model or reads it from the cache. A model without usable UVs is unwrapped first.
     pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
@@ -161,7 +161,7 @@ impl LinkedModel {
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, error.into()))?;
         progress.advance(Phase::Atlas, 1, 1);
         let (largest_side, farthest) = extents(&model);
-        // After the atlas, which has refused meshes that are not whole.
+        // After the atlas, which refuses incomplete meshes.
         let pieces = Arc::new(Pieces::of(&model.mesh));
         Ok(LinkedModel {
             model: Arc::new(model),
@@ -180,7 +180,7 @@ impl LinkedModel {
         })
     }
 
-    /// The same model with an atlas of another size. The model itself, and what rays are followed through, are shared.
+    /// Builds the atlas of another size. The model and its ray hierarchy are shared.
     pub fn resized(&self, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
@@ -203,7 +203,7 @@ impl LinkedModel {
         })
     }
 
-    /// What rays are followed through, built now if that was not done.
+    /// Returns the ray hierarchy, built on first use.
     pub(crate) fn hierarchy(&self) -> &Bvh {
         self.bvh.get_or_init(|| Bvh::build(&self.model.mesh))
     }
@@ -213,20 +213,20 @@ impl LinkedModel {
         FittedModel::new(self, fit)
     }
 
-    /// Width of the finest texels, model units; see [`Atlas::finest_texel`].
+    /// Returns the width of the finest texels, model units; see [`Atlas::finest_texel`].
     pub(crate) fn finest_texel(&self) -> f64 {
         *self
             .finest_texel
             .get_or_init(|| self.atlas.finest_texel(&self.model.mesh))
     }
 
-    /// Coarser levels that may be used; see [`Atlas::usable_levels`].
+    /// Returns the number of usable coarser levels; see [`Atlas::usable_levels`].
     pub(crate) fn usable_levels(&self) -> u32 {
         *self.usable_levels.get_or_init(|| self.atlas.usable_levels())
     }
 }
 
-/// Whether a model has no UVs for some or all of its surface; says so.
+/// Whether a part of the model has no UVs; adds a warning if so.
 fn needs_unwrapping(model: &mut Model) -> bool {
     if model.mesh.uvs.is_empty() {
         let sentence = "The model has no UVs, so it was unwrapped onto one sheet for all its materials.";
@@ -243,7 +243,7 @@ fn needs_unwrapping(model: &mut Model) -> bool {
     true
 }
 
-/// The first few of a list, and how many more there are.
+/// Joins the first few names of a list, and the number of the others.
 fn first_of(names: &[String]) -> String {
     const MOST_NAMED: usize = 4;
     let named = names[..names.len().min(MOST_NAMED)].join(", ");
@@ -253,12 +253,12 @@ fn first_of(names: &[String]) -> String {
     }
 }
 
-/// The same error with the path of the model before its sentences.
+/// Adds the path of the model to an error.
 fn refused(options: &ModelOptions, error: EngineError) -> EngineError {
     error.said(|sentence| format!("{}: {sentence}", options.path.display()))
 }
 
-/// Puts the unwrapped mesh in the place of the model's own.
+/// Unwraps a model and replaces its mesh.
 fn unwrap_model(model: &mut Model, options: &ModelOptions) -> Result<Unwrapping, UnwrapError> {
     let folder = options.cache_folder();
     let (unwrapped, was_cached) = unwrap_cached(folder.as_deref(), &model.mesh)?;
@@ -273,7 +273,7 @@ fn unwrap_model(model: &mut Model, options: &ModelOptions) -> Result<Unwrapping,
     })
 }
 
-/// The largest side of the box around all triangles, and their largest coordinate; 1 for a model without extent.
+/// Returns the largest side of the bounding box and the largest coordinate; 1 for a model without extent.
 fn extents(model: &Model) -> (f64, f64) {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];

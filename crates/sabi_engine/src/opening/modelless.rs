@@ -1,4 +1,4 @@
-//! What can be known of a graph before there is a model.
+//! Planning of a graph without a model, to find its faults.
 
 use sabi_graph::FlatGraph;
 use sabi_plan::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, Problem, Target};
@@ -7,7 +7,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 
-/// A planner for a model that is not there: lengths are as written, and the adapter is a common one.
+/// Creates a planner without a model: lengths are taken as written, and the limits are those of common adapters.
 pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds, files: &'a FileContents) -> Planner<'a> {
     Planner {
         graph,
@@ -31,17 +31,17 @@ pub(crate) fn planner<'a>(graph: &'a FlatGraph, kinds: &'a Kinds, files: &'a Fil
     }
 }
 
-/// Every node's first result.
+/// Lists the first result of every node.
 pub(crate) fn all_nodes(graph: &FlatGraph) -> Vec<Target> {
     targets(0..graph.nodes.len())
 }
 
-/// The first results of nodes.
+/// Lists the first results of nodes.
 pub(crate) fn targets(nodes: impl IntoIterator<Item = usize>) -> Vec<Target> {
     nodes.into_iter().map(|node| Target { node, port: None }).collect()
 }
 
-/// An error as sentences: where a kind is unknown because its file has faults, those too.
+/// Explains an error in sentences, with the faults of the kind's file where the kind is unknown because of them.
 pub(crate) fn explained(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> Vec<String> {
     let faults: Vec<String> = match error.problem {
         Problem::UnknownKind { .. } => kinds.faults_of(&error.kind).map(ToString::to_string).collect(),
@@ -57,11 +57,11 @@ pub(crate) fn explained(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> V
     std::iter::once(open.pointed(error, sentence)).chain(faults).collect()
 }
 
-/// Who can mend these errors.
+/// Classifies errors of a plan.
 fn kind_of(errors: &[PlanError]) -> ErrorKind {
     let all = |is: fn(&Problem) -> bool| errors.iter().all(|error| is(&error.problem));
     if all(|problem| matches!(problem, Problem::NoSuchResult { .. })) {
-        // A result that is not there was asked for by name; the file is not to blame.
+        // The missing result was requested by name, so the file is not at fault.
         ErrorKind::Usage
     } else if all(|problem| matches!(problem, Problem::BadFile(fault) if fault.is_missing)) {
         ErrorKind::MissingInput
@@ -70,8 +70,7 @@ fn kind_of(errors: &[PlanError]) -> ErrorKind {
     }
 }
 
-/// Refuses a graph in which something that the targets need is at fault, with a sentence for each fault. Gives the plan
-/// as it would be without a model.
+/// Refuses a graph with faults that the targets depend on, with a sentence for each. Returns the plan without a model.
 pub(crate) fn refuse_faults(
     open: &OpenGraph,
     graph: &FlatGraph,

@@ -1,4 +1,4 @@
-//! What rays cannot rely on: models that are open, inside out, pass through themselves, or have no clear inside.
+//! Warnings about models that rays cannot rely on: open, inside out, self-intersecting, or without a clear inside.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -7,7 +7,7 @@ use sabi_surface::model::Mesh;
 
 use crate::opening::linked_model::LinkedModel;
 
-/// Sentences about the model for a plan that shoots rays; none for others.
+/// Lists warnings about the model for a plan that traces rays; none for others.
 pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<String> {
     let shoots = |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some());
     if !plan.steps.iter().any(shoots) {
@@ -16,7 +16,7 @@ pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<String> {
     of_model(linked).to_vec()
 }
 
-/// The same whatever is planned; found once for a model.
+/// Lists warnings about the model for rays; computed once.
 pub(crate) fn of_model(linked: &LinkedModel) -> &[String] {
     linked.solidity.get_or_init(|| about(linked))
 }
@@ -50,8 +50,8 @@ fn about(linked: &LinkedModel) -> Vec<String> {
     told
 }
 
-/// Edges that pass through a face of the same piece, each counted for each of its triangles. Parts that are put together
-/// from several pieces are meant to reach into each other.
+/// Counts edges that pass through a face of the same piece, once for each of their triangles. Different pieces of a part may
+/// intersect.
 fn crossings(linked: &LinkedModel) -> u32 {
     let mesh = &linked.model.mesh;
     let bvh = linked.hierarchy();
@@ -67,7 +67,7 @@ fn crossings(linked: &LinkedModel) -> u32 {
                 .cross(corners[2] - corners[0])
                 .normalize_or_zero();
             let beyond = [start, start + way].map(|end| (end - corners[0]).dot(normal));
-            // Both ends stand off the face, on either side of it: faces that touch do not pass through each other.
+            // Both ends have a distance from the face, on opposite sides: faces that touch do not count.
             pieces[other as usize] == pieces[triangle as usize]
                 && beyond[0] * beyond[1] < 0.0
                 && beyond.iter().all(|beyond| beyond.abs() > OFF_FACE * length)
@@ -82,7 +82,7 @@ fn crossings(linked: &LinkedModel) -> u32 {
     mesh.triangles.par_iter().enumerate().map(of_triangle).sum()
 }
 
-/// How far an edge's ends stand off a face that it passes through, as a share of its length.
+/// Minimum distance of an edge's ends from a face that it passes through, relative to its length.
 const OFF_FACE: f32 = 1e-3;
 
 fn edges(count: u32) -> String {
@@ -92,7 +92,7 @@ fn edges(count: u32) -> String {
     }
 }
 
-/// What is wrong with the inside of a closed model.
+/// Returns a warning about the inside of a closed model.
 fn about_inside(mesh: &Mesh) -> Option<&'static str> {
     let (volume, area) = measured(mesh);
     if volume.abs() <= LEAST_VOLUME * area.powf(1.5) {
@@ -107,13 +107,13 @@ fn about_inside(mesh: &Mesh) -> Option<&'static str> {
     )
 }
 
-/// Less volume than this for an area is what rounding leaves of none: a sheet of paper has dozens of times as much.
+/// Volume relative to the area below which it counts as rounding error; a sheet of paper has dozens of times as much.
 const LEAST_VOLUME: f64 = 1e-6;
 
-/// The volume that the faces enclose, below 0 where they look inward, and their area.
+/// Computes the enclosed volume, negative where faces point inward, and the area.
 fn measured(mesh: &Mesh) -> (f64, f64) {
     let place = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
-    // From a corner of its own, so that a model far from the middle of its scene loses nothing to rounding.
+    // Relative to a vertex of the model, so that a model far from the origin loses no precision.
     let Some(origin) = mesh.triangles.first().map(|triangle| place(triangle[0])) else {
         return (0.0, 0.0);
     };

@@ -1,4 +1,4 @@
-//! A model that the heights of its looks displace.
+//! Displacement of a model by the heights of its looks.
 
 use sabi_gpu::AdapterKind;
 use sabi_surface::atlas::Atlas;
@@ -9,12 +9,12 @@ use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
 use crate::evaluating::looks::ModelLooks;
 
-/// Most triangles of a displaced copy.
+/// Triangle limit of a displaced copy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Triangles {
-    /// As many as the adapter draws at ease: 2 million, 500 000 by a software driver.
+    /// Limit that fits the adapter: 2 million, or 500 000 on a software driver.
     Fitting,
-    /// So many.
+    /// Given limit.
     AtMost(usize),
 }
 
@@ -28,7 +28,7 @@ impl Triangles {
     }
 }
 
-/// A finer copy of the model with what is shown of it, displaced by the heights of the look that each material has.
+/// Makes a finer copy of the model, displaced by the heights of each material's look.
 pub(crate) fn displaced_model(
     evaluator: &mut Evaluator,
     shown: &ModelLooks,
@@ -42,13 +42,13 @@ pub(crate) fn displaced_model(
         .map(|look| heights_of(evaluator, look, model_from_working))
         .collect::<Result<_, _>>()?;
     let options = DisplaceOptions {
-        // A map holds no hill that is narrower than two texels.
+        // A map has no detail narrower than two texels.
         edge_length: 2.0 * texel_length(&model.mesh, atlas),
         triangle_budget: triangles.budget(evaluator.gpu().summary().kind),
     };
     let height = |chart: u32, texel: [f32; 2]| match plane_of(chart, atlas, shown, &heights) {
         Some(plane) => plane.at(chart, texel),
-        // Where nothing sets a height the surface stays, and pulls its neighbors down to it.
+        // Without a height the surface stays in place, and its neighbors meet it there.
         None => Some(0.0),
     };
     let copy = displaced(&model.mesh, atlas, &options, height);
@@ -69,7 +69,7 @@ pub(crate) fn displaced_model(
     Ok(made)
 }
 
-/// The heights on a chart, if what its material looks like has any.
+/// Returns the heights of a chart's material, if its look has any.
 fn plane_of<'h>(
     chart: u32,
     atlas: &'h Atlas,
@@ -82,7 +82,7 @@ fn plane_of<'h>(
     Some(HeightPlane::new(atlas, heights))
 }
 
-/// Heights of a look, model units, page by page and row by row; none where it has none.
+/// Reads back the heights of a look, model units, page by page and row by row; none without heights.
 fn heights_of(
     evaluator: &Evaluator,
     look: &MaterialLook,

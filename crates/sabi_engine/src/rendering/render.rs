@@ -1,4 +1,4 @@
-//! A lit picture of a model with what a graph makes of it, or several from all around.
+//! Lit pictures of a model with the looks of a graph, or the frames of a turntable.
 
 use std::path::PathBuf;
 
@@ -23,73 +23,73 @@ use crate::rendering::node_argument::graph_and_target;
 use crate::rendering::picture_file::PictureFiles;
 use crate::warning::Warning;
 
-/// The view in which there is light.
+/// Name of the lit view.
 const LIT: &str = "material";
-/// Most frames of a turntable.
+/// Maximum frames of a turntable.
 const MOST_FRAMES: u32 = 9999;
 
-/// What to draw.
+/// Request for a rendering.
 pub struct RenderRequest {
-    /// The graph file.
+    /// Graph file.
     pub graph: PathBuf,
-    /// Model, overrides, fit, adapter.
+    /// Model, overrides, fit and adapter.
     pub evaluator: EvaluatorOptions,
-    /// `.png` for what a display shows, `.exr` for the light itself; of a turntable, what its frames are named after.
+    /// Output file: `.png` for display colors, `.exr` for linear light. Frames of a turntable get its stem and a number.
     pub output: PathBuf,
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// A built-in environment's name, or a file.
+    /// Name of a built-in environment, or a file.
     pub environment: String,
-    /// How far the environment is turned about +Y, degrees.
+    /// Rotation of the environment about +Y, degrees.
     pub rotate: f32,
-    /// Where the eye is.
+    /// Viewpoint of the camera.
     pub camera: Viewpoint,
-    /// Whether lines of sight are parallel.
+    /// Whether the projection is orthographic.
     pub is_orthographic: bool,
-    /// What is shown: a view's name, or `node:ID`.
+    /// View to show: its name, or `node:ID`.
     pub view: String,
-    /// What is behind the model.
+    /// Background behind the model.
     pub background: Background,
-    /// From light to what a display shows.
+    /// Transform from linear light to display colors.
     pub transform: ViewTransform,
-    /// Stops by which all light is made stronger.
+    /// Exposure, stops.
     pub exposure: f32,
     /// Lights besides the environment.
     pub lights: Vec<Light>,
-    /// Lines over the model.
+    /// Lines drawn over the model.
     pub lines: Vec<Lines>,
-    /// Whether heights are followed, so that they hide one another and throw shadows.
+    /// Whether heights are ray-marched, with occlusion and shadows.
     pub has_relief: bool,
-    /// Whether a finer copy is drawn that heights displace, of so many triangles; heights are not followed on it.
+    /// Triangle limit of a displaced copy that is drawn in place of the model; its heights are not ray-marched.
     pub displace: Option<Triangles>,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: u32,
-    /// So many frames from all around instead of one.
+    /// Number of frames of a turntable; none for one picture.
     pub turntable: Option<u32>,
-    /// What goes around in them.
+    /// What rotates on the turntable.
     pub turns: Turns,
 }
 
-/// What goes around on a turntable.
+/// What rotates on a turntable.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Turns {
-    /// The eye, around the model.
+    /// The camera, around the model.
     #[default]
     Camera,
-    /// The environment and all lights, while the eye stays.
+    /// The environment and all lights, around a fixed camera.
     Light,
 }
 
-/// What was written.
+/// Result of a rendering.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rendered {
-    /// The pictures.
+    /// Files that were written.
     pub files: Vec<PathBuf>,
     /// What is probably not intended.
     pub warnings: Vec<Warning>,
 }
 
-/// Draws; nothing is replaced before every picture is complete.
+/// Renders pictures. No file is replaced before all are complete.
 pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Rendered, EngineError> {
     let paths = file_names(request)?;
     let (mode, node) = view_of(&request.view)?;
@@ -136,7 +136,7 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     })
 }
 
-/// The files to be written: one, or one for each frame.
+/// Lists the output files: one, or one for each frame.
 fn file_names(request: &RenderRequest) -> Result<Vec<PathBuf>, EngineError> {
     let refused = |why: String| EngineError::new(ErrorKind::Usage, why);
     let output = &request.output;
@@ -171,7 +171,7 @@ fn file_names(request: &RenderRequest) -> Result<Vec<PathBuf>, EngineError> {
     Ok((0..frames).map(frame).collect())
 }
 
-/// What a view's name says: how the model is shown, and the node that is looked at.
+/// Parses a view: the mode, and the node if it names one.
 fn view_of(view: &str) -> Result<(Mode, Option<&str>), EngineError> {
     if let Some(node) = view.strip_prefix("node:") {
         return Ok((Mode::Material, Some(node)));
@@ -180,7 +180,7 @@ fn view_of(view: &str) -> Result<(Mode, Option<&str>), EngineError> {
     Ok((mode, None))
 }
 
-/// The model as it is drawn: as it is, or a displaced copy.
+/// Uploads the model or a displaced copy of it.
 fn view_model(
     request: &RenderRequest,
     evaluator: &mut Evaluator,
@@ -253,7 +253,7 @@ fn camera_of(request: &RenderRequest, evaluator: &Evaluator) -> Camera {
     camera
 }
 
-/// A PNG of a picture, with alpha where it is asked for.
+/// Encodes a picture as PNG, with or without alpha.
 fn encode(picture: &Pixels, with_alpha: bool) -> Result<Vec<u8>, EngineError> {
     let [width, height] = picture.size;
     let options = PngOptions {
@@ -272,7 +272,7 @@ fn encode(picture: &Pixels, with_alpha: bool) -> Result<Vec<u8>, EngineError> {
     Ok(encode_png(width, height, PngData::U8(codes), options)?)
 }
 
-/// An OpenEXR file of light, alpha premultiplied.
+/// Encodes linear light as OpenEXR, with premultiplied alpha.
 fn encode_light([width, height]: [u32; 2], light: &[[f32; 4]]) -> Result<Vec<u8>, EngineError> {
     let channel = |at: usize| -> Vec<f32> { light.iter().map(|pixel| pixel[at]).collect() };
     let [r, g, b, a] = [0, 1, 2, 3].map(channel);

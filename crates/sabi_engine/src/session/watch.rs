@@ -1,8 +1,7 @@
-//! Files that change while a session is open: which of those that it hangs on did.
+//! Watcher of the files that a session depends on.
 //!
-//! The system tells what happens in a folder; where it tells nothing, as it does of shares that others write to, a look at
-//! the files every few seconds finds it. Either way only a file that is another one by length or time, or that was told of
-//! by name, has changed.
+//! The system reports events in folders. Where it does not, as for network shares, polling every few seconds finds changes. In
+//! both cases a file has changed if its length or time differs, or if an event named it.
 
 mod folders;
 mod look;
@@ -20,37 +19,36 @@ use look::Look;
 
 use crate::error::{EngineError, ErrorKind};
 
-/// Nothing has happened for so long: whoever saves is done.
+/// Debounce after the last file event.
 const SETTLE_PAUSE: Duration = Duration::from_millis(30);
-/// After so long a look is taken, whether something goes on or not.
+/// Longest delay of a look at the files while events go on.
 const SETTLE_LIMIT: Duration = Duration::from_millis(300);
-/// How often a look is taken although nothing was told.
+/// Interval of polling without events.
 const LOOK_EVERY: Duration = Duration::from_secs(2);
 
-/// Files that a session hangs on. They need not be there: that one comes is a change, too.
+/// Files that a session depends on. They need not exist: a file that appears is a change, too.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Watched {
-    /// The graph's own file.
+    /// File of the graph.
     pub graph: Option<PathBuf>,
-    /// Folders of nodes.
+    /// Folders of node files.
     pub nodes: Vec<PathBuf>,
-    /// Files that the model is read from. A folder stands for what comes and goes in it.
+    /// Files of the model. A folder stands for its list of entries.
     pub model: Vec<PathBuf>,
-    /// What else a session hangs on: pictures and group files that the graph names, and the library. A folder stands for what
-    /// comes and goes in it.
+    /// Other files: pictures and group files that the graph names, and the library. A folder stands for its list of entries.
     pub files: Vec<PathBuf>,
 }
 
-/// What of it has changed.
+/// Files that have changed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
-    /// Whether the graph's own file did, whoever wrote it.
+    /// Whether the file of the graph has changed, also by this program.
     pub graph: bool,
-    /// Whether a node file did.
+    /// Whether a node file has changed.
     pub nodes: bool,
-    /// Whether a file of the model did.
+    /// Whether a file of the model has changed.
     pub model: bool,
-    /// The others that did, named as they are in [`Watched::files`].
+    /// Other changed files, with their paths in [`Watched::files`].
     pub files: BTreeSet<PathBuf>,
 }
 
@@ -61,34 +59,34 @@ impl Changes {
     }
 }
 
-/// Watches files on a thread of its own, so that no window waits for a slow disk.
+/// Watcher of files on its own thread, so that the window never waits for a slow disk.
 pub struct Watcher {
     inbox: Sender<Message>,
     shared: Arc<Mutex<Shared>>,
 }
 
-/// What lies between those who want to know and the thread.
+/// State shared with the thread.
 #[derive(Default)]
 struct Shared {
     changes: Changes,
-    /// How many calls of [`Watcher::watch`] the thread has not come to.
+    /// Number of calls of [`Watcher::watch`] that the thread has not handled.
     waiting: usize,
 }
 
 enum Message {
-    /// Watch these from now on.
+    /// Replaces the watched files.
     Watch(Box<Watched>),
-    /// Something happened to these files.
+    /// Reports an event of these files.
     Told(Vec<PathBuf>),
-    /// Nobody wants to know any more.
+    /// Ends the thread.
     End,
 }
 
 impl Watcher {
-    /// Starts watching nothing yet; `wake` is called on the watcher's thread when something has changed.
+    /// Starts the thread, without files; `wake` is called on it after each change.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system cannot start a thread.
     pub fn new(wake: impl Fn() + Send + 'static) -> Result<Watcher, EngineError> {
         let (inbox, messages) = channel();
         let shared = Arc::new(Mutex::new(Shared::default()));
@@ -100,7 +98,7 @@ impl Watcher {
             watched: Watched::default(),
             look: Look::default(),
         };
-        // It is not waited for at the end: a share that does not answer would keep the window from closing.
+        // The thread is not joined at the end: a share that does not answer would keep the window from closing.
         let thread = std::thread::Builder::new().name("sabi watch".to_owned());
         let started = thread.spawn(move || watching.work());
         started.map_err(|error| {
@@ -113,19 +111,19 @@ impl Watcher {
         Ok(Watcher { inbox, shared })
     }
 
-    /// Watches these files and no others from now on.
+    /// Replaces the watched files.
     pub fn watch(&self, watched: Watched) {
         locked(&self.shared).waiting += 1;
-        // The thread is there as long as this is.
+        // The thread lives as long as the watcher.
         let _ = self.inbox.send(Message::Watch(Box::new(watched)));
     }
 
-    /// Whether it has come to the files that it was given last: what changes from here on is told.
+    /// Whether the thread watches the files of the last call, so that later changes are reported.
     pub fn is_watching(&self) -> bool {
         locked(&self.shared).waiting == 0
     }
 
-    /// What has changed since the last call.
+    /// Takes the changes since the last call.
     pub fn changes(&self) -> Changes {
         std::mem::take(&mut locked(&self.shared).changes)
     }
@@ -138,11 +136,11 @@ impl Drop for Watcher {
 }
 
 fn locked(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
-    // What is in it is put in whole, so a panic elsewhere leaves nothing half made.
+    // Every change of the state is a single assignment, so a panic elsewhere leaves it consistent.
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What the thread holds.
+/// State of the thread.
 struct Watching {
     messages: Receiver<Message>,
     shared: Arc<Mutex<Shared>>,
@@ -153,7 +151,7 @@ struct Watching {
 }
 
 impl Watching {
-    /// Tells of changes until nobody wants to know any more.
+    /// Reports changes until the watcher is dropped.
     fn work(mut self) {
         loop {
             let message = match self.messages.recv_timeout(LOOK_EVERY) {
@@ -188,7 +186,7 @@ impl Watching {
             return;
         }
         if !was_told {
-            // Nobody said so: a folder that is listened to may have been put away and another one in its place.
+            // Found by polling: a watched folder may have been replaced by another one, which has to be watched again.
             self.folders.disarm();
         }
         self.folders.arm(&self.watched);
@@ -209,12 +207,12 @@ impl Watching {
     }
 }
 
-/// What has come through the channel.
+/// Messages received from the channel.
 #[derive(Default)]
 struct Heard {
     told: BTreeSet<PathBuf>,
     watched: Option<Watched>,
-    /// How many of those came.
+    /// Number of such messages.
     wishes: usize,
     is_over: bool,
 }
@@ -233,8 +231,8 @@ impl Heard {
     }
 }
 
-/// Waits until nothing has come for the time of a `pause`: an editor saves in several steps, which arrive together. A folder
-/// that something writes to all the time never comes to rest, so the wait has a limit; what comes later is another change.
+/// Collects messages until none has arrived for the time of a `pause`: an editor saves in several steps. The wait has a limit,
+/// since a folder may be written to all the time; later messages are another change.
 fn settle(messages: &Receiver<Message>, heard: &mut Heard, pause: Duration, limit: Duration) {
     let started = Instant::now();
     while !heard.is_over

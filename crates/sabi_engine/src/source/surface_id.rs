@@ -138,6 +138,7 @@ impl Groups {
         }
         let group_of = |part: &u32| {
             let name = surface.model.parts.get(*part as usize);
+            // Every part has a name, and every name a number.
             name.and_then(|name| numbers.get(name.as_str())).copied().unwrap_or(0)
         };
         let mut sorted: Vec<(&str, u32)> = numbers.iter().map(|(name, number)| (*name, *number)).collect();

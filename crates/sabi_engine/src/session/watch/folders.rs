@@ -1,4 +1,4 @@
-//! The folders that the system is asked about.
+//! Folders whose events the system reports.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,10 +11,10 @@ use notify::{RecommendedWatcher, RecursiveMode, Watcher as _};
 use super::look::subfolders;
 use super::{Message, Watched};
 
-/// Folders, as the system names them, that it tells about. Whole folders and not files: careful editors put another file in
-/// the place of the one that they save.
+/// Folders whose events the system reports, by canonical path. Whole folders are watched and not files, since many editors replace a
+/// file when they save it.
 pub(super) struct Folders {
-    /// None where the system has none to give; then looking has to do.
+    /// None where the system has no watcher; polling finds changes then.
     watcher: Option<RecommendedWatcher>,
     armed: BTreeSet<PathBuf>,
 }
@@ -22,15 +22,15 @@ pub(super) struct Folders {
 impl Folders {
     pub(super) fn new(inbox: Sender<Message>) -> Folders {
         let heard = move |event: notify::Result<notify::Event>| {
-            // An error is one of the system's lists that ran over: then everything is looked at.
+            // An error means that the system's queue overflowed: then all files are looked at.
             let event = event.unwrap_or_else(|_| notify::Event::new(EventKind::Any));
             let paths = match event.kind {
                 EventKind::Access(_) => return,
-                // Who may read a file, and what a system notes about it, is not what is in it.
+                // Permissions and other metadata are not content.
                 EventKind::Modify(ModifyKind::Metadata(_)) => Vec::new(),
                 _ => event.paths,
             };
-            // The other end is gone only when nobody wants to know any more.
+            // The channel is closed only when the watcher is dropped.
             let _ = inbox.send(Message::Told(paths));
         };
         let watcher = notify::recommended_watcher(heard);
@@ -43,12 +43,12 @@ impl Folders {
         }
     }
 
-    /// Asks about the folders of these files, or about the nearest ones that are there.
+    /// Watches the folders of these files, or the nearest ones above that exist.
     pub(super) fn arm(&mut self, watched: &Watched) {
         let Some(watcher) = &mut self.watcher else { return };
         let wanted = folders_of(watched);
         for folder in self.armed.difference(&wanted) {
-            // One that is gone is forgotten already.
+            // The system has dropped a folder that does not exist any more.
             let _ = watcher.unwatch(folder);
         }
         self.armed.retain(|folder| wanted.contains(folder));
@@ -65,7 +65,7 @@ impl Folders {
         }
     }
 
-    /// Asks about nothing any more.
+    /// Stops watching.
     pub(super) fn disarm(&mut self) {
         for folder in std::mem::take(&mut self.armed) {
             if let Some(watcher) = &mut self.watcher {
@@ -75,13 +75,13 @@ impl Folders {
     }
 }
 
-/// The folders in which something happens when one of these files changes, comes or goes.
+/// Lists the folders that get an event when one of these files changes, appears or disappears.
 fn folders_of(watched: &Watched) -> BTreeSet<PathBuf> {
     let mut folders = BTreeSet::new();
     let files = watched.graph.iter().chain(&watched.model).chain(&watched.files);
     for file in files {
         folders.extend(file.parent().and_then(nearest));
-        // What a link leads to is written elsewhere.
+        // The target of a link lies in another folder.
         let target = fs::canonicalize(file).ok();
         folders.extend(target.as_deref().and_then(Path::parent).and_then(nearest));
         folders.extend(target.filter(|target| target.is_dir()));
@@ -94,7 +94,7 @@ fn folders_of(watched: &Watched) -> BTreeSet<PathBuf> {
     folders
 }
 
-/// A folder, or the first one above it that is there.
+/// Returns a folder, or the nearest one above it that exists.
 fn nearest(folder: &Path) -> Option<PathBuf> {
     let whole = std::path::absolute(if folder.as_os_str().is_empty() {
         Path::new(".")

@@ -1,4 +1,4 @@
-//! How files look from outside: whether they are there, how long they are, and when they were written.
+//! Snapshots of files by metadata: whether they exist, their length and their time.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -7,25 +7,25 @@ use std::time::SystemTime;
 
 use super::{Changes, Watched};
 
-/// Most folders and files of nodes that are looked at in one folder.
+/// Maximum of node folders and files that are looked at in one folder.
 const MOST_ENTRIES: usize = 4096;
 
-/// A look at all files that are watched.
+/// Snapshot of all watched files.
 #[derive(Default)]
 pub(super) struct Look {
     files: BTreeMap<PathBuf, Sight>,
 }
 
-/// One file.
+/// Snapshot of a file.
 #[derive(Default)]
 struct Sight {
-    /// Length and time; none while it is not there.
+    /// Length and time; none while it does not exist.
     stamp: Option<(u64, SystemTime)>,
-    /// As the system names it; none while its folder is not there.
+    /// Canonical path; none while its folder does not exist.
     place: Option<PathBuf>,
 }
 
-/// Files that changed from one look to another.
+/// Files that changed between two snapshots.
 pub(super) struct Changed(BTreeSet<PathBuf>);
 
 impl Look {
@@ -44,7 +44,7 @@ impl Look {
         }
     }
 
-    /// What changed since an earlier look: what looks different now, and what was told of by name.
+    /// Lists the changes since an earlier snapshot: files whose metadata differ, and those named by events.
     pub(super) fn since(&self, before: &Look, told: &BTreeSet<PathBuf>) -> Changed {
         let is_changed = |file: &&PathBuf| {
             let [now, before] = [self, before].map(|look| look.files.get(*file));
@@ -58,7 +58,7 @@ impl Look {
 }
 
 impl Changed {
-    /// What that means for those who wanted to know.
+    /// Converts the changed files to the changes of a session.
     pub(super) fn of(self, watched: &Watched) -> Changes {
         let is_changed = |file: &&PathBuf| self.0.contains(*file);
         let is_node = |file: &PathBuf| watched.nodes.iter().any(|folder| is_node_of(folder, file));
@@ -85,13 +85,13 @@ fn sight(file: &Path, folders: &mut BTreeMap<PathBuf, Option<PathBuf>>) -> Sight
     }
 }
 
-/// The files in which nodes and their libraries are looked for.
+/// Lists the files of nodes and their libraries.
 fn node_files(folder: &Path) -> impl Iterator<Item = PathBuf> {
     let files = subfolders(folder).flat_map(|category| entries(&category));
     files.filter(|file| is_wgsl(file))
 }
 
-/// The folders right below a folder.
+/// Lists the direct subfolders of a folder.
 pub(super) fn subfolders(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     entries(folder).filter(|entry| entry.is_dir())
 }
@@ -105,7 +105,7 @@ fn is_wgsl(file: &Path) -> bool {
     file.extension().is_some_and(|ending| ending == "wgsl")
 }
 
-/// Whether nodes of a folder are looked for in a file.
+/// Whether a file may hold nodes of a folder.
 fn is_node_of(folder: &Path, file: &Path) -> bool {
     is_wgsl(file) && file.parent().and_then(Path::parent) == Some(folder)
 }
