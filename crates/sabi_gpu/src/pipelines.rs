@@ -186,7 +186,8 @@ impl Gpu {
             nodes: nodes.join(", "),
             why,
         };
-        let kernel = link(spec, library).map_err(|error| refused(error.to_string()))?;
+        let kernel =
+            link(spec, |id| library.kind(id), library.libraries()).map_err(|error| refused(error.to_string()))?;
         let key = *blake3::hash(kernel.module.wgsl().as_bytes()).as_bytes();
         if let Ok(kernels) = self.pipelines.kernels.lock()
             && let Some(known) = kernels.get(&key)

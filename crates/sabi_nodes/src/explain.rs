@@ -1,8 +1,8 @@
 //! Plainer words for what naga refuses.
 
-use crate::fault::{Fault, Text};
-use crate::library::Libraries;
+use crate::fault::{Fault, INVALID, Text};
 use crate::scan::Scan;
+use crate::shader_files::Libraries;
 use crate::words::nearest;
 
 /// Starts of naga's messages about types, and what they mean to the person who wrote the code.
@@ -53,9 +53,6 @@ const TYPES: [(&str, &str, &str); 9] = [
         "Remove one of them.",
     ),
 ];
-
-/// How the fault of a text that parses, but is not valid, begins.
-pub(crate) const INVALID: &str = "This is not valid WGSL: ";
 
 /// Puts naga's most frequent messages into plainer words with advice.
 pub(crate) fn explained(

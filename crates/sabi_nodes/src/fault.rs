@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 /// Longest piece of a source line that a message shows.
 const SNIPPET_CHARS: usize = 160;
 
+/// How the fault of a text that parses, but is not valid, begins.
+pub(crate) const INVALID: &str = "This is not valid WGSL: ";
+
 /// One thing that is wrong in a WGSL file, for the person who edits it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {

@@ -56,10 +56,12 @@ mod ports;
 mod reader;
 mod rules;
 mod scan;
+mod shader_files;
 mod words;
 
 pub use color::{color_code, color_linear, typed_color};
 pub use curve::curve_points;
 pub use fault::Fault;
-pub use library::{Libraries, Library, SourceFile};
+pub use library::{Library, SourceFile};
 pub use reader::read_kind;
+pub use shader_files::Libraries;

@@ -5,16 +5,18 @@ use std::sync::Arc;
 use crate::analysis::{self, Findings};
 use naga::valid::Capabilities;
 
-use crate::compile::{compile, used_libraries, with_libraries};
+use crate::compile::{used_libraries, with_libraries};
 use crate::explain;
 use crate::fault::{Fault, Text};
 use crate::kind::{Argument, Input, Kind, Output, Param, Reads, Shape};
-use crate::library::{Libraries, SourceFile};
+use crate::library::SourceFile;
+use crate::link::parse::compile;
 use crate::notes::{Header, read_header};
 use crate::params::read_params;
 use crate::ports::{Ports, read_ports};
 use crate::rules;
 use crate::scan::scan;
+use crate::shader_files::Libraries;
 
 /// Largest node or library file.
 pub(crate) const FILE_LIMIT_BYTES: usize = 256 * 1024;

@@ -6,28 +6,13 @@ mod tests;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::LazyLock;
 
 use crate::compile::check_library;
 use crate::fault::Fault;
 use crate::kind::Kind;
 use crate::reader::read_kind;
+use crate::shader_files::{self, Libraries};
 use crate::words::nearest;
-
-mod built_in {
-    include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
-}
-
-/// Text of a file of `surface/` or `view/` by its name in `@use`, such as `surface/place`.
-pub(crate) fn shader_text(name: &str) -> Option<&'static str> {
-    let found = built_in::SHADERS.iter().find(|(known, _)| *known == name);
-    found.map(|(_, text)| *text)
-}
-
-/// Names of the files of `surface/` and `view/`, sorted.
-pub(crate) fn shader_names() -> impl Iterator<Item = &'static str> {
-    built_in::SHADERS.iter().map(|(name, _)| *name)
-}
 
 /// One node file before it is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,33 +23,6 @@ pub struct SourceFile {
     pub id: String,
     /// The WGSL text.
     pub text: String,
-}
-
-/// Texts that nodes may use, by name (`noise` is `lib/noise.wgsl`). `core` is linked to every node without being asked.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Libraries(pub BTreeMap<String, String>);
-
-impl Libraries {
-    /// Those that come with the program.
-    pub fn builtin() -> &'static Libraries {
-        static BUILT_IN: LazyLock<Libraries> = LazyLock::new(|| {
-            let texts = built_in::LIBRARIES
-                .iter()
-                .map(|&(name, text)| (name.to_owned(), text.to_owned()));
-            Libraries(texts.collect())
-        });
-        &BUILT_IN
-    }
-
-    /// The text of a library.
-    pub fn text(&self, name: &str) -> Option<&str> {
-        self.0.get(name).map(String::as_str)
-    }
-
-    /// Names of all libraries, sorted.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.0.keys().map(String::as_str)
-    }
 }
 
 /// Node kinds by id, and the libraries they use.
@@ -103,7 +61,7 @@ impl Library {
 
     /// The texts of the kinds that come with the program, and of their libraries.
     pub fn builtin_files() -> (Vec<SourceFile>, Libraries) {
-        let files = built_in::NODES.iter().map(|&(path, id, text)| SourceFile {
+        let files = shader_files::NODES.iter().map(|&(path, id, text)| SourceFile {
             path: PathBuf::from(path),
             id: id.to_owned(),
             text: text.to_owned(),

@@ -4,7 +4,7 @@ use super::given::Given;
 use super::module::LinkedModule;
 use super::uses::{Uses, shared_path};
 use crate::fault::Fault;
-use crate::library::Libraries;
+use crate::shader_files::Libraries;
 
 /// What one module of Sabi's own is linked from.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,8 +43,8 @@ mod tests {
     use super::{LinkedModule, link_files};
     use crate::Libraries;
     use crate::fault::Fault;
-    use crate::library::shader_names;
     use crate::link::{Access, Format, Given};
+    use crate::shader_files::shader_names;
 
     /// Links files with just what they want.
     fn linked(files: &[&str]) -> Result<LinkedModule, Fault> {

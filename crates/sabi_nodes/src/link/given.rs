@@ -4,6 +4,9 @@ use std::fmt;
 
 use super::Format;
 
+/// Bind group of the surface in every kernel, wanted by `lib/atlas.wgsl`.
+pub(crate) const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 0);
+
 /// A declaration that a file asks for with `@given`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Given {

@@ -5,14 +5,14 @@ use std::fmt::{self, Write};
 
 use super::block::BlockLayout;
 use super::expressions::{Caller, plane_name, write_store};
+use super::given::SURFACE_GROUP;
 use super::module::LinkedModule;
 use super::sources::{Callee, callees, write_block, write_sources};
 use super::uses::{ATLAS, CORE, Uses};
 use super::{Binding, Call, Domain, Format, KernelSpec};
-use crate::Library;
-use crate::compile::SURFACE_GROUP;
 use crate::fault::Fault;
 use crate::kind::{Kind, Output};
+use crate::shader_files::Libraries;
 
 /// Reconstruction of a place on the surface from the atlas.
 const PLACE: &str = "surface/place";
@@ -36,10 +36,15 @@ pub struct Kernel {
     pub rays: bool,
 }
 
-/// Turns a spec into WGSL: the nodes' texts, the entry points, and the shared files that they use.
-pub fn link(spec: &KernelSpec, library: &Library) -> Result<Kernel, LinkError> {
+/// Turns a spec into WGSL: the nodes' texts, the entry points, and the shared files that they use. `kind_of` finds a kind by
+/// its id.
+pub fn link<'k>(
+    spec: &KernelSpec,
+    kind_of: impl Fn(&str) -> Option<&'k Kind>,
+    libraries: &Libraries,
+) -> Result<Kernel, LinkError> {
     let kinds = spec.calls.iter().map(|call| {
-        let kind = library.kind(&call.kind);
+        let kind = kind_of(&call.kind);
         kind.ok_or_else(|| LinkError::UnknownKind(call.kind.clone()))
     });
     let kinds: Vec<&Kind> = kinds.collect::<Result<_, _>>()?;
@@ -68,7 +73,7 @@ pub fn link(spec: &KernelSpec, library: &Library) -> Result<Kernel, LinkError> {
         write_main(&mut out, spec, &callees)?;
     }
     module.push_generated(&out);
-    append_shared(&mut module, &kinds, rays, library)?;
+    append_shared(&mut module, &kinds, rays, libraries)?;
     Ok(Kernel {
         module,
         layout,
@@ -131,8 +136,13 @@ impl fmt::Display for Missing {
 }
 
 /// Appends the files that every kernel needs and those that its nodes use.
-fn append_shared(module: &mut LinkedModule, kinds: &[&Kind], rays: bool, library: &Library) -> Result<(), LinkError> {
-    let mut uses = Uses::new(library.libraries());
+fn append_shared(
+    module: &mut LinkedModule,
+    kinds: &[&Kind],
+    rays: bool,
+    libraries: &Libraries,
+) -> Result<(), LinkError> {
+    let mut uses = Uses::new(libraries);
     let needed = [CORE, ATLAS, PLACE].into_iter().chain(rays.then_some(SHOOT));
     let of_nodes = kinds.iter().flat_map(|kind| &kind.libraries).map(String::as_str);
     for name in needed.chain(of_nodes) {

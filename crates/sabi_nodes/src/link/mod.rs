@@ -8,10 +8,11 @@
 mod block;
 mod expressions;
 mod files;
-mod given;
+pub(crate) mod given;
 mod kernel;
 mod mirror;
 mod module;
+pub(crate) mod parse;
 mod rays;
 mod reflect;
 mod rename;

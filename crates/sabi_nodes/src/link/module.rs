@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use naga::Span;
 use naga::valid::Capabilities;
 
+use super::parse::compile;
 use super::uses::shared_path;
-use crate::compile::compile;
 use crate::fault::Fault;
 
 /// Path under which messages name text that the linker wrote itself.

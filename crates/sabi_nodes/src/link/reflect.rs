@@ -6,7 +6,7 @@ use naga::valid::Capabilities;
 use naga::{Binding, Expression, Handle, Literal, Module, Type, TypeInner};
 
 use super::LinkedModule;
-use crate::compile::compile;
+use super::parse::compile;
 use crate::fault::Fault;
 
 /// Layouts and values that the host has to agree with.

@@ -6,8 +6,12 @@ use super::{Binding, Call, Convert, Domain, Format, Kernel, KernelSpec, LinkErro
 use crate::Library;
 use crate::kind::{Channel, InputDefault};
 
+fn link_with(spec: &KernelSpec, library: &Library) -> Result<Kernel, LinkError> {
+    link(spec, |id| library.kind(id), library.libraries())
+}
+
 fn linked(spec: &KernelSpec) -> Kernel {
-    let kernel = link(spec, &Library::builtin()).unwrap_or_else(|error| panic!("{error}"));
+    let kernel = link_with(spec, &Library::builtin()).unwrap_or_else(|error| panic!("{error}"));
     let check = kernel.module.check();
     check.unwrap_or_else(|fault| panic!("{fault}\n{}", kernel.module.wgsl()));
     kernel
@@ -258,7 +262,7 @@ fn names_of_an_artist_never_meet_those_of_another_file_or_generated_ones() {
         stores: stores_mask(1),
         domain: Domain::AllTexels,
     };
-    let kernel = link(&spec, &library).unwrap_or_else(|error| panic!("{error}"));
+    let kernel = link_with(&spec, &library).unwrap_or_else(|error| panic!("{error}"));
     kernel.module.check().unwrap_or_else(|fault| panic!("{fault}"));
 }
 
@@ -289,7 +293,7 @@ fn refused(call: Call, loads: Vec<Stored>) -> String {
         stores: Vec::new(),
         domain: Domain::AllTexels,
     };
-    link(&spec, &Library::builtin()).unwrap_err().to_string()
+    link_with(&spec, &Library::builtin()).unwrap_err().to_string()
 }
 
 #[test]
@@ -336,7 +340,7 @@ fn a_kernel_of_rays_without_a_call_is_an_error() {
         domain: Domain::OwnedTexelsByRays,
     };
     assert!(matches!(
-        link(&spec, &Library::builtin()),
+        link_with(&spec, &Library::builtin()),
         Err(LinkError::Incomplete { .. })
     ));
 }

@@ -10,9 +10,9 @@ use std::path::PathBuf;
 use super::given::Given;
 use super::module::LinkedModule;
 use crate::fault::{Fault, Text};
-use crate::library::{Libraries, shader_names, shader_text};
 use crate::notes::{Notes, Word, unknown};
 use crate::scan;
+use crate::shader_files::{Libraries, shader_names, shader_text};
 use crate::words::{list, nearest};
 
 /// The library that is linked to every node without being asked.
