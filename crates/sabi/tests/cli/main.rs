@@ -12,6 +12,7 @@ mod examples;
 mod help;
 mod images;
 mod interruption;
+mod log;
 mod looking;
 mod model_options;
 mod nothing_lost;

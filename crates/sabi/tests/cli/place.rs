@@ -94,6 +94,7 @@ impl Place {
             .env("SABI_CACHE_DIR", self.path(".cache"))
             .env("SABI_NODES", self.path(".nodes"))
             .env_remove("RUST_BACKTRACE")
+            .env_remove("SABI_LOG")
             // No test opens a window on the user's screen.
             .env_remove("DISPLAY")
             .env_remove("WAYLAND_DISPLAY")
