@@ -257,7 +257,7 @@ fn results_that_do_not_fit_are_told_and_a_smaller_graph_goes_on() {
     assert!(!errors.is_empty());
     for error in errors {
         assert!(
-            error.contains("; work at a smaller size, or close other programs"),
+            error.contains("; choose a smaller size, or close other programs"),
             "{error}"
         );
     }
