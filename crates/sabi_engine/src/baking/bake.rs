@@ -95,20 +95,15 @@ fn bake_open(
         seams: ModelSeams::new(request.seams, &linked),
         run_options: evaluator.run_options(SUBMISSION, &is_canceled),
     };
-    let mut encode = evaluator.times().encode;
-    let mut written = encode.time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
+    let mut times = evaluator.times();
+    let mut written = times
+        .encode
+        .time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
-    encode.time(|| write_copy(copy, &mut writer, &mut written))?;
-    let committed = encode.time(|| {
-        let _span = tracing::debug_span!("write", folder = %request.output.display()).entered();
-        writer.commit()
-    })?;
+    times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
+    let committed = times.encode.time(|| commit(writer, request))?;
     let told = evaluator.warnings().iter().chain(&written.warnings);
     let warnings: Vec<Warning> = told.cloned().chain(left_over(&committed)).collect();
-    let times = PhaseTimes {
-        encode,
-        ..evaluator.times()
-    };
     let json = report(request, &evaluator, &plan, &run, &written, &times, &warnings);
     Ok(BakeReport {
         times,
@@ -116,6 +111,12 @@ fn bake_open(
         warnings,
         json,
     })
+}
+
+/// Renames all files of a bake to their final names.
+fn commit(writer: BakeWriter, request: &BakeRequest) -> Result<Committed, EngineError> {
+    let _span = tracing::debug_span!("write", folder = %request.output.display()).entered();
+    Ok(writer.commit()?)
 }
 
 fn file_names(committed: &Committed) -> Vec<String> {
