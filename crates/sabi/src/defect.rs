@@ -16,6 +16,7 @@ pub(crate) fn caught(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
             let _ = writeln!(stderr, "{backtrace}");
         }
     }));
+    // The hook has printed the panic.
     panic::catch_unwind(work).unwrap_or(Exit::Defect)
 }
 

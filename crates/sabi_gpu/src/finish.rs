@@ -62,12 +62,12 @@ impl Gpu {
         ];
         let kernel = self.fixed_kernel(FixedShader::Normal, &entries)?;
         let open = texture(self, [1, 1, 1], Format::R32Float)?;
-        let bound = |slot: Option<SlotRef>| {
-            let stored = slot.and_then(|slot| run.textures[slot].as_ref());
+        let bound = |slot: Option<SlotRef>| match slot {
+            Some(slot) => Ok::<_, GpuError>(array_view(&run.texture(slot)?)),
             // The kernel does not read the texture of an input that is not there.
-            array_view(stored.unwrap_or(&open))
+            None => Ok(array_view(&open)),
         };
-        let (heights, slopes) = (bound(height), bound(slope));
+        let (heights, slopes) = (bound(height)?, bound(slope)?);
         let relief = Relief {
             has_height: u32::from(height.is_some()),
             has_slope: u32::from(slope.is_some()),

@@ -134,6 +134,7 @@ pub(super) fn coupled_slots(
 ) -> [u32; 4] {
     [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| {
         match atlas.owner((corner & 0xffff) + x, (corner >> 16) + y, pages & 0xffff) {
+            // Plain ghosts have no slot: they are filled before.
             Owner::Ghost(ghost) => slots[ghost as usize].unwrap_or(EMPTY),
             Owner::Triangle(_) | Owner::Empty => EMPTY,
         }
