@@ -13,7 +13,7 @@ use sabi_engine::{
 use sabi_export::{Cover, layouts, set_names};
 use sabi_image::{Pixels, decode};
 use sabi_surface::model::Model;
-use sabi_tests::{MeshFile, Quad, adapter, device, project};
+use sabi_tests::{MeshFile, Quad, adapter, device, project, report_file};
 use serde_json::Value as Json;
 
 pub(crate) const SIZE: u32 = 128;
@@ -66,9 +66,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         force: false,
         model: copies_model,
     };
-    bake(&request, &NoProgress)
-        .unwrap_or_else(|error| panic!("{error}"))
-        .json
+    report_file(&bake(&request, &NoProgress).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// Codes of a map, as a part of the highest one.

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, ModelOptions, NoProgress, Overrides, Seams, bake,
+    BakeReport, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, ModelOptions, NoProgress, Overrides,
+    Seams, bake,
 };
 use serde_json::Value as Json;
 use tempfile::TempDir;
@@ -72,7 +73,7 @@ impl Baked {
         Baked {
             _folder: folder,
             output,
-            report: baked.json,
+            report: report_file(&baked),
         }
     }
 
@@ -89,4 +90,13 @@ impl Baked {
         let path = found.unwrap_or_else(|| panic!("no map '{name}' among {}", self.report["outputs"]));
         fs::read(path).expect("a map")
     }
+}
+
+/// The report of a bake as a reader of its file sees it.
+///
+/// # Panics
+/// If it cannot be written as JSON.
+pub fn report_file(report: &BakeReport) -> Json {
+    let text = serde_json::to_string(report).expect("plain data");
+    serde_json::from_str(&text).expect("JSON")
 }

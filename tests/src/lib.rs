@@ -13,7 +13,7 @@ pub mod shapes;
 use std::env;
 use std::path::{Path, PathBuf};
 
-pub use baked::Baked;
+pub use baked::{Baked, report_file};
 pub use device::{adapter, device};
 pub use meshes::{MadeMesh, MadeTexture, MeshFile, Quad};
 pub use node_files::NodeFolder;

@@ -4,8 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use sabi_engine::{FileError, WholeFile, io_reason};
-use serde_json::Value as Json;
+use sabi_engine::{BakeReport, FileError, WholeFile, io_reason};
 
 use crate::exit::{Exit, Failure};
 use crate::terminal::{Terminal, pretty};
@@ -54,14 +53,15 @@ impl ReportFile {
     }
 
     /// Writes the report.
-    pub(crate) fn write(self, json: &Json, terminal: &Terminal) -> Result<(), Failure> {
+    pub(crate) fn write(self, report: &BakeReport, terminal: &Terminal) -> Result<(), Failure> {
         let mut file = match self {
-            ReportFile::Stdout => return terminal.json(json),
+            ReportFile::Stdout => return terminal.json(report),
             ReportFile::File(file) => file,
             ReportFile::InNewFolder(path) => begun(&path)?,
         };
         let path = file.target().to_owned();
-        let written = file.write(pretty(json).as_bytes()).and_then(|()| file.commit());
+        let text = pretty(report)?;
+        let written = file.write(text.as_bytes()).and_then(|()| file.commit());
         written.map_err(|error| cannot(&path, &error.source))
     }
 }

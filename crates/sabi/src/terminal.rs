@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, ErrorKind, Write};
 
 use sabi_engine::{Warning, io_reason};
-use serde_json::Value as Json;
+use serde::Serialize;
 
 use crate::advice::with_flags;
 use crate::arguments::Global;
@@ -85,31 +85,14 @@ impl Terminal {
     }
 
     /// Prints a JSON document on standard output.
-    pub(crate) fn json(&self, json: &Json) -> Result<(), Failure> {
-        self.data(&pretty(json))
+    pub(crate) fn json(&self, document: &impl Serialize) -> Result<(), Failure> {
+        self.data(&pretty(document)?)
     }
 }
 
 /// A JSON document as text, with a line break at its end.
-pub(crate) fn pretty(json: &Json) -> String {
-    format!("{json:#}\n")
-}
-
-/// A JSON value as people write it: `1` for `1.0`, `a, b` for a list.
-pub(crate) fn plain(json: &Json) -> String {
-    match json {
-        Json::String(text) => text.clone(),
-        Json::Number(number) => match number.as_f64() {
-            Some(number) => number.to_string(),
-            None => number.to_string(),
-        },
-        Json::Array(values) => {
-            let inside = |value: &Json| match value {
-                Json::Array(_) => format!("[{}]", plain(value)),
-                value => plain(value),
-            };
-            values.iter().map(inside).collect::<Vec<_>>().join(", ")
-        }
-        other => other.to_string(),
-    }
+pub(crate) fn pretty(document: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(document);
+    let text = text.map_err(|error| Failure::new(Exit::Defect, format!("cannot write the report as JSON: {error}")))?;
+    Ok(format!("{text}\n"))
 }

@@ -69,7 +69,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         model: false,
     };
     let started = Instant::now();
-    let mut json = bake(&request, &NoProgress).unwrap().json;
+    let mut json = serde_json::to_value(bake(&request, &NoProgress).unwrap()).unwrap();
     json["whole_ms"] = json!(started.elapsed().as_secs_f64() * 1000.0);
     json
 }

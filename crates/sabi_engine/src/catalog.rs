@@ -1,7 +1,8 @@
 //! What can be put into a graph, as an artist meets it: names, ports and knobs, whatever a kind is made of.
 
 pub(crate) mod check;
-pub(crate) mod describe;
+pub(crate) mod description;
+pub(crate) mod diagnosis;
 mod faces;
 mod knob;
 pub(crate) mod node_file;
@@ -12,8 +13,8 @@ mod tests;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use sabi_graph::{GROUP_KIND, PortType, REROUTE_KIND};
-use sabi_nodes::kind::{InputDefault, Kind, Output, Role};
+use sabi_graph::{GROUP_KIND, PortType, REROUTE_KIND, Value};
+use sabi_nodes::kind::{Input, InputDefault, Kind, Output, Role, Shape};
 use sabi_plan::{SourceKind, SourcePort};
 
 pub use faces::{Faces, ReadGroup};
@@ -30,6 +31,8 @@ use crate::opening::kinds::Kinds;
 pub struct Entry {
     /// Identifier as in graph files, `category/name`.
     pub id: String,
+    /// Version of the algorithm.
+    pub version: u32,
     /// Name shown to artists.
     pub label: String,
     /// One sentence.
@@ -44,7 +47,9 @@ pub struct Entry {
     pub outputs: Vec<Port>,
     /// What can be set, in order; those of inputs that are not connected come last.
     pub knobs: Vec<Knob>,
-    /// The text of its WGSL file, if it is one.
+    /// How it reads its inputs, for a kind that is a WGSL file.
+    pub shape: Option<Shape>,
+    /// Text of its WGSL file; `None` for other kinds.
     pub source: Option<Arc<str>>,
 }
 
@@ -59,8 +64,10 @@ pub struct Port {
     pub doc: String,
     /// What it carries; none where anything fits, as in a reroute that nothing is connected to.
     pub ty: Option<PortType>,
-    /// Whether nothing comes out of the node while nothing is connected.
+    /// Whether the node gives no result while nothing is connected.
     pub is_required: bool,
+    /// Value of an input's knob, or words for what stands in otherwise, while nothing is connected.
+    pub unconnected: Option<Value>,
 }
 
 impl Port {
@@ -124,15 +131,20 @@ impl Catalog {
     pub fn new(kinds: &Kinds) -> Catalog {
         let of_files = kinds.library.kinds().map(entry_of_kind);
         let of_rust = kinds.sources.values().chain(kinds.sinks.values()).map(entry_of_source);
-        let all = of_files.chain(of_rust).chain([reroute()]);
+        let all = of_files.chain(of_rust).chain([reroute(), faces::any_group()]);
         Catalog {
             entries: all.map(|entry| (entry.id.clone(), Arc::new(entry))).collect(),
         }
     }
 
-    /// All of them, sorted by id; groups are not among them, since each is another one.
+    /// Kinds that can be added to a graph by their id, sorted by it; a group is added by its name.
     pub fn entries(&self) -> impl Iterator<Item = &Arc<Entry>> {
-        self.entries.values()
+        self.entries.values().filter(|entry| entry.id != GROUP_KIND)
+    }
+
+    /// All kinds sorted by id, the group among them.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Entry> {
+        self.entries.values().map(Arc::as_ref)
     }
 
     /// The kind of that id, with or without its version.
@@ -154,9 +166,11 @@ fn entry_of_kind(kind: &Kind) -> Entry {
         doc: input.doc.clone(),
         ty: Some(input.ty),
         is_required: input.default == InputDefault::Required,
+        unconnected: unconnected(input),
     });
     Entry {
         id: kind.id.clone(),
+        version: kind.version,
         label: kind.label.clone(),
         summary: kind.summary.clone(),
         description: kind.description.clone(),
@@ -164,7 +178,17 @@ fn entry_of_kind(kind: &Kind) -> Entry {
         inputs: inputs.collect(),
         outputs: kind.outputs.iter().map(port_of_output).collect(),
         knobs: shown.map(Knob::of_param).chain(of_inputs).collect(),
+        shape: Some(kind.shape),
         source: Some(kind.source.clone()),
+    }
+}
+
+fn unconnected(input: &Input) -> Option<Value> {
+    match &input.default {
+        InputDefault::Required => None,
+        InputDefault::Knob(_) => input.knob().map(|ty| ty.default),
+        InputDefault::Expression(expression) => Some(expression.as_str().into()),
+        InputDefault::PlainMaterial => Some("a plain gray material".into()),
     }
 }
 
@@ -175,6 +199,7 @@ fn port_of_output(output: &Output) -> Port {
         doc: output.doc.clone(),
         ty: Some(output.ty),
         is_required: false,
+        unconnected: None,
     }
 }
 
@@ -185,9 +210,11 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
         doc: port.doc.clone(),
         ty: Some(port.ty),
         is_required,
+        unconnected: None,
     };
     Entry {
         id: kind.id.clone(),
+        version: 1,
         label: kind.label.clone(),
         summary: kind.summary.clone(),
         description: String::new(),
@@ -195,6 +222,7 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
         inputs: kind.inputs.iter().map(|input| port(input, true)).collect(),
         outputs: kind.outputs.iter().map(|output| port(output, false)).collect(),
         knobs: kind.params.iter().map(Knob::of_param).collect(),
+        shape: None,
         source: None,
     }
 }
@@ -207,9 +235,11 @@ fn reroute() -> Entry {
         doc: doc.to_owned(),
         ty: None,
         is_required: false,
+        unconnected: None,
     };
     Entry {
         id: REROUTE_KIND.to_owned(),
+        version: 1,
         label: "Reroute".to_owned(),
         summary: "A bend in a wire; passes on whatever comes in.".to_owned(),
         description: String::new(),
@@ -217,6 +247,7 @@ fn reroute() -> Entry {
         inputs: vec![port("Anything.")],
         outputs: vec![port("The same.")],
         knobs: Vec::new(),
+        shape: None,
         source: None,
     }
 }
@@ -236,6 +267,7 @@ pub(crate) fn placeholder(kind: &str) -> Entry {
     let is_group = kind == GROUP_KIND;
     Entry {
         id: kind.to_owned(),
+        version: 1,
         label: if is_group { "Group".to_owned() } else { kind.to_owned() },
         summary: match is_group {
             true => "The group that this node names is not there.".to_owned(),
@@ -246,6 +278,7 @@ pub(crate) fn placeholder(kind: &str) -> Entry {
         inputs: Vec::new(),
         outputs: Vec::new(),
         knobs: Vec::new(),
+        shape: None,
         source: None,
     }
 }

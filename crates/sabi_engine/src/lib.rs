@@ -4,6 +4,8 @@
 
 mod baking;
 pub mod catalog;
+#[cfg(test)]
+mod documented;
 mod error;
 mod evaluating;
 mod live;
@@ -48,7 +50,7 @@ pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
     BakeRequest, DEFAULT_NAMES, default_padding, export_channels, export_presets, why_no_names,
 };
-pub use baking::report::BakeReport;
+pub use baking::report::{BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, ModelCopyReport};
 pub use baking::seams::Seams;
 
 // Rendering pictures.
@@ -58,17 +60,22 @@ pub use rendering::render::{RenderRequest, Turns, render};
 
 // Describing node kinds, models and this machine.
 pub use catalog::check::{CheckReport, check};
-pub use catalog::describe::{describe_mesh, describe_nodes, diagnose};
+pub use catalog::description::{
+    InputDescription, NodeDescription, OutputDescription, ParamDescription, describe_nodes,
+};
+pub use catalog::diagnosis::{AdapterDescription, Diagnosis, diagnose};
 pub use catalog::node_file::{
     NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id,
 };
+pub use opening::mesh_report::{MeshReport, UnwrappingReport, describe_mesh};
+pub use opening::overlap::{MaterialOverlap, OverlapReport, SharedPairs};
 
 // Sessions: edits, files and what watches them.
 pub use session::watch::{Changes, Watched, Watcher};
 pub use session::{FileState, Recovery, Session, free_graph_file, moved_to, recoveries, with_whole_paths};
 
 // Types of other crates that stand in this interface.
-pub use sabi_export::SetKey;
+pub use sabi_export::{ConstantRecord, OutputRecord, SetKey};
 pub use sabi_files::{
     FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, path_text, stored, stored_path,
     write_whole,
@@ -76,7 +83,7 @@ pub use sabi_files::{
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,
 };
-pub use sabi_graph::{Fit, NodeRef, Overrides, nearest};
+pub use sabi_graph::{Fit, NodeRef, Overrides, Value, nearest};
 pub use sabi_surface::load::Up;
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

@@ -6,6 +6,7 @@ pub(crate) mod environment;
 pub(crate) mod kinds;
 pub(crate) mod levels;
 pub(crate) mod linked_model;
+pub(crate) mod mesh_report;
 pub(crate) mod modelless;
 pub(crate) mod overlap;
 pub(crate) mod overridden;

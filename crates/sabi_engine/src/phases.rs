@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use serde_json::{Value as Json, json};
+use serde::{Serialize, Serializer};
 
 use crate::error::{EngineError, ErrorKind};
 
@@ -93,8 +93,15 @@ impl PhaseTime {
     }
 }
 
-/// Time spent in each phase of a bake.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+impl Serialize for PhaseTime {
+    /// Written as milliseconds, rounded to a tenth.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(self.ms())
+    }
+}
+
+/// Time spent in each phase of a bake: `stages_ms` of the report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PhaseTimes {
     /// Reading the graph, the model and its images, and uploading the surface.
     pub load: PhaseTime,
@@ -106,17 +113,4 @@ pub struct PhaseTimes {
     pub run: PhaseTime,
     /// Normals, readback, padding, encoding and writing.
     pub encode: PhaseTime,
-}
-
-impl PhaseTimes {
-    /// Value of `stages_ms` in the report.
-    pub fn json(&self) -> Json {
-        json!({
-            "load": self.load.ms(),
-            "atlas": self.atlas.ms(),
-            "compile": self.compile.ms(),
-            "run": self.run.ms(),
-            "encode": self.encode.ms(),
-        })
-    }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Serialize, Serializer};
+
 use crate::remedy::{Remedy, advised};
 
 /// Sentence on something that is probably not intended and stops nothing, with its remedies.
@@ -49,5 +51,12 @@ impl From<&Warning> for Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&advised(&self.sentence, &self.remedies))
+    }
+}
+
+impl Serialize for Warning {
+    /// Written as its text.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }

@@ -1,18 +1,31 @@
 //! Channels that are the same all over: a number in the report instead of a map.
 
+use std::fmt;
+
 use rayon::prelude::*;
 use sabi_image::srgb_from_linear;
+use serde::Serialize;
 
 use crate::layout::{Cover, SetLayout};
 use crate::{Channel, ChannelPixels};
 
 /// The value of a constant channel, linear.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Value {
     /// Value of a channel with one component.
     Number(f32),
     /// Value of a color or a normal.
     Triple([f32; 3]),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Number(number) => write!(f, "{number}"),
+            Value::Triple([x, y, z]) => write!(f, "{x}, {y}, {z}"),
+        }
+    }
 }
 
 /// Lowest and highest of each component.

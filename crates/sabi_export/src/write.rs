@@ -155,12 +155,8 @@ impl SetWriter<'_> {
         }
         let found = survey(channel, self.layout, &mut pixels);
         let udim = self.layout.key.udim;
-        let constant = constant_value(channel, found.bounds).map(|value| ConstantRecord {
-            channel: channel.clone(),
-            material: self.name.clone(),
-            udim,
-            value,
-        });
+        let constant = constant_value(channel, found.bounds)
+            .map(|value| ConstantRecord::new(channel.clone(), self.name.clone(), udim, value));
         // A set without owned pixels has an empty range.
         let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
         let above_one = high[..components].iter().any(|&value| value > 1.0);

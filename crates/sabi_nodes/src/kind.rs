@@ -1,4 +1,4 @@
-//! What a node is, as read from its one WGSL file. Plain data: the planner, the editor and the reference all read it.
+//! Kinds of nodes as read from their WGSL files: plain data for the planner, the catalog and the reference.
 
 mod own;
 mod param;
@@ -18,7 +18,7 @@ pub(crate) use param_type::exact;
 pub(crate) use written::UNUSED_STOP;
 pub use written::{Written, WrittenStop};
 
-/// A node kind: everything its file says, reflected and checked.
+/// A kind of node, reflected from its file and checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kind {
     /// Identifier as written in graph files, `category/name`.
@@ -35,13 +35,13 @@ pub struct Kind {
     pub aliases: Vec<String>,
     /// Earlier ids of this kind (`@was`), so that old files find it.
     pub formerly: Vec<String>,
-    /// Where the text came from; for messages only.
+    /// Path of the file, for messages only.
     pub path: PathBuf,
-    /// The file's own text, unchanged.
+    /// Text of the file.
     pub source: Arc<str>,
-    /// Libraries to append, in the order of first use and without repeats, their own uses included.
+    /// Libraries to append, directly used or not, in the order of first use.
     pub libraries: Vec<String>,
-    /// How the node reads its inputs.
+    /// Way in which the node reads its inputs.
     pub shape: Shape,
     /// Members of `struct Params` in order; empty when there is none.
     pub params: Vec<Param>,
@@ -55,8 +55,8 @@ pub struct Kind {
     pub passes: Vec<Pass>,
     /// The rays over which the outputs are averaged, where the node shoots any.
     pub rays: Option<Rays>,
-    /// The input that is surveyed, by index in [`Kind::inputs`]; its passes then run once for the whole surface, and
-    /// outputs take what they give by value.
+    /// Index in [`Kind::inputs`] of the surveyed input; the passes then run once for the whole surface, and outputs take
+    /// their values.
     pub surveyed: Option<usize>,
     /// naga expressions of one evaluation of all outputs, calls expanded: a measure of compile time.
     pub cost: u32,
@@ -74,8 +74,20 @@ pub enum Shape {
     Field,
     /// Results are means over rays that are shot from each place.
     Ray,
-    /// Inputs are values at the same place, and what one of them is over all of the surface.
+    /// Inputs are values at the same place, and a survey of one of them over the whole surface.
     Survey,
+}
+
+impl Shape {
+    /// Word for it, as `sabi nodes` shows it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Shape::Point => "point",
+            Shape::Field => "field",
+            Shape::Ray => "ray",
+            Shape::Survey => "survey",
+        }
+    }
 }
 
 /// One input port.
@@ -85,13 +97,13 @@ pub struct Input {
     pub name: String,
     /// Name shown to artists.
     pub label: String,
-    /// What it does: the text after `@input NAME`.
+    /// Description: the text after `@input NAME`.
     pub doc: String,
-    /// What may be connected.
+    /// Port type.
     pub ty: PortType,
     /// Whether the function receives the value at this place or the stored texture.
     pub reads: Reads,
-    /// What stands in when nothing is connected.
+    /// Value while nothing is connected.
     pub default: InputDefault,
 }
 
@@ -114,7 +126,7 @@ impl Input {
     }
 }
 
-/// What a function receives for an input.
+/// Form in which a function receives an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reads {
     /// The value at this place.
@@ -123,41 +135,41 @@ pub enum Reads {
     Field,
 }
 
-/// What stands in for an unconnected input.
+/// Value of an unconnected input.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InputDefault {
-    /// It must be connected (a field's source).
+    /// None: the input must be connected (a field's source).
     Required,
     /// A knob on the node with this start value: 1 component for a mask, 3 for a color or vector (color linear).
     Knob(Vec<f32>),
     /// A WGSL expression over `at`, such as `at.position`.
     Expression(String),
-    /// A material input: the plain gray material.
+    /// The plain gray material, for a material input.
     PlainMaterial,
 }
 
-/// One result.
+/// A result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
     /// Name of the function and of the port.
     pub name: String,
-    /// What the port carries.
+    /// Port type.
     pub ty: PortType,
     /// The doc comment without its annotations.
     pub doc: String,
     /// Arguments of the function in order.
     pub arguments: Vec<Argument>,
-    /// How often it runs (`@repeat`), rounded up to a whole number from 1 to 4096; once if none. The function's first
-    /// field argument is its own last result.
+    /// Number of runs (`@repeat`), rounded up to a whole number from 1 to 4096; `None` for a single run. The function's
+    /// first field argument is the result of the run before.
     pub repeat: Option<Formula>,
-    /// For a pass, how wide its texels may be (`@texel`), working units: it runs on the coarsest level that has no wider
-    /// ones; on the finest if none.
+    /// Widest texels of a pass (`@texel`), working units: it runs on the coarsest level without wider ones; `None` for the
+    /// finest level.
     pub texel: Option<Formula>,
-    /// For a material result: how its channels come about.
+    /// Channels that a material result can set.
     pub channels: Vec<ChannelWrite>,
 }
 
-/// One function marked `@pass N`, stored before later functions read it under its name.
+/// A function marked `@pass N`, stored before later functions read it under its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
     /// The number after `@pass`; passes run in ascending order.
@@ -171,28 +183,28 @@ pub struct Pass {
 pub struct Rays {
     /// Arguments of the function in order.
     pub arguments: Vec<Argument>,
-    /// The `u32` parameter that says how many rays each place shoots, by index in [`Kind::params`].
+    /// Index in [`Kind::params`] of the `u32` parameter with the number of rays of each place.
     pub count: usize,
-    /// What is asked of each ray.
+    /// Question asked of each ray.
     pub finds: Finds,
-    /// The length that says how far rays go, by index in [`Kind::params`]. Nothing else of a ray hangs on it, so what longer
-    /// rays hit tells what shorter ones do.
+    /// Index in [`Kind::params`] of the length that limits rays and that nothing else of them depends on, so that the hits of
+    /// shorter rays follow from those of longer ones.
     pub reach: Option<usize>,
-    /// Parameters that rays hang on, by index in [`Kind::params`].
+    /// Indices in [`Kind::params`] of the parameters that rays depend on.
     pub reads: Vec<usize>,
 }
 
-/// What is asked of a ray.
+/// Question asked of a ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Finds {
-    /// Whether it meets anything: quicker, and the distance is that to some surface on its way.
+    /// Whether it hits anything, which is quicker; the distance is that of any hit.
     Any,
-    /// What it meets first.
+    /// Its first hit.
     #[default]
     Nearest,
 }
 
-/// What a function's argument is bound to.
+/// Binding of a function's argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Argument {
     /// `at: Surface`
@@ -209,20 +221,20 @@ pub enum Argument {
     Ray,
     /// `hit: Hit`
     Hit,
-    /// `round: Round`: which repetition it is, and how wide texels are.
+    /// `round: Round`: number of the repetition, and width of texels.
     Round,
     /// `survey: texture_2d_array<f32>`: the table of the surveyed input.
     Survey,
 }
 
 impl Argument {
-    /// Whether it is about a single ray.
+    /// Whether it belongs to a single ray.
     pub(crate) fn is_of_ray(&self) -> bool {
         matches!(self, Argument::Ray | Argument::Hit)
     }
 }
 
-/// Channels of a material that take storage of their own.
+/// Channels of a material with their own storage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Channel {
     /// Base color and alpha.
@@ -238,7 +250,7 @@ pub enum Channel {
 }
 
 impl Channel {
-    /// All, in storage order.
+    /// All channels, in storage order.
     pub const ALL: [Channel; 5] = [
         Channel::Color,
         Channel::Surface,
@@ -248,10 +260,10 @@ impl Channel {
     ];
 }
 
-/// A channel that a material function may set, and what it needs to do so.
+/// A channel that a material function can set, with the conditions for it.
 ///
 /// Read from the code: a store to a member of the returned material, under `if params.x != 0u`, or times `params.y`.
-/// A result starts from the material inputs it copies; those pass their channels on.
+/// Material inputs that a result copies pass their channels on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChannelWrite {
     /// The channel that may be set.
@@ -263,7 +275,7 @@ pub struct ChannelWrite {
 }
 
 impl Kind {
-    /// The parameter of that name, today's or an earlier one.
+    /// The parameter with that name, present or earlier.
     pub fn param(&self, name: &str) -> Option<&Param> {
         self.params
             .iter()

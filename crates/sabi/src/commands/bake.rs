@@ -8,7 +8,7 @@ use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::Bars;
 use crate::report_file::ReportFile;
-use crate::terminal::{Terminal, plain};
+use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let started = Instant::now();
@@ -29,10 +29,10 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
     }
     let prints_report = arguments.json || report_file.as_ref().is_some_and(ReportFile::is_stdout);
     if let Some(file) = report_file.filter(|file| !file.is_stdout()) {
-        file.write(&report.json, terminal)?;
+        file.write(&report, terminal)?;
     }
     if prints_report {
-        terminal.json(&report.json)?;
+        terminal.json(&report)?;
     } else {
         let paths = report.files.iter().map(|file| arguments.output.join(file));
         let lines: String = paths.map(|path| format!("{}\n", path.display())).collect();
@@ -62,14 +62,11 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
 }
 
 fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, terminal: &Terminal) {
-    let (json, times) = (&report.json, &report.times);
-    let counted = |count: u64, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
-    let maps = json["outputs"].as_array().map_or(0, Vec::len);
-    let mut count = counted(maps as u64, "map", "maps");
-    if let Some(copy) = json["model"]["path"].as_str() {
-        count = format!("{count} and {copy}");
+    let counted = |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
+    let mut count = counted(report.outputs.len(), "map", "maps");
+    if let Some(model) = &report.model {
+        count = format!("{count} and {}", model.copy.path);
     }
-    let number = |key: &str| json[key].as_u64().unwrap_or(0);
     let size = arguments.maps.size;
     terminal.note(format_args!(
         "Baked {} on {} at {size} × {size}: {count} in {}, in {:.2} s",
@@ -78,6 +75,7 @@ fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, t
         arguments.output.display(),
         started.elapsed().as_secs_f64(),
     ));
+    let times = &report.times;
     let stages = [
         ("load", times.load),
         ("atlas", times.atlas),
@@ -89,23 +87,20 @@ fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, t
     terminal.note(format_args!("  stages     {}", stages.join(", ")));
     terminal.note(format_args!(
         "  graph      {} in {}, {} MiB of textures",
-        counted(number("nodes"), "node", "nodes"),
-        counted(number("passes"), "pass", "passes"),
-        number("peak_texture_bytes").div_ceil(1 << 20),
+        counted(report.nodes, "node", "nodes"),
+        counted(report.passes, "pass", "passes"),
+        report.peak_texture_bytes.div_ceil(1 << 20),
     ));
     terminal.note(format_args!(
         "  adapter    {} ({})",
-        json["adapter"]["name"].as_str().unwrap_or_default(),
-        json["adapter"]["kind"].as_str().unwrap_or_default(),
+        report.adapter.name, report.adapter.kind
     ));
-    for constant in json["constants"].as_array().into_iter().flatten() {
-        terminal.note(format_args!("  constant   {}", in_words(constant)));
+    for constant in &report.constants {
+        terminal.note(format_args!(
+            "  constant   {} {} {}",
+            constant.material,
+            constant.channel.name(),
+            constant.value
+        ));
     }
-}
-
-/// A channel that is the same all over.
-fn in_words(constant: &serde_json::Value) -> String {
-    let word = |key: &str| constant[key].as_str().unwrap_or_default();
-    let (material, channel) = (word("material"), word("channel"));
-    format!("{material} {channel} {}", plain(&constant["value"]))
 }

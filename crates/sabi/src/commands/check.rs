@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sabi_engine::{CheckReport, EngineError, check};
-use serde_json::{Value as Json, json};
+use serde::Serialize;
 
 use crate::arguments::CheckArguments;
 use crate::exit::{Exit, Failure};
@@ -21,13 +21,13 @@ pub(crate) fn run(arguments: &CheckArguments, terminal: &Terminal) -> Result<Exi
         exit = worse(exit, graph_exit);
         tell(path, &report, terminal);
         if arguments.json {
-            documents.push(document(path, &report));
+            documents.push(CheckedGraph::new(path, report));
         } else {
             terminal.data(&format!("{}\n", verdict(path, &report)))?;
         }
     }
     if arguments.json {
-        terminal.json(&Json::Array(documents))?;
+        terminal.json(&documents)?;
     }
     Ok(exit)
 }
@@ -90,13 +90,26 @@ fn verdict(path: &Path, report: &CheckReport) -> String {
     format!("{path}: good, {} in {passes}{warnings}", count(report.nodes, "node"))
 }
 
-fn document(path: &Path, report: &CheckReport) -> Json {
-    json!({
-        "graph": path.display().to_string(),
-        "good": report.errors.is_empty(),
-        "nodes": report.nodes,
-        "passes": report.passes,
-        "errors": report.errors,
-        "warnings": report.warnings,
-    })
+/// A graph's entry in `sabi check --json`; docs/report.md lists the keys.
+#[derive(Serialize)]
+struct CheckedGraph {
+    graph: String,
+    good: bool,
+    nodes: usize,
+    passes: usize,
+    errors: Vec<String>,
+    warnings: Vec<String>,
+}
+
+impl CheckedGraph {
+    fn new(path: &Path, report: CheckReport) -> CheckedGraph {
+        CheckedGraph {
+            graph: path.display().to_string(),
+            good: report.errors.is_empty(),
+            nodes: report.nodes,
+            passes: report.passes,
+            errors: report.errors,
+            warnings: report.warnings,
+        }
+    }
 }

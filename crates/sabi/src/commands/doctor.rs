@@ -2,51 +2,41 @@
 
 use std::fmt::Write as _;
 
-use sabi_engine::diagnose;
-use serde_json::Value as Json;
+use sabi_engine::{Diagnosis, diagnose};
 
 use crate::arguments::DoctorArguments;
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &DoctorArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let findings = diagnose();
+    let diagnosis = diagnose();
     if arguments.json {
-        terminal.json(&findings)?;
+        terminal.json(&diagnosis)?;
     } else {
-        terminal.data(&page(&findings))?;
+        terminal.data(&page(&diagnosis))?;
     }
-    for fault in findings["faults"].as_array().into_iter().flatten() {
-        terminal.warning(text(fault));
+    for fault in &diagnosis.faults {
+        terminal.warning(fault.as_str());
     }
-    if findings["usable"] == true {
-        return Ok(Exit::Done);
+    match diagnosis.problem {
+        None => Ok(Exit::Done),
+        Some(problem) => Err(Failure::new(Exit::NoAdapter, problem)),
     }
-    Err(Failure::new(Exit::NoAdapter, text(&findings["problem"]).to_owned()))
 }
 
-fn text(json: &Json) -> &str {
-    json.as_str().unwrap_or_default()
-}
-
-fn page(findings: &Json) -> String {
-    let mut page = format!("sabi      {}\n", text(&findings["sabi"]));
-    let adapters = findings["adapters"].as_array().map_or(&[][..], Vec::as_slice);
-    for adapter in adapters {
+fn page(diagnosis: &Diagnosis) -> String {
+    let mut page = format!("sabi      {}\n", diagnosis.sabi);
+    for adapter in &diagnosis.adapters {
         let _ = writeln!(
             page,
             "adapter   {} ({}, {}, {})",
-            text(&adapter["name"]),
-            text(&adapter["kind"]),
-            text(&adapter["backend"]),
-            text(&adapter["driver"]),
+            adapter.name, adapter.kind, adapter.backend, adapter.driver
         );
     }
-    if adapters.is_empty() {
+    if diagnosis.adapters.is_empty() {
         page.push_str("adapter   none\n");
     }
-    let cache = findings["cache"].as_str().unwrap_or("none");
-    let _ = writeln!(page, "cache     {cache}");
-    let _ = writeln!(page, "nodes     {}", findings["nodes"]);
+    let _ = writeln!(page, "cache     {}", diagnosis.cache.as_deref().unwrap_or("none")); // No folder is one to keep it in.
+    let _ = writeln!(page, "nodes     {}", diagnosis.nodes);
     page
 }

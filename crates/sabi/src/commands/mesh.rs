@@ -1,35 +1,64 @@
 //! `sabi mesh`: a model and its atlas.
 
-use sabi_engine::{LinkedModel, describe_mesh};
-use serde_json::Value as Json;
+use sabi_engine::{LinkedModel, MeshReport, describe_mesh};
+use serde::Serialize;
 
 use crate::arguments::MeshArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::Bars;
-use crate::terminal::{Terminal, plain};
+use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: MeshArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let options = arguments.model.options(arguments.mesh, arguments.maps.size);
     let bars = Bars::new(terminal);
     let linked = LinkedModel::open(&options, &bars)?;
     drop(bars);
-    let description = describe_mesh(&linked);
-    for warning in linked.warnings() {
+    let report = describe_mesh(&linked);
+    for warning in &report.warnings {
         terminal.warning(warning);
     }
     if arguments.json {
-        terminal.json(&description)?;
+        terminal.json(&report)?;
     } else {
-        terminal.data(&table(&description))?;
+        terminal.data(&table(&report)?)?;
     }
     Ok(Exit::Done)
 }
 
-/// One fact a line; warnings were told already.
-fn table(description: &Json) -> String {
-    let facts = description.as_object().into_iter().flatten();
-    facts
-        .filter(|(name, _)| *name != "warnings")
-        .map(|(name, value)| format!("{:24} {}\n", name.replace('_', " "), plain(value)))
-        .collect()
+/// One fact a line; warnings were shown already.
+fn table(report: &MeshReport) -> Result<String, Failure> {
+    let [page_width, page_height] = report.page_size;
+    let facts = [
+        ("triangles", report.triangles.to_string()),
+        ("vertices", report.vertices.to_string()),
+        ("parts", report.parts.join(", ")),
+        ("pieces", report.pieces.to_string()),
+        ("materials", report.materials.join(", ")),
+        ("unwrapped", on_one_line(&report.unwrapped)?),
+        ("vertex colors", report.vertex_colors.to_string()),
+        ("largest side", report.largest_side.to_string()),
+        ("size", report.size.to_string()),
+        ("pages", report.pages.to_string()),
+        ("page size", format!("{page_width}, {page_height}")),
+        ("charts", report.charts.to_string()),
+        ("coverage", report.coverage.to_string()),
+        ("overlap", on_one_line(&report.overlap)?),
+        ("overlapping charts", report.overlapping_charts.to_string()),
+        ("stacked charts", report.stacked_charts.to_string()),
+        ("mirrored charts", report.mirrored_charts.to_string()),
+        ("moved charts", report.moved_charts.to_string()),
+        ("thin charts", report.thin_charts.to_string()),
+        ("degenerate triangles", report.degenerate_triangles.to_string()),
+        ("degenerate uv triangles", report.degenerate_uv_triangles.to_string()),
+        ("nonmanifold edges", report.nonmanifold_edges.to_string()),
+        ("border edges", report.border_edges.to_string()),
+        ("ghost texels", report.ghost_texels.to_string()),
+        ("unlinked ghosts", report.unlinked_ghosts.to_string()),
+    ];
+    Ok(facts.map(|(name, value)| format!("{name:24} {value}\n")).concat())
+}
+
+fn on_one_line(facts: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string(facts);
+    text.map_err(|error| Failure::new(Exit::Defect, format!("cannot write the model's facts: {error}")))
 }

@@ -2,12 +2,11 @@
 
 use std::fmt::Write as _;
 
-use sabi_engine::{Kinds, describe_nodes, nearest};
-use serde_json::Value as Json;
+use sabi_engine::{InputDescription, Kinds, NodeDescription, ParamDescription, Value, describe_nodes, nearest};
 
 use crate::arguments::NodesArguments;
 use crate::exit::{Exit, Failure};
-use crate::terminal::{Terminal, plain};
+use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let kinds = Kinds::beside(arguments.graph.as_deref());
@@ -15,37 +14,34 @@ pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exi
         terminal.warning(fault.to_string());
     }
     let nodes = describe_nodes(&kinds);
-    match &arguments.id {
-        None if arguments.json => terminal.json(&Json::Array(nodes))?,
-        None => terminal.data(&table(&nodes))?,
-        Some(word) => {
-            let found = find(&nodes, word)?;
-            match found.as_slice() {
-                [node] if arguments.json => terminal.json(node)?,
-                [node] => terminal.data(&details(node))?,
-                several if arguments.json => terminal.json(&Json::Array(several.to_vec()))?,
-                several => terminal.data(&table(several))?,
-            }
-        }
+    let found = match &arguments.id {
+        None => nodes.iter().collect(),
+        Some(word) => find(&nodes, word)?,
+    };
+    match (found.as_slice(), &arguments.id) {
+        ([node], Some(_)) if arguments.json => terminal.json(node)?,
+        ([node], Some(_)) => terminal.data(&details(node))?,
+        (several, _) if arguments.json => terminal.json(&several)?,
+        (several, _) => terminal.data(&table(several))?,
     }
     Ok(Exit::Done)
 }
 
-/// The kind of that id, or all that an artist may mean by a word: in the id, the label or the aliases.
-fn find(nodes: &[Json], id: &str) -> Result<Vec<Json>, Failure> {
-    if let Some(node) = nodes.iter().find(|node| text(&node["id"]) == id) {
-        return Ok(vec![node.clone()]);
+/// The kind of that id, or all kinds with the word in their id, label or aliases.
+fn find<'n>(nodes: &'n [NodeDescription], id: &str) -> Result<Vec<&'n NodeDescription>, Failure> {
+    if let Some(node) = nodes.iter().find(|node| node.id == id) {
+        return Ok(vec![node]);
     }
     let word = id.to_lowercase();
-    let is_meant = |node: &&Json| {
-        let names = [&node["id"], &node["label"]].into_iter().chain(list(&node["aliases"]));
-        names.map(text).any(|name| name.to_lowercase().contains(&word))
+    let has_word = |node: &&NodeDescription| {
+        let mut names = [&node.id, &node.label].into_iter().chain(&node.aliases);
+        names.any(|name| name.to_lowercase().contains(&word))
     };
-    let meant: Vec<Json> = nodes.iter().filter(is_meant).cloned().collect();
-    if !meant.is_empty() {
-        return Ok(meant);
+    let found: Vec<&NodeDescription> = nodes.iter().filter(has_word).collect();
+    if !found.is_empty() {
+        return Ok(found);
     }
-    let advice = match nearest(id, nodes.iter().map(|node| text(&node["id"]))) {
+    let advice = match nearest(id, nodes.iter().map(|node| node.id.as_str())) {
         Some(near) => format!("did you mean '{near}'?"),
         None => "'sabi nodes' lists all".to_owned(),
     };
@@ -53,77 +49,91 @@ fn find(nodes: &[Json], id: &str) -> Result<Vec<Json>, Failure> {
     Err(Failure::new(Exit::Usage, why))
 }
 
-fn text(json: &Json) -> &str {
-    json.as_str().unwrap_or_default()
-}
-
-fn list(json: &Json) -> &[Json] {
-    json.as_array().map_or(&[], Vec::as_slice)
-}
-
-/// Ids and what they do, one kind a line.
-fn table(nodes: &[Json]) -> String {
-    let width = nodes.iter().map(|node| text(&node["id"]).len()).max().unwrap_or(0);
+/// Ids and summaries, one kind a line.
+fn table(nodes: &[&NodeDescription]) -> String {
+    let width = nodes.iter().map(|node| node.id.len()).max().unwrap_or(0); // An empty table has no width.
     let lines = nodes.iter().map(|node| {
-        let summary = text(&node["summary"]).replace('\n', " ");
-        format!("{:width$}  {summary}\n", text(&node["id"]))
+        let summary = node.summary.replace('\n', " ");
+        format!("{:width$}  {summary}\n", node.id)
     });
     lines.collect()
 }
 
 /// Everything about one kind.
-fn details(node: &Json) -> String {
-    let mut page = format!("{}\n{}\n", text(&node["id"]), text(&node["summary"]));
-    let aliases: Vec<&str> = list(&node["aliases"]).iter().map(text).collect();
-    if !aliases.is_empty() {
-        let _ = writeln!(page, "Also called {}", aliases.join(", "));
+fn details(node: &NodeDescription) -> String {
+    let mut page = format!("{}\n{}\n", node.id, node.summary);
+    if !node.aliases.is_empty() {
+        let _ = writeln!(page, "Also called {}", node.aliases.join(", "));
     }
-    section(&mut page, "Inputs", list(&node["inputs"]), |input| {
-        let must = if input["required"] == true {
-            ", must be connected"
-        } else {
-            ""
-        };
-        let open = match &input["default"] {
-            Json::Null => String::new(),
-            default => format!(", else {}", plain(default)),
-        };
-        format!("{}{must}{open}", text(&input["type"]))
-    });
-    section(&mut page, "Outputs", list(&node["outputs"]), |output| {
-        text(&output["type"]).to_owned()
-    });
-    section(&mut page, "Parameters", list(&node["params"]), takes);
+    let inputs = node.inputs.iter();
+    section(
+        &mut page,
+        "Inputs",
+        inputs.map(|input| (&input.name, &input.doc, connects(input))),
+    );
+    let outputs = node.outputs.iter();
+    section(
+        &mut page,
+        "Outputs",
+        outputs.map(|output| (&output.name, &output.doc, output.ty.clone())),
+    );
+    let params = node.params.iter();
+    section(
+        &mut page,
+        "Parameters",
+        params.map(|param| (&param.name, &param.doc, takes(param))),
+    );
     page
 }
 
-fn section(page: &mut String, title: &str, entries: &[Json], note: impl Fn(&Json) -> String) {
-    if entries.is_empty() {
+/// Adds names with what they are for and a note, one a line.
+fn section<'e>(page: &mut String, title: &str, entries: impl Iterator<Item = (&'e String, &'e String, String)>) {
+    let entries: Vec<_> = entries.collect();
+    let Some(width) = entries.iter().map(|(name, ..)| name.len()).max() else {
         return;
-    }
+    };
     let _ = writeln!(page, "\n{title}");
-    let width = entries
-        .iter()
-        .map(|entry| text(&entry["name"]).len())
-        .max()
-        .unwrap_or(0);
-    for entry in entries {
-        let doc = text(&entry["doc"]).replace('\n', " ");
-        let _ = writeln!(page, "  {:width$}  {doc} [{}]", text(&entry["name"]), note(entry));
+    for (name, doc, note) in entries {
+        let _ = writeln!(page, "  {name:width$}  {} [{note}]", doc.replace('\n', " "));
     }
 }
 
-/// What a parameter takes, in words.
-fn takes(param: &Json) -> String {
-    let mut words = match param["choices"].as_array() {
-        Some(choices) => choices.iter().map(text).collect::<Vec<_>>().join(" | "),
-        None => text(&param["takes"]).to_owned(),
+/// What may be connected to an input, and what stands in for it.
+fn connects(input: &InputDescription) -> String {
+    let must = if input.required { ", must be connected" } else { "" };
+    let open = match &input.default {
+        Some(default) => format!(", else {}", plain(default)),
+        None => String::new(),
     };
-    if let [low, high] = list(&param["range"]) {
-        let _ = write!(words, " from {} to {}", plain(low), plain(high));
+    format!("{}{must}{open}", input.ty)
+}
+
+/// What a parameter takes, in words.
+fn takes(param: &ParamDescription) -> String {
+    let mut words = match &param.choices {
+        Some(choices) => choices.join(" | "),
+        None => param.takes.to_owned(),
+    };
+    if let Some([low, high]) = &param.range {
+        let _ = write!(words, " from {low} to {high}");
     }
-    match plain(&param["default"]) {
+    match plain(&param.default) {
         none if none.is_empty() => words,
         default => format!("{words}, default {default}"),
+    }
+}
+
+/// A value as people write it: texts without quotes, `a, b` for a list.
+fn plain(value: &Value) -> String {
+    match value {
+        Value::Text(text) => text.clone(),
+        Value::List(items) => {
+            let inside = |item: &Value| match item {
+                Value::List(_) => format!("[{}]", plain(item)),
+                item => plain(item),
+            };
+            items.iter().map(inside).collect::<Vec<_>>().join(", ")
+        }
+        other => other.to_string(),
     }
 }

@@ -8,21 +8,20 @@ use sabi_export::{BakeWriter, Committed, Padding};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
-use serde_json::{Map, Value as Json, json};
 
 use crate::baking::bake_request::{BakeRequest, names, set_options};
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::maps::{MapWriter, SetWork, WrittenMaps};
 use crate::baking::model_copy::{open_copy, write_copy};
-use crate::baking::report::BakeReport;
+use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh};
 use crate::baking::seams::ModelSeams;
-use crate::catalog::describe::describe_unwrapping;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::Evaluator;
 use crate::evaluating::outputs::{clashes, nothing_comes_out, outputs};
 use crate::evaluating::texture_sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
+use crate::opening::mesh_report::UnwrappingReport;
 use crate::opening::modelless::{refuse_faults, targets};
 use crate::opening::overlap::Sharing;
 use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
@@ -104,12 +103,12 @@ fn bake_open(
     let committed = times.encode.time(|| commit(writer, request))?;
     let told = evaluator.warnings().iter().chain(&written.warnings);
     let warnings: Vec<Warning> = told.cloned().chain(left_over(&committed)).collect();
-    let json = report(request, &evaluator, &plan, &run, &written, &times, &warnings);
+    let report = report(request, &evaluator, &plan, &run, written);
     Ok(BakeReport {
         times,
         files: file_names(&committed),
         warnings,
-        json,
+        ..report
     })
 }
 
@@ -220,59 +219,59 @@ fn set_works<'p>(
     sets.into_iter().zip(serving).map(work).collect()
 }
 
-fn report(
-    request: &BakeRequest,
-    evaluator: &Evaluator,
-    plan: &Plan,
-    run: &Run,
-    written: &WrittenMaps,
-    times: &PhaseTimes,
-    warnings: &[Warning],
-) -> Json {
+/// The report without what is known only after the maps are in place: times, files and warnings.
+fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, written: WrittenMaps) -> BakeReport {
     let adapter = evaluator.gpu().summary();
     let linked = evaluator.linked();
     let atlas = &linked.atlas;
-    let mut nodes_ms = Map::new();
+    let unwrapped = linked.unwrapped.as_ref();
+    BakeReport {
+        sabi: env!("CARGO_PKG_VERSION"),
+        graph: request.graph.display().to_string(),
+        mesh: BakedMesh {
+            file: request.evaluator.model.path.display().to_string(),
+            triangles: linked.model.mesh.triangles.len(),
+            charts: atlas.charts.len(),
+            coverage: rounded(atlas.report.coverage),
+            overlap: Sharing::of(linked).report(linked),
+            unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, atlas.size)),
+        },
+        adapter: BakeAdapter {
+            name: adapter.name.clone(),
+            kind: adapter.kind.to_string(),
+        },
+        size: atlas.size,
+        nodes: plan.nodes.len(),
+        passes: plan.passes(),
+        finish_passes: written.finish_passes,
+        fused: plan.fused(),
+        peak_texture_bytes: run.report.pool.peak_bytes,
+        atlas_cached: linked.atlas_was_cached,
+        rays_cached: run.report.found_on_disk.clone(),
+        unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),
+        times: PhaseTimes::default(),
+        nodes_ms: nodes_ms(run),
+        outputs: written.outputs,
+        constants: written.constants,
+        warnings: Vec::new(),
+        model: written.copy,
+        files: Vec::new(),
+    }
+}
+
+/// Milliseconds by node, to a hundredth. A fused kernel's time is shared out by cost: it cannot be measured node by node.
+fn nodes_ms(run: &Run) -> BTreeMap<String, f64> {
+    let mut nodes_ms = BTreeMap::new();
     for step in &run.report.steps {
         for (node, share) in &step.nodes {
-            // The time of a fused kernel is divided by cost, since it cannot be measured for single nodes.
             let ms = step.run.as_secs_f64() * 1000.0 * f64::from(*share);
-            // A node that has no time yet starts at 0.
-            let before = nodes_ms.get(node).and_then(Json::as_f64).unwrap_or(0.0);
-            nodes_ms.insert(node.clone(), json!(((before + ms) * 100.0).round() / 100.0));
+            *nodes_ms.entry(node.clone()).or_insert(0.0) += ms;
         }
     }
-    let mut json = json!({
-        "sabi": env!("CARGO_PKG_VERSION"),
-        "graph": request.graph.display().to_string(),
-        "mesh": {
-            "file": request.evaluator.model.path.display().to_string(),
-            "triangles": linked.model.mesh.triangles.len(),
-            "charts": atlas.charts.len(),
-            "coverage": rounded(atlas.report.coverage),
-            "overlap": Sharing::of(linked).json(linked),
-            "unwrapped": describe_unwrapping(linked),
-        },
-        "adapter": { "name": adapter.name, "kind": adapter.kind.to_string() },
-        "size": atlas.size,
-        "nodes": plan.nodes.len(),
-        "passes": plan.passes(),
-        "finish_passes": written.finish_passes,
-        "fused": plan.fused(),
-        "peak_texture_bytes": run.report.pool.peak_bytes,
-        "atlas_cached": linked.atlas_was_cached,
-        "rays_cached": run.report.found_on_disk,
-        "unwrapping_cached": linked.unwrapped.as_ref().map(|unwrapped| unwrapped.was_cached),
-        "stages_ms": times.json(),
-        "nodes_ms": nodes_ms,
-        "outputs": written.outputs.iter().map(sabi_export::OutputRecord::to_json).collect::<Vec<_>>(),
-        "constants": written.constants.iter().map(sabi_export::ConstantRecord::to_json).collect::<Vec<_>>(),
-        "warnings": warnings.iter().map(Warning::to_string).collect::<Vec<_>>(),
-    });
-    if let Some(copy) = &written.copy {
-        json["model"] = copy.clone();
+    for ms in nodes_ms.values_mut() {
+        *ms = (*ms * 100.0).round() / 100.0;
     }
-    json
+    nodes_ms
 }
 
 fn rounded(value: f32) -> f64 {

@@ -15,6 +15,7 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
 use crate::baking::mixing::Mixing;
+use crate::baking::report::ModelCopyReport;
 use crate::baking::seams::ModelSeams;
 use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
@@ -41,9 +42,9 @@ pub(crate) struct WrittenMaps {
     pub(crate) outputs: Vec<OutputRecord>,
     pub(crate) constants: Vec<ConstantRecord>,
     pub(crate) warnings: Vec<Warning>,
-    /// Report entry of the model copy.
-    pub(crate) copy: Option<serde_json::Value>,
-    /// Number of kernels that ran for the export alone.
+    /// Copy of the model that uses the maps.
+    pub(crate) copy: Option<ModelCopyReport>,
+    /// Kernels that only exports need.
     pub(crate) finish_passes: usize,
 }
 

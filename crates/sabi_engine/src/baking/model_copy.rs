@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use sabi_export::{BakeWriter, CopiedFile, ModelCopy};
 use sabi_surface::model::Model;
-use serde_json::{Value as Json, json};
 
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::maps::WrittenMaps;
+use crate::baking::report::{CopiedFileReport, ModelCopyReport};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::texture_sets::{Serving, TextureSet};
 use crate::opening::linked_model::LinkedModel;
@@ -95,13 +95,15 @@ pub(crate) fn write_copy(
     written
         .warnings
         .extend(finished.warnings.into_iter().map(Warning::from));
-    let mut stage = |file: &CopiedFile| -> Result<Json, EngineError> {
+    let mut stage = |file: &CopiedFile| -> Result<CopiedFileReport, EngineError> {
         writer.extra_file(&file.name, &file.bytes)?;
-        Ok(json!({ "path": file.name, "blake3": blake3::hash(&file.bytes).to_hex().to_string() }))
+        Ok(CopiedFileReport {
+            path: file.name.clone(),
+            blake3: blake3::hash(&file.bytes).to_hex().to_string(),
+        })
     };
-    let mut entry = stage(&finished.copy)?;
-    let beside: Result<Vec<Json>, EngineError> = finished.beside.iter().map(stage).collect();
-    entry["files"] = Json::Array(beside?);
-    written.copy = Some(entry);
+    let copy = stage(&finished.copy)?;
+    let beside: Result<Vec<CopiedFileReport>, EngineError> = finished.beside.iter().map(stage).collect();
+    written.copy = Some(ModelCopyReport { copy, files: beside? });
     Ok(())
 }

@@ -199,6 +199,7 @@ impl Published<'_> {
                 doc: fed.first().map_or_else(String::new, |port| port.doc.clone()),
                 ty: input.ty.or_else(|| fed.iter().find_map(|port| port.ty)),
                 is_required: fed.iter().any(|port| port.is_required),
+                unconnected: fed.first().and_then(|port| port.unconnected.clone()),
             }
         });
         let outputs = self.outputs.iter().map(|(name, from)| {
@@ -210,20 +211,24 @@ impl Published<'_> {
                 doc: port.map_or_else(String::new, |port| port.doc.clone()),
                 ty: port.and_then(|port| port.ty),
                 is_required: false,
+                unconnected: None,
             }
         });
         let exposed = self.graph.panel().into_iter();
         let knobs = exposed.filter_map(|(name, knob)| self.knob(faces, body, name, knob));
+        let instance = any_group();
         Entry {
-            id: GROUP_KIND.to_owned(),
-            label: if self.name.is_empty() { "Group" } else { self.name }.to_owned(),
+            label: if self.name.is_empty() {
+                instance.label
+            } else {
+                self.name.to_owned()
+            },
             summary: "A graph in the graph.".to_owned(),
-            description: String::new(),
             aliases: Vec::new(),
             inputs: inputs.collect(),
             outputs: outputs.collect(),
             knobs: knobs.chain(self.instance_knobs()).collect(),
-            source: None,
+            ..instance
         }
     }
 
@@ -248,33 +253,61 @@ impl Published<'_> {
         })
     }
 
-    /// What every instance has besides.
+    /// Knobs of every instance, without those whose names the group has published: they mean the published ones.
     fn instance_knobs(&self) -> Vec<Knob> {
-        let knob = |name: &str, doc: &str, ty: ParamType| Knob {
-            name: name.to_owned(),
-            label: readable(name),
-            doc: doc.to_owned(),
-            ty,
-            is_of_input: false,
-        };
-        let seed = ParamType::new(Role::Seed, Memory::U32, &ParamValue::Unsigned(0));
-        let scale = ParamType {
-            soft: Some([0.25, 4.0]),
-            ..ParamType::new(Role::Plain, Memory::F32, &ParamValue::Floats(vec![1.0]))
-        };
-        let mut knobs = vec![
-            knob("seed", "Gives this instance patterns of its own.", seed),
-            knob("scale", "Multiplies all lengths inside.", scale),
-        ];
+        let mut knobs = vec![seed_knob(), scale_knob()];
         if !self.graph.variants().is_empty() {
             let words = std::iter::once("none".to_owned()).chain(self.graph.variants().keys().cloned());
             let variants = Role::Choice(words.collect());
             let ty = ParamType::new(variants, Memory::U32, &ParamValue::Unsigned(0));
-            knobs.push(knob("variant", "Variant of the group to start from.", ty));
+            knobs.push(instance_knob("variant", "Variant of the group to start from.", ty));
         }
-        // A group that exposes a knob of such a name means that one.
         knobs.retain(|knob| !self.graph.exposed().contains_key(&knob.name));
         knobs
+    }
+}
+
+/// The kind of group instances, whatever group they are of.
+pub(super) fn any_group() -> Entry {
+    let none = ParamValue::Text("none".to_owned());
+    let variant = ParamType::new(Role::Text, Memory::Text, &none);
+    let doc = "Variant of the group to start from; its exposed knobs are parameters too.";
+    Entry {
+        id: GROUP_KIND.to_owned(),
+        version: 1,
+        label: "Group".to_owned(),
+        summary: "A graph in the graph: \"group\" names one of the file's groups, or a graph file beside it."
+            .to_owned(),
+        description: String::new(),
+        aliases: ["subgraph", "instance"].map(str::to_owned).to_vec(),
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        knobs: vec![seed_knob(), scale_knob(), instance_knob("variant", doc, variant)],
+        shape: None,
+        source: None,
+    }
+}
+
+fn seed_knob() -> Knob {
+    let ty = ParamType::new(Role::Seed, Memory::U32, &ParamValue::Unsigned(0));
+    instance_knob("seed", "Gives this instance patterns of its own.", ty)
+}
+
+fn scale_knob() -> Knob {
+    let ty = ParamType {
+        soft: Some([0.25, 4.0]),
+        ..ParamType::new(Role::Plain, Memory::F32, &ParamValue::Floats(vec![1.0]))
+    };
+    instance_knob("scale", "Multiplies all lengths inside.", ty)
+}
+
+fn instance_knob(name: &str, doc: &str, ty: ParamType) -> Knob {
+    Knob {
+        name: name.to_owned(),
+        label: readable(name),
+        doc: doc.to_owned(),
+        ty,
+        is_of_input: false,
     }
 }
 

@@ -4,28 +4,62 @@ use std::collections::BTreeMap;
 
 use sabi_export::{set_keys, set_names};
 use sabi_surface::atlas::{Chart, PAIRS_LIMIT};
-use serde_json::{Value as Json, json};
+use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, Overlap};
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Materials that are named in a report; more would tell nobody more.
+/// Most materials that a report names.
 const MATERIALS: usize = 10;
 
-/// What is shared in one material.
+/// Charts that share places on the maps, in a report.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct OverlapReport {
+    /// Pairs of charts that share places.
+    #[serde(flatten)]
+    pub pairs: SharedPairs,
+    /// Texels whose place another chart claims as well.
+    pub texels: u64,
+    /// Whether there are more pairs than the atlas lists.
+    pub more_than_counted: bool,
+    /// Share of the owned texels whose place another chart claims as well.
+    pub share: f64,
+    /// Materials with the most shared texels, at most 10.
+    pub materials: Vec<MaterialOverlap>,
+}
+
+/// Charts that share places in one material, in a report.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct MaterialOverlap {
+    /// Pairs of charts that share places.
+    #[serde(flatten)]
+    pub pairs: SharedPairs,
+    /// Name of the material, as files are named after it.
+    pub material: Option<String>,
+    /// Texels that pairs of charts share, added up.
+    pub texels: u64,
+}
+
+/// Pairs of charts that share places on the maps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct SharedPairs {
+    /// Pairs that lie on each other exactly and wind the same way.
+    pub stacked: u32,
+    /// Pairs that lie on each other exactly, one of them mirrored.
+    pub mirrored: u32,
+    /// Pairs in different UV tiles, and charts larger than one: a texture repeats there.
+    pub tiling: u32,
+    /// Pairs that share a part only.
+    pub partial: u32,
+}
+
+/// What charts of one material share.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Shared {
     /// Texels that pairs of charts share, added up.
     texels: u64,
-    /// Pairs that lie on each other exactly and wind the same way.
-    stacked: u32,
-    /// Pairs that lie on each other exactly, one of them mirrored.
-    mirrored: u32,
-    /// Pairs in different UV tiles, and charts larger than one: a texture repeats there.
-    tiling: u32,
-    /// Pairs that share a part only.
-    partial: u32,
+    pairs: SharedPairs,
 }
 
 /// What charts of a model share.
@@ -57,10 +91,10 @@ impl Sharing {
             shared.texels += texels;
             let whole = |chart: &Chart| u64::from(chart.texels) == texels;
             let kind = match () {
-                () if apart => &mut shared.tiling,
-                () if !(whole(first) && whole(second)) => &mut shared.partial,
-                () if first.mirrored == second.mirrored => &mut shared.stacked,
-                () => &mut shared.mirrored,
+                () if apart => &mut shared.pairs.tiling,
+                () if !(whole(first) && whole(second)) => &mut shared.pairs.partial,
+                () if first.mirrored == second.mirrored => &mut shared.pairs.stacked,
+                () => &mut shared.pairs.mirrored,
             };
             *kind += 1;
         }
@@ -68,7 +102,7 @@ impl Sharing {
             let [x0, y0, x1, y1] = chart.bounds;
             if (x1 - x0).max(y1 - y0) > atlas.size {
                 let shared = by_material.entry(chart.material).or_default();
-                shared.tiling += 1;
+                shared.pairs.tiling += 1;
                 shared.texels += u64::from(chart.texels);
             }
         }
@@ -100,43 +134,42 @@ impl Sharing {
     fn total(&self) -> Shared {
         self.by_material.values().fold(Shared::default(), |sum, shared| Shared {
             texels: sum.texels + shared.texels,
-            stacked: sum.stacked + shared.stacked,
-            mirrored: sum.mirrored + shared.mirrored,
-            tiling: sum.tiling + shared.tiling,
-            partial: sum.partial + shared.partial,
+            pairs: SharedPairs {
+                stacked: sum.pairs.stacked + shared.pairs.stacked,
+                mirrored: sum.pairs.mirrored + shared.pairs.mirrored,
+                tiling: sum.pairs.tiling + shared.pairs.tiling,
+                partial: sum.pairs.partial + shared.pairs.partial,
+            },
         })
     }
 
-    /// For reports: the share of the surface, pairs by kind, and the worst materials by name.
-    pub(crate) fn json(&self, linked: &LinkedModel) -> Json {
+    /// The numbers of a report, materials by name.
+    pub(crate) fn report(&self, linked: &LinkedModel) -> OverlapReport {
         let names = set_names(&linked.model);
-        let kinds = |shared: Shared| {
-            json!({
-                "stacked": shared.stacked, "mirrored": shared.mirrored, "tiling": shared.tiling, "partial": shared.partial,
-            })
+        let materials = self.worst().into_iter().take(MATERIALS);
+        let total_texels = match self.by_material.is_empty() {
+            true => 0,
+            false => linked.atlas.report.overlap_texels,
         };
-        let of_material = |(material, shared): (u32, Shared)| {
-            let mut entry = kinds(shared);
-            entry["material"] = json!(names.get(material as usize));
-            entry["texels"] = json!(shared.texels);
-            entry
-        };
-        let mut report = kinds(self.total());
-        report["texels"] = json!(if self.by_material.is_empty() {
-            0
-        } else {
-            linked.atlas.report.overlap_texels
-        });
-        report["more_than_counted"] = json!(self.is_cut);
-        report["share"] = json!((self.share * 10_000.0).round() / 10_000.0);
-        report["materials"] = self.worst().into_iter().take(MATERIALS).map(of_material).collect();
-        report
+        OverlapReport {
+            pairs: self.total().pairs,
+            texels: total_texels,
+            more_than_counted: self.is_cut,
+            share: (self.share * 10_000.0).round() / 10_000.0,
+            materials: materials
+                .map(|(material, shared)| MaterialOverlap {
+                    pairs: shared.pairs,
+                    material: names.get(material as usize).cloned(),
+                    texels: shared.texels,
+                })
+                .collect(),
+        }
     }
 
     /// What maps hold where charts share a place, and which way of taking them would suit this model better.
     pub(crate) fn warning(&self, linked: &LinkedModel) -> Option<Warning> {
         let (material, _) = *self.worst().first()?;
-        let total = self.total();
+        let total = self.total().pairs;
         let kinds = [
             (total.stacked, "stacked"),
             (total.mirrored, "mirrored"),

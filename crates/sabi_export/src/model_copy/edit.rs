@@ -123,7 +123,7 @@ pub(super) fn dress(
         material["emissiveFactor"] = numbers(&maps.emission_factor);
     }
     if maps.emission_strength != 1.0 {
-        material["extensions"][STRENGTH] = json!({ "emissiveStrength": number(maps.emission_strength) });
+        material["extensions"][STRENGTH] = json!({ "emissiveStrength": short(maps.emission_strength) });
     }
     let shows_alpha = matches!(material["alphaMode"].as_str(), Some("MASK" | "BLEND"));
     if maps.has_opacity && !shows_alpha {
@@ -137,7 +137,7 @@ fn metallic_roughness_model(
     base_color: Option<Json>,
     metallic_roughness: Option<Json>,
 ) -> Vec<(&'static str, Json)> {
-    let factor = |value: f32| (value != 1.0).then(|| number(value));
+    let factor = |value: f32| (value != 1.0).then(|| short(value));
     let color = maps.base_color_factor;
     let entries = [
         ("baseColorFactor", (color != [1.0; 4]).then(|| numbers(&color))),
@@ -151,10 +151,11 @@ fn metallic_roughness_model(
 }
 
 fn numbers(values: &[f32]) -> Json {
-    values.iter().map(|value| number(*value)).collect()
+    values.iter().map(|value| short(*value)).collect()
 }
 
-/// Returns the shortest number that reads back as the same f32.
-fn number(value: f32) -> Json {
-    crate::record::short(value)
+/// A number as short as an f32 can be written.
+pub(super) fn short(value: f32) -> Json {
+    let exact = value.to_string().parse::<f64>();
+    exact.map_or(Json::Null, |exact| json!(exact))
 }

@@ -94,6 +94,33 @@ pub enum Role {
     },
 }
 
+impl Role {
+    /// Word for the values it takes, as `sabi nodes` shows it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Role::Plain | Role::Extent { .. } => "number",
+            Role::Toggle => "toggle",
+            Role::Choice(_) => "choice",
+            Role::Color => "color",
+            Role::Length => "length",
+            Role::Angle => "angle",
+            Role::Seed => "seed",
+            Role::Stops => "stops",
+            Role::Curve => "curve",
+            Role::Text => "text",
+            Role::File => "file",
+        }
+    }
+
+    /// Words of a choice.
+    pub fn choices(&self) -> Option<&[String]> {
+        match self {
+            Role::Choice(words) => Some(words),
+            _ => None,
+        }
+    }
+}
+
 /// A parameter's value as components: numbers in artist's units, colors linear.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParamValue {

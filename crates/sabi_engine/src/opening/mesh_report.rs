@@ -1,0 +1,137 @@
+//! A model and its atlas in numbers, for `sabi mesh` and the report of a bake; docs/report.md lists the keys.
+
+use serde::Serialize;
+
+use crate::opening::linked_model::{LinkedModel, Unwrapping};
+use crate::opening::overlap::{OverlapReport, Sharing};
+use crate::warning::Warning;
+
+/// A model and its atlas.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeshReport {
+    /// Triangles of all parts.
+    pub triangles: usize,
+    /// Vertices after welding.
+    pub vertices: usize,
+    /// Names of the model's parts.
+    pub parts: Vec<String>,
+    /// Connected pieces of all parts.
+    pub pieces: usize,
+    /// Names of the materials, as files are named after them.
+    pub materials: Vec<String>,
+    /// How the model was unwrapped; `None` where its own UVs are used.
+    pub unwrapped: Option<UnwrappingReport>,
+    /// Whether vertices have colors.
+    pub vertex_colors: bool,
+    /// Largest side of the bounding box, model units.
+    pub largest_side: f32,
+    /// Texels for one unit of UV.
+    pub size: u32,
+    /// Pages of the atlas.
+    pub pages: u32,
+    /// Width and height of a page, texels.
+    pub page_size: [u32; 2],
+    /// Charts of the atlas.
+    pub charts: usize,
+    /// Share of the atlas that charts cover.
+    pub coverage: f32,
+    /// Charts that share places on the maps.
+    pub overlap: OverlapReport,
+    /// Pairs of charts that share places, before UDIM tiles are told apart.
+    pub overlapping_charts: usize,
+    /// Charts that lie exactly on an earlier one.
+    pub stacked_charts: u32,
+    /// Charts whose UVs are mirrored.
+    pub mirrored_charts: u32,
+    /// Charts whose place in the atlas is not that of their UVs.
+    pub moved_charts: u32,
+    /// Charts thinner than two texels.
+    pub thin_charts: u32,
+    /// Triangles without area.
+    pub degenerate_triangles: u32,
+    /// Triangles without area in UV.
+    pub degenerate_uv_triangles: u32,
+    /// Edges with more than two triangles.
+    pub nonmanifold_edges: u32,
+    /// Edges with one triangle.
+    pub border_edges: u32,
+    /// Texels of the rings around charts.
+    pub ghost_texels: usize,
+    /// Ghosts without a link over a seam.
+    pub unlinked_ghosts: u32,
+    /// Warnings for the artist, as sentences with their remedies.
+    pub warnings: Vec<Warning>,
+}
+
+/// How a model was unwrapped.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct UnwrappingReport {
+    /// `TEXCOORD` that a copy of the model has the new UVs in.
+    pub uv_set: u32,
+    /// Connected pieces.
+    pub pieces: u32,
+    /// Pieces that are not copies of another.
+    pub distinct_pieces: u32,
+    /// Charts on the sheet.
+    pub charts: u32,
+    /// Share of the sheet that triangles cover.
+    pub coverage: f32,
+    /// Longest direction of a triangle by its shortest, averaged by area; 1 is no stretch.
+    pub stretch: f32,
+    /// The same at its worst, among the triangles with 99.9 % of the area.
+    pub worst_stretch: f32,
+    /// Texels between charts.
+    pub gap_texels: f32,
+}
+
+impl UnwrappingReport {
+    /// Describes the unwrapping of a model for maps of `size` × `size` texels.
+    pub(crate) fn of(unwrapping: &Unwrapping, size: u32) -> UnwrappingReport {
+        let report = &unwrapping.report;
+        let [pieces, distinct_pieces] = report.pieces;
+        UnwrappingReport {
+            uv_set: unwrapping.uv_set,
+            pieces,
+            distinct_pieces,
+            charts: report.charts,
+            coverage: report.coverage,
+            stretch: report.stretch,
+            worst_stretch: report.worst_stretch,
+            gap_texels: report.gap_at(size),
+        }
+    }
+}
+
+/// Describes a model and its atlas.
+pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
+    let (mesh, report) = (&linked.model.mesh, &linked.atlas.report);
+    let unwrapped = linked.unwrapped.as_ref();
+    MeshReport {
+        triangles: mesh.triangles.len(),
+        vertices: mesh.positions.len(),
+        parts: linked.model.parts.clone(),
+        pieces: linked.pieces.boxes.len(),
+        materials: sabi_export::set_names(&linked.model),
+        unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, linked.atlas.size)),
+        vertex_colors: !mesh.colors.is_empty(),
+        largest_side: linked.largest_side as f32,
+        size: linked.atlas.size,
+        pages: linked.atlas.pages,
+        page_size: linked.atlas.page_size,
+        charts: linked.atlas.charts.len(),
+        coverage: report.coverage,
+        overlap: Sharing::of(linked).report(linked),
+        overlapping_charts: report.overlapping_charts.len(),
+        stacked_charts: report.stacked_charts,
+        mirrored_charts: report.mirrored_charts,
+        moved_charts: report.moved_charts,
+        thin_charts: report.thin_charts,
+        degenerate_triangles: report.degenerate_triangles,
+        degenerate_uv_triangles: report.degenerate_uv_triangles,
+        nonmanifold_edges: report.nonmanifold_edges,
+        border_edges: report.border_edges,
+        ghost_texels: linked.atlas.ghosts.len(),
+        unlinked_ghosts: report.unlinked_ghosts,
+        warnings: linked.warnings(),
+    }
+}
