@@ -84,6 +84,7 @@ pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,
 };
 pub use sabi_graph::{Fit, NodeRef, Overrides, Value, nearest};
+pub use sabi_nodes::arithmetic;
 pub use sabi_surface::load::Up;
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

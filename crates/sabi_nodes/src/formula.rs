@@ -1,12 +1,12 @@
-//! Small formulas in annotations: how often a function runs, and how wide its texels may be.
+//! Formulas in annotations: how often a function runs, and how wide its texels may be.
 //!
-//! `@repeat ceil(1.2 * params.width / texel)` depends on a knob and on the model, so neither the shader nor the node's
-//! author can write the number down; the planner works it out.
+//! `@repeat ceil(1.2 * params.width / texel)` depends on a parameter and on the model, so the planner evaluates it.
 
+use crate::arithmetic::{Expression, MistakeKind, Sign, Syntax};
 use crate::kind::{Memory, Param};
 use crate::words::{list, nearest};
 
-/// Most terms of a formula: more is no formula that a reader understands.
+/// Most numbers, names and functions of a formula.
 const TERM_LIMIT: usize = 64;
 
 /// A formula over parameters and texel widths.
@@ -24,7 +24,7 @@ pub enum Formula {
     Operation(Operation, Vec<Formula>),
 }
 
-/// What is done with one or two numbers.
+/// Operation on one or two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// a + b
@@ -35,17 +35,17 @@ pub enum Operation {
     Multiply,
     /// a / b
     Divide,
-    /// The next whole number above.
+    /// Nearest whole number above.
     Ceil,
     /// Square root.
     Sqrt,
     /// Logarithm to base 2.
     Log2,
-    /// Without its sign.
+    /// Absolute value.
     Abs,
-    /// The smaller one.
+    /// Smaller of two numbers.
     Min,
-    /// The larger one.
+    /// Larger of two numbers.
     Max,
 }
 
@@ -59,7 +59,7 @@ const FUNCTIONS: [(&str, Operation, usize); 6] = [
     ("max", Operation::Max, 2),
 ];
 
-/// What a formula depends on.
+/// Values of what a formula depends on.
 #[derive(Clone, Copy)]
 pub struct Knowns<'k> {
     /// Value of a parameter.
@@ -71,7 +71,7 @@ pub struct Knowns<'k> {
 }
 
 impl Formula {
-    /// Its value; may be no number, as where it divides by zero.
+    /// Evaluates the formula; the result may be NaN or infinite, as where it divides by zero.
     pub fn value(&self, knowns: &Knowns<'_>) -> f64 {
         match self {
             Formula::Number(number) => *number,
@@ -79,7 +79,8 @@ impl Formula {
             Formula::Texel => knowns.texel,
             Formula::Finest => knowns.finest,
             Formula::Operation(operation, of) => {
-                let value = |index: usize| of.get(index).map_or(0.0, |formula| formula.value(knowns));
+                // Reading gives each operation as many formulas as it takes.
+                let value = |index: usize| of.get(index).map_or(f64::NAN, |formula| formula.value(knowns));
                 match operation {
                     Operation::Add => value(0) + value(1),
                     Operation::Subtract => value(0) - value(1),
@@ -105,183 +106,133 @@ impl Formula {
         }
     }
 
-    /// Reads a formula; else what is wrong with it, and what to do.
+    /// Reads a formula. The error is a message and advice.
     pub(crate) fn read(text: &str, params: &[Param]) -> Result<Formula, (String, String)> {
-        let tokens = tokens(text)?;
-        if tokens.len() > TERM_LIMIT {
-            let message = format!("A formula has at most {TERM_LIMIT} terms.");
-            return Err((message, "Make it shorter.".to_owned()));
+        let is_allowed = |letter: char| is_in_name(letter) || letter.is_whitespace() || "+-*/(),".contains(letter);
+        if let Some(letter) = text.chars().find(|letter| !is_allowed(*letter)) {
+            let advice = "It is made of numbers, names, `+ - * /`, parentheses and commas.";
+            return Err((format!("A formula cannot hold `{letter}`."), advice.to_owned()));
         }
-        let mut reader = Reader {
-            tokens: &tokens,
-            next: 0,
-            params,
+        let syntax = Syntax {
+            has_units: false,
+            is_in_name,
         };
-        let formula = reader.sum()?;
-        match reader.peek() {
-            None => Ok(formula),
-            Some(token) => Err(reader.unexpected(Some(token))),
+        let expression = Expression::read(text, 0, syntax).map_err(|mistake| told(mistake.kind))?;
+        if expression.terms() > TERM_LIMIT {
+            return Err(too_long());
         }
+        resolve(&expression, params)
     }
 }
 
-/// Numbers, names and signs.
-fn tokens(text: &str) -> Result<Vec<String>, (String, String)> {
-    let mut tokens: Vec<String> = Vec::new();
-    let mut joins = false;
-    for letter in text.chars() {
-        let is_word = letter.is_ascii_alphanumeric() || letter == '_' || letter == '.';
-        match tokens.last_mut() {
-            _ if letter.is_whitespace() => joins = false,
-            Some(last) if is_word && joins => last.push(letter),
-            _ if is_word || "+-*/(),".contains(letter) => {
-                tokens.push(letter.to_string());
-                joins = is_word;
-            }
-            _ => {
-                let message = format!("A formula cannot hold `{letter}`.");
-                return Err((
-                    message,
-                    "It is made of numbers, names, `+ - * /`, brackets and commas.".to_owned(),
-                ));
-            }
-        }
-    }
-    Ok(tokens)
+/// Whether a character may stand in a name such as `params.tile_size`.
+fn is_in_name(letter: char) -> bool {
+    letter.is_ascii_alphanumeric() || letter == '_' || letter == '.'
 }
 
-/// Reads sums of products; brackets are the only recursion, and there are fewer of them than tokens.
-struct Reader<'t> {
-    tokens: &'t [String],
-    next: usize,
-    params: &'t [Param],
+fn told(kind: MistakeKind) -> (String, String) {
+    match kind {
+        MistakeKind::Ends => unexpected("The formula ends too early.".to_owned()),
+        MistakeKind::NoNumber(token) | MistakeKind::Behind(token) | MistakeKind::BadNumber(token) => {
+            unexpected(format!("`{token}` does not fit into the formula."))
+        }
+        MistakeKind::InParentheses(_) | MistakeKind::NotClosed => lacks(")"),
+        MistakeKind::TooDeep => too_long(),
+    }
 }
 
-type Read = Result<Formula, (String, String)>;
+fn too_long() -> (String, String) {
+    let message = format!("A formula has at most {TERM_LIMIT} terms.");
+    (message, "Make it shorter.".to_owned())
+}
 
-impl<'t> Reader<'t> {
-    fn peek(&self) -> Option<&'t str> {
-        self.tokens.get(self.next).map(String::as_str)
-    }
+fn unexpected(message: String) -> (String, String) {
+    (message, "Write it like `ceil(2 * params.radius / texel)`.".to_owned())
+}
 
-    fn take(&mut self, token: &str) -> bool {
-        let is_it = self.peek() == Some(token);
-        self.next += usize::from(is_it);
-        is_it
-    }
+fn lacks(sign: &str) -> (String, String) {
+    let advice = "Close every parenthesis, and give each function its arguments.";
+    (format!("The formula lacks a `{sign}`."), advice.to_owned())
+}
 
-    fn expect(&mut self, token: &str) -> Result<(), (String, String)> {
-        if self.take(token) {
-            return Ok(());
+/// Gives names and functions their meaning.
+fn resolve(expression: &Expression, params: &[Param]) -> Result<Formula, (String, String)> {
+    match expression {
+        Expression::Number(number) => Ok(Formula::Number(*number)),
+        Expression::Name(name) => named(&name.text, params),
+        Expression::Call(name, arguments) => call(&name.text, arguments, params),
+        Expression::Negative(inner) => {
+            let of = vec![Formula::Number(0.0), resolve(inner, params)?];
+            Ok(Formula::Operation(Operation::Subtract, of))
         }
-        Err((
-            format!("The formula lacks a `{token}`."),
-            "Close every bracket, and give each function its arguments.".to_owned(),
-        ))
-    }
-
-    fn unexpected(&self, token: Option<&str>) -> (String, String) {
-        let message = match token {
-            Some(token) => format!("`{token}` does not fit into the formula."),
-            None => "The formula ends too early.".to_owned(),
-        };
-        (message, "Write it like `ceil(2 * params.radius / texel)`.".to_owned())
-    }
-
-    fn sum(&mut self) -> Read {
-        let mut left = self.product()?;
-        loop {
-            let operation = if self.take("+") {
-                Operation::Add
-            } else if self.take("-") {
-                Operation::Subtract
-            } else {
-                return Ok(left);
-            };
-            left = Formula::Operation(operation, vec![left, self.product()?]);
-        }
-    }
-
-    fn product(&mut self) -> Read {
-        let mut left = self.term()?;
-        loop {
-            let operation = if self.take("*") {
-                Operation::Multiply
-            } else if self.take("/") {
-                Operation::Divide
-            } else {
-                return Ok(left);
-            };
-            left = Formula::Operation(operation, vec![left, self.term()?]);
-        }
-    }
-
-    fn term(&mut self) -> Read {
-        let Some(token) = self.peek() else {
-            return Err(self.unexpected(None));
-        };
-        self.next += 1;
-        if token == "(" {
-            let inside = self.sum()?;
-            self.expect(")")?;
-            return Ok(inside);
-        }
-        if token.starts_with(|c: char| c.is_ascii_digit())
-            && let Ok(number) = token.parse::<f64>()
-        {
-            return Ok(Formula::Number(number));
-        }
-        match token {
-            "texel" => Ok(Formula::Texel),
-            "finest" => Ok(Formula::Finest),
-            _ => match token.strip_prefix("params.") {
-                Some(name) => self.param(name),
-                None => self.call(token),
-            },
-        }
-    }
-
-    fn param(&self, name: &str) -> Read {
-        let Some(index) = self.params.iter().position(|param| param.name == name) else {
-            let advice = match nearest(name, self.params.iter().map(|param| param.name.as_str())) {
-                Some(meant) => format!("Did you mean `params.{meant}`?"),
-                None => "Name a member of `struct Params`.".to_owned(),
-            };
-            return Err((
-                format!("The formula names a parameter `{name}`, which does not exist."),
-                advice,
-            ));
-        };
-        match self.params[index].ty.memory {
-            Memory::F32 | Memory::U32 | Memory::I32 => Ok(Formula::Param(index)),
-            _ => Err((
-                format!("`params.{name}` is no single number."),
-                "A formula takes parameters of the types `f32`, `u32` and `i32`.".to_owned(),
-            )),
-        }
-    }
-
-    fn call(&mut self, name: &str) -> Read {
-        let Some((_, operation, count)) = FUNCTIONS.iter().find(|(known, ..)| *known == name) else {
-            if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-                return Err(self.unexpected(Some(name)));
+        Expression::Chain(first, rest) => {
+            let mut left = resolve(first, params)?;
+            for (sign, right) in rest {
+                let operation = match sign {
+                    Sign::Plus => Operation::Add,
+                    Sign::Minus => Operation::Subtract,
+                    Sign::Times => Operation::Multiply,
+                    Sign::Over => Operation::Divide,
+                    Sign::Modulo => return Err(unexpected("`%` does not fit into the formula.".to_owned())),
+                };
+                left = Formula::Operation(operation, vec![left, resolve(right, params)?]);
             }
-            let known = || FUNCTIONS.iter().map(|(known, ..)| *known).chain(["texel", "finest"]);
-            let advice = match nearest(name, known()) {
-                Some(meant) => format!("Did you mean `{meant}`?"),
-                None => format!("It knows {}, and parameters as `params.name`.", list(known())),
-            };
-            return Err((format!("The formula does not know `{name}`."), advice));
-        };
-        self.expect("(")?;
-        let mut of = vec![self.sum()?];
-        for _ in 1..*count {
-            self.expect(",")?;
-            of.push(self.sum()?);
+            Ok(left)
         }
-        self.expect(")")?;
-        Ok(Formula::Operation(*operation, of))
+        Expression::Power(_) => Err(unexpected("`^` does not fit into the formula.".to_owned())),
+        Expression::Measure(_, unit) => Err(unexpected(format!("`{}` does not fit into the formula.", unit.text))),
     }
+}
+
+fn named(name: &str, params: &[Param]) -> Result<Formula, (String, String)> {
+    match name {
+        "texel" => return Ok(Formula::Texel),
+        "finest" => return Ok(Formula::Finest),
+        _ => {}
+    }
+    let Some(name) = name.strip_prefix("params.") else {
+        return Err(match FUNCTIONS.iter().any(|(known, ..)| *known == name) {
+            true => lacks("("),
+            false => unknown(name),
+        });
+    };
+    let Some(index) = params.iter().position(|param| param.name == name) else {
+        let advice = match nearest(name, params.iter().map(|param| param.name.as_str())) {
+            Some(meant) => format!("Did you mean `params.{meant}`?"),
+            None => "Name a member of `struct Params`.".to_owned(),
+        };
+        return Err((
+            format!("The formula names a parameter `{name}`, which does not exist."),
+            advice,
+        ));
+    };
+    match params[index].ty.memory {
+        Memory::F32 | Memory::U32 | Memory::I32 => Ok(Formula::Param(index)),
+        _ => Err((
+            format!("`params.{name}` is no single number."),
+            "A formula takes parameters of the types `f32`, `u32` and `i32`.".to_owned(),
+        )),
+    }
+}
+
+fn call(name: &str, arguments: &[Expression], params: &[Param]) -> Result<Formula, (String, String)> {
+    let Some((_, operation, count)) = FUNCTIONS.iter().find(|(known, ..)| *known == name) else {
+        return Err(unknown(name));
+    };
+    if arguments.len() != *count {
+        return Err(lacks(if arguments.len() < *count { "," } else { ")" }));
+    }
+    let of: Result<Vec<Formula>, _> = arguments.iter().map(|argument| resolve(argument, params)).collect();
+    Ok(Formula::Operation(*operation, of?))
+}
+
+fn unknown(name: &str) -> (String, String) {
+    let known = || FUNCTIONS.iter().map(|(known, ..)| *known).chain(["texel", "finest"]);
+    let advice = match nearest(name, known()) {
+        Some(meant) => format!("Did you mean `{meant}`?"),
+        None => format!("It knows {}, and parameters as `params.name`.", list(known())),
+    };
+    (format!("The formula does not know `{name}`."), advice)
 }
 
 #[cfg(test)]
@@ -309,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_formula_is_told() {
+    fn a_text_that_is_not_a_formula_is_refused_with_the_reason() {
         let why = |text: &str| Formula::read(text, &[]).unwrap_err();
         assert_eq!(why("1 +").0, "The formula ends too early.");
         assert_eq!(why("1 2").0, "`2` does not fit into the formula.");
@@ -322,5 +273,11 @@ mod tests {
             "The formula names a parameter `size`, which does not exist."
         );
         assert_eq!(why(&"(".repeat(100)).0, "A formula has at most 64 terms.");
+        assert_eq!(
+            why(&format!("1{}", " + 1".repeat(64))).0,
+            "A formula has at most 64 terms."
+        );
+        assert_eq!(why("max(1, 2, 3)").0, "The formula lacks a `)`.");
+        assert_eq!(why("2 * ceil").0, "The formula lacks a `(`.");
     }
 }

@@ -41,6 +41,7 @@
 //! ```
 
 mod analysis;
+pub mod arithmetic;
 mod color;
 mod compile;
 mod curve;

@@ -1,0 +1,323 @@
+//! Arithmetic as people type it: numbers, signs, powers, functions, names and units.
+//!
+//! Annotations of nodes (`@repeat ceil(params.width / texel)`) and the number fields of the editor (`2 * 3.4 cm`) share
+//! this grammar. What names, functions and units mean is up to them.
+
+#[cfg(test)]
+mod tests;
+
+/// Most signs and parentheses within one another: deeper ones would take the stack.
+pub const DEPTH_LIMIT: u32 = 64;
+
+/// A text of arithmetic by its structure. Chains are flat, so that its depth is limited like that of the text.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expression {
+    /// A number.
+    Number(f64),
+    /// A name that no parenthesis follows.
+    Name(Word),
+    /// A function with its arguments.
+    Call(Word, Vec<Expression>),
+    /// `-a`
+    Negative(Box<Expression>),
+    /// `a ^ b`
+    Power(Box<[Expression; 2]>),
+    /// Sums, or products, from left to right.
+    Chain(Box<Expression>, Vec<(Sign, Expression)>),
+    /// A number with a unit behind it.
+    Measure(Box<Expression>, Word),
+}
+
+/// A sign between the parts of a chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// `+`
+    Plus,
+    /// `-`
+    Minus,
+    /// `*`
+    Times,
+    /// `/`
+    Over,
+    /// `%`
+    Modulo,
+}
+
+/// A name in the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Word {
+    /// The name.
+    pub text: String,
+    /// Place of its first character, counted from 1.
+    pub at: usize,
+}
+
+/// What is allowed besides numbers and signs.
+#[derive(Clone, Copy, Debug)]
+pub struct Syntax {
+    /// Whether units may stand behind numbers.
+    pub has_units: bool,
+    /// Whether a character may continue a name; names begin with a letter.
+    pub is_in_name: fn(char) -> bool,
+}
+
+/// Why a text is not arithmetic.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// Place of the character, counted from 1.
+    pub at: usize,
+    /// What is wrong there.
+    pub kind: MistakeKind,
+}
+
+/// Kinds of mistakes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MistakeKind {
+    /// The text ends where a number is missing.
+    Ends,
+    /// Something stands where a number is missing.
+    NoNumber(String),
+    /// Something stands behind a complete expression.
+    Behind(String),
+    /// Something stands where a parenthesis should close.
+    InParentheses(String),
+    /// A parenthesis is not closed.
+    NotClosed,
+    /// Digits and points that are not a number.
+    BadNumber(String),
+    /// Signs and parentheses are nested more than [`DEPTH_LIMIT`] deep.
+    TooDeep,
+}
+
+impl Expression {
+    /// Reads a text, from the character at `start` (counted from 0) on.
+    pub fn read(text: &str, start: usize, syntax: Syntax) -> Result<Expression, Mistake> {
+        // A minus as word processors set it means the same.
+        let letters = text.chars().map(|letter| if letter == '−' { '-' } else { letter });
+        let mut reader = Reader {
+            letters: letters.collect(),
+            at: start,
+            depth: 0,
+            syntax,
+        };
+        let expression = reader.sum()?;
+        match reader.peek() {
+            None => Ok(expression),
+            Some(_) => Err(reader.mistake_at_token(MistakeKind::Behind)),
+        }
+    }
+
+    /// Number of numbers, names and functions in it.
+    pub fn terms(&self) -> usize {
+        match self {
+            Expression::Number(_) | Expression::Name(_) => 1,
+            Expression::Call(_, arguments) => 1 + arguments.iter().map(Expression::terms).sum::<usize>(),
+            Expression::Negative(inner) | Expression::Measure(inner, _) => inner.terms(),
+            Expression::Power(both) => both.iter().map(Expression::terms).sum(),
+            Expression::Chain(first, rest) => {
+                first.terms() + rest.iter().map(|(_, expression)| expression.terms()).sum::<usize>()
+            }
+        }
+    }
+}
+
+/// Reads a text from left to right.
+struct Reader {
+    letters: Vec<char>,
+    at: usize,
+    depth: u32,
+    syntax: Syntax,
+}
+
+type Read = Result<Expression, Mistake>;
+
+impl Reader {
+    fn sum(&mut self) -> Read {
+        let first = self.product()?;
+        let mut rest = Vec::new();
+        loop {
+            let sign = match self.peek() {
+                Some('+') => Sign::Plus,
+                Some('-') => Sign::Minus,
+                _ => return Ok(chain(first, rest)),
+            };
+            rest.push((sign, self.after_sign(Reader::product)?));
+        }
+    }
+
+    /// A unit is that of everything in front of it: 1/2 cm is half a centimeter.
+    fn product(&mut self) -> Read {
+        let mut first = self.signed()?;
+        let mut rest = Vec::new();
+        let mut has_unit = false;
+        loop {
+            let sign = match self.peek() {
+                Some('*' | '×') => Sign::Times,
+                Some('/' | '÷') => Sign::Over,
+                Some('%') => Sign::Modulo,
+                Some(letter) if self.syntax.has_units && !has_unit && (letter.is_alphabetic() || letter == '°') => {
+                    let unit = self.word();
+                    first = Expression::Measure(Box::new(chain(first, std::mem::take(&mut rest))), unit);
+                    has_unit = true;
+                    continue;
+                }
+                _ => return Ok(chain(first, rest)),
+            };
+            rest.push((sign, self.after_sign(Reader::signed)?));
+        }
+    }
+
+    /// A sign binds less than a power: -2^2 is -4.
+    fn signed(&mut self) -> Read {
+        match self.peek() {
+            Some('-') => {
+                let inner = self.deeper(|reader| reader.after_sign(Reader::signed))?;
+                Ok(Expression::Negative(Box::new(inner)))
+            }
+            Some('+') => self.deeper(|reader| reader.after_sign(Reader::signed)),
+            _ => self.power(),
+        }
+    }
+
+    /// From right to left: 2^3^2 is 2^9.
+    fn power(&mut self) -> Read {
+        let base = self.single()?;
+        match self.peek() {
+            Some('^') => {
+                let exponent = self.deeper(|reader| reader.after_sign(Reader::signed))?;
+                Ok(Expression::Power(Box::new([base, exponent])))
+            }
+            _ => Ok(base),
+        }
+    }
+
+    fn single(&mut self) -> Read {
+        match self.peek() {
+            None => Err(self.mistake(MistakeKind::Ends)),
+            Some('(') => self.within_parentheses(),
+            Some(letter) if letter.is_ascii_digit() || letter == '.' => self.number(),
+            Some(letter) if letter.is_alphabetic() => self.named(),
+            Some(_) => Err(self.mistake_at_token(MistakeKind::NoNumber)),
+        }
+    }
+
+    fn within_parentheses(&mut self) -> Read {
+        let opened = self.at;
+        let inside = self.deeper(|reader| reader.after_sign(Reader::sum))?;
+        self.close(opened)?;
+        Ok(inside)
+    }
+
+    fn close(&mut self, opened: usize) -> Result<(), Mistake> {
+        match self.peek() {
+            Some(')') => {
+                self.at += 1;
+                Ok(())
+            }
+            Some(_) => Err(self.mistake_at_token(MistakeKind::InParentheses)),
+            None => Err(Mistake {
+                at: opened + 1,
+                kind: MistakeKind::NotClosed,
+            }),
+        }
+    }
+
+    fn number(&mut self) -> Read {
+        let begin = self.at;
+        self.take_while(|letter| letter.is_ascii_digit() || letter == '.');
+        // An exponent, unless the e begins a word.
+        if matches!(self.letters.get(self.at), Some('e' | 'E')) {
+            let signed = usize::from(matches!(self.letters.get(self.at + 1), Some('+' | '-')));
+            if self.letters.get(self.at + 1 + signed).is_some_and(char::is_ascii_digit) {
+                self.at += 1 + signed;
+                self.take_while(|letter| letter.is_ascii_digit());
+            }
+        }
+        let text: String = self.letters[begin..self.at].iter().collect();
+        let number = text.parse().map(Expression::Number);
+        number.map_err(|_| Mistake {
+            at: begin + 1,
+            kind: MistakeKind::BadNumber(text),
+        })
+    }
+
+    fn named(&mut self) -> Read {
+        let name = self.word();
+        if self.peek() != Some('(') {
+            return Ok(Expression::Name(name));
+        }
+        let opened = self.at;
+        let arguments = self.deeper(Reader::arguments)?;
+        self.close(opened)?;
+        Ok(Expression::Call(name, arguments))
+    }
+
+    fn arguments(&mut self) -> Result<Vec<Expression>, Mistake> {
+        let mut arguments = vec![self.after_sign(Reader::sum)?];
+        while self.peek() == Some(',') {
+            arguments.push(self.after_sign(Reader::sum)?);
+        }
+        Ok(arguments)
+    }
+
+    /// Reads what follows the sign or parenthesis at this place.
+    fn after_sign<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Mistake>) -> Result<T, Mistake> {
+        self.at += 1;
+        read(self)
+    }
+
+    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Mistake>) -> Result<T, Mistake> {
+        self.depth += 1;
+        if self.depth > DEPTH_LIMIT {
+            return Err(self.mistake(MistakeKind::TooDeep));
+        }
+        let result = read(self)?;
+        self.depth -= 1;
+        Ok(result)
+    }
+
+    /// Next character that is not blank.
+    fn peek(&mut self) -> Option<char> {
+        self.take_while(char::is_whitespace);
+        self.letters.get(self.at).copied()
+    }
+
+    fn take_while(&mut self, fits: impl Fn(char) -> bool) {
+        while self.letters.get(self.at).is_some_and(|letter| fits(*letter)) {
+            self.at += 1;
+        }
+    }
+
+    fn word(&mut self) -> Word {
+        let begin = self.at;
+        self.take_while(self.syntax.is_in_name);
+        Word {
+            text: self.letters[begin..self.at].iter().collect(),
+            at: begin + 1,
+        }
+    }
+
+    fn mistake(&self, kind: MistakeKind) -> Mistake {
+        Mistake { at: self.at + 1, kind }
+    }
+
+    /// A mistake with the name, the digits or the sign at this place.
+    fn mistake_at_token(&mut self, kind: fn(String) -> MistakeKind) -> Mistake {
+        let begin = self.at;
+        let is_in_name = self.syntax.is_in_name;
+        self.take_while(|letter| is_in_name(letter) || letter.is_ascii_digit() || letter == '.');
+        let end = self.at.max(begin + 1);
+        let token: String = self.letters[begin..end].iter().collect();
+        Mistake {
+            at: begin + 1,
+            kind: kind(token),
+        }
+    }
+}
+
+fn chain(first: Expression, rest: Vec<(Sign, Expression)>) -> Expression {
+    if rest.is_empty() {
+        return first;
+    }
+    Expression::Chain(Box::new(first), rest)
+}
