@@ -1,4 +1,4 @@
-//! Making edits, each with its exact inverse.
+//! Applies edits and gives their exact inverses.
 
 mod groups;
 mod idle;
@@ -20,7 +20,7 @@ type PartsMut<'a> = (
 );
 
 impl Document {
-    /// Makes a change and gives its exact inverse: applied next, it leads back to the same bytes.
+    /// Applies a change and gives its exact inverse, which applied next restores the same bytes.
     ///
     /// # Errors
     /// The change was refused; the document is as it was.
@@ -82,7 +82,7 @@ impl Document {
         }
     }
 
-    /// All or none.
+    /// Applies all edits, or none where one is refused.
     fn apply_all(&mut self, edits: Vec<Edit>) -> Result<Edit, EditError> {
         let mut inverses = Vec::with_capacity(edits.len());
         for edit in edits {
@@ -90,7 +90,7 @@ impl Document {
                 Ok(inverse) => inverses.push(inverse),
                 Err(error) => {
                     for inverse in inverses.into_iter().rev() {
-                        // An inverse fits the state that its edit left.
+                        // The inverse of an edit can be applied right after it.
                         let undone = self.apply(inverse);
                         debug_assert!(undone.is_ok(), "an inverse was refused: {undone:?}");
                     }
@@ -117,7 +117,7 @@ impl Document {
     }
 
     fn body_mut(&mut self, body: &Body) -> Result<&mut Graph, EditError> {
-        // Asked first, since the borrow that is handed out would forbid listing the names.
+        // Checked first: the mutable borrow below would forbid listing the names.
         self.body(body)?;
         Ok(self.parts_mut(body)?.0)
     }
@@ -135,7 +135,7 @@ impl Document {
     }
 }
 
-/// The sentence that something is not there.
+/// Error for something that is missing, with the nearest name.
 fn missing<'a>(what: &'static str, name: &str, known: impl IntoIterator<Item = &'a String>) -> EditError {
     EditError::Missing {
         what,
@@ -144,12 +144,12 @@ fn missing<'a>(what: &'static str, name: &str, known: impl IntoIterator<Item = &
     }
 }
 
-/// A value as a file keeps it.
+/// Canonical form of a value.
 fn keep(name: &str, value: Value) -> Result<Value, Problem> {
     value.canonical().ok_or_else(|| Problem::BadValue { name: shown(name) })
 }
 
-/// Brings values to the form in which a file keeps them.
+/// Replaces values by their canonical forms.
 fn keep_all(values: &mut BTreeMap<String, Value>) -> Result<(), Problem> {
     for (name, value) in values {
         *value = keep(name, std::mem::replace(value, Value::Null))?;

@@ -1,4 +1,4 @@
-//! A graph file as data: the main graph, its groups, and what is published of them.
+//! A graph file as data: the main graph, its groups and their published knobs and ports.
 
 use std::collections::BTreeMap;
 
@@ -7,9 +7,9 @@ use crate::{Graph, NodeId, OutputRef, PortType, SlotRef, Value};
 /// A graph file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
-    /// The name people see; empty when the file has none.
+    /// Display name; empty when the file has none.
     pub name: String,
-    /// What to look at while editing.
+    /// Model and size to show the graph on while editing.
     pub preview: Option<Preview>,
     /// How the model is scaled for this graph.
     pub fit: Fit,
@@ -28,7 +28,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// The same, with these nodes of its main graph as ones of another kind.
+    /// Copy of this document with these nodes of its main graph changed to another kind.
     pub fn with_kind<'a>(&self, nodes: impl IntoIterator<Item = &'a NodeId>, kind: &str) -> Document {
         let mut document = self.clone();
         for id in nodes {
@@ -47,8 +47,7 @@ impl Document {
         }
     }
 
-    /// This document without what only its picture on a canvas needs: where nodes stand, and frames. Two that are equal then
-    /// give the same results.
+    /// Copy of this document without node positions and frames, which no result depends on.
     pub fn without_places(&self) -> Document {
         let mut bare = self.clone();
         let groups = bare.groups.values_mut().map(|group| &mut group.graph);
@@ -62,7 +61,7 @@ impl Document {
     }
 }
 
-/// What the editor shows the graph on.
+/// Settings of the preview in the editor.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Preview {
     /// The model, as a path relative to the graph file.
@@ -73,22 +72,22 @@ pub struct Preview {
     pub extra: BTreeMap<String, Value>,
 }
 
-/// What counts as length 1 on the model.
+/// Length on the model that counts as 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Fit {
     /// The model's largest side.
     #[default]
     Unit,
-    /// One metre.
+    /// One meter.
     Metres,
-    /// This many metres; above zero.
+    /// This many meters; above zero.
     Length(f64),
 }
 
 /// A group: a graph that other graphs use as one node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GroupDef {
-    /// The name people see, when it differs from the one it is filed under.
+    /// Display name, where it differs from the key in [`Document::groups`].
     pub name: Option<String>,
     /// The fit its lengths were made for; `None` means that of the document.
     pub fit: Option<Fit>,
@@ -107,7 +106,7 @@ pub struct GroupDef {
 pub struct GroupInput {
     /// The inputs of nodes inside that it feeds, written `node.input`.
     pub to: Vec<SlotRef>,
-    /// What it carries, when the file says so.
+    /// Port type, where the file has one.
     pub ty: Option<PortType>,
     /// Name shown to artists.
     pub label: Option<String>,

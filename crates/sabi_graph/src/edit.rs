@@ -7,7 +7,7 @@ use crate::graph::{Exposed, Frame};
 use crate::problem::Problem;
 use crate::{Document, Node, NodeId, OutputRef, Value};
 
-/// Which graph of a document is meant.
+/// One of the graphs of a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Body {
     /// The main graph.
@@ -17,13 +17,13 @@ pub enum Body {
     Group(String),
 }
 
-/// A change; [`Document::apply`](crate::Document::apply) makes it and gives its exact inverse.
+/// A change of a document; [`Document::apply`](crate::Document::apply) applies it and gives its exact inverse.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the sentence of each edit says what its fields are")]
 pub enum Edit {
     /// Adds a node with its parameters and links.
     AddNode { body: Body, id: NodeId, node: Node },
-    /// Removes a node, and with it all links from it and all that is published of it.
+    /// Removes a node with all links from it and all its published parameters and ports.
     RemoveNode { body: Body, id: NodeId },
     /// Sets a parameter, or resets it (`None`).
     SetParam {
@@ -32,20 +32,20 @@ pub enum Edit {
         param: String,
         value: Option<Value>,
     },
-    /// Links an input, in place of the link it has.
+    /// Links an input; replaces an existing link.
     Connect {
         body: Body,
         node: NodeId,
         input: String,
         from: OutputRef,
     },
-    /// Unlinks an input; nothing happens when it is not linked.
+    /// Unlinks an input; has no effect on an input without a link.
     Disconnect { body: Body, node: NodeId, input: String },
     /// Moves a node to a place on the canvas, in canvas points.
     Move { body: Body, node: NodeId, pos: [f32; 2] },
-    /// Mutes a node or lets it speak.
+    /// Mutes or unmutes a node.
     SetMuted { body: Body, node: NodeId, muted: bool },
-    /// Names a node for people, or takes the name away.
+    /// Sets or removes a node's display name.
     SetLabel {
         body: Body,
         node: NodeId,
@@ -59,7 +59,7 @@ pub enum Edit {
     RemoveFrame { body: Body, id: String },
     /// Publishes a knob, or replaces the one of that name.
     Expose { body: Body, name: String, knob: Exposed },
-    /// Takes a knob off the panel and out of all variants.
+    /// Removes a knob from the panel and from all variants.
     Unexpose { body: Body, name: String },
     /// Sets the knob values of a variant, or removes the variant (`None`).
     SetVariant {
@@ -83,32 +83,31 @@ pub enum Edit {
     AddGroup { name: String, group: Box<GroupDef> },
     /// Removes a group that has no instances.
     RemoveGroup { name: String },
-    /// Files a group under another name, under which all its instances name it from then on, and sets the name people see
-    /// where it differs.
+    /// Renames a group and its references in all instances, and sets its display name where that differs.
     RenameGroup {
         name: String,
         to: String,
         shown: Option<String>,
     },
-    /// Sets what to look at while editing.
+    /// Sets the preview.
     SetPreview { preview: Option<Preview> },
-    /// Sets what counts as length 1.
+    /// Sets the length that counts as 1.
     SetFit { fit: Fit },
     /// Sets the document's seed.
     SetSeed { seed: u32 },
-    /// Puts another document in the place of this one.
+    /// Replaces the whole document.
     Replace { document: Box<Document> },
-    /// Several edits as one: when one fails, none was made.
+    /// Several edits as one: all are applied, or none.
     Batch(Vec<Edit>),
 }
 
 /// Why an edit was refused; the document is as it was.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EditError {
-    /// The graph cannot be like that.
+    /// The graph would be invalid.
     #[error(transparent)]
     Problem(#[from] Problem),
-    /// It names a frame, knob, variant, input, output or group that is not there.
+    /// A frame, knob, variant, input, output or group with this name does not exist.
     #[error("there is no {what} {name}{hint}")]
     Missing {
         /// `frame`, `knob` and so on.
@@ -118,13 +117,13 @@ pub enum EditError {
         /// The nearest one, as a question.
         hint: String,
     },
-    /// A group of that name is there already.
+    /// A group with that name exists already.
     #[error("there is a group {name} already; choose another name")]
     GroupExists {
         /// The name, quoted.
         name: String,
     },
-    /// A group that is still in use cannot go.
+    /// A group with instances cannot be removed.
     #[error("group {name} is in use by {users}; remove these instances first")]
     GroupInUse {
         /// The name, quoted.
@@ -132,10 +131,10 @@ pub enum EditError {
         /// Instances, quoted.
         users: String,
     },
-    /// A fit of zero, less, or no number.
+    /// A fit that is not a number above zero.
     #[error("a fit must be a length above zero, or \"unit\" or \"metres\"")]
     BadFit,
-    /// A place on the canvas that is not a number.
+    /// A position on the canvas that is not a number.
     #[error("a node can only stand at a finite place on the canvas")]
     BadPlace,
 }

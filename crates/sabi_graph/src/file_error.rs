@@ -24,19 +24,19 @@ pub struct FileError {
     pub problem: Box<FileProblem>,
 }
 
-/// What is wrong with a graph file.
+/// Fault of a graph file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FileProblem {
     /// The text is not JSON.
     #[error("{0}")]
     Syntax(String),
-    /// Larger than any graph.
+    /// The file exceeds the limits of size.
     #[error("the file is larger than 64 MiB or has more than 4 million values; this is no graph that anybody made")]
     TooLarge,
-    /// Not a graph file at all.
+    /// The file is JSON, but not a graph file.
     #[error("this is not a Sabi graph: it must be an object that begins with \"format\": \"sabi\"")]
     NotSabi,
-    /// Made by a program that knows more.
+    /// The file has a newer version than this program reads.
     #[error(
         "written by a newer Sabi (version {version}; this one reads up to {newest}); open it with that one, \
          or install it here"
@@ -47,17 +47,17 @@ pub enum FileProblem {
         /// The newest version that is read.
         newest: u32,
     },
-    /// A key of another sort than the format has it.
+    /// The value of a key has the wrong type.
     #[error("{key} must be {expected}, not {found}")]
     Expected {
         /// The key, quoted.
         key: String,
-        /// What belongs there, with an example where it helps.
+        /// Expected value, with an example where it helps.
         expected: String,
-        /// What is there.
+        /// Found value.
         found: String,
     },
-    /// A key that must be there is missing.
+    /// A required key is missing.
     #[error("{key} is missing; {advice}")]
     Missing {
         /// The key, quoted.
@@ -65,13 +65,13 @@ pub enum FileProblem {
         /// What to write.
         advice: &'static str,
     },
-    /// The graph cannot be like that.
+    /// The graph is invalid.
     #[error(transparent)]
     Graph(#[from] Problem),
 }
 
 impl FileError {
-    /// The same error with the name that the file has for people.
+    /// This error with the name of the file for messages.
     pub fn with_name(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());
         self
@@ -103,7 +103,7 @@ impl std::error::Error for FileError {
     }
 }
 
-/// A fault at a byte offset, on its way up to where the text and the names around it are known.
+/// A fault at a byte offset; callers add the names around it, and the text turns the offset into line and column.
 #[derive(Debug)]
 pub(crate) struct Fail {
     at: usize,
@@ -124,7 +124,7 @@ impl Fail {
         }
     }
 
-    /// `key` must be `expected`, and is something else.
+    /// Fault for a `key` with another value than `expected`.
     pub(crate) fn expected(found: &Json, key: &str, expected: impl Into<String>) -> Self {
         Fail::new(
             found.at,
@@ -151,7 +151,7 @@ impl Fail {
         self
     }
 
-    /// The error, now that the text is at hand.
+    /// Converts the offset to a line and a column of `text`.
     pub(crate) fn in_text(self, text: &str) -> FileError {
         let before = text.get(..self.at).unwrap_or(text);
         let line_start = before.rfind('\n').map_or(0, |end| end + 1);

@@ -1,4 +1,4 @@
-//! The document without its structure: groups inlined, reroutes gone, knobs applied.
+//! Flattening: groups inlined, reroutes removed, knobs applied.
 
 mod definitions;
 mod error;
@@ -13,14 +13,14 @@ pub use knobs::INSTANCE_KNOBS;
 
 use crate::{Document, Fit, Value};
 
-/// A graph as the planner takes it: every node real, every link direct.
+/// A graph for the planner, without groups and reroutes: every link leads from node to node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlatGraph {
-    /// All nodes, each after those it reads; where several may come next, the smallest id does.
+    /// All nodes, each after those it reads; ties are broken by the smallest id.
     pub nodes: Vec<FlatNode>,
 }
 
-/// One real node.
+/// A node of a flat graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlatNode {
     /// Unique id; inside groups `instance/inner`.
@@ -31,7 +31,7 @@ pub struct FlatNode {
     pub version: u32,
     /// Parameters that were set, with knobs, variant and overrides applied.
     pub params: BTreeMap<String, Value>,
-    /// Links by input port; an input that is not here is not connected.
+    /// Links by input port; other inputs are not connected.
     pub inputs: BTreeMap<String, FlatRef>,
     /// Whether it, or an instance it is in, is muted.
     pub muted: bool,
@@ -39,10 +39,10 @@ pub struct FlatNode {
     pub seeds: Vec<u32>,
     /// Product of the Scale knobs of the instances around it; its lengths are multiplied by this.
     pub length_scale: f64,
-    /// The fit of the document, group or group file that it was written in.
+    /// Fit of the document, group or group file that defines it.
     pub fit: Fit,
-    /// The group file it was written in, relative to the document, or `None` for the document itself; paths in its
-    /// parameters are relative to that file.
+    /// Group file that defines it, relative to the document; `None` for the document itself. Paths in its parameters are
+    /// relative to that file.
     pub file: Option<String>,
 }
 
@@ -55,7 +55,7 @@ pub struct FlatRef {
     pub port: Option<String>,
 }
 
-/// What a command line sets on top of the file.
+/// Settings applied on top of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// Variant to start from.
@@ -95,7 +95,7 @@ impl FlatGraph {
     }
 }
 
-/// A result of a node of the document, by where the node stands: a real one, a group instance or a reroute.
+/// A result of a node of the document, which may be a group instance or a reroute.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeRef {
     /// The node's id; inside groups `instance/inner`.
@@ -104,14 +104,14 @@ pub struct NodeRef {
     pub port: Option<String>,
 }
 
-/// Where the result of a [`NodeRef`] comes from; none where there is no such node, or nothing is connected behind it.
+/// Origin of the result of a [`NodeRef`]; `None` where the node does not exist or nothing is connected to it.
 pub type Found = Result<Option<FlatRef>, FlattenError>;
 
 /// Inlines groups, removes reroutes, and applies knobs, the variant and the overrides. `group_file` reads a group file
 /// by its path relative to the document's own file; its error is a sentence.
 ///
 /// # Errors
-/// Names that are not there (with the nearest), values out of range, groups inside themselves.
+/// Unknown names (with the nearest known one), values out of range, groups inside themselves.
 pub fn flatten(
     document: &Document,
     overrides: &Overrides,
@@ -120,7 +120,8 @@ pub fn flatten(
     flatten_and_find(document, overrides, group_file, &[]).map(|(graph, _)| graph)
 }
 
-/// The same, and where in the flat graph the results of some nodes come from: group instances and reroutes are gone there.
+/// Flattens like [`flatten`], and finds where the results of some nodes come from: the flat graph has no group instances
+/// and no reroutes.
 ///
 /// # Errors
 /// As [`flatten`].
@@ -150,14 +151,14 @@ pub fn flatten_and_find(
     Ok((FlatGraph { nodes }, found))
 }
 
-/// Puts every node after those it reads, and points its links at where they stand now; and for each node where that is.
+/// Sorts nodes behind those they read and adjusts their links; gives the new index of each node, too.
 fn in_order(nodes: Vec<FlatNode>) -> Result<(Vec<FlatNode>, Vec<usize>), FlattenError> {
     let ids: Vec<&str> = nodes.iter().map(|node| node.id.as_str()).collect();
     let reads: Vec<Vec<usize>> = nodes
         .iter()
         .map(|node| node.inputs.values().map(|source| source.node).collect())
         .collect();
-    // Each graph is free of circles and groups do not hold themselves, so their links together are as well.
+    // Each graph is free of circles and no group is inside itself, so that the flat graph has no circle either.
     let order = crate::order::topological(&ids, &reads).map_err(|circle| FlattenError::Circle {
         nodes: crate::problem::listed(circle.into_iter().map(|index| ids[index])),
     })?;

@@ -1,4 +1,4 @@
-//! One body of nodes and links, on petgraph's stable graph.
+//! Nodes and links of a document or a group, on petgraph's stable graph.
 
 use std::collections::BTreeMap;
 use std::collections::VecDeque;
@@ -42,7 +42,7 @@ pub struct Frame {
     pub extra: BTreeMap<String, Value>,
 }
 
-/// One node as the file has it.
+/// A node as the file has it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Node {
     /// Its kind, such as `noise/simplex` or `noise/simplex@2`.
@@ -51,11 +51,11 @@ pub struct Node {
     pub params: BTreeMap<String, Value>,
     /// Links, by input port.
     pub inputs: BTreeMap<String, OutputRef>,
-    /// Its place on the canvas, in canvas points.
+    /// Position on the canvas, in canvas points.
     pub pos: [f32; 2],
     /// Whether it passes its main input through.
     pub muted: bool,
-    /// The artist's name for it.
+    /// Display name, where the artist gave one.
     pub label: Option<String>,
     /// The group this is an instance of, by name or file; for kind `graph/group`.
     pub group: Option<String>,
@@ -64,7 +64,7 @@ pub struct Node {
 }
 
 impl Node {
-    /// A node of that kind with nothing set.
+    /// A node without parameters and links.
     pub fn new(kind: impl Into<String>) -> Self {
         Node {
             kind: kind.into(),
@@ -73,8 +73,8 @@ impl Node {
     }
 }
 
-/// Nodes and links of a document or a group, with its frames, knobs and variants. Links always lead from a node that
-/// is there, and never in a circle; it changes through [`Document::apply`](crate::Document::apply) only.
+/// Nodes and links of a document or a group, with its frames, knobs and variants. Links start at existing nodes and form
+/// no circle; only [`Document::apply`](crate::Document::apply) changes a graph.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     /// The nodes; an edge from A to B carries the input of B that reads A.
@@ -120,7 +120,7 @@ impl Graph {
         self.index.get(id).map(|&index| &self.net[index].1)
     }
 
-    /// Who reads a node: each reading node with its input, sorted.
+    /// Inputs that are linked to a node, sorted.
     pub fn readers(&self, id: &str) -> Vec<SlotRef> {
         let Some(&index) = self.index.get(id) else {
             return Vec::new();
@@ -137,9 +137,9 @@ impl Graph {
         readers
     }
 
-    /// All ids, each after those it reads; where several may come next, the smallest id does.
+    /// All ids, each after those it reads; ties are broken by the smallest id.
     pub fn topological_order(&self) -> Vec<NodeId> {
-        // There are no circles: every link was checked.
+        // Never the default: every link was checked not to close a circle.
         self.ordered().unwrap_or_default()
     }
 
@@ -153,8 +153,7 @@ impl Graph {
         &self.exposed
     }
 
-    /// Published knobs as they stand on the panel: by their order and then their name, those of a section together where
-    /// its first one stands.
+    /// Published knobs in the order of the panel: by position and name, with a section at the place of its first knob.
     pub fn panel(&self) -> Vec<(&str, &Exposed)> {
         let mut knobs: Vec<(&str, &Exposed)> = self.exposed.iter().map(|(name, knob)| (name.as_str(), knob)).collect();
         knobs.sort_by_key(|(_, knob)| knob.order.unwrap_or(u32::MAX));
@@ -168,12 +167,12 @@ impl Graph {
         knobs
     }
 
-    /// Named settings of the knobs: for each variant, values by knob.
+    /// Variants: values by knob, by the name of the variant.
     pub fn variants(&self) -> &BTreeMap<String, BTreeMap<String, Value>> {
         &self.variants
     }
 
-    /// The order, or the circle that keeps it from being.
+    /// Topological order, or a circle.
     fn ordered(&self) -> Result<Vec<NodeId>, Problem> {
         let ids: Vec<&NodeId> = self.index.keys().collect();
         let place: BTreeMap<NodeIndex, usize> = self.index.values().copied().zip(0..).collect();
@@ -194,12 +193,12 @@ impl Graph {
         }
     }
 
-    /// The petgraph index of a node, or the sentence that there is none.
+    /// petgraph index of a node, or the error that it does not exist.
     pub(crate) fn find(&self, id: &str) -> Result<NodeIndex, Problem> {
         self.index.get(id).copied().ok_or_else(|| self.no_such_node(id))
     }
 
-    /// The sentence that there is no such node, with the nearest one.
+    /// Error that a node does not exist, with the nearest id.
     pub(crate) fn no_such_node(&self, id: &str) -> Problem {
         Problem::NoSuchNode {
             name: shown(id),
@@ -207,13 +206,13 @@ impl Graph {
         }
     }
 
-    /// The node of that id, to change anything but its links.
+    /// The node of that id; its links must not be changed.
     pub(crate) fn node_mut(&mut self, id: &NodeId) -> Result<&mut Node, Problem> {
         let index = self.find(id.as_str())?;
         Ok(&mut self.net[index].1)
     }
 
-    /// Adds a node without its links; they are expected to be connected next.
+    /// Adds a node without its links; the caller connects them.
     pub(crate) fn insert(&mut self, id: NodeId, mut node: Node) -> Result<(), Problem> {
         if self.index.contains_key(&id) {
             return Err(Problem::NodeExists { id });
@@ -224,15 +223,15 @@ impl Graph {
         Ok(())
     }
 
-    /// Takes out a node that nothing reads, links included.
+    /// Removes a node that no other reads, with its links.
     pub(crate) fn take(&mut self, id: &NodeId) -> Result<Node, Problem> {
         let index = self.find(id.as_str())?;
         self.index.remove(id);
-        // The node was found just now.
+        // Never the default: the node was found above.
         Ok(self.net.remove_node(index).map(|(_, node)| node).unwrap_or_default())
     }
 
-    /// Links an input without looking for circles; gives back the link that it replaces.
+    /// Links an input without looking for circles; gives the replaced link.
     pub(crate) fn link(&mut self, reader: &NodeId, input: &str, from: OutputRef) -> Result<Option<OutputRef>, Problem> {
         let target = self.find(reader.as_str())?;
         let source = self.find(from.node.as_str())?;
@@ -245,7 +244,7 @@ impl Graph {
         Ok(replaced)
     }
 
-    /// Unlinks an input; gives back the link that was there.
+    /// Unlinks an input; gives the removed link.
     pub(crate) fn unlink(&mut self, reader: &NodeId, input: &str) -> Result<Option<OutputRef>, Problem> {
         let target = self.find(reader.as_str())?;
         let removed = self.net[target].1.inputs.remove(input);
@@ -263,7 +262,7 @@ impl Graph {
         Ok(removed)
     }
 
-    /// The circle that a link from `from` into `reader` would close, if it would.
+    /// Refuses a link from `from` to `reader` that would close a circle.
     pub(crate) fn circle_closed_by(&self, from: &NodeId, reader: &NodeId) -> Result<(), Problem> {
         let (source, target) = (self.find(from.as_str())?, self.find(reader.as_str())?);
         let mut came_from: BTreeMap<NodeIndex, NodeIndex> = BTreeMap::new();

@@ -3,22 +3,21 @@
 use crate::relocate::{Places, Relocation, may_bring_paths};
 use crate::{Document, Edit, EditError};
 
-/// Steps that can be undone at least; beyond, the oldest are forgotten, so that a long day's work takes no more memory than a
-/// short one.
+/// Number of steps that can be undone at least. Older ones are dropped to limit memory.
 pub const UNDO_STEPS: usize = 2000;
 
-/// What was done and can be undone, and what was undone and can be done again. Undo is a stack of inverse edits.
+/// Undo and redo as two stacks of inverse edits.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     undo: Vec<Step>,
     redo: Vec<Step>,
-    /// A group of edits in the making.
+    /// The open group of edits.
     open: Option<Step>,
-    /// What could be done again before the open group's first edit, and can be if that is canceled.
-    put_away: Vec<Step>,
+    /// Redo stack before the first edit of the open group, restored when the group is canceled.
+    redo_before_group: Vec<Step>,
 }
 
-/// One entry of a menu: its name, and the edits that take it back (or do it again), in the order to apply them.
+/// One step: its name in menus, and the edits that undo or redo it, in the order to apply them.
 #[derive(Clone, Debug)]
 struct Step {
     name: String,
@@ -31,7 +30,7 @@ impl History {
         History::default()
     }
 
-    /// Makes an edit and remembers it under that name, or as part of the open group. What was undone is forgotten.
+    /// Applies an edit and records it as a step, or as part of the open group. Clears the redo stack.
     ///
     /// # Errors
     /// The edit was refused; nothing changed.
@@ -39,10 +38,10 @@ impl History {
         let inverse = document.apply(edit)?;
         let undone = std::mem::take(&mut self.redo);
         if self.open.is_some() && !undone.is_empty() {
-            self.put_away = undone;
+            self.redo_before_group = undone;
         }
         match &mut self.open {
-            // A drag sets the same knob again and again: the first inverse leads back past all of them.
+            // A drag sets the same knob repeatedly: the inverse of the first edit undoes all of them.
             Some(step) if step.edits.last().is_some_and(|last| sets_the_same(last, &inverse)) => {}
             Some(step) => step.edits.push(inverse),
             None => self.remember(Step {
@@ -53,16 +52,16 @@ impl History {
         Ok(())
     }
 
-    /// Puts a step on top of those that can be undone.
+    /// Pushes a step onto the undo stack.
     fn remember(&mut self, step: Step) {
         self.undo.push(step);
-        // Now and then many at once, since those that stay move up.
+        // Many at once, since removing from the front moves all others.
         if self.undo.len() >= UNDO_STEPS + UNDO_STEPS / 4 {
             self.undo.drain(..UNDO_STEPS / 4);
         }
     }
 
-    /// Opens a group: all edits until [`History::end`] are one step of that name. A group that is open is ended.
+    /// Opens a group: all edits until [`History::end`] are one step of that name. Ends a group that is open.
     pub fn begin(&mut self, name: &str) {
         self.end();
         self.open = Some(Step {
@@ -71,19 +70,19 @@ impl History {
         });
     }
 
-    /// Ends the open group, if there is one; a group without edits leaves no step.
+    /// Ends the open group; a group without edits leaves no step.
     pub fn end(&mut self) {
-        self.put_away.clear();
+        self.redo_before_group.clear();
         if let Some(mut step) = self.open.take()
             && !step.edits.is_empty()
         {
-            // They were made in this order, so they are taken back in the other.
+            // Undone in the reverse order.
             step.edits.reverse();
             self.remember(step);
         }
     }
 
-    /// Takes back what the open group did, as if it had never been.
+    /// Undoes the open group and discards it.
     ///
     /// # Errors
     /// The document was changed past this history; it stays as it is.
@@ -93,13 +92,13 @@ impl History {
         };
         step.edits.reverse();
         document.apply(Edit::Batch(step.edits))?;
-        if !self.put_away.is_empty() {
-            self.redo = std::mem::take(&mut self.put_away);
+        if !self.redo_before_group.is_empty() {
+            self.redo = std::mem::take(&mut self.redo_before_group);
         }
         Ok(())
     }
 
-    /// Takes the last step back; gives its name, or `None` when there is nothing to undo.
+    /// Undoes the last step; gives its name, or `None` when there is nothing to undo.
     ///
     /// # Errors
     /// The document was changed past this history; it stays as it is.
@@ -108,7 +107,7 @@ impl History {
         replay(document, &mut self.undo, &mut self.redo)
     }
 
-    /// Does the last undone step again; gives its name, or `None` when there is nothing to redo.
+    /// Redoes the last undone step; gives its name, or `None` when there is nothing to redo.
     ///
     /// # Errors
     /// The document was changed past this history; it stays as it is.
@@ -117,15 +116,15 @@ impl History {
         replay(document, &mut self.redo, &mut self.undo)
     }
 
-    /// Follows a document that was written in another folder: undo leads to what was there before, as it is written in the
-    /// new folder. `document` is as it was in the old one.
+    /// Rewrites the paths in all steps for a document that was saved in another folder. `document` is the document before
+    /// it was relocated.
     pub fn relocate(&mut self, document: &Document, relocation: Relocation<'_>) {
         self.end();
         for steps in [&mut self.undo, &mut self.redo] {
             let mut state = document.clone();
             for step in steps.iter_mut().rev() {
                 let edit = Edit::Batch(step.edits.clone());
-                // What a parameter means is known while its node is there: before the step, or after it.
+                // The meaning of a parameter is known while its node exists: before the step, or after it.
                 let before = may_bring_paths(&edit).then(|| state.clone());
                 if state.apply(edit).is_err() {
                     // The document was changed past this history, which undo says.
@@ -145,13 +144,13 @@ impl History {
         self.undo.iter().chain(&self.open).map(|step| step.name.as_str())
     }
 
-    /// Names of the steps that can be done again, the next one last.
+    /// Names of the steps that can be redone, the next one last.
     pub fn redo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
         self.redo.iter().map(|step| step.name.as_str())
     }
 }
 
-/// Whether two edits give new values to the very same places of nodes.
+/// Whether two edits set the same parameters or positions of nodes.
 fn sets_the_same(one: &Edit, other: &Edit) -> bool {
     match (one, other) {
         (

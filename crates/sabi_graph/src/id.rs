@@ -1,4 +1,4 @@
-//! Names of nodes and of what they give.
+//! Ids of nodes, and references to their results, inputs and parameters.
 
 use std::borrow::Borrow;
 use std::fmt;
@@ -26,10 +26,10 @@ impl Borrow<str> for NodeId {
     }
 }
 
-/// One result of a node: `node`, its first output, or `node.port`.
+/// A result of a node, written `node` for its first output, or `node.port`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct OutputRef {
-    /// The node that gives it.
+    /// The node.
     pub node: NodeId,
     /// The output port; `None` means the node's first.
     pub port: Option<String>,

@@ -1,7 +1,7 @@
-//! JSON text to a tree that remembers where everything stood.
+//! Parser from JSON text to a tree with byte offsets.
 //!
-//! Strict: no trailing commas, no comments, no key twice. Positions are why this is not a library's parser: an error
-//! deep in the meaning of a file still points at its line.
+//! Strict: no trailing commas, no comments, no duplicate keys. Libraries keep no offsets, which errors in the meaning of a
+//! file need to point at its lines.
 
 use std::collections::BTreeSet;
 
@@ -41,7 +41,7 @@ pub(crate) struct Fault {
     pub(crate) why: Why,
 }
 
-/// What kind of fault it is.
+/// Kinds of faults.
 #[derive(Debug)]
 pub(crate) enum Why {
     /// A sentence.
@@ -55,7 +55,7 @@ const VALUE_LIMIT: usize = 4_000_000;
 const DEPTH_LIMIT: usize = 128;
 
 impl Json {
-    /// The value without positions; a key that stands for several (none does, once parsed) keeps the last.
+    /// The value without offsets. Parsed objects have no duplicate keys.
     pub(crate) fn into_value(self) -> Value {
         match self.tree {
             Tree::Null => Value::Null,
@@ -72,7 +72,7 @@ impl Json {
         }
     }
 
-    /// What this is, with its article, for messages.
+    /// Sort of value with its article, for messages.
     pub(crate) fn sort(&self) -> String {
         match &self.tree {
             Tree::Null => "null".to_owned(),
@@ -94,7 +94,7 @@ pub(crate) fn parse(text: &str) -> Result<Json, Fault> {
         });
     }
     let mut parser = Parser { text, at: 0, values: 0 };
-    // Some Windows editors begin a file with this mark.
+    // Byte order mark, which some Windows editors write.
     if text.starts_with('\u{feff}') {
         parser.at = '\u{feff}'.len_utf8();
     }
@@ -120,7 +120,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A fault that says what stands here instead of what is expected.
+    /// Fault for the character at this place, where something else is expected.
     fn unexpected(&self, expected: &str) -> Fault {
         match self.text[self.at..].chars().next() {
             None => self.fault(format!(
@@ -340,7 +340,7 @@ impl Parser<'_> {
         })
     }
 
-    /// The character of `\u` and four digits, after the `u`; pairs of surrogates are one character, lone ones none.
+    /// Reads the character of `\u` and four digits, after the `u`; `None` for a lone surrogate.
     fn unicode(&mut self) -> Option<char> {
         let first = self.hex()?;
         if !(0xd800..0xdc00).contains(&first) {

@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 
 use crate::value::{Value, number_text};
 
-/// An object in the making, its keys in the order in which they are written.
+/// Object to be written, with its keys in order.
 #[derive(Default)]
 pub(crate) struct Keys(Vec<(String, Item)>);
 
-/// A value in the making.
+/// Value to be written.
 pub(crate) enum Item {
     Value(Value),
     Keys(Keys),
@@ -42,7 +42,7 @@ impl Keys {
         }
     }
 
-    /// Adds unknown keys, sorted; one that has become a known key since is not written twice.
+    /// Adds unknown keys, sorted, without those that are known keys of this version.
     pub(crate) fn put_extra(&mut self, extra: &BTreeMap<String, Value>, known: &[&str]) {
         for (key, value) in extra {
             if !known.contains(&key.as_str()) {
@@ -51,7 +51,7 @@ impl Keys {
         }
     }
 
-    /// Adds members made elsewhere.
+    /// Adds a member.
     pub(crate) fn push(&mut self, key: String, item: Item) {
         self.0.push((key, item));
     }

@@ -56,8 +56,8 @@ pub use problem::Problem;
 pub use relocate::Relocation;
 pub use value::{Value, canonical_number};
 
-/// Kind of the node that stands for a whole group.
+/// Kind of group instances.
 pub const GROUP_KIND: &str = "graph/group";
 
-/// Kind of the node that only bends a wire; its one input is `source`.
+/// Kind of reroutes, which pass on their only input, `source`.
 pub const REROUTE_KIND: &str = "graph/reroute";

@@ -1,9 +1,9 @@
-//! Where in a file's text a node stands, for what is found wrong with it later.
+//! Finds the place of a node in the text of a graph file, for errors found after reading.
 
 use crate::json::{Json, Member, Tree, parse};
 
 /// Line and column (both from 1, the column in characters) of a node in a graph file's text, or of one of its inputs or
-/// parameters where it is written. `node` is its id in a flat graph: of a node in a group (`instance/inner`) the place is
+/// parameters. `node` is its id in a flat graph: of a node in a group (`instance/inner`) the place is
 /// that in the group, or that of the instance where the group is a file of its own.
 pub fn locate(text: &str, node: &str, member: Option<&str>) -> Option<(usize, usize)> {
     let root = parse(text).ok()?;

@@ -1,5 +1,5 @@
-//! Older files: pure steps from the JSON of one version to that of the next. Positions stay, so that an error in an
-//! old file still points into the text that the artist has.
+//! Migration of older files, by pure steps from the JSON of one version to the next. Offsets are kept, so that errors in
+//! an old file point into its text.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ const STEPS: [fn(Json) -> Result<Json, Fail>; 1] = [links_into_nodes];
 /// The version that is written, and the newest that is read.
 pub(crate) const NEWEST: u32 = STEPS.len() as u32;
 
-/// Brings a file to the newest version.
+/// Migrates a file to the newest version.
 pub(crate) fn to_newest(mut json: Json) -> Result<Json, Fail> {
     let version = version_of(&json)?;
     for step in STEPS.iter().skip(version) {
@@ -22,7 +22,7 @@ pub(crate) fn to_newest(mut json: Json) -> Result<Json, Fail> {
     Ok(json)
 }
 
-/// The version of a file that says it is one of ours.
+/// Version of a file in the graph format.
 fn version_of(json: &Json) -> Result<usize, Fail> {
     let not_sabi = |at| Fail::new(at, FileProblem::NotSabi);
     let Tree::Object(members) = &json.tree else {

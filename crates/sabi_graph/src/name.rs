@@ -1,4 +1,4 @@
-//! Names that people give to knobs, variants, frames and groups.
+//! Names of knobs, variants, frames and groups.
 
 use crate::problem::{Problem, shown};
 

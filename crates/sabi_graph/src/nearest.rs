@@ -1,22 +1,22 @@
-//! "Did you mean": the candidate that a mistyped word most likely stands for.
+//! "Did you mean": the candidate nearest to a mistyped word.
 
 /// Words longer than this, in characters, are not compared.
 const LENGTH_LIMIT: usize = 64;
 
-/// The candidate nearest to `word` by typing slips (a letter more, less, other, or two swapped; case counts for
-/// nothing), or that `word` is the beginning of; `None` when none is near. The first of equals wins.
+/// The candidate with the smallest edit distance to `word` (case is ignored), or one that begins with `word`; `None` when
+/// none is near. Of several with the same distance, the first.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = letters(word)?;
-    // One slip in three letters still reads as the same word; short words may have one.
+    // One edit in three letters; short words may have one.
     let most = (word.len() / 3).max(1);
     candidates
         .into_iter()
         .filter_map(|candidate| {
             let letters = letters(candidate)?;
             let slips = distance(&word, &letters);
-            // Ids end in a random tail that people leave out.
+            // Ids end in a random tail that may be left out.
             let begins = word.len() >= 3 && letters.starts_with(&word);
-            // A word of which every letter changed is another word.
+            // A word with every letter changed is not related.
             let related = slips <= most && slips < word.len().max(letters.len());
             match (begins, related) {
                 (true, _) => Some((slips.min(most), candidate)),

@@ -1,13 +1,13 @@
-//! The one order in which nodes are evaluated.
+//! Topological order of nodes.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Sorts `0..keys.len()` so that everything stands after what it reads; where several may come next, the smallest
-/// key does. `reads[i]` lists what `i` reads.
+/// Sorts `0..keys.len()` so that each index comes after those it reads; ties are broken by the smallest key. `reads[i]`
+/// lists the indices that `i` reads.
 ///
 /// # Errors
-/// One circle, in the order of the flow, each member once, beginning with its smallest key.
+/// A circle in the order of the links, each member once, from the one with the smallest key.
 pub(crate) fn topological<K: Ord>(keys: &[K], reads: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
     let mut readers = vec![Vec::new(); keys.len()];
     let mut waits_for: Vec<usize> = vec![0; keys.len()];
@@ -38,7 +38,7 @@ pub(crate) fn topological<K: Ord>(keys: &[K], reads: &[Vec<usize>]) -> Result<Ve
     }
 }
 
-/// Walks against the flow among nodes that still wait: each of them reads another such node, so the walk must close.
+/// Walks against the links among nodes that were not sorted: each reads another such node, so the walk must close.
 fn circle<K: Ord>(keys: &[K], reads: &[Vec<usize>], waits_for: &[usize]) -> Vec<usize> {
     let waiting = |index: &usize| waits_for[*index] > 0;
     let Some(mut at) = (0..keys.len()).filter(waiting).min_by_key(|&index| &keys[index]) else {

@@ -1,15 +1,15 @@
-//! What a wire carries.
+//! Types of ports.
 
 use std::fmt;
 
 /// The type of a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PortType {
-    /// One number for each place on the surface.
+    /// One number for each surface point.
     Mask,
     /// Linear RGB.
     Color,
-    /// Three numbers: a place or a direction.
+    /// Three numbers: a point or a direction.
     Vector,
     /// A physically based material.
     Material,

@@ -1,32 +1,32 @@
-//! What can be wrong with a graph, in files and in edits alike.
+//! Rules that a graph can break, in files and by edits.
 
 use crate::id::NodeId;
 
-/// Why a node, link, knob or port cannot be.
+/// A broken rule of a graph.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {
-    /// A node id with other characters, or of another length.
+    /// A node id with characters or a length that are not allowed.
     #[error("{id} cannot be a node's id; use 1 to 64 of the characters a-z, 0-9 and _")]
     BadId {
         /// The id, quoted.
         id: String,
     },
-    /// A port name that no link could name.
+    /// A port name that a link could not be written with.
     #[error("{name} cannot be the name of a port; use 1 to 64 characters without dots and slashes")]
     BadPortName {
         /// The name, quoted.
         name: String,
     },
-    /// Not `node.name`.
+    /// A text that is not `node.name`.
     #[error("{text} names no parameter or input; write the node's id, a dot and the name, as in \"edges.width\"")]
     BadSlot {
         /// The text, quoted.
         text: String,
     },
-    /// A name of a knob, variant, frame or group that could not be written elsewhere.
+    /// A name of a knob, variant, frame or group with characters or a length that are not allowed.
     #[error("{name} cannot be the name of a {what}; use 1 to 200 characters, {without}")]
     BadName {
-        /// What was to be named.
+        /// `knob`, `variant`, `frame` or `group`.
         what: &'static str,
         /// The name, quoted.
         name: String,
@@ -42,7 +42,7 @@ pub enum Problem {
         /// The id.
         id: NodeId,
     },
-    /// Something names a node that is not there.
+    /// A reference to a node that does not exist.
     #[error("there is no node {name}{hint}")]
     NoSuchNode {
         /// The name, quoted.
@@ -59,10 +59,10 @@ pub enum Problem {
     /// Links that lead in a circle.
     #[error("the nodes feed each other in a circle: {}; remove one of these links", arrows(.nodes))]
     Cycle {
-        /// The nodes of the circle in the order of the flow, each once.
+        /// Nodes of the circle in the order of the links, each once.
         nodes: Vec<NodeId>,
     },
-    /// An instance of a group that is not there.
+    /// An instance of a group that does not exist.
     #[error("there is no group {name}{hint}; define it under \"groups\", or name a .sabi file")]
     NoSuchGroup {
         /// The name, quoted.
@@ -70,10 +70,10 @@ pub enum Problem {
         /// The nearest group, as a question.
         hint: String,
     },
-    /// A node of kind `graph/group` that does not say which.
+    /// A node of kind `graph/group` without the name of a group.
     #[error("the node is a group instance but names no group; add \"group\": \"name or file.sabi\"")]
     GroupNotNamed,
-    /// A variant that sets a knob that is not exposed.
+    /// A variant that sets a knob that is not published.
     #[error("variant {variant} sets {knob}, which is not exposed{hint}")]
     NotExposed {
         /// The variant, quoted.
@@ -83,13 +83,13 @@ pub enum Problem {
         /// The nearest knob, as a question.
         hint: String,
     },
-    /// A range whose ends are the wrong way round.
+    /// A range with its ends in the wrong order.
     #[error("the range of knob {knob} is empty; write the lower end first")]
     EmptyRange {
         /// The knob, quoted.
         knob: String,
     },
-    /// Two inputs of a group that feed one place.
+    /// Two inputs of a group that feed the same input of a node.
     #[error("group inputs \"{first}\" and \"{second}\" both feed {slot}; let only one of them do so")]
     FedTwice {
         /// One group input.
@@ -99,12 +99,12 @@ pub enum Problem {
         /// `node.input`.
         slot: String,
     },
-    /// A number that no file can hold, or a value nested too deep.
+    /// A number that a file cannot hold, or a value nested too deep.
     #[error(
         "the value of {name} cannot be kept: numbers must be finite and below 3.4e38, lists nested at most 64 levels"
     )]
     BadValue {
-        /// What it was for, quoted.
+        /// Parameter or knob of the value, quoted.
         name: String,
     },
 }
@@ -123,7 +123,7 @@ fn arrows(nodes: &[NodeId]) -> String {
     text
 }
 
-/// A text in quotes for a message, with control characters escaped and cut to a length people read.
+/// A text in quotes for a message, shortened, with control characters escaped.
 pub(crate) fn shown(text: &str) -> String {
     const LONGEST: usize = 80;
     let mut cut: String = text.chars().take(LONGEST).collect();

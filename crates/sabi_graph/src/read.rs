@@ -1,4 +1,4 @@
-//! From text to a document, checking everything that can be checked without knowing the kinds.
+//! Reads a document and checks everything that can be checked without the kinds.
 
 mod body;
 mod fields;
@@ -27,13 +27,13 @@ impl Document {
 fn read(text: &str) -> Result<Document, Fail> {
     let json = crate::migrate::to_newest(crate::json::parse(text)?)?;
     let mut fields = Fields::of(json, "the file")?;
-    // Both were looked at before migration.
+    // Both were checked by the migration.
     fields.take("format");
     fields.take("version");
-    let name = fields.text("name")?.unwrap_or_default();
+    let name = fields.text("name")?.unwrap_or_default(); // A document may have no name.
     let preview = fields.take("preview").map(read_preview).transpose()?;
-    let fit = fields.take("fit").map(read_fit).transpose()?.unwrap_or_default();
-    let seed = fields.whole("seed")?.unwrap_or_default();
+    let fit = fields.take("fit").map(read_fit).transpose()?.unwrap_or_default(); // The format's default is `unit`.
+    let seed = fields.whole("seed")?.unwrap_or_default(); // The format's default is 0.
     let groups = fields.map("groups")?;
     let group_names: BTreeSet<String> = groups.iter().map(|member| member.key.clone()).collect();
     let Body { graph, inputs, outputs } = read_body(&mut fields, &group_names)?;

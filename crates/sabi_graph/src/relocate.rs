@@ -1,4 +1,4 @@
-//! Paths that are relative to the file's folder, when the file moves to another one.
+//! Rewrites relative paths of a document that moves to another folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,18 +7,17 @@ use crate::graph::Exposed;
 use crate::validate::is_group_file;
 use crate::{Body, Document, Edit, GROUP_KIND, Graph, Node, SlotRef, Value};
 
-/// How paths change when a file moves to another folder.
+/// Change of paths when a file moves to another folder.
 #[derive(Clone, Copy)]
 pub struct Relocation<'a> {
     /// Whether a parameter of a kind holds the path of a file: the kind without its version, and the parameter.
     pub is_file: &'a dyn Fn(&str, &str) -> bool,
-    /// A path as it is written in the new folder, from how it was in the old one.
+    /// Converts a path relative to the old folder to one relative to the new folder.
     pub moved: &'a dyn Fn(&str) -> String,
 }
 
 impl Document {
-    /// This document as it is written in another folder: the model, pictures and group files that it names are those that
-    /// it named before.
+    /// Copy of this document for another folder: its paths to the model, images and group files lead to the same files.
     pub fn relocated(&self, relocation: Relocation<'_>) -> Document {
         let places = Places {
             relocation,
@@ -34,7 +33,7 @@ impl Document {
     }
 }
 
-/// Finds paths with the help of documents that say what parameters mean.
+/// Finds paths by the kinds of the nodes in some documents.
 pub(crate) struct Places<'a> {
     pub(crate) relocation: Relocation<'a>,
     pub(crate) states: Vec<&'a Document>,
@@ -145,8 +144,8 @@ impl Places<'_> {
         nodes.any(|node| self.names_file(&node.kind, node.group.as_deref(), &slot.name, seen))
     }
 
-    /// Whether a parameter of such a node is a path; those of an instance are what they turn inside the group. What is set
-    /// in a group file is relative to that file, which stays where it is.
+    /// Whether a parameter is a path; one of an instance is a path if it sets a path inside the group. Paths inside a group
+    /// file are relative to that file, which does not move.
     fn names_file(&self, kind: &str, group: Option<&str>, param: &str, seen: &mut BTreeSet<(String, String)>) -> bool {
         if kind != GROUP_KIND {
             let plain = kind.split_once('@').map_or(kind, |(plain, _)| plain);

@@ -1,4 +1,4 @@
-//! What holds in every document, whether it was read or edited.
+//! Rules of every document, checked by reading and editing.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use crate::name::{NOT_IN_KNOBS, check_name};
 use crate::problem::{Problem, hint, shown};
 use crate::{GROUP_KIND, Graph, Node, SlotRef};
 
-/// Whether a group of that name is a file of its own.
+/// Whether the name of a group is the path of a group file.
 pub(crate) fn is_group_file(name: &str) -> bool {
     name.ends_with(".sabi")
 }
 
-/// A node has a kind, and a group instance a group that is there.
+/// Checks that a node has a kind, and a group instance an existing group.
 pub(crate) fn kind_and_group<'a>(
     node: &Node,
     is_group: impl Fn(&str) -> bool,
@@ -36,12 +36,12 @@ pub(crate) fn kind_and_group<'a>(
     }
 }
 
-/// A knob has a name, a range that is one, and sets nodes that are there.
+/// Checks the name and the range of a knob, and that it sets parameters of existing nodes.
 pub(crate) fn knob(graph: &Graph, name: &str, knob: &Exposed) -> Result<(), Problem> {
     check_name("knob", name, NOT_IN_KNOBS)?;
     slots(graph, &knob.to)?;
     match knob.range {
-        // Neither end may be undefined.
+        // Also refuses NaN.
         Some([low, high]) if !(low <= high && low.is_finite() && high.is_finite()) => {
             Err(Problem::EmptyRange { knob: shown(name) })
         }
@@ -61,7 +61,7 @@ fn slots(graph: &Graph, slots: &[SlotRef]) -> Result<(), Problem> {
     Ok(())
 }
 
-/// A variant sets only what is exposed.
+/// Checks that a variant sets a published knob.
 pub(crate) fn variant_sets(graph: &Graph, variant: &str, knob: &str) -> Result<(), Problem> {
     if graph.exposed().contains_key(knob) {
         return Ok(());
@@ -73,7 +73,7 @@ pub(crate) fn variant_sets(graph: &Graph, variant: &str, knob: &str) -> Result<(
     })
 }
 
-/// A group's input feeds inputs of nodes that are there, none of which is fed already.
+/// Checks that a group's input feeds inputs of existing nodes that no other group input feeds.
 pub(crate) fn group_input(graph: &Graph, fed: &mut Fed, name: &str, input: &GroupInput) -> Result<(), Problem> {
     check_port_name(name)?;
     slots(graph, &input.to)?;
@@ -93,7 +93,7 @@ pub(crate) fn group_input(graph: &Graph, fed: &mut Fed, name: &str, input: &Grou
 /// Inputs of nodes inside a group, each with the group input that feeds it.
 pub(crate) type Fed = BTreeMap<SlotRef, String>;
 
-/// The inputs and outputs of a group fit its graph.
+/// Checks the inputs and outputs of a group against its graph.
 pub(crate) fn group_ports(group: &GroupDef) -> Result<(), Problem> {
     let mut fed = Fed::new();
     for (name, input) in &group.inputs {
@@ -107,7 +107,7 @@ pub(crate) fn group_ports(group: &GroupDef) -> Result<(), Problem> {
     Ok(())
 }
 
-/// A length above zero, as files keep it.
+/// Canonical form of a fit; `None` for a length that is not above zero.
 pub(crate) fn fit(fit: Fit) -> Option<Fit> {
     match fit {
         Fit::Length(metres) => crate::canonical_number(metres)

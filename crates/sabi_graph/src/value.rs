@@ -1,11 +1,11 @@
-//! What a parameter holds: JSON's values, with numbers in one canonical form.
+//! Values of parameters: those of JSON, with numbers in canonical form.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-/// A JSON-like value, as parameters and unknown keys hold it.
+/// Value of a parameter or an unknown key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// `null`
@@ -22,19 +22,19 @@ pub enum Value {
     Object(BTreeMap<String, Value>),
 }
 
-/// Whole numbers up to here are exact in a file.
+/// Limit of whole numbers that are exact in a file.
 const WHOLE_LIMIT: f64 = 9_007_199_254_740_992.0;
 
-/// Values nested deeper than this are refused, so that every document that can be made can be read back.
+/// Deepest nesting of values; deeper ones are refused, so that every document can be read back.
 pub(crate) const DEPTH_LIMIT: usize = 64;
 
-/// The number that a file keeps for `x`: whole numbers below 2⁵³ as they are, others as their shortest `f32` text
+/// Number in a file for `x`: whole numbers below 2⁵³ as they are, others as their shortest `f32` text
 /// read back; no negative zero. `None` when `x` is not finite or too large for an `f32`.
 pub fn canonical_number(x: f64) -> Option<f64> {
     if x.fract() == 0.0 && x.abs() < WHOLE_LIMIT {
         return Some(x + 0.0);
     }
-    // A float's shortest text is always read back as a float; infinite and undefined ones stop here.
+    // Infinities and NaN have no canonical form; the shortest text of any other float can be parsed.
     let single = x as f32;
     if !single.is_finite() {
         return None;
@@ -53,7 +53,7 @@ pub(crate) fn number_text(x: f64) -> String {
 }
 
 impl Value {
-    /// This value as a file keeps it (see [`canonical_number`]), or `None` when a number in it is not finite or beyond
+    /// Canonical form of this value (see [`canonical_number`]), or `None` when a number in it is not finite or beyond
     /// `f32`, or when it is nested deeper than 64 levels.
     pub fn canonical(self) -> Option<Value> {
         self.canonical_within(DEPTH_LIMIT)
@@ -119,7 +119,7 @@ impl Value {
         }
     }
 
-    /// What this is, with its article, for messages: `a number`, `a list`.
+    /// Sort of this value with its article, for messages: `a number`, `a list`.
     pub fn sort(&self) -> &'static str {
         match self {
             Value::Null => "null",

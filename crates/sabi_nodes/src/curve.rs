@@ -1,14 +1,14 @@
 //! Curves through points, with slopes that keep them from overshooting.
 
-/// Points nearer than this stand at one place: the curve makes a step there.
+/// Distance in x below which two points make a step.
 const STEP_WIDTH: f64 = 1e-6;
 
-/// What WGSL reads for a curve through `points` (x, y; x ascending): x, y, slope and 1 for each of them, then the last
-/// one again with 0, up to `room` points.
+/// Components in WGSL of a curve through `points` (x, y; x ascending): x, y, slope and 1 for each of them, then the last
+/// point with 0, up to `room` points.
 ///
 /// The slopes are those of M. Steffen, "A simple method for monotonic interpolation in one dimension", Astronomy and
 /// Astrophysics 239 (1990): cubic pieces that have them rise and fall only where the points do. Two points at one x are a
-/// step: the curve ends at the first one and starts anew at the second.
+/// step: one curve ends at the first, and another starts at the second.
 pub fn curve_points(points: &[[f32; 2]], room: usize) -> Vec<f32> {
     let wide: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::from)).collect();
     let runs = wide.chunk_by(|left, right| right[0] - left[0] >= STEP_WIDTH);
@@ -18,12 +18,12 @@ pub fn curve_points(points: &[[f32; 2]], room: usize) -> Vec<f32> {
         .zip(slopes)
         .map(|([x, y], slope)| [*x, *y, slope as f32, 1.0])
         .collect();
-    let [x, y, ..] = read.last().copied().unwrap_or_default();
+    let [x, y, ..] = read.last().copied().unwrap_or_default(); // A curve has a point at least.
     read.resize(room, [x, y, 0.0, 0.0]);
     read.into_flattened()
 }
 
-/// A slope for each point of a run without steps.
+/// Slopes at the points of a run without steps.
 fn slopes(run: &[[f64; 2]]) -> Vec<f64> {
     let pieces: Vec<Piece> = run.windows(2).map(|ends| Piece::between(ends[0], ends[1])).collect();
     let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else {
@@ -43,7 +43,7 @@ fn slopes(run: &[[f64; 2]]) -> Vec<f64> {
         .collect()
 }
 
-/// The straight line from one point to the next.
+/// Straight line from a point to the next.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     width: f64,

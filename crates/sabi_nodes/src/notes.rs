@@ -1,4 +1,4 @@
-//! Annotations in doc comments (`@range 0 1`), and the header.
+//! Reads annotations in doc comments (`@range 0 1`), and the header.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -14,7 +14,7 @@ pub(crate) struct Word {
     pub(crate) range: Range<usize>,
 }
 
-/// An annotation with what follows it.
+/// An annotation with its words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Note {
     /// Without the `@`.
@@ -34,26 +34,26 @@ impl Note {
     /// Place of the annotation with its words.
     pub(crate) fn whole(&self) -> Range<usize> {
         match self.words.last() {
-            // Only on the annotation's own line: a marked range ends with the line anyway.
+            // On the annotation's own line only: a marked range ends with the line.
             Some(last) => self.range.start..last.range.end,
             None => self.range.clone(),
         }
     }
 }
 
-/// Annotations whose words may go on in the next line.
+/// Annotations whose words may continue on the next line.
 const RUN_ON: [&str; 2] = ["input", "choice"];
 
-/// A doc comment taken apart.
+/// A parsed doc comment.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Notes {
-    /// What is not annotation, line by line.
+    /// Text without annotations, line by line.
     pub(crate) lines: Vec<String>,
     pub(crate) notes: Vec<Note>,
 }
 
 impl Notes {
-    /// Takes a doc comment apart.
+    /// Parses a doc comment.
     pub(crate) fn read(docs: &[DocLine]) -> Notes {
         let mut read = Notes::default();
         let mut runs_on = false;
@@ -117,7 +117,7 @@ impl Notes {
         text.trim_end().to_owned()
     }
 
-    /// Refuses annotations that are not in `known`, and those in `once` that stand twice.
+    /// Refuses annotations that are not in `known`, and repeated ones that are in `once`.
     pub(crate) fn check(&self, text: Text<'_>, known: &[&str], once: &[&str], faults: &mut Vec<Fault>) {
         let mut seen = BTreeSet::new();
         for note in &self.notes {
@@ -145,7 +145,7 @@ impl Notes {
     }
 }
 
-/// The fault of an annotation that is not known in its place.
+/// Fault of an annotation that is not known in its place.
 pub(crate) fn unknown(text: Text<'_>, note: &Note, known: &[&str]) -> Fault {
     let everywhere = HEADER
         .iter()
@@ -193,7 +193,7 @@ fn words(line: &DocLine) -> Vec<Word> {
 /// Annotations of the header.
 pub(crate) const HEADER: &[&str] = &["alias", "use", "version", "was"];
 
-/// What the `//!` lines say.
+/// Content of the `//!` lines.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Header {
     pub(crate) label: String,
@@ -206,7 +206,7 @@ pub(crate) struct Header {
     pub(crate) version: u32,
 }
 
-/// Reads the header; label and summary must be there.
+/// Reads the header, which must have a label and a summary.
 pub(crate) fn read_header(text: Text<'_>, scan: &Scan, faults: &mut Vec<Fault>) -> Header {
     let notes = Notes::read(&scan.header);
     notes.check(text, HEADER, &["version"], faults);
@@ -258,7 +258,7 @@ pub(crate) fn read_header(text: Text<'_>, scan: &Scan, faults: &mut Vec<Fault>) 
     }
 }
 
-/// `@version N`, 1 when it is not said.
+/// Reads `@version N`; 1 without it.
 fn version(text: Text<'_>, notes: &Notes, faults: &mut Vec<Fault>) -> u32 {
     let Some(note) = notes.get("version") else {
         return 1;
@@ -276,7 +276,7 @@ fn version(text: Text<'_>, notes: &Notes, faults: &mut Vec<Fault>) -> u32 {
     }
 }
 
-/// `tile_size` becomes `Tile size`.
+/// Label of a name: `tile_size` becomes `Tile size`.
 pub(crate) fn label_of(name: &str) -> String {
     let mut label = name.replace('_', " ");
     if let Some(first) = label.get_mut(0..1) {

@@ -19,7 +19,7 @@ pub(crate) const ANNOTATIONS: &[&str] = &[
     "was",
 ];
 
-/// Annotations that say what an artist sees; one parameter has at most one.
+/// Annotations of roles; a parameter has at most one.
 const ROLES: [&str; 8] = [
     "toggle", "choice", "color", "length", "angle", "seed", "extent", "curve",
 ];
@@ -49,7 +49,7 @@ pub(crate) fn params_size(module: &Module) -> u32 {
     }
 }
 
-/// Reads all parameters. Faulty ones are told and left out.
+/// Reads all parameters but those with faults.
 pub(crate) fn read_params(text: Text<'_>, scan: &Scan, module: &Module, faults: &mut Vec<Fault>) -> Vec<Param> {
     let Some(item) = scan.params() else {
         return Vec::new();
@@ -116,7 +116,7 @@ impl ParamReader<'_> {
         }
         let memory = self.memory(module, ty)?;
         let role = self.role(memory)?;
-        // Slopes of a curve have to stay finite.
+        // Slopes of a curve must be finite.
         let widest = (role == Role::Curve).then_some(CURVE_RANGE);
         let range = self.ends("range", memory, &role).or(widest);
         let soft = self.ends("soft", memory, &role);
@@ -204,7 +204,7 @@ impl ParamReader<'_> {
         found
     }
 
-    /// What the parameter is to an artist, checked against its type.
+    /// Reads the role of the parameter and checks it against the type.
     fn role(&mut self, memory: Memory) -> Option<Role> {
         let notes = self.notes.clone();
         let mut roles = notes.notes.iter().filter(|note| ROLES.contains(&note.name.as_str()));
@@ -249,7 +249,7 @@ impl ParamReader<'_> {
         Some(role)
     }
 
-    /// `@extent low along`: the ends of the model along the direction in another parameter.
+    /// Reads `@extent low along`, an end of the model along the direction in another parameter.
     fn extent(&mut self, note: &Note) -> Option<Role> {
         let words: Vec<&str> = note.words.iter().map(|word| word.text.as_str()).collect();
         if let ([end @ ("low" | "high"), along], false) = (words.as_slice(), self.notes.get("default").is_some()) {
@@ -304,7 +304,7 @@ impl ParamReader<'_> {
         Some(words)
     }
 
-    /// `@range a b` or `@soft a b`.
+    /// Reads `@range a b` or `@soft a b`.
     fn ends(&mut self, name: &str, memory: Memory, role: &Role) -> Option<[f64; 2]> {
         let notes = self.notes.clone();
         let note = notes.get(name)?;

@@ -27,7 +27,7 @@ pub(crate) const ANNOTATIONS: &[&str] = &[
     "label",
 ];
 
-/// What the functions of a file say.
+/// Outputs, passes, inputs and rays of a file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ports {
     pub(crate) inputs: Vec<Input>,
@@ -38,7 +38,7 @@ pub(crate) struct Ports {
     pub(crate) surveyed: Option<usize>,
 }
 
-/// The function of that name that the file itself declares.
+/// The function of that name in the file itself.
 pub(crate) fn function<'m>(module: &'m Module, name: &str) -> Option<(naga::Handle<Function>, &'m Function)> {
     module
         .functions
@@ -46,7 +46,7 @@ pub(crate) fn function<'m>(module: &'m Module, name: &str) -> Option<(naga::Hand
         .find(|(_, function)| function.name.as_deref() == Some(name))
 }
 
-/// The port type of a WGSL type; `vector` decides what `vec3f` is.
+/// Port type of a WGSL type; with `vector`, `vec3f` is a vector instead of a color.
 fn port_type(ty: &Type, vector: bool) -> Option<PortType> {
     match &ty.inner {
         TypeInner::Scalar(naga::Scalar::F32) => Some(PortType::Mask),
@@ -79,11 +79,11 @@ struct Draft<'a> {
     item: &'a Item,
     function: &'a Function,
     notes: FunctionNotes,
-    /// What it returns; none for a ray.
+    /// Port type of its result; `None` for a ray.
     ty: Option<PortType>,
 }
 
-/// Reads all documented functions. Faulty ones are told and left out.
+/// Reads all documented functions but those with faults.
 pub(crate) fn read_ports(
     text: Text<'_>,
     scan: &Scan,
@@ -145,14 +145,14 @@ struct PortReader<'a> {
     module: &'a Module,
     params: &'a [Param],
     faults: &'a mut Vec<Fault>,
-    /// What `@input` says, by name.
+    /// Notes of `@input` by name.
     described: BTreeMap<String, InputNotes>,
     inputs: Vec<Input>,
     /// Names of passes in ascending order of their numbers, with their number and type.
     pass_numbers: Vec<(u32, String, PortType)>,
-    /// Whether there is a function that returns a ray.
+    /// Whether a function returns a ray.
     shoots: bool,
-    /// Whether there is a function that takes a survey.
+    /// Whether a function takes a survey.
     surveys: bool,
 }
 
@@ -317,7 +317,7 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    /// Every `@input` names an argument.
+    /// Checks that every `@input` names an argument.
     fn check_described(&mut self) {
         if !self.faults.is_empty() {
             return;

@@ -1,10 +1,10 @@
-//! Stored results get slots, and give them back after their last reader.
+//! Assigns slots to stored results, and frees them after their last reader.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_nodes::link::Plane;
 
-use crate::draft::{Draft, Kept, What};
+use crate::draft::{Content, Draft, Resident};
 use crate::fuse::Value;
 use crate::keys::result_key;
 use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, Step, SurveyStep};
@@ -13,33 +13,32 @@ use crate::schedule::Builder;
 use crate::slots::SlotPool;
 
 impl Builder<'_, '_> {
-    /// Gives every stored plane a slot, and frees it after its last reader.
+    /// Assigns a slot to every stored plane, free again after the last step that reads it.
     pub(crate) fn assign_slots(&self, drafts: Vec<Draft>, wanted: Vec<(Target, Value)>) -> Plan {
         let keep_all = self.planner.mode == Mode::Interactive;
         let wanted_values: BTreeSet<Value> = wanted.iter().map(|(_, value)| *value).collect();
-        let mut last_use: BTreeMap<(Kept, Plane), usize> = BTreeMap::new();
+        let mut last_use: BTreeMap<(Resident, Plane), usize> = BTreeMap::new();
         for (at, draft) in drafts.iter().enumerate() {
             for plane in draft.reads.iter().chain(&draft.writes).flatten().chain(&draft.scratch) {
                 last_use.insert(*plane, at);
             }
         }
-        let is_wanted =
-            |kept: &Kept| matches!(&kept.what, What::Result(value) if kept.level == 0 && wanted_values.contains(value));
-        let mut dead_after: Vec<Vec<(Kept, Plane)>> = drafts.iter().map(|_| Vec::new()).collect();
+        let is_wanted = |resident: &Resident| matches!(&resident.content, Content::Result(value) if resident.level == 0 && wanted_values.contains(value));
+        let mut dead_after: Vec<Vec<(Resident, Plane)>> = drafts.iter().map(|_| Vec::new()).collect();
         for (plane, at) in last_use {
             if !keep_all && !is_wanted(&plane.0) {
                 dead_after[at].push(plane);
             }
         }
         let mut pool = SlotPool::default();
-        let mut slot_of: BTreeMap<(Kept, Plane), SlotRef> = BTreeMap::new();
+        let mut slot_of: BTreeMap<(Resident, Plane), SlotRef> = BTreeMap::new();
         let mut steps = Vec::new();
         let mut nodes = Names::default();
         for (at, draft) in drafts.into_iter().enumerate() {
             for plane in draft.writes.iter().flatten().chain(&draft.scratch) {
                 slot_of.insert(*plane, pool.take(plane.1.format(), plane.0.room()));
             }
-            let slots = |planes: &[Option<(Kept, Plane)>]| -> Vec<Option<SlotRef>> {
+            let slots = |planes: &[Option<(Resident, Plane)>]| -> Vec<Option<SlotRef>> {
                 planes.iter().map(|plane| plane.map(|plane| slot_of[&plane])).collect()
             };
             let (reads, writes) = (slots(&draft.reads), slots(&draft.writes));
@@ -72,13 +71,13 @@ impl Builder<'_, '_> {
         &self,
         target: Target,
         (node, output): Value,
-        slot_of: &BTreeMap<(Kept, Plane), SlotRef>,
+        slot_of: &BTreeMap<(Resident, Plane), SlotRef>,
     ) -> PlannedResult {
         let stored = self.stored((node, output));
         let slots = stored
             .planes()
             .iter()
-            .map(|plane| slot_of[&(Kept::result((node, output)), *plane)])
+            .map(|plane| slot_of[&(Resident::result((node, output)), *plane)])
             .collect();
         let name = self.node(node).output(output).map_or("", |(name, _)| name);
         let key = result_key(self.node(node), name);
@@ -92,6 +91,14 @@ impl Builder<'_, '_> {
     }
 }
 
+/// Slots of a step that reads one plane and writes one.
+fn single_slots(reads: &[Option<SlotRef>], writes: &[Option<SlotRef>]) -> [SlotRef; 2] {
+    match (reads, writes) {
+        ([Some(from)], [Some(to)]) => [*from, *to],
+        _ => unreachable!("moves and surveys are drafted with one plane to read and one to write"),
+    }
+}
+
 fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRef>>, scratch: Option<SlotRef>) -> Step {
     match step {
         Step::Source(mut source) => {
@@ -101,16 +108,14 @@ fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRe
             }
             Step::Source(source)
         }
-        Step::Move(step) => Step::Move(MoveStep {
-            from: reads.into_iter().flatten().next().unwrap_or(step.from),
-            to: writes.into_iter().flatten().next().unwrap_or(step.to),
-            ..step
-        }),
-        Step::Survey(step) => Step::Survey(SurveyStep {
-            from: reads.into_iter().flatten().next().unwrap_or(step.from),
-            to: writes.into_iter().flatten().next().unwrap_or(step.to),
-            ..step
-        }),
+        Step::Move(step) => {
+            let [from, to] = single_slots(&reads, &writes);
+            Step::Move(MoveStep { from, to, ..step })
+        }
+        Step::Survey(step) => {
+            let [from, to] = single_slots(&reads, &writes);
+            Step::Survey(SurveyStep { from, to, ..step })
+        }
         Step::Kernel(mut kernel) => {
             if let (Some(feedback), Some(slot)) = (&mut kernel.feedback, scratch) {
                 feedback.scratch = slot;
@@ -124,7 +129,7 @@ fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRe
     }
 }
 
-/// Ids of nodes, each once, in the order in which they come.
+/// Ids of nodes without repeats, in the order of first appearance.
 #[derive(Default)]
 struct Names {
     seen: BTreeSet<String>,

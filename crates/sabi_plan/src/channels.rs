@@ -1,11 +1,11 @@
-//! Which channels a material result sets: those that are not set take no storage.
+//! Channels that material results set; others take no storage.
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Channel, ChannelWrite, ParamValue};
 
 use crate::resolve::{Behavior, Resolved, ResolvedNode};
 
-/// Channels that each result sets: color and surface always, others when written, or passed on from an input.
+/// Channels that each result sets: color and surface always, others where the node writes them or passes them on.
 pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<Vec<Channel>> {
     match node.behavior {
         Behavior::Source(kind) | Behavior::Sink(kind) => {

@@ -1,4 +1,4 @@
-//! A kernel step in the making: what it calls, reads and stores, before slots are known.
+//! Drafts of steps: calls, reads and stores before slots are assigned.
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
@@ -10,67 +10,69 @@ use crate::plan::{BlockValues, Feedback, KernelStep, Room, Step, StepRays};
 use crate::resolve::Behavior;
 use crate::schedule::Builder;
 
-/// What lies in storage, and on which level of the atlas.
+/// Stored content on a level of the atlas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Kept {
-    pub(crate) what: What,
+pub(crate) struct Resident {
+    pub(crate) content: Content,
     pub(crate) level: u32,
 }
 
-impl Kept {
-    /// A result; all of them are on the finest level.
-    pub(crate) fn result(value: Value) -> Kept {
-        Kept {
-            what: What::Result(value),
+impl Resident {
+    /// A result, which is on the finest level.
+    pub(crate) fn result(value: Value) -> Resident {
+        Resident {
+            content: Content::Result(value),
             level: 0,
         }
     }
 
-    /// How large its texture is.
+    /// Size of its texture.
     pub(crate) fn room(self) -> Room {
-        match self.what {
-            What::Survey(_) => Room::Survey,
-            What::Found(..) => Room::Single,
-            What::Result(_) | What::Pass(..) | What::Scratch(..) | What::Converted(..) => Room::Level(self.level),
+        match self.content {
+            Content::Survey(_) => Room::Survey,
+            Content::Found(..) => Room::Single,
+            Content::Result(_) | Content::Pass(..) | Content::Scratch(..) | Content::Converted(..) => {
+                Room::Level(self.level)
+            }
         }
     }
 }
 
-/// A result, or what a pass of a field leaves for the next.
+/// Content of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum What {
+pub(crate) enum Content {
     Result(Value),
     Pass(usize, usize),
-    /// Takes turns with a repeated function's result: node, and which of its steps.
+    /// Second texture of a repeated function, used alternately with its result: node and index of the step.
     Scratch(usize, usize),
-    /// The table of a node's survey.
+    /// Table of a node's survey.
     Survey(usize),
-    /// What a pass gives for the whole surface: node and pass.
+    /// Value of a pass for the whole surface: node and pass.
     Found(usize, usize),
-    /// What a field's or a survey's input reads, converted: node and index of the input.
+    /// Converted value that an input of a field or a survey reads: node and index of the input.
     Converted(usize, usize),
 }
 
-/// A step before its slots are known.
+/// A step before slots are assigned.
 pub(crate) struct Draft {
     pub(crate) step: Step,
-    pub(crate) reads: Vec<Option<(Kept, Plane)>>,
-    pub(crate) writes: Vec<Option<(Kept, Plane)>>,
-    pub(crate) scratch: Option<(Kept, Plane)>,
+    pub(crate) reads: Vec<Option<(Resident, Plane)>>,
+    pub(crate) writes: Vec<Option<(Resident, Plane)>>,
+    pub(crate) scratch: Option<(Resident, Plane)>,
 }
 
-/// A kernel step in the making.
+/// Draft of a kernel step.
 pub(crate) struct KernelDraft<'b, 'p, 'a> {
     builder: &'b Builder<'p, 'a>,
     pub(crate) spec: KernelSpec,
     blocks: Vec<usize>,
-    loaded: Vec<Option<Kept>>,
-    reads: Vec<Option<(Kept, Plane)>>,
-    writes: Vec<Option<(Kept, Plane)>>,
+    loaded: Vec<Option<Resident>>,
+    reads: Vec<Option<(Resident, Plane)>>,
+    writes: Vec<Option<(Resident, Plane)>>,
     pub(crate) flags: [u32; 4],
-    pub(crate) repeat: Option<(u32, usize, Kept)>,
+    pub(crate) repeat: Option<(u32, usize, Resident)>,
     pub(crate) rays: Option<Box<StepRays>>,
-    /// Level of the atlas that it runs on.
+    /// Level of the atlas that the kernel runs on.
     pub(crate) level: u32,
     keys: Vec<[u8; 32]>,
 }
@@ -102,44 +104,57 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
         self.blocks.len() - 1
     }
 
-    pub(crate) fn add_load(&mut self, kept: Option<Kept>, stored: Stored, planes: Vec<Option<(Kept, Plane)>>) -> usize {
+    pub(crate) fn add_load(
+        &mut self,
+        resident: Option<Resident>,
+        stored: Stored,
+        planes: Vec<Option<(Resident, Plane)>>,
+    ) -> usize {
         self.spec.loads.push(stored);
-        self.loaded.push(kept);
+        self.loaded.push(resident);
         self.reads.extend(planes);
         self.loaded.len() - 1
     }
 
-    /// The load of a stored result, one for all its readers in this kernel.
+    /// Index of the load of a stored result, shared by all its readers in this kernel.
     pub(crate) fn load(&mut self, value: Value) -> usize {
-        let kept = self.here(What::Result(value));
-        if let Some(load) = self.loaded.iter().position(|loaded| *loaded == Some(kept)) {
+        let resident = self.here(Content::Result(value));
+        if let Some(load) = self.loaded.iter().position(|loaded| *loaded == Some(resident)) {
             return load;
         }
         let stored = self.builder.stored(value);
-        let planes = stored.planes().into_iter().map(|plane| Some((kept, plane))).collect();
-        self.add_load(Some(kept), stored, planes)
+        let planes = stored
+            .planes()
+            .into_iter()
+            .map(|plane| Some((resident, plane)))
+            .collect();
+        self.add_load(Some(resident), stored, planes)
     }
 
-    /// Something stored, on the level of this kernel.
-    fn here(&self, what: What) -> Kept {
-        Kept {
-            what,
+    /// Content on the level of this kernel.
+    fn here(&self, content: Content) -> Resident {
+        Resident {
+            content,
             level: self.level,
         }
     }
 
-    /// The load of something that is no result, of one plane.
-    pub(crate) fn load_kept(&mut self, what: What, ty: PortType) -> usize {
-        let kept = self.here(what);
+    /// Adds a load of content other than a result, of one plane.
+    pub(crate) fn load_resident(&mut self, content: Content, ty: PortType) -> usize {
+        let resident = self.here(content);
         let stored = Stored {
             ty,
             channels: Vec::new(),
         };
-        let planes = stored.planes().into_iter().map(|plane| Some((kept, plane))).collect();
-        self.add_load(Some(kept), stored, planes)
+        let planes = stored
+            .planes()
+            .into_iter()
+            .map(|plane| Some((resident, plane)))
+            .collect();
+        self.add_load(Some(resident), stored, planes)
     }
 
-    /// A load for all planes the input could have; those that are not there stay open.
+    /// Adds a load of all planes that an input can have; planes that do not exist stay unbound.
     pub(crate) fn switched_load(&mut self, from: Option<Value>, stored: Stored) -> usize {
         let there = from.map(|value| (value, self.builder.stored(value)));
         let planes = stored.planes().into_iter().map(|plane| {
@@ -149,7 +164,9 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
                 (PortType::Mask, PortType::Color) | (PortType::Color, PortType::Mask)
             );
             let plane = if converted { from.planes()[0] } else { plane };
-            from.planes().contains(&plane).then_some((Kept::result(*value), plane))
+            from.planes()
+                .contains(&plane)
+                .then_some((Resident::result(*value), plane))
         });
         let planes = planes.collect();
         self.add_load(None, stored, planes)
@@ -174,18 +191,18 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
 
     pub(crate) fn store(&mut self, call: usize, value: Value) {
         let made = Operand::Call(call, Convert::None);
-        self.store_kept(made, Kept::result(value), self.builder.stored(value));
+        self.store_resident(made, Resident::result(value), self.builder.stored(value));
     }
 
-    pub(crate) fn store_kept(&mut self, value: Operand, kept: Kept, stored: Stored) {
+    pub(crate) fn store_resident(&mut self, value: Operand, resident: Resident, stored: Stored) {
         self.writes
-            .extend(stored.planes().into_iter().map(|plane| Some((kept, plane))));
-        self.add_store(value, kept, stored);
+            .extend(stored.planes().into_iter().map(|plane| Some((resident, plane))));
+        self.add_store(value, resident, stored);
     }
 
-    /// Stores all planes the result could have; those that are not set stay open.
+    /// Stores all planes that a result can have; planes that are not set stay unbound.
     pub(crate) fn store_switched(&mut self, call: usize, value: Value) {
-        let kept = Kept::result(value);
+        let resident = Resident::result(value);
         let set = self.builder.stored(value);
         let channels = if set.ty == PortType::Material {
             Channel::ALL.to_vec()
@@ -193,15 +210,15 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             Vec::new()
         };
         let stored = Stored { ty: set.ty, channels };
-        let is_set = |plane: Plane| set.planes().contains(&plane).then_some((kept, plane));
+        let is_set = |plane: Plane| set.planes().contains(&plane).then_some((resident, plane));
         self.writes.extend(stored.planes().into_iter().map(is_set));
-        self.add_store(Operand::Call(call, Convert::None), kept, stored);
+        self.add_store(Operand::Call(call, Convert::None), resident, stored);
     }
 
-    pub(crate) fn add_store(&mut self, value: Operand, kept: Kept, stored: Stored) {
+    pub(crate) fn add_store(&mut self, value: Operand, resident: Resident, stored: Stored) {
         let formats = stored.planes().iter().map(|plane| plane.format()).collect();
         self.spec.stores.push(Store { value, stored, formats });
-        if let What::Result((node, output)) = kept.what {
+        if let Content::Result((node, output)) = resident.content {
             let ready = self.builder.node(node);
             self.keys
                 .push(result_key(ready, ready.output(output).map_or("", |(name, _)| name)));
@@ -225,9 +242,9 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
                 scratch: 0,
             })
         });
-        let scratch = self.repeat.and_then(|(_, _, kept)| {
+        let scratch = self.repeat.and_then(|(_, _, resident)| {
             let (_, plane) = self.writes.first().copied().flatten()?;
-            Some((kept, plane))
+            Some((resident, plane))
         });
         let block = |node: &usize| {
             let ready = builder.node(*node);

@@ -1,4 +1,4 @@
-//! What can be wrong with a graph once its kinds are known.
+//! Problems of a graph that are found once its kinds are known.
 
 use std::fmt;
 
@@ -6,18 +6,18 @@ use sabi_graph::PortType;
 
 use crate::request::FileFault;
 
-/// One problem, at a node and perhaps one of its ports or parameters.
+/// A problem of a node, or of one of its ports or parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanError {
     /// Id of the node in the flat graph.
     pub node: String,
     /// Kind as written.
     pub kind: String,
-    /// What is wrong.
+    /// The problem.
     pub problem: Problem,
 }
 
-/// What is wrong.
+/// Kinds of problems.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
     /// No file describes this kind.
@@ -27,14 +27,14 @@ pub enum Problem {
     },
     /// The file was written for a newer version of the kind.
     NewerKind {
-        /// As the graph asks.
+        /// Version in the graph.
         wanted: u32,
-        /// As the loaded file is.
+        /// Version of the loaded file.
         loaded: u32,
     },
     /// The node has no such input.
     UnknownInput {
-        /// As written.
+        /// Name in the graph.
         port: String,
         /// The most similar input.
         nearest: Option<String>,
@@ -45,32 +45,32 @@ pub enum Problem {
         port: String,
         /// The node it names.
         from: String,
-        /// As written.
+        /// Name in the graph.
         output: String,
         /// The most similar result.
         nearest: Option<String>,
     },
-    /// The wire carries what the input does not take.
+    /// The type of a wire that the input does not take.
     Mistyped {
         /// The input.
         port: String,
-        /// What it takes.
+        /// Port type of the input.
         takes: PortType,
-        /// Where the wire comes from.
+        /// Output that the wire starts at.
         from: String,
-        /// What it carries.
+        /// Port type of the output.
         carries: PortType,
     },
     /// An input that must be connected is not.
     MissingInput {
         /// The input.
         port: String,
-        /// What it takes.
+        /// Port type of the input.
         takes: PortType,
     },
     /// The node has no such parameter.
     UnknownParam {
-        /// As written.
+        /// Name in the graph.
         param: String,
         /// The most similar parameter.
         nearest: Option<String>,
@@ -79,18 +79,18 @@ pub enum Problem {
     BadValue {
         /// The parameter.
         param: String,
-        /// What it takes, to follow "takes".
+        /// Expected value, to follow "takes".
         takes: String,
-        /// What it was given.
+        /// The given value.
         given: String,
     },
-    /// What a parameter's file holds cannot be had.
+    /// The file that a parameter names cannot be used.
     BadFile(FileFault),
     /// The node has no result of that name, or none at all.
     NoSuchResult {
-        /// As asked.
+        /// Requested name.
         output: Option<String>,
-        /// The results there are.
+        /// Results of the node.
         known: Vec<String>,
     },
 }
@@ -109,7 +109,7 @@ impl fmt::Display for PlanError {
     }
 }
 
-/// What is wrong, without the name that was perhaps meant.
+/// Sentence of a problem without the suggested name.
 struct Sentence<'a> {
     node: &'a str,
     kind: &'a str,
@@ -179,7 +179,7 @@ impl fmt::Display for Sentence<'_> {
 }
 
 impl Problem {
-    /// The input or parameter that it is about.
+    /// Input or parameter with the problem.
     pub fn member(&self) -> Option<&str> {
         match self {
             Problem::UnknownInput { port, .. }
@@ -196,7 +196,7 @@ impl Problem {
 impl std::error::Error for PlanError {}
 
 impl PlanError {
-    /// Whether the graph can still be evaluated: the value is kept in the file and has no effect.
+    /// Whether the problem leaves the graph usable: the value stays in the file without effect.
     pub fn is_warning(&self) -> bool {
         matches!(self.problem, Problem::UnknownParam { .. })
     }

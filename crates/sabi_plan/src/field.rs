@@ -1,20 +1,20 @@
-//! Field nodes: passes that read stored textures, on the level that each asks for.
+//! Steps of field nodes: passes that read stored textures, each on the level that it requests.
 
 use sabi_graph::PortType;
 use sabi_nodes::formula::{Formula, Knowns};
 use sabi_nodes::kind::{Argument, Kind, Memory, Output, Reads};
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, Stored};
 
-use crate::draft::{Draft, Kept, KernelDraft, What};
+use crate::draft::{Content, Draft, KernelDraft, Resident};
 use crate::plan::{MoveStep, Step};
 use crate::resolve::{Behavior, ResolvedInput, ResolvedNode};
 use crate::schedule::Builder;
 
-/// Most runs of a function.
+/// Most runs of a repeated function.
 const REPEAT_LIMIT: f64 = 4096.0;
 
 impl Builder<'_, '_> {
-    /// The passes of a field node and its results, each a kernel of its own.
+    /// Drafts the passes of a field node and its results, one kernel each.
     pub(crate) fn field(&self, node: usize, outputs: &[usize]) -> Vec<Draft> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("fields are shaders")
@@ -26,26 +26,26 @@ impl Builder<'_, '_> {
             let level = self.level(self.node(node), kind, function.texel.as_ref());
             (
                 function,
-                Kept {
-                    what: What::Pass(node, pass),
+                Resident {
+                    content: Content::Pass(node, pass),
                     level,
                 },
             )
         });
         let results = outputs
             .iter()
-            .map(|output| (&kind.outputs[*output], Kept::result((node, *output))));
+            .map(|output| (&kind.outputs[*output], Resident::result((node, *output))));
         let mut drafts = self.conversions(node);
         let steps: Vec<_> = passes.chain(results).collect();
-        for (index, (function, kept)) in steps.iter().enumerate() {
-            let step = self.field_step(node, kind, function, *kept, index);
+        for (index, (function, resident)) in steps.iter().enumerate() {
+            let step = self.field_step(node, kind, function, *resident, index);
             drafts.extend(self.moves(node, &step, &steps));
             drafts.push(step);
         }
         drafts
     }
 
-    /// The coarsest level whose texels are no wider than asked.
+    /// Coarsest level with texels no wider than requested.
     fn level(&self, ready: &ResolvedNode<'_>, kind: &Kind, texel: Option<&Formula>) -> u32 {
         let Some(texel) = texel else { return 0 };
         let levels = self.planner.levels;
@@ -60,7 +60,7 @@ impl Builder<'_, '_> {
         fits.saturating_sub(1) as u32
     }
 
-    /// How often a function runs.
+    /// Number of runs of a function.
     fn times(&self, ready: &ResolvedNode<'_>, kind: &Kind, function: &Output, level: u32) -> u32 {
         let Some(repeat) = &function.repeat else { return 1 };
         let width = |level: u32| self.planner.levels.get(level as usize).copied().unwrap_or(1.0);
@@ -70,11 +70,11 @@ impl Builder<'_, '_> {
             finest: width(0),
         };
         let times = repeat.value(&knowns).ceil();
-        // No number at all counts as once.
+        // NaN counts as one run.
         if times > 1.0 { times.min(REPEAT_LIMIT) as u32 } else { 1 }
     }
 
-    /// Inputs of a field that carry another type are stored once more, converted: a texture converts nothing when read.
+    /// Drafts conversions of inputs of another type, since reading a texture does not convert.
     fn conversions(&self, node: usize) -> Vec<Draft> {
         let inputs = self.node(node).inputs.iter().enumerate();
         let converted = inputs.filter_map(|(index, input)| {
@@ -84,8 +84,8 @@ impl Builder<'_, '_> {
         converted.collect()
     }
 
-    /// An input stored once more in the type that it is read as.
-    pub(crate) fn conversion(&self, node: usize, index: usize, input: ResolvedInput) -> (Draft, Kept) {
+    /// Drafts a copy of an input in the type that it is read as.
+    pub(crate) fn conversion(&self, node: usize, index: usize, input: ResolvedInput) -> (Draft, Resident) {
         let mut kernel = KernelDraft::new(self, Domain::AllTexels);
         let load = kernel.load((input.node, input.output));
         let stored = Stored {
@@ -96,35 +96,36 @@ impl Builder<'_, '_> {
             },
             channels: Vec::new(),
         };
-        let kept = Kept {
-            what: What::Converted(node, index),
+        let resident = Resident {
+            content: Content::Converted(node, index),
             level: 0,
         };
-        kernel.store_kept(Operand::Load(load, input.convert), kept, stored);
-        (kernel.finish(), kept)
+        kernel.store_resident(Operand::Load(load, input.convert), resident, stored);
+        (kernel.finish(), resident)
     }
 
-    fn field_step(&self, node: usize, kind: &Kind, function: &Output, kept: Kept, index: usize) -> Draft {
+    fn field_step(&self, node: usize, kind: &Kind, function: &Output, resident: Resident, index: usize) -> Draft {
         let reads_textures = function.arguments.iter().any(|argument| match argument {
             Argument::Pass(_) => true,
             Argument::Input(input) => kind.inputs[*input].reads == Reads::Field,
             _ => false,
         });
-        // What reads no texture is known on ghosts as exactly as anywhere; else they are filled over the links.
+        // A function that reads no texture is evaluated on ghosts, too; otherwise they are filled over their links.
         let domain = if reads_textures {
             Domain::OwnedTexels
         } else {
             Domain::AllTexels
         };
         let mut kernel = KernelDraft::new(self, domain);
-        kernel.level = kept.level;
+        kernel.level = resident.level;
         let block = kernel.block(node);
         let ready = self.node(node);
         let inputs = self.field_inputs(node, kind, function, &mut kernel);
         let pass_is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
         let passes: Vec<Option<usize>> = (0..kind.passes.len())
             .map(|pass| {
-                pass_is_read(pass).then(|| kernel.load_kept(What::Pass(node, pass), kind.passes[pass].function.ty))
+                pass_is_read(pass)
+                    .then(|| kernel.load_resident(Content::Pass(node, pass), kind.passes[pass].function.ty))
             })
             .collect();
         let first_field = function.arguments.iter().find_map(|argument| match argument {
@@ -147,23 +148,23 @@ impl Builder<'_, '_> {
             ty: function.ty,
             channels: Vec::new(),
         };
-        kernel.store_kept(Operand::Call(0, Convert::None), kept, stored);
-        let times = self.times(ready, kind, function, kept.level);
+        kernel.store_resident(Operand::Call(0, Convert::None), resident, stored);
+        let times = self.times(ready, kind, function, resident.level);
         kernel.repeat = first_field.filter(|_| times > 1).map(|read| {
-            let what = What::Scratch(node, index);
+            let content = Content::Scratch(node, index);
             (
                 times,
                 read,
-                Kept {
-                    what,
-                    level: kept.level,
+                Resident {
+                    content,
+                    level: resident.level,
                 },
             )
         });
         kernel.finish()
     }
 
-    /// Where the inputs of a function come from: values at the place, or textures.
+    /// Bindings of the inputs of a function: values at the place, or textures.
     fn field_inputs(
         &self,
         node: usize,
@@ -179,7 +180,7 @@ impl Builder<'_, '_> {
                     Binding::Value(Operand::Load(kernel.load((input.node, input.output)), input.convert))
                 }
                 Some(input) if is_read && input.convert != Convert::None => {
-                    Binding::Field(kernel.load_kept(What::Converted(node, index), kind.inputs[index].ty))
+                    Binding::Field(kernel.load_resident(Content::Converted(node, index), kind.inputs[index].ty))
                 }
                 Some(input) if is_read => Binding::Field(kernel.load((input.node, input.output))),
                 _ => Binding::Default,
@@ -188,28 +189,28 @@ impl Builder<'_, '_> {
         inputs
     }
 
-    /// What a step reads from other levels than its own, moved there; between two coarser ones by way of the finest.
-    fn moves(&self, node: usize, step: &Draft, steps: &[(&Output, Kept)]) -> Vec<Draft> {
+    /// Drafts moves of what a step reads from other levels; between two coarse levels by way of the finest.
+    fn moves(&self, node: usize, step: &Draft, steps: &[(&Output, Resident)]) -> Vec<Draft> {
         let reads = step.reads.iter().flatten();
-        let moved = reads.flat_map(|(kept, plane)| {
-            let made = steps.iter().find(|(_, made)| made.what == kept.what);
+        let moved = reads.flat_map(|(resident, plane)| {
+            let made = steps.iter().find(|(_, made)| made.content == resident.content);
             let level = made.map_or(0, |(_, made)| made.level);
-            if level == kept.level {
+            if level == resident.level {
                 return Vec::new();
             }
-            let stops = [level, 0, kept.level];
+            let stops = [level, 0, resident.level];
             let ways = stops
                 .windows(2)
                 .map(|way| [way[0], way[1]])
                 .filter(|[from, to]| from != to);
-            ways.map(|levels| self.bring(node, kept.what, *plane, levels))
+            ways.map(|levels| self.bring(node, resident.content, *plane, levels))
                 .collect::<Vec<_>>()
         });
         moved.collect()
     }
 
-    fn bring(&self, node: usize, what: What, plane: Plane, levels: [u32; 2]) -> Draft {
-        let [from, to] = levels.map(|level| Some((Kept { what, level }, plane)));
+    fn bring(&self, node: usize, content: Content, plane: Plane, levels: [u32; 2]) -> Draft {
+        let [from, to] = levels.map(|level| Some((Resident { content, level }, plane)));
         Draft {
             step: Step::Move(MoveStep {
                 node: self.id(node),

@@ -1,4 +1,4 @@
-//! Which nodes share a kernel.
+//! Groups nodes into kernels.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,15 +13,15 @@ pub(crate) type Value = (usize, usize);
 /// Nodes that are evaluated together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
-    /// The engine fills the results.
+    /// Results filled by the engine.
     Source { node: usize, outputs: Vec<usize> },
     /// A node that reads stored results as textures.
     Field { node: usize, outputs: Vec<usize> },
     /// A node whose results are means over rays.
     Rays { node: usize, outputs: Vec<usize> },
-    /// A node that asks a survey of the whole surface.
+    /// A node that reads a survey of the whole surface.
     Survey { node: usize, outputs: Vec<usize> },
-    /// Point nodes in evaluation order, each with the results that are needed.
+    /// Point nodes in evaluation order, each with its needed results.
     Points(Vec<(usize, Vec<usize>)>),
 }
 
@@ -44,7 +44,7 @@ impl Group {
 /// Nodes that read each value, once for each input.
 pub(crate) type Readers = BTreeMap<Value, Vec<usize>>;
 
-/// Who reads what in the wanted part of a graph.
+/// Readers of each value in the wanted part of a graph.
 pub(crate) fn readers(resolved: &Resolved<'_>) -> Readers {
     let mut readers = Readers::new();
     for node in &resolved.order {
@@ -107,10 +107,10 @@ pub(crate) fn groups(
     groups
 }
 
-/// Connected point nodes between which no stored result lies.
+/// Regions of point nodes that are connected without a stored result in between.
 ///
-/// Each node gets the number of stored results that have to be made between it and the end, counted along the longest
-/// way; nodes of one number never wait for each other through a texture, so those that are connected form a region.
+/// Each node gets the largest number of stored results on a path from it to a wanted result. Nodes of the same number
+/// never depend on each other through a texture, so connected ones form a region.
 fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec<(usize, Vec<usize>)>> {
     let is_point: BTreeSet<usize> = points.iter().map(|(node, _)| *node).collect();
     let mut distance: BTreeMap<usize, u32> = BTreeMap::new();
@@ -157,7 +157,7 @@ fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec
         .collect()
 }
 
-/// Cuts a region where it costs or binds more than a kernel may: the longest beginning that fits, then the rest.
+/// Cuts a region that exceeds the limits of a kernel: the longest prefix that fits, then the rest.
 fn cut(
     resolved: &Resolved<'_>,
     readers: &Readers,
@@ -167,11 +167,11 @@ fn cut(
     groups: &mut Vec<Group>,
 ) {
     while !region.is_empty() {
-        let mut kernel = Beginning::new(resolved, readers, wanted);
+        let mut kernel = Prefix::new(resolved, readers, wanted);
         let mut longest = 1;
         for (count, (node, _)) in region.iter().enumerate() {
             kernel.add(*node);
-            // Cost and loads only grow; stores may shrink again once a result's last reader is inside.
+            // Cost and loads only grow; the number of stores shrinks when the last reader of a result joins.
             if kernel.cost > u64::from(limits.cost) || kernel.loads > limits.sampled_textures {
                 break;
             }
@@ -184,23 +184,23 @@ fn cut(
     }
 }
 
-/// The beginning of a region, and what a kernel of it costs and binds.
-struct Beginning<'a, 'k> {
+/// Prefix of a region with the cost and the bindings of its kernel.
+struct Prefix<'a, 'k> {
     resolved: &'a Resolved<'k>,
     readers: &'a Readers,
     wanted: &'a [Value],
     inside: BTreeSet<usize>,
     loaded: BTreeSet<Value>,
-    /// Uses of each result that are not inside yet.
+    /// Readers of each result that are not in the prefix yet.
     outside: BTreeMap<Value, usize>,
     cost: u64,
     loads: usize,
     stores: usize,
 }
 
-impl<'a, 'k> Beginning<'a, 'k> {
+impl<'a, 'k> Prefix<'a, 'k> {
     fn new(resolved: &'a Resolved<'k>, readers: &'a Readers, wanted: &'a [Value]) -> Self {
-        Beginning {
+        Prefix {
             resolved,
             readers,
             wanted,

@@ -18,7 +18,7 @@ pub(crate) fn read_params(params: &[Param], node: &FlatNode, problems: &mut Vec<
 }
 
 impl Planner<'_> {
-    /// What is wrong with the file that a node names.
+    /// Problem of the file that a node names.
     pub(crate) fn file_fault(&self, node: usize) -> Option<Problem> {
         let fault = self.files.get(&node)?.as_ref().err()?;
         Some(Problem::BadFile(fault.clone()))

@@ -1,4 +1,4 @@
-//! A result's key names everything that can change it: there are no dirty flags.
+//! Keys: hashes of everything that can change a result, in place of dirty flags.
 
 use sabi_nodes::kind::Kind;
 
@@ -36,7 +36,7 @@ impl Planner<'_> {
                 }
                 None => {
                     part(&[0]);
-                    for number in ready.knobs.get(index).cloned().flatten().unwrap_or_default() {
+                    for number in ready.knobs.get(index).into_iter().flatten().flatten() {
                         part(&number.to_le_bytes());
                     }
                 }
@@ -49,12 +49,13 @@ impl Planner<'_> {
     pub(crate) fn hash_text(&self, hash: &mut blake3::Hasher, kind: &Kind) {
         part(hash, kind.source.as_bytes());
         for name in std::iter::once("core").chain(kind.libraries.iter().map(String::as_str)) {
+            // Never empty: a kind is refused when a library that it uses is missing.
             part(hash, self.library.libraries().text(name).unwrap_or_default().as_bytes());
         }
     }
 }
 
-/// Adds bytes that cannot be taken for part of what comes before or after.
+/// Adds bytes with their length, so that parts cannot run into each other.
 fn part(hash: &mut blake3::Hasher, bytes: &[u8]) {
     hash.update(&(bytes.len() as u64).to_le_bytes());
     hash.update(bytes);

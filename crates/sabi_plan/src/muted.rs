@@ -1,21 +1,20 @@
-//! Muted nodes pass their first fitting input on, as if they were a piece of wire.
+//! Muted nodes pass on their first fitting input.
 
 use std::collections::BTreeSet;
 
 use sabi_graph::{FlatGraph, FlatRef, PortType};
 
-/// What a node's ports are, as far as muting needs it.
+/// Ports of nodes, as muting needs them.
 pub(crate) trait Ports {
-    /// Type of a result, if there is such a one.
+    /// Type of a result; `None` where the node has no such result.
     fn output(&self, node: usize, port: Option<&str>) -> Option<PortType>;
     /// Names and types of the inputs, in order.
     fn inputs(&self, node: usize) -> Vec<(String, PortType)>;
 }
 
-/// Where a wire really comes from once muted nodes are wires, and the muted nodes that were looked at.
+/// Origin of a wire behind muted nodes, and the muted nodes on the way.
 ///
-/// Of a muted node's inputs of the same type the first one is followed that leads to a node that is not muted. None when
-/// nothing is passed on.
+/// Follows the first input of the same type that leads to a node that is not muted; `None` where no input does.
 pub(crate) fn behind_muted(graph: &FlatGraph, ports: &dyn Ports, from: &FlatRef) -> (Option<FlatRef>, BTreeSet<usize>) {
     let mut muted = BTreeSet::new();
     let mut ways = vec![from.clone()];
@@ -24,7 +23,7 @@ pub(crate) fn behind_muted(graph: &FlatGraph, ports: &dyn Ports, from: &FlatRef)
         if !node.muted {
             return (Some(at), muted);
         }
-        // A node is asked once: whichever of its results is meant, its inputs lead nowhere else.
+        // Each node is visited once: its inputs are the same for all its results.
         let first_time = muted.insert(at.node);
         let Some(ty) = ports.output(at.node, at.port.as_deref()).filter(|_| first_time) else {
             continue;

@@ -1,4 +1,4 @@
-//! Which nodes the targets need, and in which order they are looked at.
+//! Nodes that targets need, in evaluation order.
 
 use sabi_graph::FlatRef;
 
@@ -6,7 +6,7 @@ use crate::muted::behind_muted;
 use crate::request::{Planner, Target};
 
 impl Planner<'_> {
-    /// What a target means: the node itself, or what it passes on while it is muted.
+    /// Origin of a target: the node itself, or behind it while it is muted.
     pub(crate) fn behind(&self, target: &Target) -> Option<FlatRef> {
         let from = FlatRef {
             node: target.node,
@@ -15,8 +15,8 @@ impl Planner<'_> {
         behind_muted(self.graph, self, &from).0
     }
 
-    /// Nodes that the targets need, inputs before readers, by depth first so that chains stay together. Muted nodes on
-    /// the way are among them, so that what is wrong with them is told.
+    /// Nodes that the targets need, inputs before readers, depth first so that chains stay together. Muted nodes on the way
+    /// are included, so that their problems are reported.
     pub(crate) fn evaluation_order(&self, targets: &[Target]) -> Vec<usize> {
         let mut seen = vec![false; self.graph.nodes.len()];
         let mut order = Vec::new();
@@ -25,7 +25,7 @@ impl Planner<'_> {
                 node: target.node,
                 port: target.port.clone(),
             };
-            // An explicit stack: graphs may be deeper than a thread's.
+            // An explicit stack: graphs may be deeper than the stack of a thread.
             let mut stack = Vec::new();
             self.follow(&from, &mut seen, &mut order, &mut stack);
             while let Some((node, inputs_done)) = stack.pop() {
@@ -44,7 +44,7 @@ impl Planner<'_> {
         order
     }
 
-    /// Adds what a wire leads to, and puts muted nodes on the way in the order at once: they need nothing.
+    /// Adds the origin of a wire to `next`, and muted nodes on the way to `order`: they need no other node.
     fn follow(&self, from: &FlatRef, seen: &mut [bool], order: &mut Vec<usize>, next: &mut Vec<(usize, bool)>) {
         let (behind, muted) = behind_muted(self.graph, self, from);
         for node in muted {

@@ -7,16 +7,16 @@ use sabi_nodes::link::{Domain, Format, KernelSpec, Plane, Stored};
 
 use crate::source_values::SourceValues;
 
-/// What is to be done, in order.
+/// Steps that give the wanted results.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
-    /// Textures that results lie in; several results may share one at different times.
+    /// Textures of results; several results may share one at different times.
     pub slots: Vec<Slot>,
     /// Steps in order.
     pub steps: Vec<Step>,
     /// The wanted results, in the order of the targets that could be planned.
     pub results: Vec<PlannedResult>,
-    /// Ids of all nodes that take part, in evaluation order.
+    /// Ids of all planned nodes, in evaluation order.
     pub nodes: Vec<String>,
 }
 
@@ -25,14 +25,14 @@ pub struct Plan {
 pub struct Slot {
     /// Its format.
     pub format: Format,
-    /// How large it is.
+    /// Its size.
     pub room: Room,
 }
 
-/// How large a slot is.
+/// Size of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Room {
-    /// As a level of the atlas; 0 is the finest.
+    /// Size of a level of the atlas; 0 is the finest.
     Level(u32),
     /// The table of a survey.
     Survey,
@@ -43,23 +43,23 @@ pub enum Room {
 /// Index into [`Plan::slots`].
 pub type SlotRef = usize;
 
-/// One step.
+/// A step of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// The engine fills these slots.
+    /// Slots filled by the engine.
     Source(SourceStep),
-    /// A kernel runs over the surface.
+    /// A kernel that runs over the surface.
     Kernel(KernelStep),
-    /// A stored plane is brought to another level.
+    /// A move of a stored plane to another level.
     Move(MoveStep),
-    /// A stored mask is surveyed over the whole surface.
+    /// A survey of a stored mask over the whole surface.
     Survey(SurveyStep),
 }
 
 /// A survey: how much of the surface, by its true area, has which value of a mask.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SurveyStep {
-    /// Id of the node that asks.
+    /// Id of the node that reads the survey.
     pub node: String,
     /// Slot of the mask, on the finest level.
     pub from: SlotRef,
@@ -67,13 +67,13 @@ pub struct SurveyStep {
     pub to: SlotRef,
 }
 
-/// A plane on its way from one level of the atlas to another.
+/// Move of a plane from one level of the atlas to another.
 ///
-/// To a coarser one as the mean of what a texel covers in its chart, to a finer one interpolated in the chart. Ghosts are
-/// filled afterwards. Where the other level has nothing near, all components are 0.
+/// A coarser level gets the mean of what a texel covers in its chart, a finer one is interpolated in the chart. Ghosts are
+/// filled afterwards. Where the other level has no texel near, all components are 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MoveStep {
-    /// Id of the node that reads it there first.
+    /// Id of the first node that reads it on the new level.
     pub node: String,
     /// Slot that is read.
     pub from: SlotRef,
@@ -98,32 +98,32 @@ pub struct SourceStep {
     pub values: SourceValues,
     /// Results that are read: name, planes and slots.
     pub writes: Vec<(String, Vec<(Plane, SlotRef)>)>,
-    /// Names the content of each of `writes`.
+    /// Key of each of `writes`.
     pub keys: Vec<[u8; 32]>,
 }
 
 /// A kernel over all covered tiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KernelStep {
-    /// What the kernel is.
+    /// The kernel.
     pub spec: KernelSpec,
     /// Parameter bytes and knobs, one for each block of the spec.
     pub blocks: Vec<BlockValues>,
     /// Flag words of an interactive kernel; see `sabi_nodes::link`.
     pub flags: [u32; 4],
-    /// Slots of the spec's loads, plane by plane; none where an interactive kernel has nothing to read.
+    /// Slots of the spec's loads, plane by plane; `None` for unbound planes of an interactive kernel.
     pub reads: Vec<Option<SlotRef>>,
-    /// Slots of the spec's stores, plane by plane; none where an interactive kernel has a channel that is not set.
+    /// Slots of the spec's stores, plane by plane; `None` for channels that an interactive kernel does not set.
     pub writes: Vec<Option<SlotRef>>,
     /// Whether ghosts are filled over the links afterwards: true for fields, whose kernels skip them.
     pub fills_ghosts: bool,
-    /// How often it runs, each time reading its own last result.
+    /// Repetition, in which each run reads the result of the one before.
     pub feedback: Option<Feedback>,
-    /// The rays that it is a mean over.
+    /// Rays of a kernel whose results are means over them.
     pub rays: Option<Box<StepRays>>,
-    /// Level of the atlas that it runs on; all that it reads and writes is there.
+    /// Level of the atlas that it runs on and that all its slots are on.
     pub level: u32,
-    /// Ids of the nodes in it, in order; none where it only converts.
+    /// Ids of the nodes in it, in order; empty for a conversion.
     pub nodes: Vec<String>,
     /// Share of the kernel's cost for each of `nodes`; they add up to 1.
     pub shares: Vec<f32>,
@@ -134,22 +134,22 @@ pub struct KernelStep {
 /// The rays of a kernel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepRays {
-    /// For each texel.
+    /// Rays of each texel.
     pub count: u32,
-    /// What is asked of each.
+    /// Question asked of each ray.
     pub finds: Finds,
-    /// Names what the longest of such rays hit, whatever the other parameters say; none where rays hang on inputs.
+    /// Key of the hits of the longest rays, independent of other parameters; `None` where rays depend on inputs.
     pub key: Option<[u8; 32]>,
-    /// What makes them that long.
+    /// Parameter that limits their length.
     pub reach: Option<Reach>,
 }
 
-/// The parameter that says how far rays go.
+/// Parameter that limits the length of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// Where it stands in the bytes of `struct Params`.
+    /// Its offset in the bytes of `struct Params`.
     pub offset: usize,
-    /// The longest that a slider gives, or what it has now if that is longer, working units.
+    /// Largest value of its slider, or its present value if that is larger; working units.
     pub longest: f32,
 }
 
@@ -160,7 +160,7 @@ pub struct Feedback {
     pub times: u32,
     /// Index into [`KernelStep::reads`] of the texture that is replaced by the last result from the second run on.
     pub read: usize,
-    /// Slot that takes turns with the result's own.
+    /// Slot used alternately with the slot of the result.
     pub scratch: SlotRef,
 }
 
@@ -169,22 +169,22 @@ pub struct Feedback {
 pub struct BlockValues {
     /// Bytes of `struct Params`.
     pub params: Vec<u8>,
-    /// Knob values by input, none where an input is no knob.
+    /// Knob values by input; `None` for an input without a knob.
     pub knobs: Vec<Option<Vec<f32>>>,
 }
 
 /// A wanted result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedResult {
-    /// The target as asked.
+    /// The target.
     pub target: crate::Target,
-    /// Where it comes from: node id and result.
+    /// Its origin: node id and result.
     pub from: (String, String),
-    /// How it is stored.
+    /// Its type and channels in storage.
     pub stored: Stored,
-    /// Slots, one a plane.
+    /// Slots, one for each plane.
     pub slots: Vec<SlotRef>,
-    /// Names its content.
+    /// Its key.
     pub key: [u8; 32],
 }
 

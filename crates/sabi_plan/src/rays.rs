@@ -1,4 +1,4 @@
-//! What is known of a kernel's rays before they are shot.
+//! Rays of a kernel: their number, length and key.
 
 use sabi_nodes::kind::{Argument, Kind, ParamValue, Rays};
 
@@ -24,7 +24,7 @@ impl Planner<'_> {
         }
     }
 
-    /// A node's values, with no more rays than a first picture takes.
+    /// A node's values with the number of rays limited for a first picture.
     pub(crate) fn limited(&self, behavior: Behavior<'_>, mut values: Vec<ParamValue>) -> Vec<ParamValue> {
         if let Behavior::Shader(Kind { rays: Some(rays), .. }) = behavior
             && let (Some(most), Some(ParamValue::Unsigned(count))) = (self.most_rays, values.get_mut(rays.count))
@@ -34,11 +34,12 @@ impl Planner<'_> {
         values
     }
 
-    /// How far the rays of a node go at most.
+    /// Length of the longest rays of a node.
     fn reach(&self, index: usize, ready: &ResolvedNode<'_>, kind: &Kind, reach: usize) -> Reach {
         let param = &kind.params[reach];
         let node = &self.graph.nodes[index];
         let now = match ready.values.get(reach) {
+            // Never 0 by default: `@reach` takes a single length.
             Some(ParamValue::Floats(numbers)) => numbers.first().copied().unwrap_or(0.0),
             _ => 0.0,
         };
@@ -50,7 +51,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Names the longest rays: their node's text, the parameters that they hang on, the surface.
+    /// Key of the longest rays: text of the node, parameters that rays depend on, surface.
     fn rays_key(&self, ready: &ResolvedNode<'_>, kind: &Kind, rays: &Rays, reach: Option<Reach>) -> [u8; 32] {
         let mut hash = blake3::Hasher::new_derive_key("sabi rays");
         hash.update(&self.surface_key);
@@ -58,10 +59,11 @@ impl Planner<'_> {
         let own = rays.reads.iter().filter(|param| rays.reach != Some(**param));
         for index in own.chain([&rays.count]) {
             let param = &kind.params[*index];
+            // Never the default: offsets lie inside of `struct Params`.
             let bytes = ready.params.get(param.offset as usize..).unwrap_or_default();
             let size = 4 * param.ty.memory.components();
             hash.update(&(*index as u64).to_le_bytes());
-            hash.update(bytes.get(..size).unwrap_or(bytes));
+            hash.update(bytes.get(..size).unwrap_or(bytes)); // Never shorter.
         }
         if let Some(reach) = reach {
             hash.update(&reach.longest.to_le_bytes());

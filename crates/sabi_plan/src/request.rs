@@ -1,4 +1,4 @@
-//! What the planner is told.
+//! Input of the planner.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -7,7 +7,7 @@ use sabi_graph::{Fit, FlatGraph, PortType};
 use sabi_nodes::Library;
 use sabi_nodes::kind::{Channel, Param};
 
-/// A node kind whose results the engine makes without a kernel, given to the planner as data.
+/// A kind whose results are made by the engine instead of a kernel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceKind {
     /// Identifier as in graph files.
@@ -18,11 +18,11 @@ pub struct SourceKind {
     pub summary: String,
     /// Other words an artist may search for.
     pub aliases: Vec<String>,
-    /// Parameters; what fills the source receives them as [`crate::SourceValues`].
+    /// Parameters, which the engine receives as [`crate::SourceValues`].
     pub params: Vec<Param>,
-    /// What may be connected; only sinks have inputs.
+    /// Inputs; only sinks have any.
     pub inputs: Vec<SourcePort>,
-    /// What it gives.
+    /// Outputs.
     pub outputs: Vec<SourcePort>,
     /// Hash of the content behind all nodes of the kind (the model's textures), which every key below them contains.
     pub content: [u8; 32],
@@ -33,16 +33,16 @@ pub struct SourceKind {
 pub struct SourcePort {
     /// Name of the port.
     pub name: String,
-    /// What it carries.
+    /// Its port type.
     pub ty: PortType,
-    /// What it is for.
+    /// Description for artists.
     pub doc: String,
     /// For a material result: the channels that it sets.
     pub channels: Vec<Channel>,
 }
 
 impl SourcePort {
-    /// A port that carries no material.
+    /// A port of any type but material.
     pub fn new(name: &str, ty: PortType, doc: &str) -> SourcePort {
         SourcePort::material(name, ty, doc, &[])
     }
@@ -58,36 +58,36 @@ impl SourcePort {
     }
 }
 
-/// A result that is wanted.
+/// A wanted result.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Target {
     /// Index into [`FlatGraph::nodes`].
     pub node: usize,
-    /// Name of the result; the first one if none. For a sink it names the input whose value is wanted.
+    /// Name of the result; `None` for the first one. For a sink, the name of the input whose value is wanted.
     pub port: Option<String>,
 }
 
-/// How passes are cut.
+/// Way to cut a graph into passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// One pass a node and pipelines that survive rewiring; every result keeps a slot of its own.
+    /// One pass for each node, with pipelines that survive rewiring; every result has its own slot.
     Interactive,
-    /// Results live only until their last reader has run; with `fuse`, regions of point nodes are one pass.
+    /// Results live until their last reader has run; with `fuse`, regions of point nodes share a pass.
     Bake {
         /// Whether to fuse.
         fuse: bool,
     },
 }
 
-/// What the adapter can bind, and how much goes into one kernel.
+/// Limits of a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Textures a pass may read, those of the surface not counted.
+    /// Textures that a pass may read, without those of the surface.
     pub sampled_textures: usize,
-    /// Textures a pass may write.
+    /// Textures that a pass may write.
     pub storage_textures: usize,
-    /// naga expressions a fused kernel may hold: about sixteen noises of eight octaves, since compile time grows
-    /// faster than the kernel.
+    /// naga expressions of a fused kernel: those of about sixteen noises of eight octaves, since compile time grows faster
+    /// than the kernel.
     pub cost: u32,
 }
 
@@ -101,7 +101,7 @@ impl Default for Limits {
     }
 }
 
-/// What the model decides about lengths: plain functions, so that the planner needs no model.
+/// Lengths of the model as functions, so that the planner needs no model.
 #[derive(Clone, Copy)]
 pub struct Lengths<'a> {
     /// Factor from lengths written under a fit to working units, in which the fitted model lives.
@@ -110,21 +110,20 @@ pub struct Lengths<'a> {
     pub extent: &'a dyn Fn([f32; 3]) -> [f32; 2],
 }
 
-/// Kinds that only take: `output/material` and `output/mask`.
+/// Kinds without outputs: `output/material` and `output/mask`.
 pub type Sinks = BTreeMap<String, SourceKind>;
 
-/// What is in the files that nodes name, by node: a hash of it, or why it cannot be had. A node that is not here has no
-/// file that matters.
+/// Hashes of the files that nodes name, or their faults, by node. Other nodes name no file.
 pub type FileContents = BTreeMap<usize, Result<[u8; 32], FileFault>>;
 
-/// Why what a node's file holds cannot be had.
+/// Fault of a file that a node names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileFault {
     /// The parameter that names the file.
     pub param: String,
-    /// The file, what is wrong with it and what to do, as a sentence without its point.
+    /// The file, its fault and advice, as a sentence without a full stop.
     pub why: String,
-    /// Whether it is not there at all.
+    /// Whether the file does not exist.
     pub is_missing: bool,
 }
 
@@ -134,7 +133,7 @@ impl fmt::Display for FileFault {
     }
 }
 
-/// Everything a plan depends on besides the targets.
+/// Everything that a plan depends on besides the targets.
 pub struct Planner<'a> {
     /// The flat graph.
     pub graph: &'a FlatGraph,
@@ -142,20 +141,20 @@ pub struct Planner<'a> {
     pub library: &'a Library,
     /// Kinds made by the engine, by id.
     pub sources: &'a BTreeMap<String, SourceKind>,
-    /// Kinds that only take, by id.
+    /// Kinds without outputs, by id.
     pub sinks: &'a Sinks,
-    /// What is in the files that nodes name.
+    /// Hashes of the files that nodes name.
     pub files: &'a FileContents,
     /// Lengths of the model.
     pub lengths: Lengths<'a>,
     /// Texel width of each level of the atlas that may be used, working units, finest first; at least one.
     pub levels: &'a [f64],
-    /// Names the surface (model, size, fit): part of every key.
+    /// Key of the surface (model, size, fit), which is part of every key.
     pub surface_key: [u8; 32],
-    /// How to cut.
+    /// Way to cut the graph into passes.
     pub mode: Mode,
-    /// For a first picture, which is grainy and quick: no place shoots more rays than this. None for all of them.
+    /// Most rays of a texel, for a quick and noisy first picture; `None` for no limit.
     pub most_rays: Option<u32>,
-    /// What the adapter allows.
+    /// Limits of the adapter.
     pub limits: Limits,
 }

@@ -1,4 +1,4 @@
-//! Nodes meet their kinds: types are checked, values read, keys made.
+//! Resolves nodes to their kinds: checks types, reads values and makes keys.
 
 use sabi_graph::{FlatNode, FlatRef, PortType, nearest};
 use sabi_nodes::kind::{Channel, Input, InputDefault, Kind, Param, ParamValue, Reads};
@@ -12,42 +12,42 @@ use crate::request::{Planner, SourceKind, SourcePort, Target};
 use crate::source_values::SourceValues;
 use crate::values::{Packing, pack_params};
 
-/// Version of all kinds that the engine makes itself.
+/// Version of all kinds of the engine.
 const OWN_VERSION: u32 = 1;
 
-/// How a node is evaluated.
+/// Way to evaluate a node.
 #[derive(Clone, Copy, Debug)]
 pub enum Behavior<'a> {
     /// By a kernel.
     Shader(&'a Kind),
     /// By the engine.
     Source(&'a SourceKind),
-    /// Not at all: it only takes.
+    /// Not at all: the kind has no outputs.
     Sink(&'a SourceKind),
 }
 
-/// A node whose ports and values are known to be right.
+/// A node whose ports and values were checked.
 #[derive(Clone, Debug)]
 pub struct ResolvedNode<'a> {
-    /// How it is evaluated.
+    /// Way to evaluate it.
     pub behavior: Behavior<'a>,
-    /// One for each input of the kind; none where nothing is connected.
+    /// One for each input of the kind; `None` where nothing is connected.
     pub inputs: Vec<Option<ResolvedInput>>,
     /// Values of the parameters in artist's units.
     pub values: Vec<ParamValue>,
     /// Bytes of `struct Params`; empty for sources and sinks.
     pub params: Vec<u8>,
-    /// What a source or sink receives; empty for shaders.
+    /// Values for a source or sink; empty for shaders.
     pub source_values: SourceValues,
     /// Knob values by input.
     pub knobs: Vec<Option<Vec<f32>>>,
     /// For each output the channels that a material result sets.
     pub channels: Vec<Vec<Channel>>,
-    /// Names the content of all results.
+    /// Key of all results.
     pub key: [u8; 32],
 }
 
-/// Where an input's value comes from.
+/// Origin of an input's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResolvedInput {
     /// Index of the node in the flat graph.
@@ -65,11 +65,11 @@ pub struct ResolvedInput {
 /// The wanted part of a graph.
 #[derive(Debug, Default)]
 pub struct Resolved<'a> {
-    /// By index in the flat graph; none when not wanted, or not possible.
+    /// By index in the flat graph; `None` for nodes that are not wanted, or have a problem.
     pub nodes: Vec<Option<ResolvedNode<'a>>>,
     /// Indices of the resolved nodes, inputs first, chains kept together.
     pub order: Vec<usize>,
-    /// Everything that is wrong in the wanted part, in evaluation order.
+    /// Problems of the wanted part, in evaluation order.
     pub errors: Vec<PlanError>,
 }
 
@@ -136,7 +136,7 @@ impl<'a> Planner<'a> {
         Ok(Behavior::Shader(kind))
     }
 
-    /// `Ok(None)` when a node above is at fault: this one only waits.
+    /// Resolves a node; `Ok(None)` where a node that it depends on has a problem.
     fn resolve_node(&self, index: usize, resolved: &Resolved<'a>) -> Result<Option<ResolvedNode<'a>>, Vec<PlanError>> {
         let node = &self.graph.nodes[index];
         let at_fault = |problem| PlanError {
@@ -215,7 +215,7 @@ impl<'a> Planner<'a> {
     fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<Wire, Problem> {
         let wire = node.inputs.get(port.name);
         let behind = wire.and_then(|from| match self.find_output(from) {
-            // A result that is not there is told even where the node is muted.
+            // A missing result is reported even if the node is muted.
             None => Some(from.clone()),
             Some(_) => behind_muted(self.graph, self, from).0,
         });
@@ -292,7 +292,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Parameters that the kind does not have: kept in the file, without effect.
+    /// Problems of parameters that the kind does not have: they stay in the file without effect.
     fn unknown_params(&self, index: usize) -> Vec<PlanError> {
         let node = &self.graph.nodes[index];
         let Ok(behavior) = self.behavior(node) else {

@@ -1,4 +1,4 @@
-//! Groups become steps, in an order that keeps few results alive.
+//! Orders groups of nodes as steps, such that few results are alive at a time.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use sabi_graph::PortType;
 use sabi_nodes::kind::{Channel, Kind};
 use sabi_nodes::link::{Binding, Domain, INPUTS_A_WORD, Operand, Stored};
 
-use crate::draft::{Draft, Kept, KernelDraft};
+use crate::draft::{Draft, KernelDraft, Resident};
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Readers, Value};
 use crate::keys::result_key;
@@ -15,7 +15,7 @@ use crate::request::{Mode, Planner, Target};
 use crate::resolve::{Behavior, Resolved, ResolvedNode};
 
 impl Planner<'_> {
-    /// Plans what the targets need. What is at fault, and what waits for it, is left out and reported.
+    /// Plans what the targets need, without nodes that have problems and nodes that depend on them. Gives the problems, too.
     pub fn plan(&self, targets: &[Target]) -> (Plan, Vec<PlanError>) {
         let mut resolved = self.resolve(targets);
         let mut errors = std::mem::take(&mut resolved.errors);
@@ -45,7 +45,7 @@ impl Planner<'_> {
         (builder.assign_slots(drafts, wanted), errors)
     }
 
-    /// The result that a target means; none when it waits for a fault, or is muted and passes nothing on.
+    /// Result of a target; `None` where it depends on a node with a problem, or is muted and passes nothing on.
     fn wanted_value(&self, resolved: &Resolved<'_>, target: &Target) -> Result<Option<Value>, Box<PlanError>> {
         let node = &self.graph.nodes[target.node];
         let Ok(behavior) = self.behavior(node) else {
@@ -84,7 +84,7 @@ impl Planner<'_> {
     }
 }
 
-/// What several nodes read on one level is moved there once.
+/// Removes moves of the same plane to the same level but the first.
 fn keep_first_moves(drafts: &mut Vec<Draft>) {
     let mut moved = BTreeSet::new();
     drafts.retain(|draft| match draft.step {
@@ -119,7 +119,7 @@ impl Builder<'_, '_> {
         self.planner.graph.nodes[node].id.clone()
     }
 
-    /// Groups that the wanted values need, by depth first from them, so that few results wait.
+    /// Groups that the wanted values need, depth first, so that few results are alive at a time.
     fn order(&self, groups: &[Group], wanted: &[Value]) -> Vec<usize> {
         let mut seen = BTreeSet::new();
         let mut order = Vec::new();
@@ -179,7 +179,7 @@ impl Builder<'_, '_> {
             writes.extend(
                 planes
                     .into_iter()
-                    .map(|plane| Some((Kept::result((node, *output)), plane))),
+                    .map(|plane| Some((Resident::result((node, *output)), plane))),
             );
         }
         let step = SourceStep {
@@ -198,7 +198,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// A region of point nodes as one kernel.
+    /// Drafts a region of point nodes as one kernel.
     fn points(&self, members: &[(usize, Vec<usize>)], wanted: &[Value]) -> Draft {
         let group = self.producer[&(members[0].0, members[0].1[0])];
         let mut kernel = KernelDraft::new(self, Domain::AllTexels);
@@ -232,7 +232,7 @@ impl Builder<'_, '_> {
         readers.flat_map(groups).any(|(_, producer)| *producer != group)
     }
 
-    /// One result of one point node, as a kernel that stays the same however the node is wired.
+    /// Drafts a result of a point node as a kernel that does not depend on the wires of the node.
     fn single(&self, node: usize, output: usize) -> Draft {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("points are shaders")
@@ -253,12 +253,7 @@ impl Builder<'_, '_> {
             ));
             if let Some(input) = input {
                 flags[0] |= mode_bits(input.ty, port.ty) << (2 * index);
-                let present = self
-                    .node(input.node)
-                    .channels
-                    .get(input.output)
-                    .cloned()
-                    .unwrap_or_default();
+                let present = &self.node(input.node).channels[input.output];
                 let bits = present.iter().fold(0, |bits, channel| bits | 1 << (*channel as u32));
                 flags[1 + index / INPUTS_A_WORD] |= bits << (5 * (index % INPUTS_A_WORD));
             }
@@ -269,7 +264,7 @@ impl Builder<'_, '_> {
         kernel.finish()
     }
 
-    /// All results of a node that shoots rays, from the same rays.
+    /// Drafts all results of a node that shoots rays, from the same rays.
     fn rays(&self, node: usize, outputs: &[usize]) -> Draft {
         let ready = self.node(node);
         let mut kernel = KernelDraft::new(self, Domain::OwnedTexelsByRays);

@@ -1,4 +1,4 @@
-//! Seeds of the document, of groups and of nodes become one number.
+//! Effective seeds: seeds of the document, the groups and the node in one number.
 
 /// One round of PCG as a hash of a 32-bit number (PCG-RXS-M-XS-32; Jarzynski and Olano 2020, JCGT 9(3)).
 pub fn pcg(value: u32) -> u32 {
@@ -19,7 +19,7 @@ mod tests {
 
     #[test]
     fn the_hash_never_changes() {
-        // Worked out apart from this code, with whole numbers of any size.
+        // Computed independently of this code.
         assert_eq!([pcg(0), pcg(1), pcg(2)], [129_708_002, 2_831_084_092, 2_055_130_248]);
     }
 

@@ -1,4 +1,4 @@
-//! Stored results share textures: a slot is free again once its last reader has run.
+//! Pool of slots, which stored results share one after the other.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use sabi_nodes::link::Format;
 
 use crate::plan::{Room, Slot, SlotRef};
 
-/// Hands out slots by format.
+/// Free and used slots by format.
 #[derive(Debug, Default)]
 pub(crate) struct SlotPool {
     slots: Vec<Slot>,
@@ -14,7 +14,7 @@ pub(crate) struct SlotPool {
 }
 
 impl SlotPool {
-    /// A slot of that format and size: the one freed last, or a new one.
+    /// Takes a slot of that format and size: the one freed last, or a new one.
     pub(crate) fn take(&mut self, format: Format, room: Room) -> SlotRef {
         if let Some(slot) = self.free.get_mut(&(format, room)).and_then(Vec::pop) {
             return slot;
@@ -23,7 +23,7 @@ impl SlotPool {
         self.slots.len() - 1
     }
 
-    /// Gives a slot back.
+    /// Frees a slot.
     pub(crate) fn release(&mut self, slot: SlotRef) {
         let Slot { format, room } = self.slots[slot];
         self.free.entry((format, room)).or_default().push(slot);

@@ -1,4 +1,4 @@
-//! What a source that is Rust receives for its parameters, in the units that WGSL would.
+//! Parameter values of sources, in the units that WGSL receives.
 
 use std::collections::BTreeMap;
 
@@ -30,7 +30,7 @@ impl SourceValues {
         SourceValues(named.collect())
     }
 
-    /// Names every value exactly.
+    /// Bytes of all values and their names, for keys.
     pub(crate) fn key_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         for (name, value) in &self.0 {
@@ -48,20 +48,21 @@ impl SourceValues {
         bytes
     }
 
-    /// A number, length or angle; 0 for a name that is none.
+    /// A number, length or angle; 0 for any other name.
     pub fn number(&self, name: &str) -> f32 {
         self.numbers::<1>(name)[0]
     }
 
-    /// Several numbers; zeros for a name that does not have so many.
+    /// Several numbers; zeros for a name with another number of them.
     pub fn numbers<const N: usize>(&self, name: &str) -> [f32; N] {
         match self.0.get(name) {
+            // Sources name their own parameters, so that the default is never taken.
             Some(ParamValue::Floats(numbers)) => numbers.as_slice().try_into().unwrap_or([0.0; N]),
             _ => [0.0; N],
         }
     }
 
-    /// The index of the chosen word, or a whole number; 0 for a name that is neither.
+    /// Index of the chosen word, or a whole number; 0 for any other name.
     pub fn index(&self, name: &str) -> usize {
         match self.0.get(name) {
             Some(ParamValue::Unsigned(index)) => *index as usize,
@@ -74,7 +75,7 @@ impl SourceValues {
         self.index(name) != 0
     }
 
-    /// A text or a path as it was written; empty for a name that is neither.
+    /// A text or a path as it was written; empty for any other name.
     pub fn text(&self, name: &str) -> &str {
         match self.0.get(name) {
             Some(ParamValue::Text(text)) => text,

@@ -1,16 +1,16 @@
-//! Nodes that ask a survey: a table of the surveyed mask, what the passes find in it once, and the results.
+//! Steps of nodes that read a survey: the table, the passes that read it once, and the results.
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Argument, Kind};
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, Stored};
 
-use crate::draft::{Draft, Kept, KernelDraft, What};
+use crate::draft::{Content, Draft, KernelDraft, Resident};
 use crate::plan::{Step, SurveyStep};
 use crate::resolve::Behavior;
 use crate::schedule::Builder;
 
 impl Builder<'_, '_> {
-    /// The survey, the passes of the node, each a kernel that runs once, and all results in one kernel.
+    /// Drafts the survey, the passes of the node as kernels that run once, and all results in one kernel.
     pub(crate) fn survey(&self, node: usize, outputs: &[usize]) -> Vec<Draft> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("surveys are shaders")
@@ -28,7 +28,7 @@ impl Builder<'_, '_> {
             let arguments = &kind.outputs[*output].arguments;
             let passes = kind.passes.iter().enumerate().map(|(pass, found)| {
                 let is_taken = arguments.contains(&Argument::Pass(pass));
-                is_taken.then(|| kernel.load_kept(What::Found(node, pass), found.function.ty))
+                is_taken.then(|| kernel.load_resident(Content::Found(node, pass), found.function.ty))
             });
             let passes = passes.collect();
             let call = kernel.call(node, *output, inputs, block);
@@ -39,39 +39,41 @@ impl Builder<'_, '_> {
         drafts
     }
 
-    /// The table of the surveyed input.
+    /// Drafts the table of the surveyed input.
     fn table(&self, node: usize, kind: &Kind) -> Vec<Draft> {
-        let index = kind.surveyed.unwrap_or_default();
-        let Some(input) = self.node(node).inputs.get(index).copied().flatten() else {
-            unreachable!("what is surveyed is connected")
+        let surveyed = kind
+            .surveyed
+            .and_then(|index| Some((index, (*self.node(node).inputs.get(index)?)?)));
+        let Some((index, input)) = surveyed else {
+            unreachable!("the surveyed input is required")
         };
         let mut drafts = Vec::new();
-        let mut kept = Kept::result((input.node, input.output));
+        let mut resident = Resident::result((input.node, input.output));
         if input.convert != Convert::None {
             let (draft, converted) = self.conversion(node, index, input);
-            kept = converted;
+            resident = converted;
             drafts.push(draft);
         }
-        let what = What::Survey(node);
+        let content = Content::Survey(node);
         drafts.push(Draft {
             step: Step::Survey(SurveyStep {
                 node: self.id(node),
                 from: 0,
                 to: 0,
             }),
-            reads: vec![Some((kept, Plane::Mask))],
-            writes: vec![Some((Kept { what, level: 0 }, Plane::Vector))],
+            reads: vec![Some((resident, Plane::Mask))],
+            writes: vec![Some((Resident { content, level: 0 }, Plane::Vector))],
             scratch: None,
         });
         drafts
     }
 
-    /// What one pass finds in the table.
+    /// Drafts a pass, which reads the table once.
     fn found(&self, node: usize, kind: &Kind, pass: usize) -> Draft {
         let function = &kind.passes[pass].function;
         let mut kernel = KernelDraft::new(self, Domain::Once);
         let block = kernel.block(node);
-        let survey = kernel.load_kept(What::Survey(node), PortType::Vector);
+        let survey = kernel.load_resident(Content::Survey(node), PortType::Vector);
         kernel.spec.calls.push(Call {
             kind: kind.id.clone(),
             function: function.name.clone(),
@@ -80,12 +82,12 @@ impl Builder<'_, '_> {
             survey: Some(survey),
             block,
         });
-        let what = What::Found(node, pass);
+        let content = Content::Found(node, pass);
         let stored = Stored {
             ty: function.ty,
             channels: Vec::new(),
         };
-        kernel.store_kept(Operand::Call(0, Convert::None), Kept { what, level: 0 }, stored);
+        kernel.store_resident(Operand::Call(0, Convert::None), Resident { content, level: 0 }, stored);
         kernel.finish()
     }
 }

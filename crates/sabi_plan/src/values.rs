@@ -2,7 +2,7 @@
 
 use sabi_nodes::kind::{Kind, ParamValue, Role};
 
-/// What the bytes of a node depend on besides its own values.
+/// Everything that the bytes of a node depend on besides its values.
 pub struct Packing<'a> {
     /// Seeds of the document and the groups around, outermost first.
     pub(crate) seeds: &'a [u32],
@@ -58,7 +58,7 @@ pub fn pack_params(kind: &Kind, values: &[ParamValue], packing: &Packing<'_>) ->
     bytes
 }
 
-/// The value of a direction parameter, unit length; straight up when it has no length.
+/// Value of a direction parameter with unit length; straight up for a zero vector.
 fn direction(kind: &Kind, values: &[ParamValue], name: &str) -> [f32; 3] {
     let value = kind.params.iter().zip(values).find(|(param, _)| param.name == name);
     if let Some((_, ParamValue::Floats(numbers))) = value

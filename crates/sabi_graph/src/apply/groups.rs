@@ -61,7 +61,7 @@ impl Document {
             .collect()
     }
 
-    /// The group's own instances of itself, which no evaluation takes, follow as well: what was there stays there.
+    /// Renames instances of the group within itself, too: flattening refuses them, but editing keeps them.
     pub(super) fn rename_group(
         &mut self,
         name: String,
@@ -72,7 +72,7 @@ impl Document {
         if !self.groups.contains_key(&name) {
             return Err(missing("group", &name, self.groups.keys()));
         }
-        // Instances of a file of that name would be taken for those of the group, and not be told apart on the way back.
+        // Instances of a file with that name would become instances of the group, and the inverse could not tell them apart.
         if to != name && (self.groups.contains_key(&to) || !self.instances_of(&to).is_empty()) {
             return Err(EditError::GroupExists { name: shown(&to) });
         }

@@ -1,9 +1,9 @@
-//! Edits that leave everything as it is.
+//! Edits without effect.
 
 use crate::{Document, Edit};
 
 impl Document {
-    /// Whether making an edit would leave every byte as it is; never so for one that would be refused.
+    /// Whether an edit would leave the document unchanged; `false` for an edit that would be refused.
     pub fn is_as_after(&self, edit: &Edit) -> bool {
         match edit {
             Edit::Batch(edits) => edits.iter().all(|edit| self.is_as_after(edit)),
@@ -54,7 +54,7 @@ impl Document {
                 param,
                 value,
             } => node(body, id).is_some_and(|node| match value {
-                // One that no file can hold has no canonical form, and is refused.
+                // A value without a canonical form is refused.
                 Some(value) => match (value.clone().canonical(), node.params.get(param)) {
                     (Some(new), Some(old)) => new == *old,
                     _ => false,

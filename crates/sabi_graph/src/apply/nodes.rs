@@ -28,11 +28,11 @@ impl Document {
         let inputs = std::mem::take(&mut node.inputs);
         let graph = self.body_mut(&body)?;
         graph.insert(id.clone(), node)?;
-        // Nothing reads the new node, so its links close no circle.
+        // No node reads the new one, so its links cannot close a circle.
         for (input, from) in inputs {
             graph.link(&id, &input, from)?;
         }
-        // A frame may have named the node before it came (or came back from another branch), and shall afterwards.
+        // A frame may name the node already, as after a merge of two branches; removing the node must not change that.
         let naming = graph.frames().iter().filter(|(_, frame)| frame.nodes.contains(&id));
         let frames: Vec<Edit> = naming
             .map(|(frame_id, frame)| Edit::AddFrame {
@@ -48,7 +48,7 @@ impl Document {
         })
     }
 
-    /// Takes away what hangs on the node by edits of its own, then the bare node; the inverse goes the same way back.
+    /// Removes everything that refers to the node by edits of their own, then the node; the inverse does the reverse.
     pub(super) fn remove_node(&mut self, body: Body, id: NodeId) -> Result<Edit, EditError> {
         self.body(&body)?.find(id.as_str())?;
         let clearing = self.edits_that_free(&body, &id)?;
@@ -60,7 +60,7 @@ impl Document {
         Ok(Edit::Batch(inverse))
     }
 
-    /// Edits after which nothing names the node any more.
+    /// Edits that remove all references to the node.
     fn edits_that_free(&self, body: &Body, id: &NodeId) -> Result<Vec<Edit>, EditError> {
         let graph = self.body(body)?;
         let (inputs, outputs) = self.ports(body)?;
@@ -87,7 +87,7 @@ impl Document {
             knob.to.retain(|slot| slot.node != *id);
             if knob.to.len() < before {
                 let (body, name) = (body.clone(), name.clone());
-                // A knob that turns nothing has no place on the panel.
+                // A knob that sets nothing is removed from the panel.
                 edits.push(match knob.to.is_empty() {
                     true => Edit::Unexpose { body, name },
                     false => Edit::Expose { body, name, knob },

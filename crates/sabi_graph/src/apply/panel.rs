@@ -1,4 +1,4 @@
-//! Edits of what is published: knobs, variants, ports; and of frames.
+//! Edits of published knobs, variants and ports, and of frames.
 
 use std::collections::BTreeMap;
 
@@ -60,7 +60,7 @@ impl Document {
         })
     }
 
-    /// Variants lose the knob first, so that each of them still sets only what is exposed.
+    /// Removes the knob from the variants first, so that each of them sets published knobs only.
     pub(super) fn unexpose(&mut self, body: Body, name: String) -> Result<Edit, EditError> {
         let graph = self.body_mut(&body)?;
         let Some(knob) = graph.exposed.remove(&name) else {

@@ -1,4 +1,4 @@
-//! Every graph that takes part: the document, its groups in use, and the group files they name.
+//! Graphs that a document uses: its own, its groups that have instances, and group files.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use crate::{GROUP_KIND, Graph, NodeId, OutputRef};
 /// Reads a group file by its path relative to the document.
 pub(super) type ReadFile<'a> = &'a mut dyn FnMut(&str) -> Result<Document, String>;
 
-/// Group files beyond this are refused; a folder that is linked into itself has no end.
+/// Most group files. The limit ends recursion through folders that are linked into themselves.
 const FILE_LIMIT: usize = 1000;
 
-/// Which graph: a file (0 is the document), and a group in it or its main graph.
+/// Address of a graph: a file (0 is the document), and a group in it or its main graph.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Address {
     file: usize,
@@ -24,7 +24,7 @@ struct Address {
 /// The graphs in use; number 0 is the document's own.
 pub(super) struct Definitions<'a> {
     document: &'a Document,
-    /// The document's fit, or what takes its place.
+    /// Fit of the document, or the override.
     fit: Fit,
     /// Group files with their paths; file `n` of an address is number `n - 1` here.
     files: Vec<(String, Document)>,
@@ -38,9 +38,9 @@ pub(super) struct Definition<'a> {
     pub(super) graph: &'a Graph,
     pub(super) inputs: &'a BTreeMap<String, GroupInput>,
     pub(super) outputs: &'a BTreeMap<String, OutputRef>,
-    /// The fit its lengths were made for.
+    /// Fit of its lengths.
     pub(super) fit: Fit,
-    /// The group file it was written in; `None` for the document.
+    /// Group file that defines it; `None` for the document.
     pub(super) file: Option<&'a str>,
 }
 
@@ -99,7 +99,7 @@ impl<'a> Definitions<'a> {
         }
     }
 
-    /// How many graphs there are.
+    /// Number of graphs.
     pub(super) fn len(&self) -> usize {
         self.addresses.len()
     }
@@ -188,7 +188,7 @@ impl<'a> Definitions<'a> {
         let Err(mut circle) = crate::order::topological(&names, uses) else {
             return Ok(());
         };
-        // From the outside in: each holds an instance of the next.
+        // From the outermost group inward: each contains an instance of the next.
         circle[1..].reverse();
         let mut chain: Vec<&str> = circle.iter().map(|&number| names[number].as_str()).collect();
         chain.push(chain[0]);
@@ -198,7 +198,7 @@ impl<'a> Definitions<'a> {
     }
 }
 
-/// A path that stands in `file`, seen from where `file` itself is seen from; absolute paths stay.
+/// Resolves a path written in `file` against the folder of `file`; absolute paths stay.
 fn beside(file: &str, path: &str) -> String {
     let path = path.replace('\\', "/");
     let has_drive = path.as_bytes().get(1) == Some(&b':');

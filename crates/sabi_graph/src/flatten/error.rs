@@ -5,7 +5,7 @@ use crate::problem::Problem;
 /// Why a document cannot be flattened.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FlattenError {
-    /// The variant asked for is not there.
+    /// The requested variant does not exist.
     #[error("there is no variant {name}{hint}; this graph has {known}")]
     NoSuchVariant {
         /// The name, quoted.
@@ -30,14 +30,14 @@ pub enum FlattenError {
     OutOfRange {
         /// The knob, quoted.
         knob: String,
-        /// The number asked for.
+        /// The given number.
         value: String,
         /// Lower end.
         low: String,
         /// Upper end.
         high: String,
     },
-    /// A knob with a range was given something else than numbers.
+    /// A knob with a range was given a value that is not a number.
     #[error("{knob} takes a number from {low} to {high}, not {value}")]
     NotANumber {
         /// The knob, quoted.
@@ -46,10 +46,10 @@ pub enum FlattenError {
         low: String,
         /// Upper end.
         high: String,
-        /// What it was given.
+        /// The given value.
         value: String,
     },
-    /// An instance of a group that is not there.
+    /// An instance of a group that does not exist.
     #[error("node {instance} is an instance of group {name}, which is not there{hint}")]
     NoSuchGroup {
         /// The instance, quoted.
@@ -75,7 +75,7 @@ pub enum FlattenError {
         /// The reader's sentence.
         why: String,
     },
-    /// Group files without end in sight.
+    /// More group files than the limit.
     #[error("the graph uses more than {limit} group files; look for a folder that leads into itself")]
     TooManyFiles {
         /// The limit.
@@ -87,13 +87,13 @@ pub enum FlattenError {
         /// Groups, each holding the next.
         chain: String,
     },
-    /// Instances inside instances without end in sight.
+    /// Instances nested deeper than the limit.
     #[error("groups stand inside each other more than {limit} deep; use fewer levels")]
     TooDeep {
         /// The limit.
         limit: usize,
     },
-    /// More than anybody could evaluate.
+    /// More nodes or bytes of parameters than the limits.
     #[error(
         "with all groups opened the graph has more than {count} nodes, or 256 MiB of parameters; use fewer instances"
     )]
@@ -101,7 +101,7 @@ pub enum FlattenError {
         /// The limit of nodes.
         count: usize,
     },
-    /// A knob that would hide one that every instance has.
+    /// A published knob with the name of a knob that every instance has.
     #[error("the group of node {instance} exposes a knob {knob:?}, which every group instance has already; rename it")]
     ReservedKnob {
         /// The instance, quoted.
@@ -109,19 +109,19 @@ pub enum FlattenError {
         /// The knob.
         knob: &'static str,
     },
-    /// Seed, Scale or variant of an instance that is none.
+    /// An invalid seed, scale or variant of an instance.
     #[error("the {knob} of group instance {instance} must be {expected}, not {value}")]
     BadInstanceKnob {
         /// The instance, quoted.
         instance: String,
         /// The knob.
         knob: &'static str,
-        /// What belongs there.
+        /// Expected value.
         expected: &'static str,
-        /// What is there.
+        /// Found value.
         value: String,
     },
-    /// Scale knobs whose product no number can hold.
+    /// Scale knobs whose product is zero or not finite.
     #[error(
         "the Scale knobs down to group instance {instance} multiply to nothing or without bounds; bring them nearer to 1"
     )]
@@ -165,7 +165,7 @@ pub enum FlattenError {
         /// All of them, quoted.
         known: String,
     },
-    /// A link from a group that does not say from which of its outputs.
+    /// A link from a group with several outputs that names none of them.
     #[error("a link from group instance {instance} must name one of its outputs as node.output; it has {known}")]
     WhichOutput {
         /// The instance, quoted.
@@ -181,7 +181,7 @@ pub enum FlattenError {
         /// The output, quoted.
         port: String,
     },
-    /// A kind whose version is no number.
+    /// A kind with a version that is not a number.
     #[error("node {node} has the kind {kind}; after the @ stands a version from 1 up, as in \"noise/simplex@2\"")]
     BadVersion {
         /// The node, quoted.

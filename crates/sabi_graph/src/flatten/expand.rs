@@ -1,4 +1,4 @@
-//! Instances and the nodes in them, from the outside in.
+//! Opens group instances, from the outermost inward.
 
 use std::collections::BTreeMap;
 
@@ -8,11 +8,11 @@ use super::{FlatNode, FlattenError, NodeRef, Overrides};
 use crate::problem::{hint, listed, shown};
 use crate::{GROUP_KIND, Node, NodeId, OutputRef, REROUTE_KIND, Value};
 
-/// Instances inside instances beyond this are refused.
+/// Most instances within one another.
 const DEPTH_LIMIT: usize = 256;
-/// Nodes and instances beyond this are refused.
+/// Most nodes and instances.
 const COUNT_LIMIT: usize = 100_000;
-/// Bytes of ids and parameters beyond this are refused.
+/// Most bytes of ids and parameters.
 const BYTE_LIMIT: usize = 256 << 20;
 
 /// The document (number 0) or a group instance, opened.
@@ -21,7 +21,7 @@ pub(super) struct Instance {
     pub(super) definition: usize,
     /// The instance it stands in, and its node there.
     pub(super) parent: Option<(usize, NodeId)>,
-    /// What comes before the ids in it: empty, or `outer/inner/`.
+    /// Prefix of the ids in it: empty, or `outer/inner/`.
     pub(super) prefix: String,
     depth: usize,
     seeds: Vec<u32>,
@@ -30,12 +30,12 @@ pub(super) struct Instance {
     settings: Settings,
 }
 
-/// What became of a node.
+/// Result of expanding a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Spot {
-    /// The real node of that number.
+    /// A node of the flat graph, by its number.
     Real(usize),
-    /// The instance of that number.
+    /// A group instance, by its number.
     Opened(usize),
     /// A reroute.
     Wire,
@@ -45,9 +45,9 @@ pub(super) enum Spot {
 #[derive(Default)]
 pub(super) struct Expansion {
     pub(super) instances: Vec<Instance>,
-    /// Real nodes without their links, in no particular order.
+    /// Nodes of the flat graph without their links, in no particular order.
     pub(super) nodes: Vec<FlatNode>,
-    /// Where each real node comes from.
+    /// Instance and id of each node of the flat graph.
     pub(super) origins: Vec<(usize, NodeId)>,
     /// By instance and id.
     pub(super) spots: BTreeMap<usize, BTreeMap<NodeId, Spot>>,
@@ -75,7 +75,7 @@ pub(super) fn expand(all: &Definitions<'_>, seed: u32, overrides: &Overrides) ->
 }
 
 impl Expansion {
-    /// The instance that a node stands in, and its result there; none where there is no such node.
+    /// The instance that contains a node, and its result there; `None` where the node does not exist.
     pub(super) fn place(&self, all: &Definitions<'_>, wanted: &NodeRef) -> Option<(usize, OutputRef)> {
         let (prefix, id) = match wanted.node.rfind('/') {
             Some(at) => wanted.node.split_at(at + 1),
@@ -84,7 +84,7 @@ impl Expansion {
         let instance = self.instances.iter().position(|instance| instance.prefix == prefix)?;
         let (id, spot) = self.spots.get(&instance)?.get_key_value(id)?;
         let port = match spot {
-            // A link has to say which, but who looks at an instance sees its first output.
+            // A link from an instance has to name an output; a preview of it shows the first one.
             Spot::Opened(inner) if wanted.port.is_none() => all
                 .get(self.instances[*inner].definition)
                 .outputs
@@ -122,10 +122,10 @@ impl Expansion {
         Ok(())
     }
 
-    /// Groups of groups grow by powers; this keeps a small file from filling the memory.
+    /// Counts towards the limits: nested groups grow exponentially, and a small file must not fill the memory.
     fn charge(&mut self, path: &str, params: &BTreeMap<String, Value>) -> Result<(), FlattenError> {
         let values: usize = params.iter().map(|(name, value)| name.len() + weight(value)).sum();
-        // Every entry costs something beside its texts.
+        // Each node has a fixed cost besides its texts.
         self.bytes += 256 + path.len() + values;
         if self.bytes > BYTE_LIMIT || self.instances.len() + self.nodes.len() >= COUNT_LIMIT {
             return Err(FlattenError::TooLarge { count: COUNT_LIMIT });
@@ -157,7 +157,7 @@ impl Expansion {
             return Err(FlattenError::ScaleOverflow { instance: shown(&path) });
         }
         let mut seeds = outer.seeds.clone();
-        // Without a seed of its own an instance gives what its nodes would give outside of it.
+        // An instance with seed 0 gives the same results as its nodes outside of a group.
         if knobs.seed != 0 {
             seeds.push(knobs.seed);
         }
@@ -204,7 +204,7 @@ impl Expansion {
     }
 }
 
-/// An instance or reroute has no inputs but these.
+/// Refuses links into inputs that an instance or reroute does not have.
 fn check_inputs<'a>(path: &str, node: &Node, known: impl IntoIterator<Item = &'a str>) -> Result<(), FlattenError> {
     let known: Vec<&str> = known.into_iter().collect();
     match node.inputs.keys().find(|input| !known.contains(&input.as_str())) {
@@ -232,7 +232,7 @@ fn kind_and_version(path: &str, kind: &str) -> Result<(String, u32), FlattenErro
     }
 }
 
-/// About how many bytes a value takes.
+/// Approximate size of a value in bytes.
 fn weight(value: &Value) -> usize {
     const SELF: usize = 32;
     SELF + match value {

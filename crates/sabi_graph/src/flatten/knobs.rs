@@ -1,4 +1,4 @@
-//! Knobs turned into parameters.
+//! Knobs converted to parameters.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,13 @@ use crate::problem::{Problem, hint, listed, shown};
 use crate::value::number_text;
 use crate::{Graph, SlotRef, Value};
 
-/// Knobs that every group instance has beside those its group exposes, which therefore take other names.
+/// Knobs of every group instance; published knobs of a group must have other names.
 pub const INSTANCE_KNOBS: [&str; 3] = ["scale", "seed", "variant"];
 
 /// Parameters that knobs set, in order: later ones win.
 pub(super) type Settings = Vec<(SlotRef, Value)>;
 
-/// The control panel of one graph being set. `of` says whose it is in messages: nothing, or ` of "instance"`.
+/// Control panel of a graph, with the settings so far. `of` names the graph in messages: empty, or ` of "instance"`.
 pub(super) struct Panel<'a> {
     graph: &'a Graph,
     of: String,
@@ -22,7 +22,7 @@ pub(super) struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    /// All knobs at their defaults, then the variant on top.
+    /// A panel with all knobs at their defaults, and then the variant.
     pub(super) fn new(graph: &'a Graph, of: String, variant: Option<&str>) -> Result<Self, FlattenError> {
         let mut panel = Panel {
             graph,
@@ -51,7 +51,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// What was set, in order.
+    /// Settings in the order in which they were made.
     pub(super) fn into_settings(self) -> Settings {
         self.settings
     }
@@ -106,7 +106,7 @@ impl<'a> Panel<'a> {
     }
 }
 
-/// What the overrides set in the main graph.
+/// Settings of the overrides in the main graph.
 pub(super) fn overridden(graph: &Graph, overrides: &Overrides) -> Result<Settings, FlattenError> {
     let mut panel = Panel::new(graph, String::new(), overrides.variant.as_deref())?;
     for (name, value) in &overrides.set {
@@ -141,7 +141,7 @@ fn no_such_knob(graph: &Graph, name: &str) -> FlattenError {
     }
 }
 
-/// What an instance of a group sets inside it.
+/// Settings that a group instance makes inside its group.
 pub(super) struct InstanceKnobs {
     pub(super) settings: Settings,
     /// 0 when not set.
@@ -200,7 +200,7 @@ pub(super) fn of_instance(
     Ok(InstanceKnobs { settings, seed, scale })
 }
 
-/// A value on one line, cut to a length people read.
+/// A value on one line, shortened for messages.
 fn brief(value: &Value) -> String {
     let text = value.to_json();
     match text.char_indices().nth(80) {

@@ -1,4 +1,4 @@
-//! Links followed through reroutes and the borders of groups to the real nodes they come from.
+//! Follows links through reroutes and the borders of groups to nodes of the flat graph.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub(super) struct Tracer<'a> {
     definitions: Vec<Definition<'a>>,
     /// By number of the definition.
     fed: Vec<Fed<'a>>,
-    /// What was found behind reroutes, by instance and id.
+    /// Origins of reroutes found so far, by instance and id.
     behind: BTreeMap<(usize, &'a NodeId), Option<FlatRef>>,
 }
 
@@ -32,7 +32,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Links of the real node `id` of an instance. An input at whose end nothing is connected is left out.
+    /// Links of the node `id` of an instance, without inputs whose link ends at an unconnected reroute or group input.
     pub(super) fn inputs(
         &mut self,
         instance: usize,
@@ -63,14 +63,14 @@ impl<'a> Tracer<'a> {
         Ok(inputs)
     }
 
-    /// What an input is linked to, and in which instance that is: what feeds it from outside, else its own link.
+    /// Link of an input and the instance it is in: the link from outside of the group, else its own.
     fn link(&self, instance: usize, id: &NodeId, input: &str) -> Option<(usize, &'a OutputRef)> {
         let opened = &self.expansion.instances[instance];
         let feeding = self.fed[opened.definition]
             .get(id.as_str())
             .and_then(|inputs| inputs.get(input));
         let outside = match (&opened.parent, feeding) {
-            // No deeper than instances nest.
+            // The depth of this recursion is that of the instances.
             (Some((outer, node)), Some(group_input)) => self.link(*outer, node, group_input),
             _ => None,
         };
@@ -80,7 +80,7 @@ impl<'a> Tracer<'a> {
         })
     }
 
-    /// The real node at the beginning of a link; `None` when it begins at a reroute with nothing connected.
+    /// The node of the flat graph at the beginning of a link; `None` for an unconnected reroute.
     pub(super) fn trace(
         &mut self,
         mut instance: usize,
@@ -131,7 +131,7 @@ impl<'a> Tracer<'a> {
         format!("{}{id}", self.expansion.instances[instance].prefix)
     }
 
-    /// What the output of a group comes from, inside it.
+    /// The result inside a group that one of its outputs passes on.
     fn output(&self, outer: usize, inner: usize, from: &OutputRef) -> Result<&'a OutputRef, FlattenError> {
         let outputs = self.definitions[self.expansion.instances[inner].definition].outputs;
         let names = || outputs.keys().map(String::as_str);

@@ -1,4 +1,4 @@
-//! What a document and a group have alike: nodes, links, knobs, variants, frames and ports.
+//! Parts common to documents and groups: nodes, links, knobs, variants, frames and ports.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,7 +19,7 @@ pub(super) struct Body {
     pub(super) outputs: BTreeMap<String, OutputRef>,
 }
 
-/// A link that was read, and where it stands.
+/// A link and its offset in the text.
 struct Link {
     at: usize,
     reader: NodeId,
@@ -49,7 +49,7 @@ pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> 
     Ok(Body { graph, inputs, outputs })
 }
 
-/// Puts a problem at a place in the text.
+/// Adds an offset in the text to a problem.
 fn at(at: usize) -> impl Fn(Problem) -> Fail {
     move |problem| Fail::new(at, problem)
 }
@@ -95,7 +95,7 @@ fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec
     let group_json = fields.take("group");
     let group_at = group_json.as_ref().map_or(kind_at, |json| json.at);
     let group = group_json.map(|json| text(json, "group")).transpose()?;
-    let pos = fields.pair("pos")?.unwrap_or_default();
+    let pos = fields.pair("pos")?.unwrap_or_default(); // A node without a position stands at the origin.
     let node = Node {
         kind,
         params: read_params(fields.map("params")?)?,
@@ -134,7 +134,7 @@ fn read_params(members: Vec<Member>) -> Result<BTreeMap<String, Value>, Fail> {
     members.into_iter().map(kept).collect()
 }
 
-/// `node.name` texts whose nodes must be there.
+/// Reads texts of the form `node.name`; the nodes must exist.
 fn read_slots(graph: &Graph, fields: &mut Fields) -> Result<Vec<SlotRef>, Fail> {
     let mut slots = Vec::new();
     for (begin, text) in fields.texts("to")? {

@@ -1,4 +1,4 @@
-//! An object whose known keys are taken out one by one; what is left is kept as it is.
+//! Reads the known keys of an object one by one and keeps the others.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,13 @@ use crate::json::{Json, Member, Tree};
 use crate::problem::{Problem, shown};
 
 pub(super) struct Fields {
-    /// Where the object begins.
+    /// Offset of the object in the text.
     at: usize,
     members: BTreeMap<String, Json>,
 }
 
 impl Fields {
-    /// The members of an object; `what` names it in the message if it is none.
+    /// Members of an object; `what` names the value in the error for one that is not an object.
     pub(super) fn of(json: Json, what: &str) -> Result<Self, Fail> {
         let at = json.at;
         let members = members(json, what)?
@@ -30,7 +30,7 @@ impl Fields {
         self.members.remove(key)
     }
 
-    /// The value of a key that must be there.
+    /// Value of a required key.
     pub(super) fn need(&mut self, key: &str, advice: &'static str) -> Result<Json, Fail> {
         let missing = FileProblem::Missing {
             key: shown(key),
@@ -86,12 +86,12 @@ impl Fields {
         Err(Fail::expected(&json, key, "a list of two numbers"))
     }
 
-    /// The members of the object under a key; none when the key is not there.
+    /// Members of the object under a key; empty without the key.
     pub(super) fn map(&mut self, key: &str) -> Result<Vec<Member>, Fail> {
         self.take(key).map_or(Ok(Vec::new()), |json| members(json, key))
     }
 
-    /// The items of the list under a key, each a text, with where they begin; none when the key is not there.
+    /// Texts of the list under a key with their offsets; empty without the key.
     pub(super) fn texts(&mut self, key: &str) -> Result<Vec<(usize, String)>, Fail> {
         match self.take(key) {
             None => Ok(Vec::new()),
@@ -103,7 +103,7 @@ impl Fields {
         }
     }
 
-    /// All keys that nobody took, as they are.
+    /// All keys that were not read.
     pub(super) fn extra(self) -> Result<BTreeMap<String, Value>, Fail> {
         let kept = |(key, json): (String, Json)| {
             let value = value(json, &key)?;
@@ -128,7 +128,7 @@ pub(super) fn text(json: Json, key: &str) -> Result<String, Fail> {
     }
 }
 
-/// A value that is kept as it is.
+/// A value of any sort.
 pub(super) fn value(json: Json, name: &str) -> Result<Value, Fail> {
     let at = json.at;
     let bad = || Fail::new(at, Problem::BadValue { name: shown(name) });

@@ -1,7 +1,7 @@
-//! Which channels a function that returns a material may set, and what it needs to do so.
+//! Channels that a function that returns a material can set, and the conditions for it.
 //!
 //! Follows each member of the returned material back to where it comes from. A member that is only copied, mixed or
-//! selected from material inputs is not set: it passes theirs on. What is not understood counts as always set.
+//! selected from material inputs is passed on, and not set. Code that the analysis does not follow counts as always set.
 
 mod needs;
 
@@ -28,7 +28,7 @@ const MEMBERS: [(&str, Channel); 8] = [
     ("emission", Channel::Emission),
 ];
 
-/// Longest way that is followed, and most expressions looked at.
+/// Longest path through expressions, and most expressions visited.
 const DEPTH_LIMIT: u32 = 64;
 const FUEL: u32 = 1 << 16;
 
@@ -108,11 +108,11 @@ struct Reader<'m> {
 
 struct Frame<'m> {
     function: &'m Function,
-    /// By argument; of use for materials only.
+    /// By argument; used for materials only.
     arguments: Vec<Writes>,
     stores: Vec<Store>,
     calls: BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)>,
-    /// Variables that are being looked at.
+    /// Variables that are being analyzed.
     open: Vec<Handle<LocalVariable>>,
 }
 
@@ -162,7 +162,7 @@ impl<'m> Reader<'m> {
         writes
     }
 
-    /// What an expression that is a material sets.
+    /// Channels that an expression of type material sets.
     fn material(&mut self, frame: &mut Frame<'m>, expression: Handle<Expression>, depth: u32) -> Writes {
         let (Some(depth), true) = (depth.checked_sub(1), self.burn()) else {
             return self.all_set();
@@ -322,7 +322,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// What is read through a pointer and ends in a member.
+    /// Conditions for a value that is read through a pointer and stored in a member.
     fn value_behind(&mut self, frame: &mut Frame<'m>, pointer: Handle<Expression>, member: usize, depth: u32) -> Write {
         let function = frame.function;
         match function.expressions[pointer] {
@@ -338,7 +338,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// A variable of its own that ends in a member.
+    /// Conditions for a local variable that is stored in a member.
     fn value_local(&mut self, frame: &mut Frame<'m>, local: Handle<LocalVariable>, member: usize, depth: u32) -> Write {
         if frame.open.contains(&local) {
             return None;

@@ -1,4 +1,4 @@
-//! How large a node's code is once every call is expanded.
+//! Size of a node's code with all calls expanded.
 
 use naga::{Function, Handle, Module, Statement};
 
@@ -6,7 +6,7 @@ use super::walk::visit;
 
 /// Expressions of one evaluation of `roots`, calls expanded, loops counted once.
 pub(super) fn cost(module: &Module, roots: &[Handle<Function>]) -> u32 {
-    // Callees stand before their callers.
+    // naga lists callees before their callers, so that none of the defaults below is taken.
     let mut costs: Vec<u32> = Vec::with_capacity(module.functions.len());
     for (_, function) in module.functions.iter() {
         let mut cost = function.expressions.len() as u32;

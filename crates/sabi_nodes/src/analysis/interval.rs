@@ -1,4 +1,4 @@
-//! What values a whole number can have, as far as the code shows it.
+//! Intervals of whole numbers, as far as they follow from the code.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,10 +10,10 @@ use naga::{
 use super::walk::Store;
 use crate::kind::{Memory, Param, Role};
 
-/// Longest way through expressions that is followed.
+/// Longest path through expressions.
 const DEPTH_LIMIT: u32 = 64;
 
-/// Most expressions looked at for one answer.
+/// Most expressions visited for one interval.
 const FUEL: u32 = 4096;
 
 /// From `low` to `high`, both included.
@@ -21,12 +21,12 @@ const FUEL: u32 = 4096;
 pub(super) struct Interval {
     pub(super) low: i64,
     pub(super) high: i64,
-    /// Indices of the parameters whose ranges this rests on.
+    /// Indices of the parameters whose ranges the interval depends on.
     pub(super) params: BTreeSet<usize>,
 }
 
 impl Interval {
-    /// Everything an `i32` or a `u32` can be.
+    /// All values of an `i32` or a `u32`.
     pub(super) fn unknown(kind: ScalarKind) -> Interval {
         let (low, high) = limits(kind);
         Interval {
@@ -44,7 +44,7 @@ impl Interval {
         }
     }
 
-    /// What either can be.
+    /// Smallest interval that contains both.
     pub(super) fn or(self, other: Interval) -> Interval {
         self.with(&other, |a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
@@ -55,7 +55,7 @@ impl Interval {
         self
     }
 
-    /// Itself when the type can hold it, else everything: the computation would wrap around.
+    /// This interval where the type can hold it, else all values, since the computation would wrap around.
     fn within(self, kind: ScalarKind) -> Interval {
         let (low, high) = limits(kind);
         if self.low >= low && self.high <= high {
@@ -73,18 +73,18 @@ fn limits(kind: ScalarKind) -> (i64, i64) {
     }
 }
 
-/// One function as it is called from one place.
+/// A function as one call sees it.
 pub(super) struct Frame<'m> {
     pub(super) function: &'m Function,
-    /// What the arguments can be; `None` for what is no whole number.
+    /// Intervals of the arguments; `None` for other types than whole numbers.
     pub(super) arguments: Vec<Option<Interval>>,
     /// All assignments in the function.
     pub(super) stores: Vec<Store>,
-    /// Counters of the loops around the place that is looked at.
+    /// Counters of the loops around the analyzed place.
     pub(super) counters: BTreeMap<usize, Interval>,
 }
 
-/// Answers what an expression can be.
+/// Finds intervals of expressions.
 pub(super) struct Reader<'m> {
     pub(super) module: &'m Module,
     pub(super) params_type: Option<Handle<Type>>,
@@ -92,7 +92,7 @@ pub(super) struct Reader<'m> {
 }
 
 impl<'m> Reader<'m> {
-    /// What a whole number can be in a frame; `None` when the expression is no `i32` or `u32`.
+    /// Interval of an expression in a frame; `None` for other types than `i32` and `u32`.
     pub(super) fn interval(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Interval> {
         let kind = self.kind(frame, expression, DEPTH_LIMIT)?;
         let mut query = Query {
@@ -151,14 +151,14 @@ impl<'m> Reader<'m> {
     }
 
     fn is_scalar(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> bool {
-        // A vector conversion gives a vector; those never bound a loop, and composing one shows it.
+        // A conversion of a vector gives a vector, which cannot bound a loop.
         !matches!(
             frame.function.expressions[expression],
             Expression::Compose { .. } | Expression::Splat { .. } | Expression::Swizzle { .. }
         )
     }
 
-    /// The type of a member of `Params` when that is what `base` is.
+    /// Type of a member of `base` where that is of type `Params`.
     fn member_type(&self, frame: &Frame<'m>, base: Handle<Expression>, index: u32) -> Option<Handle<Type>> {
         let Expression::FunctionArgument(argument) = frame.function.expressions[base] else {
             return None;
@@ -172,7 +172,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// What a parameter can be: the linked kernel clamps it to its range.
+    /// Interval of a parameter, which the linked kernel clamps to its range.
     fn param(&self, index: usize) -> Option<Interval> {
         let ty = &self.params.get(index)?.ty;
         let [low, high] = ty.range?;
@@ -185,12 +185,12 @@ impl<'m> Reader<'m> {
     }
 }
 
-/// One question, with a limit on the work.
+/// Search for one interval, with a limit on the work.
 struct Query<'q, 'm> {
     reader: &'q Reader<'m>,
     frame: &'q Frame<'m>,
     fuel: u32,
-    /// Variables that are being looked at.
+    /// Variables that are being analyzed.
     open: Vec<Handle<LocalVariable>>,
 }
 
@@ -265,7 +265,7 @@ impl Query<'_, '_> {
         }
     }
 
-    /// A variable is anything that is ever stored in it.
+    /// Interval of a variable: all values that are ever stored in it.
     fn local(&mut self, local: Handle<LocalVariable>, kind: ScalarKind, depth: u32) -> Option<Interval> {
         if let Some(counter) = self.frame.counters.get(&local.index()) {
             return Some(counter.clone());

@@ -1,4 +1,4 @@
-//! Every loop has a bound that can be seen, and all bounds together stay small enough for one texel.
+//! Checks that every loop has a bound that follows from the code, and limits the rounds of all loops for a texel.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,8 +12,8 @@ use crate::link::LinkedModule;
 use crate::params::params_type;
 use crate::scan::Scan;
 
-/// Most rounds and calls of one function for one texel, over all of its rays where it is about one: a texel is never cut in
-/// two, and what it takes cannot be interrupted.
+/// Most rounds and calls of a function for a texel, with all its rays: the work for a texel cannot be split or
+/// interrupted.
 const ROUNDS_LIMIT: u64 = 1 << 16;
 
 const FORM: &str = "Write `for (var i = 0u; i < N; i++)`, where N is a constant, a `u32` or `i32` parameter with `@range`, \
@@ -22,7 +22,7 @@ const FORM: &str = "Write `for (var i = 0u; i < N; i++)`, where N is a constant,
 /// A function that a kernel calls.
 pub(super) struct Asked {
     pub(super) handle: Handle<Function>,
-    /// How often it is called for one texel.
+    /// Number of calls for a texel.
     pub(super) times: u64,
 }
 
@@ -65,7 +65,7 @@ pub(super) fn check(
     counter.bounding
 }
 
-/// What is wrong with a function that takes so many rounds each time, and what to do.
+/// Message and advice for a function with too many rounds.
 fn too_many(rounds: u64, times: u64) -> (String, &'static str) {
     if times == 1 {
         let message =
@@ -86,15 +86,15 @@ fn too_many(rounds: u64, times: u64) -> (String, &'static str) {
 struct Counter<'a, 'm> {
     linked: &'a LinkedModule,
     reader: Reader<'m>,
-    /// Rounds of a function by what its arguments can be.
+    /// Rounds of a function by the intervals of its arguments.
     known: BTreeMap<(usize, Vec<Option<Interval>>), u64>,
     bounding: BTreeSet<usize>,
-    /// The call in the node's text that led into a library.
+    /// The call in the node's text that leads into a library.
     site: Option<Span>,
     faults: Vec<Fault>,
 }
 
-/// A loop that was understood.
+/// A loop with a known bound.
 struct Bounded {
     counter: Handle<LocalVariable>,
     values: Interval,
@@ -200,7 +200,7 @@ impl<'m> Counter<'_, 'm> {
         rounds
     }
 
-    /// A fault at the loop, or at the call that led to it when it is in a library.
+    /// Reports a fault at the loop, or at the call that leads to it where it is in a library.
     fn refuse(&mut self, frame: &Frame<'_>, span: Span, message: String, advice: &str) {
         let fault = match (self.site, self.linked.library_at(span)) {
             (Some(site), Some(library)) => {
@@ -217,7 +217,7 @@ impl<'m> Counter<'_, 'm> {
         self.faults.push(fault);
     }
 
-    /// How often a loop of the form of `for` runs, or why that cannot be seen.
+    /// Bound of a loop of the form of `for`, or why it cannot be found.
     fn bound(&self, frame: &Frame<'m>, body: &'m Block, continuing: &'m Block) -> Result<Bounded, String> {
         let not_seen = "This loop has no bound that can be seen.";
         let condition = loop_condition(body).ok_or(not_seen)?;
@@ -288,7 +288,7 @@ impl<'m> Counter<'_, 'm> {
         })
     }
 
-    /// What the counter can be before the first round.
+    /// Interval of the counter before the first round.
     fn start(&self, frame: &Frame<'m>, continuing: &'m Block, counter: Handle<LocalVariable>) -> Interval {
         let own: Vec<_> = stores(frame.function, continuing)
             .iter()
@@ -310,7 +310,7 @@ impl<'m> Counter<'_, 'm> {
         values.unwrap_or(Interval::exactly(0))
     }
 
-    /// What is added to the counter after each round: at least 1, by one statement.
+    /// Step of the counter after each round: at least 1, added by one statement.
     fn step(&self, frame: &Frame<'m>, continuing: &'m Block, counter: Handle<LocalVariable>) -> Option<i64> {
         let all = stores(frame.function, continuing);
         let mut own = all.iter().filter(|store| store.local == counter);
@@ -334,7 +334,7 @@ impl<'m> Counter<'_, 'm> {
     }
 }
 
-/// The condition under which the loop goes on: the body starts with `if condition {} else { break; }`.
+/// Condition under which the loop continues: the body starts with `if condition {} else { break; }`.
 fn loop_condition(body: &Block) -> Option<Handle<Expression>> {
     for statement in body {
         match statement {
@@ -347,7 +347,7 @@ fn loop_condition(body: &Block) -> Option<Handle<Expression>> {
                 if leaves && accept.is_empty() {
                     return Some(*condition);
                 }
-                // What `&&` becomes.
+                // The form that naga gives to `&&`.
                 let only_stores = |block: &Block| {
                     block.iter().all(|statement| {
                         matches!(

@@ -1,4 +1,4 @@
-//! What the code of a node does, read from naga's module.
+//! Analysis of a node's code in naga's module: use of parameters, loops, cost, channels.
 
 mod channels;
 mod cost;
@@ -19,7 +19,7 @@ use crate::link::LinkedModule;
 use crate::ports::{Ports, function};
 use crate::scan::Scan;
 
-/// What was found.
+/// Results of the analysis.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Findings {
     /// Indices of the parameters that bound a loop.
@@ -30,7 +30,7 @@ pub(crate) struct Findings {
     pub(crate) output_channels: Vec<Vec<ChannelWrite>>,
     /// For each pass, in order.
     pub(crate) pass_channels: Vec<Vec<ChannelWrite>>,
-    /// Indices of the parameters that rays hang on.
+    /// Indices of the parameters that rays depend on.
     pub(crate) params_of_rays: Vec<usize>,
 }
 
@@ -63,7 +63,7 @@ pub(crate) fn analyze(
         faults.sort_by_key(|fault| (fault.line, fault.column));
         return Err(faults);
     }
-    // The kernel goes over the rays in a loop.
+    // The kernel has a loop over the rays.
     params_that_bound_loops.extend(counts);
     let channels = |output: &Output| match handle(output) {
         Some(root) => channels::channels(module, params, root, &output.arguments),
@@ -78,8 +78,8 @@ pub(crate) fn analyze(
     })
 }
 
-/// All functions that a kernel calls, with how often each is called for one texel: those about a single ray as often as
-/// there are rays at most.
+/// All functions that a kernel calls, with their number of calls for a texel: the largest number of rays for functions of
+/// a ray.
 fn asked(module: &Module, params: &[Param], ports: &Ports) -> Vec<loops::Asked> {
     let most = ports.rays.as_ref().and_then(|rays| params.get(rays.count)?.ty.range);
     let rays = most.map_or(1, |[_, most]| most as u64);

@@ -1,4 +1,4 @@
-//! Which parameters and inputs a node really reads.
+//! Checks that outputs depend on all parameters and inputs.
 
 use std::collections::BTreeSet;
 
@@ -10,12 +10,12 @@ use crate::link::LinkedModule;
 use crate::params::params_type;
 use crate::scan::Scan;
 
-/// How a function uses an argument.
+/// Use of an argument by a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Use {
-    /// Only these members of it, perhaps none.
+    /// These members only; may be empty.
     Members(BTreeSet<u32>),
-    /// All of it, as far as one can see.
+    /// All of it, or in a way that the analysis does not follow.
     Whole,
 }
 
@@ -32,9 +32,9 @@ impl Use {
     }
 }
 
-/// Every member of `Params` is read by a root, and every input by each function that takes it.
+/// Checks that a root reads every member of `Params`, and each function all its inputs.
 ///
-/// `planned`: parameters that say how often, how wide or over how many rays a function runs.
+/// `planned`: parameters that decide the number of runs, the width of texels or the number of rays.
 pub(super) fn check(
     linked: &LinkedModule,
     scan: &Scan,
@@ -82,7 +82,7 @@ pub(super) fn check(
     faults
 }
 
-/// Parameters that a function reads, by index, of so many.
+/// Indices of the parameters that a function reads; `count` is their number.
 pub(super) fn params_of(module: &Module, root: Handle<Function>, count: usize) -> Vec<usize> {
     let params = params_type(module).map(|(handle, _)| handle);
     let function = &module.functions[root];
@@ -98,9 +98,9 @@ pub(super) fn params_of(module: &Module, root: Handle<Function>, count: usize) -
     }
 }
 
-/// How each function uses its arguments.
+/// Use of the arguments of each function.
 fn all_uses(module: &Module) -> Vec<Vec<Use>> {
-    // Callees stand before their callers.
+    // naga lists callees before their callers.
     let mut uses: Vec<Vec<Use>> = Vec::with_capacity(module.functions.len());
     for (_, function) in module.functions.iter() {
         let of = argument_uses(module, function, &uses);
@@ -109,7 +109,7 @@ fn all_uses(module: &Module) -> Vec<Vec<Use>> {
     uses
 }
 
-/// How a function uses each of its arguments, given its callees.
+/// Use of the arguments of a function, given those of its callees.
 fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> Vec<Use> {
     let mut reader = Reader {
         function,
@@ -131,7 +131,7 @@ fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> 
             reader.mark(*pointer);
             reader.mark(*value);
         }
-        // What a function does through a pointer is not followed.
+        // Writes through a pointer are not followed.
         Statement::Call { arguments, .. } => {
             let is_pointer = |argument: &Handle<Expression>| is_pointer(module, function, *argument);
             if arguments.iter().any(is_pointer) {
@@ -181,7 +181,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Marks everything that marked expressions are made of.
+    /// Marks all operands of marked expressions.
     fn spread(&mut self) {
         while let Some(handle) = self.open.pop() {
             let expression = &self.function.expressions[handle];
@@ -208,7 +208,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What is stored in a variable counts when the variable is read.
+    /// Marks values stored in variables that are read.
     fn live_stores(&mut self, stores: &[super::walk::Store]) {
         let mut read = BTreeSet::new();
         for (handle, expression) in self.function.expressions.iter() {
@@ -229,7 +229,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Arguments of a call count as far as the callee uses them, when its result is read.
+    /// Marks arguments of calls whose result is read, as far as the callee uses them.
     fn live_calls(
         &mut self,
         calls: &std::collections::BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)>,

@@ -1,4 +1,4 @@
-//! Walking naga's statements and expressions.
+//! Visitors of naga's statements and expressions.
 
 use std::collections::BTreeMap;
 
@@ -35,7 +35,7 @@ pub(crate) fn nested_blocks(statement: &Statement) -> Vec<&Block> {
     }
 }
 
-/// Calls `see` for every expression that `expression` is made of directly.
+/// Calls `see` for every direct operand of `expression`.
 pub(crate) fn children(expression: &Expression, see: &mut impl FnMut(Handle<Expression>)) {
     let mut all = |handles: &[Option<Handle<Expression>>]| handles.iter().flatten().for_each(|handle| see(*handle));
     match expression {
@@ -87,7 +87,7 @@ pub(crate) fn children(expression: &Expression, see: &mut impl FnMut(Handle<Expr
         Expression::Math {
             arg, arg1, arg2, arg3, ..
         } => all(&[Some(*arg), *arg1, *arg2, *arg3]),
-        // Leaves, and what the rules refuse.
+        // Leaves, and expressions that the rules refuse.
         _ => {}
     }
 }
@@ -108,13 +108,13 @@ pub(crate) struct Store {
     pub(crate) path: Vec<Option<u32>>,
     /// The pointer to that part.
     pub(crate) pointer: Handle<Expression>,
-    /// What is stored; `None` where a called function writes through a pointer.
+    /// Stored value; `None` where a called function writes through a pointer.
     pub(crate) value: Option<Handle<Expression>>,
     /// Conditions around it, the outermost first, with the side taken.
     pub(crate) conditions: Vec<(Handle<Expression>, bool)>,
 }
 
-/// The variable that a pointer leads into, and the way to the part.
+/// Variable of a pointer, and the path to the part.
 pub(crate) fn target(
     function: &Function,
     mut pointer: Handle<Expression>,
@@ -188,7 +188,7 @@ fn gather_stores(
     }
 }
 
-/// Conditions that all hold when `condition` does. naga turns `a && b` into a nameless variable that is `b` under
+/// Conditions that all hold when `condition` does. naga turns `a && b` into an unnamed variable that is `b` under
 /// `if a` and false otherwise.
 pub(crate) fn conjuncts(
     function: &Function,
@@ -199,7 +199,7 @@ pub(crate) fn conjuncts(
     let mut open = vec![condition];
     while let Some(condition) = open.pop() {
         match and_parts(function, stores, condition) {
-            // A chain of `&&` is as long as the text at most; the limit is for what naga may become.
+            // A chain of `&&` is no longer than the text; the limit guards against changes of naga.
             Some(parts) if found.len() + open.len() < 256 => open.extend(parts),
             _ => found.push(condition),
         }
@@ -247,7 +247,7 @@ pub(crate) fn calls(block: &Block) -> BTreeMap<usize, (Handle<Function>, Vec<Han
     calls
 }
 
-/// A value that a function returns, and the conditions around with the side taken.
+/// A returned value, and the conditions around it with the side taken.
 pub(crate) type Returned = (Handle<Expression>, Vec<(Handle<Expression>, bool)>);
 
 /// All values that a function returns.
@@ -279,7 +279,7 @@ fn gather_returns(block: &Block, conditions: &mut Vec<(Handle<Expression>, bool)
     }
 }
 
-/// Whether an expression is zero by what is written.
+/// Whether an expression is a literal zero.
 pub(crate) fn is_zero(module: &Module, function: &Function, expression: Handle<Expression>, depth: u32) -> bool {
     let Some(depth) = depth.checked_sub(1) else {
         return false;

@@ -24,13 +24,13 @@ impl Param {
         Param::own(name, doc, Memory::Text, Role::Text, default)
     }
 
-    /// The path of a file; nothing is chosen at first.
+    /// The path of a file; empty by default.
     pub fn file(name: &str, doc: &str) -> Param {
         let default = ParamValue::Text(String::new());
         Param::own(name, doc, Memory::Text, Role::File, default)
     }
 
-    /// One of these words, the first one at first.
+    /// A choice of words; the first is the default.
     pub fn choice(name: &str, words: &[&str], doc: &str) -> Param {
         let role = Role::Choice(words.iter().map(|word| (*word).to_owned()).collect());
         Param::own(name, doc, Memory::U32, role, ParamValue::Unsigned(0))
@@ -52,7 +52,7 @@ impl Param {
         Param::own(name, doc, Memory::F32, Role::Length, ParamValue::Floats(vec![default]))
     }
 
-    /// An angle in degrees; what fills the source receives radians.
+    /// An angle in degrees, which the engine receives in radians.
     pub fn angle(name: &str, default: f32, doc: &str) -> Param {
         Param::own(name, doc, Memory::F32, Role::Angle, ParamValue::Floats(vec![default]))
     }
@@ -75,14 +75,14 @@ impl Param {
         Param::own(name, doc, Memory::Vec3, Role::Length, default)
     }
 
-    /// Values outside are refused.
+    /// Sets the range; values outside are refused.
     #[must_use]
     pub fn within(mut self, low: f32, high: f32) -> Param {
         self.ty.range = Some([low, high].map(exact));
         self
     }
 
-    /// Ends of the slider.
+    /// Sets the ends of the slider.
     #[must_use]
     pub fn mostly(mut self, low: f32, high: f32) -> Param {
         self.ty.soft = Some([low, high].map(exact));

@@ -14,10 +14,10 @@ use crate::reader::FILE_LIMIT_BYTES;
 const FOLDER_LIMIT: usize = 4096;
 
 impl Library {
-    /// Reads a user's node folder, in sorted order. What is faulty is left out and told; the rest works. Read again, it
-    /// takes what changed, keeps the last good version of what became faulty, and drops nodes whose files are gone.
+    /// Reads a user's node folder, in sorted order, and gives the faults of the files that are left out. Reading it again
+    /// updates changed nodes, keeps the last good version of faulty ones, and drops nodes without a file.
     ///
-    /// A node of the folder never takes the place of one that came from another file.
+    /// A node of the folder never replaces one from another file.
     pub fn load_folder(&mut self, folder: &Path) -> Vec<Fault> {
         let mut faults = Vec::new();
         self.kinds
@@ -33,6 +33,7 @@ impl Library {
             }
             for file in wgsl_files(&category, false, &mut faults) {
                 if let Some((name, text)) = read(&file, &mut faults) {
+                    // Entries of a folder have a name.
                     let category = category.file_name().unwrap_or_default().to_string_lossy();
                     self.add_node(format!("{category}/{name}"), file, text, &mut faults);
                 }
@@ -79,7 +80,7 @@ impl Library {
                 format!("There is a node `{id}` already, and this one is not read."),
                 "Give the file another name.",
             )),
-            // A library that changed had its nodes read again already.
+            // The nodes of a changed library were read again with it.
             Some(known) if *known.source == *text => {}
             _ => {
                 if let Err(mut found) = self.replace(SourceFile { path, id, text }) {
@@ -90,7 +91,7 @@ impl Library {
     }
 }
 
-/// What a folder holds, sorted by name.
+/// Entries of a folder, sorted by name.
 fn entries(folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<PathBuf> {
     let listed = fs::read_dir(folder).and_then(|entries| {
         entries
@@ -139,7 +140,7 @@ fn read(file: &Path, faults: &mut Vec<Fault>) -> Option<(String, String)> {
         faults.push(Fault::of_file(file, format!("The file cannot be read: {error}."), ""));
         return None;
     }
-    // One byte over the limit is enough for the reader to refuse the file by its size.
+    // One byte over the limit lets the reader refuse the file by its size.
     match String::from_utf8(bytes) {
         Ok(text) => Some((name, text)),
         Err(error) if error.as_bytes().len() > FILE_LIMIT_BYTES => {

@@ -1,4 +1,4 @@
-//! `@default` of a parameter.
+//! Reads `@default` of a parameter.
 
 use super::ParamReader;
 use crate::color::color_linear;
@@ -8,7 +8,7 @@ use crate::notes::{Note, number};
 use crate::words::{list, nearest};
 
 impl ParamReader<'_> {
-    /// The start value. Only a seed, and what the program fills in, may do without.
+    /// Reads the default. Seeds and extents of the model need none.
     pub(super) fn default(&mut self, memory: Memory, role: &Role) -> Option<ParamValue> {
         let Some(note) = self.notes.get("default").cloned() else {
             match role {
@@ -77,7 +77,7 @@ impl ParamReader<'_> {
         color.map(|color| ParamValue::Floats(color.to_vec()))
     }
 
-    /// `position #rrggbb` pairs, positions ascending in 0..1.
+    /// Reads pairs of `position #rrggbb`, positions ascending in 0..1.
     fn stops(&mut self, note: &Note, count: usize) -> Option<ParamValue> {
         let mut values = Vec::with_capacity(4 * count);
         let mut last = 0.0;
@@ -111,9 +111,10 @@ impl ParamReader<'_> {
         Some(ParamValue::Floats(values))
     }
 
-    /// `x y` pairs, x ascending.
+    /// Reads pairs of `x y`, x ascending.
     fn curve(&mut self, note: &Note, count: usize) -> Option<ParamValue> {
         let numbers: Option<Vec<f32>> = note.words.iter().map(number).collect();
+        // Words that are not numbers leave no points, which is refused below.
         let (points, rest) = numbers.as_deref().unwrap_or_default().as_chunks::<2>();
         let is_sorted = points.is_sorted_by(|left, right| left[0] <= right[0]);
         if !rest.is_empty() || !is_sorted || !(1..=count).contains(&points.len()) {

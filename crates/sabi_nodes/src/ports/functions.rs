@@ -1,4 +1,4 @@
-//! The doc comment of a function: what it gives, and its inputs.
+//! Reads the doc comments of functions: results and inputs.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::words::nearest;
 /// Most repetitions of a function.
 const REPEAT_LIMIT: u32 = 4096;
 
-/// What the comment says of the function itself.
+/// Annotations of the function itself.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FunctionNotes {
     pub(super) doc: String,
@@ -26,7 +26,7 @@ pub(super) struct FunctionNotes {
     /// Index of the parameter that counts rays.
     pub(super) rays: Option<(usize, Range<usize>)>,
     pub(super) finds: Finds,
-    /// Index of the parameter that says how far rays go.
+    /// Index of the parameter that limits rays.
     pub(super) reach: Option<(usize, Range<usize>)>,
     /// Name of the input that is surveyed.
     pub(super) surveys: Option<(String, Range<usize>)>,
@@ -104,7 +104,7 @@ fn pass_number(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Option<(
     }
 }
 
-/// `@repeat N`, `@repeat params.steps`, or a formula.
+/// Reads `@repeat N`, `@repeat params.steps`, or a formula.
 fn repeat(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(Formula, Range<usize>)> {
     let (read, range) = formula(text, note, params, faults)?;
     let mut refuse = |(message, advice): (String, String)| {
@@ -126,7 +126,7 @@ fn repeat(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>
     }
 }
 
-/// What `@repeat` and `@texel` say.
+/// Reads the formula of `@repeat` or `@texel`.
 fn formula(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(Formula, Range<usize>)> {
     match Formula::read(&note.joined(), params) {
         Ok(formula) => Some((formula, note.whole())),
@@ -137,7 +137,7 @@ fn formula(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault
     }
 }
 
-/// `@rays params.rays`.
+/// Reads `@rays params.rays`.
 fn rays(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(usize, Range<usize>)> {
     let written = note.joined();
     let name = written.strip_prefix("params.");
@@ -157,7 +157,7 @@ fn rays(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) 
     }
 }
 
-/// `@reach params.distance`.
+/// Reads `@reach params.distance`.
 fn reach(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(usize, Range<usize>)> {
     let written = note.joined();
     let named = |param: &Param| written.strip_prefix("params.") == Some(param.name.as_str());
@@ -180,7 +180,7 @@ fn is_single_length(param: &Param) -> bool {
     param.ty.role == Role::Length && param.ty.memory == Memory::F32
 }
 
-/// `@finds any` or `@finds nearest`.
+/// Reads `@finds any` or `@finds nearest`.
 fn finds(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Finds {
     match note.joined().as_str() {
         "any" => return Finds::Any,
@@ -194,7 +194,7 @@ fn finds(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Finds {
     Finds::Nearest
 }
 
-/// The parameter of that name, which says `what`; or message and advice.
+/// Index of the parameter that says `what`, by its name; or message and advice.
 fn counter(annotation: &str, name: &str, params: &[Param], what: &str) -> Result<usize, (String, String)> {
     let Some(index) = params.iter().position(|param| param.name == name) else {
         let advice = match nearest(name, params.iter().map(|param| param.name.as_str())) {

@@ -1,4 +1,4 @@
-//! Inputs: arguments of documented functions, described by `@input`.
+//! Reads inputs: arguments of documented functions, described by `@input`.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::notes::{Note, is_plain_name, label_of, number};
 use crate::scan::Member;
 use crate::words::nearest;
 
-/// What `@input name …` and the annotations behind it say.
+/// Notes of `@input name …` and the annotations behind it.
 #[derive(Clone, Debug)]
 pub(super) struct InputNotes {
     pub(super) name: String,
@@ -56,7 +56,7 @@ impl InputNotes {
         })
     }
 
-    /// Adds an annotation that stands behind `@input`.
+    /// Adds an annotation behind `@input`.
     pub(super) fn add(&mut self, text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) {
         let range = note.whole();
         let twice = match note.name.as_str() {
@@ -194,7 +194,7 @@ fn input_type(
     Some((Reads::Value, port))
 }
 
-/// A stored result must be connected.
+/// Checks that the input of a stored result has no default.
 fn field_default(reader: &mut PortReader<'_>, notes: &InputNotes) -> Option<InputDefault> {
     let range = notes.default.as_ref().map(Note::whole).or(notes.optional.clone());
     let Some(range) = range else {
@@ -253,7 +253,7 @@ fn value_default(reader: &mut PortReader<'_>, ty: PortType, notes: &InputNotes) 
     knob.map(InputDefault::Knob)
 }
 
-/// `at.position`: a member of the place, of the type of the input.
+/// Reads a default such as `at.position`: a member of the place, of the type of the input.
 fn expression(reader: &mut PortReader<'_>, ty: PortType, note: &Note, written: &str) -> Option<InputDefault> {
     if member_of_place(reader.module, written).is_some_and(|count| count == if ty == PortType::Mask { 1 } else { 3 }) {
         return Some(InputDefault::Expression(written.to_owned()));

@@ -1,4 +1,4 @@
-//! Passes: their numbers, who reads them, and what repeats.
+//! Checks passes: their numbers, their readers, and repetition.
 
 use naga::Type;
 use sabi_graph::PortType;
@@ -8,7 +8,7 @@ use crate::kind::{Argument, Reads};
 use crate::scan::Member;
 
 impl<'a> PortReader<'a> {
-    /// Numbers are unique; fills the list that arguments are looked up in.
+    /// Checks that numbers are unique, and lists passes for the arguments that name them.
     pub(super) fn check_passes(&mut self, drafts: &[Draft<'a>]) {
         for draft in drafts {
             let Some((number, range)) = draft.notes.pass.clone() else {
@@ -24,7 +24,7 @@ impl<'a> PortReader<'a> {
         self.pass_numbers.sort_by_key(|(number, ..)| *number);
     }
 
-    /// An argument named like a pass reads its stored result.
+    /// Reads an argument with the name of a pass, which receives its stored result.
     pub(super) fn pass_argument(
         &mut self,
         draft: &Draft<'a>,
@@ -61,7 +61,7 @@ impl<'a> PortReader<'a> {
         Some(Argument::Pass(index))
     }
 
-    /// A repeated function reads its own last result through its first field argument, which has the same type.
+    /// Checks that a repeated function has a first field argument of its own type, for its last result.
     pub(super) fn check_repeat(&mut self, draft: &Draft<'a>, arguments: &[Argument]) {
         let Some((_, range)) = draft.notes.repeat.clone() else {
             return;

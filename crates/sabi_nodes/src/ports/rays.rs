@@ -1,4 +1,4 @@
-//! The function `ray`: what each place shoots.
+//! Reads the function `ray`.
 
 use naga::{ScalarKind, Type, TypeInner};
 
@@ -37,12 +37,12 @@ impl<'a> PortReader<'a> {
             count,
             finds: draft.notes.finds,
             reach: draft.notes.reach.as_ref().map(|(reach, _)| *reach),
-            // Known once the functions have been looked into.
+            // Filled by the analysis of the functions.
             reads: Vec::new(),
         })
     }
 
-    /// `index: u32`
+    /// Reads `index: u32`.
     pub(super) fn ray_index(&mut self, member: &Member, ty: &Type) -> Option<Argument> {
         if matches!(ty.inner, TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Uint) {
             return Some(Argument::Index);
@@ -52,7 +52,7 @@ impl<'a> PortReader<'a> {
         None
     }
 
-    /// The mean of a pass, or what it gives for the whole surface, by value.
+    /// Reads an argument that receives the mean of a pass, or its value for the whole surface.
     pub(super) fn mean_argument(&mut self, member: &Member, is_its_type: bool, pass: usize) -> Option<Argument> {
         if is_its_type {
             return Some(Argument::Pass(pass));
@@ -68,7 +68,7 @@ impl<'a> PortReader<'a> {
         None
     }
 
-    /// A node that shoots rays asks each of its results of them, or of the means of its passes, and reads no textures.
+    /// Checks that all results of a node that shoots rays depend on rays or on means of passes, and that it reads no textures.
     pub(super) fn check_rays(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
         if !self.faults.is_empty() {
             return;
@@ -91,7 +91,7 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    /// What is wrong with what a function asks of rays.
+    /// Message and advice for a function with wrong arguments of rays.
     fn wrong_question(&self, output: &Output, is_pass: bool) -> Option<(String, &'static str)> {
         let name = &output.name;
         let rays = output.arguments.iter().any(Argument::is_of_ray);

@@ -1,4 +1,4 @@
-//! Passes that ask a survey of the whole surface.
+//! Checks passes that read a survey of the whole surface.
 
 use sabi_graph::PortType;
 
@@ -6,13 +6,13 @@ use super::{Draft, PortReader, Ports};
 use crate::kind::{Argument, InputDefault, Reads};
 use crate::words::list;
 
-/// Whether a function has an argument of that name.
+/// Whether a function has an argument `survey`.
 pub(super) fn asks_for_one(draft: &Draft<'_>) -> bool {
     draft.item.members.iter().any(|member| member.name == "survey")
 }
 
 impl<'a> PortReader<'a> {
-    /// The input that is surveyed. It has to be connected, and all passes ask the survey and nothing of a place.
+    /// Finds the surveyed input. It must be required, and all passes read the survey and no values of a place.
     pub(super) fn surveyed_input(&mut self, drafts: &[Draft<'a>], ports: &Ports) -> Option<usize> {
         let said = drafts.iter().find_map(|draft| draft.notes.surveys.clone());
         if !self.faults.is_empty() {
@@ -58,7 +58,7 @@ impl<'a> PortReader<'a> {
         Some(index)
     }
 
-    /// Only passes ask the survey, and all of them, and they ask nothing else.
+    /// Checks that all passes and no other functions read the survey, and nothing else.
     fn check_askers(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
         let passes = ports.passes.iter().map(|pass| (&pass.function, true));
         for (function, is_pass) in ports.outputs.iter().map(|output| (output, false)).chain(passes) {

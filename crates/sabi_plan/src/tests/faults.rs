@@ -1,4 +1,4 @@
-//! What is said about graphs that cannot be planned.
+//! Messages for graphs that cannot be planned.
 
 use super::{Bench, FUSED, graph};
 

@@ -1,4 +1,4 @@
-//! A result's name changes with everything that can change the result, and with nothing else.
+//! A result's key changes with everything that can change the result, and with nothing else.
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::Param;
@@ -35,7 +35,7 @@ fn what_changes_the_result_changes_its_key() {
     }
 }
 
-/// A bench with a source that has a parameter of each sort.
+/// A bench with a source with a parameter of each sort.
 fn bench_with_source() -> Bench {
     let mut bench = Bench::new();
     let mut own = kind("source/own", Vec::new(), vec![port("mask", PortType::Mask, &[])]);

@@ -1,4 +1,4 @@
-//! How a graph is cut into passes, and where results lie.
+//! Passes of plans and slots of results.
 
 use sabi_graph::Document;
 
@@ -236,7 +236,7 @@ fn a_graph_in_groups_six_deep_has_the_passes_of_its_flat_form() {
     let inner = |name: usize, body: &str| {
         format!(r#""g{name}": {{ "inputs": {{ "mask": {{ "to": [{body}"], "type": "mask" }} }}"#,)
     };
-    // Three effects read one mask; the effects lie in groups, each around the next.
+    // Three effects in nested groups read the same mask.
     let mut groups = Vec::new();
     groups.push(format!(
         r#"{}, "outputs": {{ "material": "e3" }}, "nodes": {{
@@ -351,10 +351,10 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
     };
     // Levels here have texels of 0.001, 0.002, 0.004 and 0.008; a blur wants at least four for its radius.
     assert_eq!(moves(&plan(0.007)), [] as [[u32; 2]; 0]);
-    // Both read the noise on one level, so it goes there once.
+    // Both read the noise on the same level, so it is moved there once.
     assert_eq!(moves(&plan(0.016)), [[0, 2], [2, 0], [2, 0]]);
     assert_eq!(moves(&plan(0.5)), [[0, 3], [3, 0], [3, 0]]);
-    // What reads no texture is known on ghosts as exactly as anywhere.
+    // A kernel that reads no texture is evaluated on ghosts, too.
     let text = plan(0.016).to_string();
     assert!(text.contains("pass b -> s1 level 2\n"), "{text}");
 }

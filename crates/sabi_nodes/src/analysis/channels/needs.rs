@@ -1,4 +1,4 @@
-//! Which toggle a condition asks for, and what makes a value zero.
+//! Toggles that conditions depend on, and parameters that values are zero without.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use super::{Frame, Reader};
 use crate::analysis::walk::conjuncts;
 use crate::kind::{Argument, Channel, ChannelWrite, Memory, Role};
 
-/// What must be on, or not zero, for a channel to be set.
+/// A parameter or input that must be on, or other than zero, for a channel to be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Need {
     /// A parameter, by index.
@@ -20,12 +20,12 @@ pub(super) enum Need {
 /// `None`: not set. `Some(needs)`: may be set when all of these are on.
 pub(super) type Write = Option<BTreeSet<Need>>;
 
-/// Set whatever is on.
+/// Always set.
 pub(super) fn always() -> Write {
     Some(BTreeSet::new())
 }
 
-/// Set when either is.
+/// Set when either of the two is.
 pub(super) fn either(a: Write, b: Write) -> Write {
     match (a, b) {
         (Some(a), Some(b)) => Some(a.intersection(&b).copied().collect()),
@@ -33,22 +33,22 @@ pub(super) fn either(a: Write, b: Write) -> Write {
     }
 }
 
-/// Set when both are: a product with zero stays zero.
+/// Set when both are, as a product.
 pub(super) fn both(a: Write, b: Write) -> Write {
     a.zip(b).map(|(a, b)| a.union(&b).copied().collect())
 }
 
-/// What a function may set, by member of `Material`.
+/// Conditions for the members of `Material` that a function sets.
 pub(super) type Writes = Vec<Write>;
 
-/// Adds what else is set, all of it under more needs.
+/// Adds other writes, which in addition need some toggles.
 pub(super) fn join(writes: &mut Writes, others: Writes, toggles: &BTreeSet<Need>) {
     for (write, other) in writes.iter_mut().zip(others) {
         *write = either(write.take(), other.map(|other| &other | toggles));
     }
 }
 
-/// What is told of a channel that may be set.
+/// The [`ChannelWrite`] of a channel with its conditions.
 pub(super) fn channel_write(channel: Channel, needs: BTreeSet<Need>) -> ChannelWrite {
     let param = |need: &Need| match need {
         Need::Param(index) => Some(*index),
@@ -66,7 +66,7 @@ pub(super) fn channel_write(channel: Channel, needs: BTreeSet<Need>) -> ChannelW
 }
 
 impl<'m> Reader<'m> {
-    /// Toggles that are on when the conditions come out as told.
+    /// Toggles that are on when the conditions have these values.
     pub(super) fn toggles(&self, frame: &Frame<'m>, conditions: &[(Handle<Expression>, bool)]) -> BTreeSet<Need> {
         let mut found = BTreeSet::new();
         for &(condition, taken) in conditions {
@@ -80,14 +80,14 @@ impl<'m> Reader<'m> {
         found
     }
 
-    /// The toggle that is on when `condition` comes out as `taken`.
+    /// Toggle that is on when `condition` is `taken`.
     fn toggle(&self, frame: &Frame<'m>, condition: Handle<Expression>, taken: bool) -> Option<Need> {
         let (op, left, right) = match frame.function.expressions[condition] {
             Expression::Unary {
                 op: UnaryOperator::LogicalNot,
                 expr,
             } => {
-                // One level: nobody writes more, and a text can nest deep.
+                // One level only: deeper nesting is unusual, and its depth is not limited.
                 return match frame.function.expressions[expr] {
                     Expression::Unary { .. } => None,
                     _ => self.toggle(frame, expr, !taken),
@@ -126,7 +126,7 @@ impl<'m> Reader<'m> {
         (self.params.get(index)?.ty.role == Role::Toggle).then_some(Need::Param(index))
     }
 
-    /// The parameter that an expression is.
+    /// The parameter that an expression reads.
     fn param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<usize> {
         let Expression::AccessIndex { base, index } = frame.function.expressions[expression] else {
             return None;
@@ -138,7 +138,7 @@ impl<'m> Reader<'m> {
         (Some(ty) == self.params_type).then_some(index as usize)
     }
 
-    /// The number, parameter or input, that an expression is.
+    /// The parameter or input that an expression reads as a number.
     pub(super) fn need(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Need> {
         if let Some(index) = self.param(frame, expression) {
             let is_number = matches!(self.params.get(index)?.ty.memory, Memory::F32 | Memory::Vec3);
