@@ -1,13 +1,13 @@
 //! Clamp
-//! Keeps a mask's values between two ends: what lies beyond an end becomes that end.
+//! Limits a mask to a range: values outside become the nearer end.
 //!
 //! @alias clamp limit cut saturate minimum maximum
 
 struct Params {
-    /// The lowest value that is left; above High, the two change places.
+    /// Lowest value of the result. If Low is above High, the two are swapped.
     /// @range -10 10 @soft 0 1 @default 0
     low: f32,
-    /// The highest value that is left.
+    /// Highest value of the result.
     /// @range -10 10 @soft 0 1 @default 1
     high: f32,
 }

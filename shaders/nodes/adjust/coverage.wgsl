@@ -1,5 +1,5 @@
 //! Coverage
-//! Cuts a mask so that it covers as much of the surface as you say, on any model.
+//! Cuts a mask so that it covers a given share of the surface, on any model.
 //!
 //! The threshold is found by a survey of the whole surface, by its true area: the same amount of rust on a bench and on a
 //! barrel, whatever their unwraps, sizes and noises.
@@ -7,22 +7,22 @@
 //! @use survey
 
 struct Params {
-    /// How much of the surface is covered.
+    /// Share of the surface that is covered.
     /// @range 0 1 @default 0.3
     amount: f32,
-    /// How soft the border is: the range of the mask's values over which it fades.
+    /// Softness of the border: the range of mask values over which it fades.
     /// @range 0 1 @default 0.1
     softness: f32,
 }
 
-/// Where the mask has to be cut.
+/// The value at which the mask is cut.
 /// @pass 1 @surveys source
 fn threshold(survey: texture_2d_array<f32>, params: Params) -> f32 {
     return survey_threshold(survey, params.amount, params.softness);
 }
 
-/// What is covered.
-/// @input source The mask that decides what is covered first: its highest values.
+/// 1 where the surface is covered.
+/// @input source The mask whose highest values are covered first.
 fn mask(params: Params, source: f32, threshold: f32) -> f32 {
     return clamp((source - threshold) / max(params.softness, 1e-6) + 0.5, 0.0, 1.0);
 }

@@ -1,13 +1,13 @@
 //! Levels
-//! Sets what counts as black and white, and how bright the middle is.
+//! Sets the black point, the white point and the brightness of the middle.
 //!
 //! @alias levels contrast brightness gamma range histogram
 
 struct Params {
-    /// Values up to here become the low end.
+    /// Values up to this one become Low.
     /// @range -10 10 @soft 0 1 @default 0
     black: f32,
-    /// Values from here on become the high end; below Black, the mask is turned over.
+    /// Values from this one on become High. If White is below Black, the mask is inverted.
     /// @range -10 10 @soft 0 1 @default 1
     white: f32,
     /// Above 1 brightens the middle, below 1 darkens it.

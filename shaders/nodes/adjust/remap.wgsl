@@ -1,7 +1,7 @@
 //! Remap
 //! Stretches a mask so that one range of values becomes another.
 //!
-//! Values outside of the range go on in the same line; use Levels or Clamp to hold them. Where From low and From high are
+//! Values outside of the range are extrapolated; use Levels or Clamp to limit them. Where From low and From high are
 //! equal there is nothing to stretch: values below become To low, all others To high.
 //! @alias remap map range stretch scale offset fit
 
@@ -12,10 +12,10 @@ struct Params {
     /// This value becomes To high.
     /// @range -1000 1000 @soft 0 1 @default 1
     from_high: f32,
-    /// What From low becomes.
+    /// The result for From low.
     /// @range -1000 1000 @soft 0 1 @default 0
     to_low: f32,
-    /// What From high becomes; below To low, the mask is turned over.
+    /// The result for From high. If it is below To low, the mask is inverted.
     /// @range -1000 1000 @soft 0 1 @default 1
     to_high: f32,
 }

@@ -1,14 +1,14 @@
 //! Threshold
-//! Cuts a mask into inside and outside, with a border as soft as you like.
+//! Cuts a mask into inside and outside, with a hard or a soft border.
 //!
-//! Noises spread evenly over 0 to 1, so for them the threshold is the share of the surface that is left out.
+//! The values of a noise are spread evenly from 0 to 1, so for a noise the threshold is the share of the surface outside.
 //! @alias threshold cut step coverage
 
 struct Params {
     /// Values above are inside.
     /// @label Threshold @range -10 10 @soft 0 1 @default 0.5
     at: f32,
-    /// How far around the threshold the border fades.
+    /// Range of values around the threshold over which the border fades.
     /// @range 0 10 @soft 0 0.5 @default 0.02
     softness: f32,
 }

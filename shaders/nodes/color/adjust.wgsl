@@ -1,7 +1,7 @@
 //! Adjust color
-//! Turns the hue, and changes how vivid and how bright a color is.
+//! Changes the hue, the saturation and the brightness of a color.
 //!
-//! Grays stay gray whatever is set. Turning the hue and changing the saturation keep the luminance; a hue that cannot be
+//! Grays stay gray. Turning the hue and changing the saturation keep the luminance; a hue that cannot be
 //! as vivid at that luminance becomes paler instead of darker.
 //! @alias hue saturation value brightness gamma hsv hsl colorize vibrance grade correct
 //! @use color
@@ -10,13 +10,13 @@ struct Params {
     /// Turns all hues; 180 gives the opposite ones.
     /// @angle @range -180 180 @default 0
     hue: f32,
-    /// 0 is gray, 1 leaves the color as it is, above it becomes more vivid.
+    /// 0 makes the color gray, 1 leaves it unchanged, and above 1 it becomes more vivid.
     /// @range 0 10 @soft 0 2 @default 1
     saturation: f32,
-    /// Multiplies the light: 0 is black, 1 leaves the color as it is.
+    /// Multiplies the light: 0 makes the color black, 1 leaves it unchanged.
     /// @range 0 10 @soft 0 2 @default 1
     value: f32,
-    /// Above 1 brightens the middle, below 1 darkens it; black and white stay.
+    /// Above 1 brightens the middle, below 1 darkens it; black and white are not changed.
     /// @range 0.01 100 @soft 0.2 5 @default 1
     gamma: f32,
 }

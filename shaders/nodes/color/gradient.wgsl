@@ -5,7 +5,7 @@
 //! @alias gradient ramp map colorize color
 
 struct Params {
-    /// Up to eight colors and the mask values at which they stand, in rising order.
+    /// Up to eight colors with their mask values, in rising order.
     /// @default 0 #000000 1 #ffffff
     stops: array<vec4f, 8>,
 }

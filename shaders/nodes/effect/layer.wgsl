@@ -1,9 +1,8 @@
 //! Layer
-//! Puts an effect such as rust, dust or paint over a material, where a mask says so.
+//! Puts a layer such as rust, dust or paint over a material, where a mask is above 0.
 //!
-//! Each channel has its own value, mode and switch. A channel's result lies between what is below and what the mode
-//! makes of both, in linear light, as far as the mask and Opacity let it: where the mask is 0 nothing changes, and a
-//! soft mask has no fringe.
+//! Each channel has its own value, mode and switch. The mask and Opacity fade from the material below to the result of the
+//! mode, in linear light: where the mask is 0 nothing changes, and a soft mask has no fringe.
 //! @alias layer effect rust dirt dust paint coat fill
 //! @use blend
 
@@ -11,7 +10,7 @@ struct Params {
     /// Color of the layer; Color map is multiplied by it.
     /// @color @default #808080
     color: vec3f,
-    /// How the color goes over what is below.
+    /// How the color is combined with the color below.
     /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
     /// @default normal
     color_mode: u32,
@@ -21,47 +20,47 @@ struct Params {
     /// Roughness of the layer: 0 is a mirror, 1 is chalk; Roughness map is multiplied by it.
     /// @range 0 1 @default 0.7
     roughness: f32,
-    /// How the roughness goes over what is below.
+    /// How the roughness is combined with the roughness below.
     /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
     /// @default normal
     roughness_mode: u32,
     /// Whether the layer changes the roughness.
     /// @toggle @default on
     roughness_on: u32,
-    /// How metallic the layer is: 0 is everything but metal, 1 is bare metal; Metallic map is multiplied by it.
+    /// How metallic the layer is: 0 for anything but metal, 1 for bare metal; Metallic map is multiplied by it.
     /// @range 0 1 @default 0
     metallic: f32,
-    /// How the metallic value goes over what is below.
+    /// How the metallic value is combined with the value below.
     /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
     /// @default normal
     metallic_mode: u32,
     /// Whether the layer changes the metallic value.
     /// @toggle @default on
     metallic_on: u32,
-    /// Height of the layer; Height map is multiplied by it. Below 0 it is sunk in.
+    /// Height of the layer; Height map is multiplied by it. Below 0 the layer is sunk in.
     /// @length @range -100 100 @soft -0.05 0.05 @default 0
     height: f32,
-    /// How the height goes over what is below, by modes that give the same in any unit of length.
+    /// How the height is combined with the height below. There are only modes that give the same in any unit of length.
     /// @choice normal add subtract min max difference
     /// @default add
     height_mode: u32,
     /// Whether the layer changes the height.
     /// @toggle @default on
     height_on: u32,
-    /// How opaque the layer is: 0 makes holes.
+    /// Opacity of the material in the layer: 0 makes holes.
     /// @range 0 1 @default 1
     alpha: f32,
-    /// How the opacity of the material goes over what is below.
+    /// How the opacity of the material is combined with the opacity below.
     /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
     /// @default normal
     alpha_mode: u32,
     /// Whether the layer changes the opacity of the material.
     /// @toggle @default off
     alpha_on: u32,
-    /// Color of the light that the layer gives off.
+    /// Color of the light that the layer emits.
     /// @color @default #ffffff
     emission: vec3f,
-    /// How the emitted light goes over what is below.
+    /// How the emitted light is combined with the light below.
     /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
     /// @default normal
     emission_mode: u32,
@@ -71,10 +70,10 @@ struct Params {
     /// Multiplies the emitted light.
     /// @range 0 1000 @soft 0 10 @default 1
     emission_strength: f32,
-    /// What becomes of the relief in the model's own normal map: kept, or flattened as by a thick coat.
+    /// Whether the model's own normal map is kept, or flattened as by a thick coat.
     /// @label Normal map @choice keep flatten @default keep
     slope_mode: u32,
-    /// How much of the layer is used.
+    /// Strength of the whole layer.
     /// @range 0 1 @default 1
     opacity: f32,
 }

@@ -1,18 +1,18 @@
 //! Relief
-//! Dents or raises a material, and touches nothing else: holes, scratches, dents, broken edges, bumps.
+//! Sinks or raises a material without changing its color: holes, scratches, dents, broken edges, bumps.
 //!
-//! The mask says where, and how deep between nothing and all of Depth; Profile gives the shape that a soft mask's border
-//! becomes. Sunk and Raised follow the mask itself. Dent and Bump round it off. Groove and Ridge are those with material
-//! pushed aside: a scratch with its burr, a weld in its bed. Cut and Plateau have steep walls where the mask is one half,
+//! The mask decides where and how deep, from 0 to the full Depth; Profile decides the shape of a soft mask's border. Sunk
+//! and Raised follow the mask itself. Dent and Bump are rounded. Groove and Ridge are rounded with material pushed aside:
+//! a scratch with its burr, a weld with its bed. Cut and Plateau have steep walls where the mask is one half,
 //! and a flat floor or top: broken edges, flaked paint.
 //! @alias relief height dent bump hole scratch groove carve emboss displace broken raise sink
 //! @use blend
 
 struct Params {
-    /// How deep or how high it is; Height map is multiplied by it.
+    /// Depth or height of the relief; Height map is multiplied by it.
     /// @length @range -100 100 @soft 0 0.05 @default 0.005
     depth: f32,
-    /// The shape of the mask's border, sunk in or raised.
+    /// Shape of the mask's border, sunk in or raised.
     /// @choice sunk raised dent bump groove ridge cut plateau
     /// @default sunk
     profile: u32,

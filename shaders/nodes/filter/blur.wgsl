@@ -1,16 +1,16 @@
 //! Blur
-//! Softens a mask over the surface, over seams as if there were none.
+//! Blurs a mask over the surface, without visible seams.
 //!
-//! Heat that flows over the surface: the same blur on every unwrap and at every resolution, around corners and over every
-//! seam. In texture space the radius is counted along the map instead, as paint programs do it; seams stay closed.
+//! The mask spreads like heat: the blur is the same on every unwrap and at every resolution, around corners and over every
+//! seam. In texture space the radius is measured on the map instead, as paint programs do; seams stay invisible.
 //! @alias soften smooth gaussian diffuse feather
 //! @use heat
 
 struct Params {
-    /// How far it reaches: the standard deviation of the Gaussian.
+    /// Radius of the blur: the standard deviation of the Gaussian.
     /// @length @range 0 1 @soft 0 0.2 @default 0.02
     radius: f32,
-    /// Along the surface, or along the map.
+    /// Whether the radius is measured on the surface or on the map.
     /// @choice surface texture @default surface
     space: u32,
 }

@@ -1,30 +1,30 @@
 //! Denoise
-//! Takes the grain out of masks made by rays, and leaves creases, borders and what stands out as they are.
+//! Removes the grain of masks made by rays, and keeps creases, borders and other details.
 //!
-//! Neighbors are averaged that face the same way and hold about the same value, again and again. Four rays with it look like
-//! many more without. For specks that are not grain use Median, for softness Blur.
+//! Averages neighbors that face the same way and have similar values, repeatedly. Four rays with this filter look like many
+//! more without it. Use Median for specks that are not grain, and Blur for softness.
 //! @alias denoise grain noise smooth bilateral clean rays
 //! @use surface
 
 struct Params {
-    /// How far the average reaches.
+    /// Radius of the average.
     /// @length @range 0 0.1 @soft 0 0.02 @default 0.006
     radius: f32,
-    /// How far values differ by chance; what differs by much more is kept. For occlusion of 16 rays it is about 0.1.
+    /// Strength of the grain; larger differences are kept. For occlusion with 16 rays it is about 0.1.
     /// @range 0.001 1 @default 0.15
     grain: f32,
-    /// How far neighbors may be turned against each other and still count.
+    /// Largest angle between the normals of neighbors that are averaged.
     /// @angle @range 1 180 @soft 5 60 @default 20
     angle: f32,
 }
 
-/// Which way each place faces.
+/// The normal of each place.
 /// @pass 1 @vector
 fn facing(at: Surface) -> vec3f {
     return at.normal;
 }
 
-/// What is cleaned.
+/// The mask to filter.
 /// @pass 2
 /// @input source The mask with grain.
 fn start(at: Surface, source: texture_2d_array<f32>) -> f32 {

@@ -1,16 +1,16 @@
 //! Distance
-//! Fades away from a mask, over the surface and around corners.
+//! A mask that fades with the distance from another mask, over the surface and around corners.
 //!
-//! The distance is that of the shortest way over the surface, not through the air: it does not jump from one leg of a chair
+//! The distance is that of the shortest path over the surface, not through the air: it does not jump from one leg of a chair
 //! to the next.
 //! @alias gradient falloff glow outline halo geodesic
 //! @use distance
 
 struct Params {
-    /// How far away it has faded out.
+    /// Distance at which it has faded out.
     /// @length @range 0.0001 2 @soft 0.005 0.3 @default 0.05
     width: f32,
-    /// From which value on the mask counts.
+    /// Values of the mask above this one are inside.
     /// @range 0 1 @default 0.5
     threshold: f32,
 }
@@ -41,12 +41,12 @@ fn far(at: Surface, seed: texture_2d_array<f32>) -> f32 {
     return distance_sweep(seed, at);
 }
 
-/// 1 on the mask, and less the further away.
+/// 1 on the mask, less with the distance from it.
 fn mask(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>) -> f32 {
     return 1.0 - clamp(away(at, round, params, close, far) / params.width, 0.0, 1.0);
 }
 
-/// How far away the mask is; at most the width.
+/// Distance to the mask; at most Width.
 fn distance(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>) -> f32 {
     return min(away(at, round, params, close, far), params.width);
 }

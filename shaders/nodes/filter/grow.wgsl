@@ -4,10 +4,10 @@
 //! @use distance
 
 struct Params {
-    /// How far it grows; below 0 it shrinks.
+    /// Distance by which the mask grows; below 0 it shrinks.
     /// @length @range -1 1 @soft -0.1 0.1 @default 0.01
     radius: f32,
-    /// From which value on the mask counts.
+    /// Values of the mask above this one are inside.
     /// @range 0 1 @default 0.5
     threshold: f32,
 }

@@ -1,8 +1,8 @@
 //! Median
-//! Takes out specks and rounds corners, but keeps borders sharp.
+//! Removes specks and rounds corners, but keeps borders sharp.
 //!
-//! The median of a texel and its eight neighbors, again and again: borders move as fast as they are bent, so that what is
-//! smaller than the radius goes and what is straight stays.
+//! Repeats the median of a texel and its eight neighbors: bent borders become straighter, shapes smaller than the radius
+//! vanish, and straight borders stay.
 //! @alias despeckle denoise clean smooth
 //! @use surface
 
@@ -12,9 +12,9 @@ struct Params {
     radius: f32,
 }
 
-/// What is cleaned.
+/// The mask to filter.
 /// @pass 1 @texel params.radius / 8
-/// @input source The mask to clean.
+/// @input source The mask to filter.
 fn start(at: Surface, source: texture_2d_array<f32>) -> f32 {
     return surface_here(source, at).x;
 }
@@ -51,7 +51,7 @@ fn sorted(a: f32, b: f32, c: f32) -> vec3f {
     return vec3f(low, max(min(a, b), min(max(a, b), c)), high);
 }
 
-/// The cleaned mask.
+/// The filtered mask.
 fn mask(at: Surface, params: Params, cleaned: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
     return select(surface_here(source, at).x, surface_here(cleaned, at).x, params.radius > 0.0);
 }

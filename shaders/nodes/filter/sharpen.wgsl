@@ -1,13 +1,13 @@
 //! Sharpen
-//! Lifts what stands out from its surroundings: more contrast at borders and in detail.
+//! Sharpens a mask: more contrast at borders and in details.
 //! @alias unsharp crisp detail contrast highpass
 //! @use heat
 
 struct Params {
-    /// How large the surroundings are.
+    /// Radius of the surroundings that each place is compared with.
     /// @length @range 0 1 @soft 0 0.1 @default 0.01
     radius: f32,
-    /// How much is added of what stands out.
+    /// Strength: how much of the difference to the surroundings is added.
     /// @range 0 10 @soft 0 3 @default 1
     amount: f32,
 }

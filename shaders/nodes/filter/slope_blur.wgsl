@@ -4,20 +4,20 @@
 //! @use slope
 
 struct Params {
-    /// How far it smears at most.
+    /// Longest distance of the smear.
     /// @length @range -1 1 @soft -0.1 0.1 @default 0.02
     distance: f32,
-    /// What is taken of all that lies on the way.
+    /// Value taken from the places on the way: their mean, the smallest or the largest.
     /// @choice mean min max @default mean
     mode: u32,
-    /// Places looked at on the way.
+    /// Number of places read on the way.
     /// @range 2 48 @soft 4 32 @default 12
     samples: u32,
 }
 
 /// The slopes that it goes along, without detail that is small against the way.
 /// @pass 1 @vector @texel abs(params.distance) / 8
-/// @input by Along whose slopes.
+/// @input by The mask whose slopes are followed.
 /// @type mask
 fn slope(at: Surface, by: texture_2d_array<f32>) -> vec3f {
     return surface_gradient(by, at);

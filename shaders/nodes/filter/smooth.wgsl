@@ -1,5 +1,5 @@
 //! Smooth
-//! Softens a mask a little, over seams as if there were none.
+//! Softens a mask slightly, without visible seams.
 //!
 //! Each step replaces a texel by a weighted mean of itself and its eight neighbors on the surface. The reach is counted
 //! in texels, so it takes out grain of the map, not of the model.
@@ -7,7 +7,7 @@
 //! @use surface
 
 struct Params {
-    /// How often the mask is softened.
+    /// Number of steps.
     /// @range 1 64 @soft 1 16 @default 4
     steps: u32,
 }

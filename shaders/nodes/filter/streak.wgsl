@@ -1,25 +1,25 @@
 //! Streak
 //! Lets a mask run down the surface: stains below screws, rain marks, rust from edges.
 //!
-//! A strong place runs far, a faint one a short way. Where the surface is level nothing runs.
+//! High values run far, low ones a short way. Nothing runs where the surface is level.
 //! @alias run drip leak stain flow smear trail
 //! @use surface
 
 struct Params {
-    /// Which way it runs, in model space.
+    /// Direction in which the mask runs, in model space.
     /// @default 0 -1 0
     toward: vec3f,
-    /// How far the strongest places run.
+    /// Distance that the highest values run.
     /// @length @range 0.0001 4 @soft 0.01 1 @default 0.2
     length: f32,
-    /// The last part of the way, on which it fades: 0 ends at once, 1 fades from the start.
+    /// Share of the way on which a streak fades: 0 ends abruptly, 1 fades from the start.
     /// @range 0 1 @default 0.5
     fade: f32,
 }
 
 /// The way back up, as long as the surface is steep.
 /// @pass 1 @vector
-/// @input direction Which way it runs instead, place by place. @optional @vector @default 0 0 0
+/// @input direction Direction for each place, in place of Toward. @optional @vector @default 0 0 0
 fn upward(at: Surface, params: Params, direction: vec3f) -> vec3f {
     let down = select(params.toward, direction, dot(direction, direction) > 1e-12);
     let along = down * inverseSqrt(max(dot(down, down), 1e-12));
@@ -28,7 +28,7 @@ fn upward(at: Surface, params: Params, direction: vec3f) -> vec3f {
 
 /// What runs, and how far it would still come: 1 is the whole length.
 /// @pass 2 @vector
-/// @input source What runs down.
+/// @input source The mask that runs down.
 /// @type mask
 fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     let value = surface_here(source, at).x;
@@ -53,7 +53,7 @@ fn run(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, 
     return select(own, vec3f(above.x, arrives, 0.0), arrives > own.y);
 }
 
-/// What has run down, and what it came from.
+/// The streaks, together with the mask they start from.
 fn mask(at: Surface, params: Params, run: texture_2d_array<f32>) -> f32 {
     let state = surface_here(run, at);
     let left = 1.0 - (state.x - state.y);

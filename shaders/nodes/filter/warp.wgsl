@@ -4,14 +4,14 @@
 //! @use slope
 
 struct Params {
-    /// How far it moves at most.
+    /// Largest distance of the movement.
     /// @length @range -1 1 @soft -0.1 0.1 @default 0.02
     distance: f32,
 }
 
 /// The slopes that it follows, without detail that is small against the way.
 /// @pass 1 @vector @texel abs(params.distance) / 8
-/// @input by What moves it: the steeper, the further.
+/// @input by The mask whose slopes move the source: the steeper, the further.
 /// @type mask
 fn slope(at: Surface, by: texture_2d_array<f32>) -> vec3f {
     return surface_gradient(by, at);

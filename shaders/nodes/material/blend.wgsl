@@ -1,15 +1,14 @@
 //! Blend materials
-//! Puts one material over another where a mask says so; with Height blend, the higher of the two wins near the border.
+//! Puts one material over another by a mask; with Height blend, the higher of the two shows near the border.
 //!
 //! The mask says how likely the upper material is: its odds are m / (1 − m). Height blend multiplies these odds by
 //! (1 + d) / (1 − d), where d is the difference of the heights divided by Height blend, limited to ±0.9. So a mask of 0
-//! or 1 is obeyed exactly, nothing jumps at the mask's border, and in between sand fills the cracks while stones look
-//! out of it. A small Height blend makes a crisp border; 0 leaves the heights out of it.
+//! or 1 is followed exactly, the mask's border has no steps, and in between sand fills the cracks between stones. A small Height blend makes a crisp border; 0 ignores the heights.
 //! @alias blend mix material over layer height
 //! @use blend
 
 struct Params {
-    /// Difference of heights from which on the higher material wins; 0 leaves the heights out of it.
+    /// Difference of heights above which only the higher material shows; 0 ignores the heights.
     /// @length @range 0 100 @soft 0 0.05 @default 0
     height_blend: f32,
 }

@@ -1,18 +1,18 @@
 //! Combine material
-//! Makes a material of its channels, each of them wired or set by hand.
+//! Makes a material from its channels, each of them connected or set by hand.
 //!
-//! The counterpart of Split material: what was split and is combined again is the same as before.
+//! The counterpart of Split material: a material that is split and combined again is unchanged.
 //! @alias combine material channels pbr pack merge make join
 
 /// The material.
-/// @input base_color Its color in plain light. @optional @default #808080
-/// @input alpha How opaque it is: 0 is a hole. @optional @default 1
-/// @input roughness 0 is a mirror, 1 is chalk. @optional @default 0.7
-/// @input metallic 0 is everything but metal, 1 is bare metal. @optional @default 0
-/// @input occlusion How much of the surrounding light arrives: 1 is open, 0 is buried. @optional @default 1
-/// @input height Height above the model; below 0 it is sunk in. @optional @default 0
+/// @input base_color Base color. @optional @default #808080
+/// @input alpha Opacity: 0 is a hole. @optional @default 1
+/// @input roughness Roughness: 0 is a mirror, 1 is chalk. @optional @default 0.7
+/// @input metallic Metallic: 0 for anything but metal, 1 for bare metal. @optional @default 0
+/// @input occlusion Share of the surrounding light that arrives: 1 is open, 0 is buried. @optional @default 1
+/// @input height Height above the model; below 0 is sunk in. @optional @default 0
 /// @input slope Relief of a normal map, as Split material gives it. @vector @optional @default 0 0 0
-/// @input emission Light that it gives off. @optional @default #000000
+/// @input emission Emitted light. @optional @default #000000
 fn material(
     base_color: vec3f,
     alpha: f32,

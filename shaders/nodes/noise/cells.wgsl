@@ -1,8 +1,8 @@
 //! Cells
 //! Distance to the nearest of many points scattered through space: pits, pebbles, scales.
 //!
-//! Each cube of space holds one point; the mask is 0 at a point and grows to about 1 where cells meet. Cells that the
-//! texels cannot carry fade to their mean.
+//! Each cube of space holds one point; the mask is 0 at a point and grows to about 1 where cells meet. Cells that
+//! are too small for the texels fade to their mean.
 //! @alias worley voronoi cellular pebbles pits scales spots
 //! @use cells
 
@@ -14,16 +14,16 @@ struct Params {
     /// pits.
     /// @range 0.05 20 @soft 0.2 5 @default 1
     sharpness: f32,
-    /// How far the points stray from a regular grid.
+    /// Irregularity: how far the points are from a regular grid.
     /// @range 0 1 @default 1
     jitter: f32,
-    /// Draws the cells out along their own axes.
+    /// Stretches the cells along the axes of the pattern.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
     /// Turns the pattern about the model's axes: x first, then y, then z.
     /// @angle @range -360 360 @soft -180 180 @default 0 0 0
     rotate: vec3f,
-    /// Another number, another pattern of the same kind.
+    /// Number that chooses one of many patterns of the same kind.
     /// @seed @default 0
     seed: u32,
 }

@@ -1,26 +1,26 @@
 //! Chips
 //! Flakes broken off the edges: chipped paint, stone and enamel.
 //!
-//! Space is divided into cells, and where an edge runs through a cell a flake of its own may have broken off there: whole,
-//! with a border bent like a shell and a bottom that sinks away from the edge. Flakes sit on edges that stick out, however
-//! finely the model is cut into triangles; use the height to dent and the mask to show what is below.
+//! Space is divided into cells, and in each cell with an edge a flake may have broken off, with a border curved like a
+//! shell and a bottom that is deepest at the edge. Flakes are on convex edges only and do not depend on the triangles of
+//! the model. Use the height to sink the flakes, and the mask to show the material below.
 //! @alias chipping broken edges flakes conchoidal damage wear
 //! @use rays cells
 
 struct Params {
-    /// Mean size of a flake along the edge.
+    /// Mean size of the flakes along the edge.
     /// @length @range 0.0001 100 @soft 0.01 0.3 @default 0.06
     size: f32,
-    /// How far from the edge flakes reach at most.
+    /// Largest distance from the edge that flakes reach.
     /// @length @range 0.00001 100 @soft 0.002 0.1 @default 0.02
     width: f32,
-    /// How deep they are at the edge.
+    /// Depth of the flakes at the edge.
     /// @length @range 0 100 @soft 0 0.05 @default 0.01
     depth: f32,
-    /// Share of the places along edges where a flake is missing.
+    /// Share of the edges that is broken off.
     /// @range 0 1 @default 0.5
     amount: f32,
-    /// Draws the flakes out along their own axes.
+    /// Stretches the flakes along the axes of the pattern.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
     /// Turns the pattern about the model's axes: x first, then y, then z.
@@ -29,7 +29,7 @@ struct Params {
     /// Rays for each place; four times as many make smoother borders.
     /// @range 2 1024 @soft 8 256 @default 64
     rays: u32,
-    /// Another number, other flakes.
+    /// Number that chooses one of many patterns of flakes.
     /// @seed @default 0
     seed: u32,
 }
@@ -52,7 +52,7 @@ fn mask(at: Surface, bend: f32, position: vec3f, params: Params) -> f32 {
     return smoothstep(0.0, 0.08, inside(bend, position, params));
 }
 
-/// The dent that it leaves, below 0.
+/// Height of the broken places, below 0.
 fn height(at: Surface, bend: f32, position: vec3f, params: Params) -> f32 {
     // Sinks fast at the border and lies flat toward the edge, as a shell does.
     let within = clamp(inside(bend, position, params), 0.0, 1.0);

@@ -2,31 +2,31 @@
 //! A net of cracks, as in dried mud, old paint or glaze.
 //!
 //! The cracks are the walls between cells in space, where the surface cuts them: they run over seams and around corners,
-//! and are as wide as asked for however the surface lies. Cracks thinner than a texel become faint, not dotted; nets
+//! and have the given width on every side of the model. Cracks thinner than a texel become faint, not dotted; nets
 //! finer than the texels fade to their mean.
 //! @alias cracks craquelure mud dry paint glaze voronoi worley crackle broken
 //! @use cells lines
 
 struct Params {
-    /// Mean distance of the middles of neighboring pieces.
+    /// Mean distance between the centers of neighboring pieces.
     /// @length @range 0.0001 100 @soft 0.02 0.5 @default 0.15
     size: f32,
     /// Width of a crack, measured on the surface at half its strength.
     /// @length @range 0 10 @soft 0.001 0.02 @default 0.004
     width: f32,
-    /// How soft its borders are: how many times as wide a crack is where it ends as where it is whole. 1 is crisp.
+    /// Softness of the borders: full width of a crack by its width at full strength. 1 is crisp.
     /// @range 1 100 @soft 1 8 @default 2
     fade: f32,
-    /// How far the pieces stray from a regular grid of blocks.
+    /// Irregularity: how far the pieces are from a regular grid of blocks.
     /// @range 0 1 @default 1
     jitter: f32,
-    /// Draws the pieces out along their own axes; the width of the cracks stays.
+    /// Stretches the pieces along the axes of the pattern; the width of the cracks stays the same.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
     /// Turns the pattern about the model's axes: x first, then y, then z.
     /// @angle @range -360 360 @soft -180 180 @default 0 0 0
     rotate: vec3f,
-    /// Another number, another pattern of the same kind.
+    /// Number that chooses one of many patterns of the same kind.
     /// @seed @default 0
     seed: u32,
 }
@@ -40,8 +40,8 @@ fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
     return mix(mean_cover(params), cover, seen(at, params));
 }
 
-/// A rounded groove for each crack: -1 at its bottom, 0 on the pieces. For the height map of an effect, whose height is
-/// then how deep the cracks are.
+/// A rounded groove for each crack: -1 at its bottom, 0 on the pieces. Connect it to the height map of an effect;
+/// the effect's height is then the depth of the cracks.
 fn height(at: Surface, position: vec3f, params: Params) -> f32 {
     let outer = outer_of(params);
     let crack = nearest_crack(at, position, outer, params);

@@ -1,32 +1,32 @@
 //! Dots
 //! Round dots scattered over the surface: spots, speckles, pores, rivets.
 //!
-//! Points in space that lie almost on the surface, each drawn as a disk on it: so dots are round and of one size on every
-//! side of a model, and know no seams. Where the surface curves more tightly than the dots are wide they get smaller, and
-//! a sharp edge may cut one off. Dots smaller than a texel become faint; those closer than the texels fade to their mean.
+//! Points in space near the surface, each drawn as a disk on it: dots are round, of the same size on every side of a model,
+//! and run over seams. Where the surface curves more tightly than the dots are wide they get smaller, and
+//! a sharp edge may cut one off. Dots smaller than a texel become faint; dots closer than the texels fade to their mean.
 //! @alias dots spots speckles pores polka rivets freckles splatter drops
 //! @use cells
 
 struct Params {
-    /// Mean diameter of a dot. The largest dots, with their soft borders, are held at twice the spacing.
+    /// Mean diameter of a dot. The largest dots, with their soft borders, are limited to twice the spacing.
     /// @length @range 0.0001 100 @soft 0.002 0.2 @default 0.02
     size: f32,
-    /// Mean distance of neighboring dots; dots smaller than 0.45 of it never touch.
+    /// Mean distance between neighboring dots; dots smaller than 0.45 times this never touch.
     /// @length @range 0.0001 100 @soft 0.01 0.5 @default 0.06
     spacing: f32,
-    /// How crisp the borders are: 1 is a sharp line, 0 fades from the middle on.
+    /// Sharpness of the borders: 1 is a sharp line, 0 fades from the center.
     /// @range 0 1 @default 0.8
     sharpness: f32,
-    /// How much the dots differ in size.
+    /// Variation of the size of dots.
     /// @range 0 1 @default 0.3
     variation: f32,
-    /// Draws the dots out along their own axes.
+    /// Stretches the dots along the axes of the pattern.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
     /// Turns the pattern about the model's axes: x first, then y, then z.
     /// @angle @range -360 360 @soft -180 180 @default 0 0 0
     rotate: vec3f,
-    /// Another number, another pattern of the same kind.
+    /// Number that chooses one of many patterns of the same kind.
     /// @seed @default 0
     seed: u32,
 }

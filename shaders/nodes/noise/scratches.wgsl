@@ -1,5 +1,5 @@
 //! Scratches
-//! Bent scratches all over the surface, or along one way: use, transport, brushing, sanding.
+//! Bent scratches in all directions or in one: traces of use, transport, brushing, sanding.
 //!
 //! Each scratch is where one side of a thin, slightly bent disk in space cuts the surface: it runs over seams, and ends where
 //! the surface turns away from that side. Some are cut far from the middle of their disk and are shorter and finer.
@@ -8,7 +8,7 @@
 //! @use cells lines
 
 struct Params {
-    /// How many scratches there are: 1 is all that there can be.
+    /// Number of scratches: 1 is the most that fit.
     /// @range 0 1 @default 0.5
     density: f32,
     /// Length of the longest scratches.
@@ -17,41 +17,40 @@ struct Params {
     /// Width of the widest scratches, measured on the surface at half their strength.
     /// @length @range 0 10 @soft 0.0005 0.02 @default 0.004
     width: f32,
-    /// How bent the scratches are: how far the ends of the most bent ones stray, as a share of half their length.
+    /// How bent the scratches are: offset of the ends of the most bent ones, as a share of half their length.
     /// @range 0 1 @default 0.2
     bend: f32,
-    /// How far from Toward scratches may point, measured from one side to the other. It does nothing without Toward.
+    /// Range of directions around Toward, measured from one side to the other. Has no effect without Toward.
     /// @angle @range 0 180 @default 180
     spread: f32,
-    /// Draws the scratches out along the pattern's own axes; their width stays.
+    /// Stretches the scratches along the axes of the pattern; their width stays the same.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
     /// Turns the pattern about the model's axes: x first, then y, then z.
     /// @angle @range -360 360 @soft -180 180 @default 0 0 0
     rotate: vec3f,
-    /// Another number, another pattern of the same kind.
+    /// Number that chooses one of many patterns of the same kind.
     /// @seed @default 0
     seed: u32,
 }
 
 /// The scratches: 1 inside, 0 between them.
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
-/// @input toward The way that scratches follow, in model space, where the surface runs along it; none at all lets them run
-/// anywhere. @vector @optional @default 0 0 0
+/// @input toward Direction of the scratches, in model space; unconnected, scratches have any direction. @vector @optional @default 0 0 0
 fn mask(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
     let found = scratches(at, position, toward, params);
     return mix(mean_cover(params), 1.0 - found.clear, seen(at, params));
 }
 
-/// A groove with raised ridges for each scratch: -1 at the bottom of the widest, up to 0.25 on the ridges, 0 between. For
-/// the height map of an effect, whose height is then how deep the scratches are.
+/// A groove with raised ridges for each scratch: -1 at the bottom of the widest, up to 0.25 on the ridges, 0 between. Connect it to
+/// the height map of an effect; the effect's height is then the depth of the scratches.
 fn height(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
     let found = scratches(at, position, toward, params);
     // The ridges take half of a groove back, and fine scratches are shallow: 0.3 of the mask is left, measured.
     return mix(-0.3 * mean_cover(params), found.low + found.high * (1.0 + found.low), seen(at, params));
 }
 
-/// The way along a scratch, in model space; as long as the scratch is strong, and 0 between scratches.
+/// Direction of the scratch, in model space; its length is the strength of the scratch, 0 between scratches.
 /// @vector
 fn direction(at: Surface, position: vec3f, toward: vec3f, params: Params) -> vec3f {
     let found = scratches(at, position, toward, params);

@@ -3,7 +3,7 @@
 //!
 //! Fractal simplex noise: octaves of ever finer noise on top of each other. The result is a mask whose threshold is the
 //! covered share: a threshold at 0.3 leaves about 30 % of the surface below it. Detail finer than the texels fades out
-//! evenly, so a small map is what a large one looks like from afar.
+//! evenly, so a small map looks like a large one from afar.
 //! @alias clouds perlin fbm fractal billow ridged turbulence simplex
 //! @use noise
 
@@ -11,25 +11,25 @@ struct Params {
     /// Size of the largest clouds.
     /// @length @range 0.0001 100 @soft 0.02 1 @default 0.25
     size: f32,
-    /// How many finer layers of noise are added up.
+    /// Number of finer layers of noise.
     /// @label Detail @range 1 16 @soft 1 10 @default 8
     octaves: u32,
-    /// How much finer each layer is than the one before.
+    /// Factor by which each layer is finer than the one before.
     /// @label Detail step @range 1 4 @soft 1.5 3 @default 2
     lacunarity: f32,
-    /// How strong each layer is, compared with the one before.
+    /// Strength of each layer relative to the one before.
     /// @label Grain @range 0 1 @default 0.5
     gain: f32,
-    /// The shape of the clouds: soft both ways, puffs with creases between them, or sharp ridges.
+    /// Shape of the clouds: soft (fbm), puffs with creases between them (billow), or sharp ridges (ridged).
     /// @choice fbm billow ridged @default fbm
     mode: u32,
-    /// Draws the pattern out along its own axes.
+    /// Stretches the pattern along its axes.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
     /// Turns the pattern about the model's axes: x first, then y, then z.
     /// @angle @range -360 360 @soft -180 180 @default 0 0 0
     rotate: vec3f,
-    /// Another number, another pattern of the same kind.
+    /// Number that chooses one of many patterns of the same kind.
     /// @seed @default 0
     seed: u32,
 }

@@ -10,13 +10,13 @@ struct Params {
     /// Side of a cube.
     /// @length @range 0.0001 100 @soft 0.002 0.2 @default 0.01
     size: f32,
-    /// Draws the cubes out along their own axes.
+    /// Stretches the cubes along the axes of the pattern.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
     /// Turns the pattern about the model's axes: x first, then y, then z.
     /// @angle @range -360 360 @soft -180 180 @default 0 0 0
     rotate: vec3f,
-    /// Another number, another pattern of the same kind.
+    /// Number that chooses one of many patterns of the same kind.
     /// @seed @default 0
     seed: u32,
 }

@@ -1,10 +1,10 @@
 //! Wood
-//! Rings, knots and fiber of sawn wood; every piece of the model is cut from another place of the tree.
+//! Rings, knots and fiber of sawn wood; every piece of the model is cut from another part of the tree.
 //!
 //! The wood is solid and its grain runs along the longest side of each piece, such as each plank of a table, so a cut
 //! across shows rings and a cut along shows streaks and arches. The years differ: late wood is dark and ends sharply.
-//! Knots are branches that grew with the trunk, and its rings bend around them. What the texels cannot carry fades to its
-//! mean.
+//! Knots are branches that grew with the trunk, and its rings bend around them. Details smaller than the texels fade to
+//! their mean.
 //! @alias timber plank board veneer grain rings knots oak pine varnish
 //! @use noise
 
@@ -12,19 +12,19 @@ struct Params {
     /// Mean width of a year's ring.
     /// @length @range 0.0001 100 @soft 0.004 0.1 @default 0.03
     rings: f32,
-    /// How many branches the tree had.
+    /// Number of knots.
     /// @range 0 1 @default 0.3
     knots: f32,
-    /// How strongly fibers and pores show.
+    /// Strength of fibers and pores.
     /// @range 0 1 @default 0.5
     grain: f32,
-    /// Draws the wood out along its own axes: x is along the grain.
+    /// Stretches the wood along its axes: x is along the grain.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
     /// Turns the wood about the axes of the place: x first, then y, then z.
     /// @angle @range -360 360 @soft -180 180 @default 0 0 0
     rotate: vec3f,
-    /// Another number, other trees.
+    /// Number that chooses one of many trees.
     /// @seed @default 0
     seed: u32,
 }

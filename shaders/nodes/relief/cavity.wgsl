@@ -7,10 +7,10 @@
 //! @use relief
 
 struct Params {
-    /// How far around it is looked.
+    /// Size of the surroundings.
     /// @length @range 0.00001 1 @soft 0.001 0.05 @default 0.02
     width: f32,
-    /// What turns by less does not count.
+    /// Smallest angle of a groove that counts.
     /// @angle @range 0 180 @soft 1 90 @default 8
     angle: f32,
     /// How softly the mask falls off: 0 is a sharp band, 1 fades up to a right angle.
@@ -26,7 +26,7 @@ fn conduction(at: Surface) -> vec3f {
 
 /// The relief, to be smoothed.
 /// @pass 2 @vector @texel params.width / 8
-/// @input height The relief, in model units.
+/// @input height The height that the graph has made, in model units.
 /// @type mask
 fn start(at: Surface, height: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(height, at).x);

@@ -1,25 +1,25 @@
 //! Relief occlusion
 //! How buried a place is in the relief: under rims, between bumps, in cracks.
 //!
-//! As Occlusion, but of the relief that the graph itself has made. Along several ways over the surface it looks how high the
-//! relief rises within the distance.
+//! As Occlusion, but of the relief that the graph itself has made. It measures along several paths over the surface how high
+//! the relief rises within the distance.
 //! @alias ambient occlusion ao dirt shadow buried micro detail
 //! @use surface noise
 
 struct Params {
-    /// How far around it is looked.
+    /// Length of the paths.
     /// @length @range 0.00001 1 @soft 0.001 0.1 @default 0.02
     distance: f32,
-    /// Ways that are looked along.
+    /// Number of paths.
     /// @range 3 10 @default 8
     ways: u32,
 }
 
-/// Places looked at on each way.
+/// Places measured on each path.
 const STEPS: i32 = 5;
 
-/// The share of light, weighted by its cosine, that the relief takes.
-/// @input height The relief, in model units.
+/// Share of the light, weighted by its cosine, that the relief blocks.
+/// @input height The height that the graph has made, in model units.
 fn mask(at: Surface, params: Params, height: texture_2d_array<f32>) -> f32 {
     let own = surface_here(height, at).x;
     let side = normalize(cross(at.face_normal, select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(at.face_normal.x) > 0.7)));
@@ -48,7 +48,7 @@ fn mask(at: Surface, params: Params, height: texture_2d_array<f32>) -> f32 {
     return buried / f32(params.ways);
 }
 
-/// The opposite: white where it is open.
+/// The inverse: white where the relief is open.
 fn ao(at: Surface, params: Params, height: texture_2d_array<f32>) -> f32 {
     return 1.0 - mask(at, params, height);
 }

@@ -1,16 +1,16 @@
 //! Plain material
-//! One color, roughness and metallic everywhere: a base to age.
+//! A plain base with one color, roughness and metallic value.
 //!
 //! @alias material base plain constant paint metal
 
 struct Params {
-    /// The color in plain light.
+    /// Base color.
     /// @color @default #808080
     color: vec3f,
-    /// 0 is a mirror, 1 is chalk.
+    /// Roughness: 0 is a mirror, 1 is chalk.
     /// @range 0 1 @default 0.5
     roughness: f32,
-    /// 0 is everything but metal, 1 is bare metal.
+    /// Metallic: 0 for anything but metal, 1 for bare metal.
     /// @range 0 1 @default 0
     metallic: f32,
 }

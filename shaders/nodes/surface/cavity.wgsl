@@ -1,28 +1,27 @@
 //! Cavity
-//! The creases and hollows that dirt gathers in and wear does not reach.
+//! Creases and hollows, where dirt gathers.
 //!
-//! It does not hang on how finely the model is cut into triangles, only on how sharply a crease turns and how wide the dirt is
-//! to be.
+//! The mask depends on the angle of a crease and on Width, and not on the triangles of the model.
 //! @alias crease concave hollow groove dirt grime curvature
 //! @use rays
 
 struct Params {
-    /// How far from a crease the mask reaches.
+    /// Distance from a crease that the mask reaches.
     /// @length @range 0.00001 1000 @soft 0.002 0.1 @default 0.02
     width: f32,
-    /// Creases that turn by less do not count.
+    /// Smallest angle of a crease that counts.
     /// @angle @range 0 180 @soft 5 90 @default 30
     angle: f32,
     /// How softly the mask falls off: 0 is a sharp band, 1 fades over the whole width.
     /// @range 0 1 @default 0.5
     softness: f32,
-    /// Whether edges inside smooth shading do not count, as those between the facets of a round column.
+    /// Whether to ignore edges with smooth shading, such as those between the facets of a round column.
     /// @toggle @default on
     smooth_groups: u32,
     /// Rays for each place; four times as many halve the noise.
     /// @range 2 1024 @soft 8 256 @default 32
     rays: u32,
-    /// Another number, other rays.
+    /// Number that chooses the rays.
     /// @seed @default 0
     seed: u32,
 }

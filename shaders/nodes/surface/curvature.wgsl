@@ -1,20 +1,20 @@
 //! Curvature
 //! How the surface bends: edges and bumps above 0, creases and hollows below.
 //!
-//! Rays go to all sides of a place; it is the share of them that is stopped inside the model less the share that is stopped
-//! outside. So it does not hang on how finely the model is cut into triangles: an edge that turns by 90 degrees gives 0.5,
-//! by 45 degrees 0.25, whatever its faces; within the radius it falls evenly to 0.
+//! Rays go out to all sides of a place; the result is the share of them that hits the model from inside minus the share that
+//! hits it from outside. It does not depend on the triangles of the model: an edge of 90 degrees gives 0.5, one of 45
+//! degrees 0.25, and the values fall evenly to 0 within the radius.
 //! @alias convex concave bend edge crease wear
 //! @use rays
 
 struct Params {
-    /// How far around it is looked.
+    /// Length of the rays.
     /// @length @range 0.00001 1000 @soft 0.002 0.2 @default 0.02
     radius: f32,
     /// Rays for each place; four times as many halve the noise.
     /// @range 2 1024 @soft 8 256 @default 32
     rays: u32,
-    /// Another number, other rays.
+    /// Number that chooses the rays.
     /// @seed @default 0
     seed: u32,
 }
@@ -25,7 +25,7 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_around(at, index, params.seed, params.radius);
 }
 
-/// The bend: above 0 where the surface is convex, below where it is concave.
+/// Curvature: above 0 where the surface is convex, below where it is concave.
 fn mask(bend: f32) -> f32 {
     return bend;
 }

@@ -1,28 +1,28 @@
 //! Edges
-//! The edges that stick out: where paint is worn off and corners break.
+//! Convex edges, where paint wears off and corners break.
 //!
-//! It does not hang on how finely the model is cut into triangles, only on how sharply an edge turns and how wide the wear is
-//! to be. Noise times edges makes wear; edges alone make a clean rim.
+//! The mask depends on the angle of an edge and on Width, and not on the triangles of the model. Multiplied by a noise it
+//! makes wear; alone it makes a clean rim.
 //! @alias edge wear convex rim corner chipped curvature
 //! @use rays
 
 struct Params {
-    /// How far from an edge the mask reaches.
+    /// Distance from an edge that the mask reaches.
     /// @length @range 0.00001 1000 @soft 0.002 0.1 @default 0.02
     width: f32,
-    /// Edges that turn by less do not count.
+    /// Smallest angle of an edge that counts.
     /// @angle @range 0 180 @soft 5 90 @default 30
     angle: f32,
     /// How softly the mask falls off: 0 is a sharp band, 1 fades over the whole width.
     /// @range 0 1 @default 0.5
     softness: f32,
-    /// Whether edges inside smooth shading do not count, as those between the facets of a round column.
+    /// Whether to ignore edges with smooth shading, such as those between the facets of a round column.
     /// @toggle @default on
     smooth_groups: u32,
     /// Rays for each place; four times as many halve the noise.
     /// @range 2 1024 @soft 8 256 @default 32
     rays: u32,
-    /// Another number, other rays.
+    /// Number that chooses the rays.
     /// @seed @default 0
     seed: u32,
 }
@@ -33,7 +33,7 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_around(at, index, params.seed, params.width);
 }
 
-/// 1 on edges that stick out, 0 away from them.
+/// 1 on convex edges, 0 away from them.
 fn mask(bend: f32, params: Params) -> f32 {
     return bent_beyond(bend, params.angle, params.softness);
 }

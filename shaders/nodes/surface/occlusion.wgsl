@@ -1,22 +1,22 @@
 //! Occlusion
-//! How much of what lies around is close by: creases, corners, below eaves.
+//! How enclosed each place is: high in creases, in corners and below eaves.
 //!
-//! From each place rays go out over the half of space above the surface, most of them straight up; the mask is the share
-//! that meets the model within the distance. Dust and dirt sit where it is high.
+//! Rays go out from each place into the hemisphere above the surface, most of them along the normal; the mask is the share
+//! that hits the model within the distance. Dust and dirt lie where it is high.
 //! @alias ao ambient occlusion crevice crease corner dirt shadow exposure
 //! @use rays
 
 struct Params {
-    /// How far away something still counts.
+    /// Longest distance at which surfaces count.
     /// @length @range 0.00001 1000 @soft 0.01 1 @default 0.1
     distance: f32,
     /// Rays for each place; four times as many halve the noise.
     /// @range 1 1024 @soft 4 128 @default 16
     rays: u32,
-    /// What is further away: counts as much up to the distance, or less and less.
+    /// Whether surfaces count the same up to the distance (none), or less the farther they are (linear).
     /// @choice none linear @default none
     falloff: u32,
-    /// Another number, other rays.
+    /// Number that chooses the rays.
     /// @seed @default 0
     seed: u32,
 }
@@ -31,12 +31,12 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_out(at, direction, params.distance * share);
 }
 
-/// How much is close by: 0 in the open, 1 where everything around is.
+/// 0 in the open, 1 where all rays hit the model.
 fn mask(hit: Hit) -> f32 {
     return select(0.0, 1.0, hit.is_hit);
 }
 
-/// The opposite: 1 in the open, as occlusion maps have it.
+/// The inverse: 1 in the open, as in occlusion maps.
 fn ao(hit: Hit) -> f32 {
     return select(1.0, 0.0, hit.is_hit);
 }

@@ -5,13 +5,13 @@
 //! @alias position height ramp gradient ground bottom top altitude
 
 struct Params {
-    /// The way the ramp runs, in model space.
+    /// Direction of the ramp, in model space.
     /// @range -1 1 @default 0 1 0
     along: vec3f,
-    /// Where the ramp is 0, as a share of the model's extent.
+    /// Position at which the ramp is 0, as a share of the model's extent.
     /// @range -10 10 @soft 0 1 @default 0
     low: f32,
-    /// Where the ramp is 1, as a share of the model's extent; below Low, the ramp runs the other way.
+    /// Position at which the ramp is 1, as a share of the model's extent. If it is below Low, the ramp is reversed.
     /// @range -10 10 @soft 0 1 @default 1
     high: f32,
     /// Where the model begins along the direction.
@@ -32,7 +32,7 @@ fn mask(at: Surface, params: Params) -> f32 {
     return clamp((share - params.low) / select(length, 1e-6, abs(length) < 1e-6), 0.0, 1.0);
 }
 
-/// The place itself, to move it or to read noises somewhere else.
+/// The position of each place, to warp noises with.
 /// @vector
 fn position(at: Surface) -> vec3f {
     return at.position;

@@ -1,19 +1,19 @@
 //! Rounded normal
-//! Hard edges shaded as if they were bevelled: give it to Combine material as its slope.
+//! Shades hard edges as if they were beveled: connect it to the slope of Combine material.
 //!
-//! The normal becomes the mean direction of the air in a ball around each place, which turns over an edge from one side to
-//! the other within the radius. Away from edges it is the model's own normal to the last bit. The model stays as it is.
+//! Within the radius of an edge, the normal turns smoothly from one side to the other. Away from edges it is exactly the
+//! model's own normal. The model itself is not changed.
 //! @alias bevel chamfer rounded edge soft edge normal fillet
 //! @use rays
 
 struct Params {
-    /// How far from an edge the rounding reaches.
+    /// Distance from an edge that the rounding reaches.
     /// @length @range 0.00001 1000 @soft 0.001 0.05 @default 0.01
     radius: f32,
     /// Rays for each place; four times as many halve the noise.
     /// @range 4 1024 @soft 8 128 @default 16
     rays: u32,
-    /// Another number, other rays.
+    /// Number that chooses the rays.
     /// @seed @default 0
     seed: u32,
 }
@@ -24,7 +24,7 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_around(at, index, params.seed, params.radius);
 }
 
-/// How the normal leans against the model's: the slope of the bevel.
+/// The slope of the bevel.
 /// @vector
 fn slope(at: Surface, change: vec3f) -> vec3f {
     let rounded = rounded_by(at, change);
@@ -32,7 +32,7 @@ fn slope(at: Surface, change: vec3f) -> vec3f {
     return at.normal - rounded / max(dot(at.normal, rounded), 0.17);
 }
 
-/// How far it leans: 0 away from edges, 1 by a quarter turn.
+/// Angle between the rounded normal and the model's: 0 away from edges, 1 for 90 degrees.
 fn mask(at: Surface, change: vec3f) -> f32 {
     return acos(clamp(dot(at.normal, rounded_by(at, change)), 0.0, 1.0)) * 0.63661977;
 }

@@ -1,19 +1,19 @@
 //! Thickness
-//! How deep the model is below each place: thin rims, leaves and cloth against solid parts.
+//! How thick the model is below each place: tells thin rims, leaves and cloth from solid parts.
 //!
-//! Rays go inward and end where they leave the model again. Where it is open, they may leave it nowhere and count as the
-//! full distance.
+//! Rays go inward and end where they leave the model. In a model with holes some never leave it and count as the full
+//! distance.
 //! @alias thin translucency depth inside subsurface volume
 //! @use rays
 
 struct Params {
-    /// What counts as thick; deeper makes no difference.
+    /// Thickness that counts as 1; larger ones make no difference.
     /// @length @range 0.00001 1000 @soft 0.01 1 @default 0.1
     distance: f32,
     /// Rays for each place; four times as many halve the noise.
     /// @range 1 1024 @soft 4 128 @default 16
     rays: u32,
-    /// Another number, other rays.
+    /// Number that chooses the rays.
     /// @seed @default 0
     seed: u32,
 }
@@ -25,12 +25,12 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_along(at, inward, params.distance);
 }
 
-/// The mean depth as a share of the distance: 0 as thin as paper, 1 thick.
+/// Mean thickness as a share of Distance: 0 is as thin as paper, 1 is thick.
 fn mask(hit: Hit, params: Params) -> f32 {
     return hit.distance / params.distance;
 }
 
-/// The mean depth in model units, the distance at most.
+/// Mean thickness in model units; at most Distance.
 fn depth(hit: Hit) -> f32 {
     return hit.distance;
 }

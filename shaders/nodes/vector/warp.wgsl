@@ -1,33 +1,33 @@
 //! Warp
-//! Moves the place where noises are read: straight lines become wavy, round things uneven.
+//! Moves the positions at which noises are read: straight lines become wavy, round shapes uneven.
 //!
-//! Connect the result to Position of a noise. By itself the node moves places by a soft noise of its own; what is connected
-//! to By moves them further, and with Turbulence at 0 alone.
+//! Connect the result to Position of a noise. The node moves positions by its own soft noise; a vector connected
+//! to By is added, and with Turbulence at 0 it is the only movement.
 //! @alias warp distort domain turbulence wobble wavy swirl
 //! @use noise
 
 struct Params {
-    /// How far places are moved.
+    /// Distance by which positions are moved.
     /// @length @range -100 100 @soft 0 0.3 @default 0.05
     amount: f32,
-    /// How much of the node's own noise moves them.
+    /// Strength of the node's own noise.
     /// @range 0 10 @soft 0 1 @default 1
     turbulence: f32,
     /// Size of the largest waves of the node's own noise.
     /// @length @range 0.0001 100 @soft 0.02 1 @default 0.3
     size: f32,
-    /// How many finer layers of that noise are added up.
+    /// Number of finer layers of that noise.
     /// @label Detail @range 1 8 @default 2
     octaves: u32,
-    /// Another number, another noise of the same kind.
+    /// Number that chooses one of many noises of the same kind.
     /// @seed @default 0
     seed: u32,
 }
 
-/// The place, moved.
+/// The moved position.
 /// @vector
-/// @input position The place to move. @vector @optional @default at.position
-/// @input by The way to move, times Amount; added to the node's own noise. @vector @optional @default 0 0 0
+/// @input position The position to move. @vector @optional @default at.position
+/// @input by Movement, multiplied by Amount and added to the node's own noise. @vector @optional @default 0 0 0
 fn vector(at: Surface, position: vec3f, by: vec3f, params: Params) -> vec3f {
     var place = position / params.size;
     var key = seed_key(params.seed);
