@@ -4,27 +4,28 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::{Edit, Frame, Graph, Node, NodeId, SlotRef};
 
-use super::OpenDocument;
+use crate::open_document::OpenDocument;
+use crate::{frames, new_nodes, ports};
 
 /// How far a copy stands from what it was made of, canvas points.
 const COPY_OFFSET: [f32; 2] = [40.0, 40.0];
 
 /// Nodes that are to be added, with the frames around them.
-pub(super) struct Copies {
-    pub(super) nodes: Vec<(NodeId, Node)>,
+pub(crate) struct Copies {
+    pub(crate) nodes: Vec<(NodeId, Node)>,
     /// The id of each copy, by that of what it was made of.
-    pub(super) new_id: BTreeMap<NodeId, NodeId>,
+    pub(crate) new_id: BTreeMap<NodeId, NodeId>,
     frames: Vec<(String, Frame)>,
 }
 
 impl Copies {
-    pub(super) fn ids(&self) -> Vec<NodeId> {
+    pub(crate) fn ids(&self) -> Vec<NodeId> {
         self.nodes.iter().map(|(id, _)| id.clone()).collect()
     }
 }
 
 /// Frames of a graph that stand around none but the given nodes.
-pub(super) fn frames_around(graph: &Graph, is_chosen: impl Fn(&NodeId) -> bool) -> BTreeMap<String, Frame> {
+pub(crate) fn frames_around(graph: &Graph, is_chosen: impl Fn(&NodeId) -> bool) -> BTreeMap<String, Frame> {
     let frames = graph.frames().iter();
     let whole = frames.filter(|(_, frame)| {
         // Nodes that are gone do no harm.
@@ -38,108 +39,104 @@ pub(super) fn frames_around(graph: &Graph, is_chosen: impl Fn(&NodeId) -> bool) 
     whole.map(|(id, frame)| (id.clone(), frame.clone())).collect()
 }
 
-impl OpenDocument {
-    /// Copies the selected nodes, wires among them included; with `keeps_inputs` also those that come from elsewhere.
-    pub fn duplicate(&mut self, keeps_inputs: bool) -> bool {
-        let chosen = self
-            .selection
-            .iter()
-            .filter_map(|id| Some((id.clone(), self.node(id)?.clone())));
-        let chosen: BTreeMap<NodeId, Node> = chosen.collect();
-        let frames = frames_around(self.graph(), |id| chosen.contains_key(id));
-        let copies = self.copies(&chosen, frames, keeps_inputs, COPY_OFFSET);
-        let mut fed = Vec::new();
-        if keeps_inputs {
-            for (slot, by) in self.fed_by_group(|id| copies.new_id.contains_key(id)) {
-                let node = copies.new_id[&slot.node].clone();
-                fed.push((SlotRef { node, ..slot }, Some(by)));
+/// Copies the selected nodes, wires among them included; with `keeps_inputs` also those that come from elsewhere.
+pub fn duplicate(document: &mut OpenDocument, keeps_inputs: bool) -> bool {
+    let chosen = document
+        .selection()
+        .iter()
+        .filter_map(|id| Some((id.clone(), document.node(id)?.clone())));
+    let chosen: BTreeMap<NodeId, Node> = chosen.collect();
+    let frames = frames_around(document.graph(), |id| chosen.contains_key(id));
+    let copies = copies(document, &chosen, frames, keeps_inputs, COPY_OFFSET);
+    let mut fed = Vec::new();
+    if keeps_inputs {
+        for (slot, by) in ports::fed_by_group(document, |id| copies.new_id.contains_key(id)) {
+            let node = copies.new_id[&slot.node].clone();
+            fed.push((SlotRef { node, ..slot }, Some(by)));
+        }
+    }
+    let ids = copies.ids();
+    let mut edits = additions(document, copies);
+    ports::refeed(document, &mut edits, fed);
+    document.edit_and_select("Duplicate", edits, ids)
+}
+
+/// Copies under new ids; a copy keeps its seed, so that it looks like what it was made of.
+pub(crate) fn copies(
+    document: &mut OpenDocument,
+    nodes: &BTreeMap<NodeId, Node>,
+    frames: BTreeMap<String, Frame>,
+    keeps_inputs: bool,
+    offset: [f32; 2],
+) -> Copies {
+    let mut taken = BTreeSet::new();
+    let mut new_id = BTreeMap::new();
+    for id in nodes.keys() {
+        let copy = document.new_id_like(id, &taken);
+        taken.insert(copy.clone());
+        new_id.insert(id.clone(), copy);
+    }
+    let copy = |(id, node): (&NodeId, &Node)| {
+        let mut copy = node.clone();
+        copy.inputs
+            .retain(|_, from| keeps_inputs || nodes.contains_key(&from.node));
+        for from in copy.inputs.values_mut() {
+            if let Some(new) = new_id.get(&from.node) {
+                from.node = new.clone();
             }
         }
-        let ids = copies.ids();
-        let mut edits = self.adding_all(copies);
-        self.refeed(&mut edits, fed);
-        self.edit_and_select("Duplicate", edits, ids)
-    }
+        copy.pos = [0, 1].map(|axis| node.pos[axis] + offset[axis]);
+        (new_id[id].clone(), copy)
+    };
+    let nodes = nodes.iter().map(copy).collect();
+    let frames = copied_frames(document, frames, &new_id);
+    Copies { nodes, new_id, frames }
+}
 
-    /// Copies under new ids; a copy keeps its seed, so that it looks like what it was made of.
-    pub(super) fn copies(
-        &mut self,
-        nodes: &BTreeMap<NodeId, Node>,
-        frames: BTreeMap<String, Frame>,
-        keeps_inputs: bool,
-        offset: [f32; 2],
-    ) -> Copies {
-        let body = self.body();
-        let mut taken = BTreeSet::new();
-        let mut new_id = BTreeMap::new();
-        for id in nodes.keys() {
-            let graph = self.session.document().body(&body);
-            let copy = self.names.copy_of(id, graph.unwrap_or(&Graph::default()), &taken);
-            taken.insert(copy.clone());
-            new_id.insert(id.clone(), copy);
+fn copied_frames(
+    document: &mut OpenDocument,
+    frames: BTreeMap<String, Frame>,
+    new_id: &BTreeMap<NodeId, NodeId>,
+) -> Vec<(String, Frame)> {
+    let mut taken = frames::ids(document);
+    let mut copied = Vec::new();
+    for mut frame in frames.into_values() {
+        let id = document.new_id("frame", &taken);
+        frame.nodes = frame.nodes.iter().filter_map(|id| new_id.get(id).cloned()).collect();
+        copied.push((id.to_string(), frame));
+        taken.insert(id);
+    }
+    copied
+}
+
+/// Makes these edits, adds the nodes, which may read each other, and selects them: one step.
+pub(crate) fn add_all(document: &mut OpenDocument, step: &str, mut edits: Vec<Edit>, copies: Copies) -> bool {
+    let ids = copies.ids();
+    edits.extend(additions(document, copies));
+    document.edit_and_select(step, edits, ids)
+}
+
+/// The edits that add nodes which read each other: all of them first, then their wires and frames.
+pub(crate) fn additions(document: &OpenDocument, copies: Copies) -> Vec<Edit> {
+    let body = document.body();
+    let mut wires = Vec::new();
+    let mut edits: Vec<Edit> = Vec::new();
+    for (id, mut node) in copies.nodes {
+        for (input, from) in std::mem::take(&mut node.inputs) {
+            wires.push(Edit::Connect {
+                body: body.clone(),
+                node: id.clone(),
+                input,
+                from,
+            });
         }
-        let copy = |(id, node): (&NodeId, &Node)| {
-            let mut copy = node.clone();
-            copy.inputs
-                .retain(|_, from| keeps_inputs || nodes.contains_key(&from.node));
-            for from in copy.inputs.values_mut() {
-                if let Some(new) = new_id.get(&from.node) {
-                    from.node = new.clone();
-                }
-            }
-            copy.pos = [0, 1].map(|axis| node.pos[axis] + offset[axis]);
-            (new_id[id].clone(), copy)
-        };
-        let nodes = nodes.iter().map(copy).collect();
-        let frames = self.copied_frames(frames, &new_id);
-        Copies { nodes, new_id, frames }
+        edits.push(new_nodes::addition(document, &id, node));
     }
-
-    fn copied_frames(
-        &mut self,
-        frames: BTreeMap<String, Frame>,
-        new_id: &BTreeMap<NodeId, NodeId>,
-    ) -> Vec<(String, Frame)> {
-        let mut taken = self.frame_ids();
-        let mut copied = Vec::new();
-        for mut frame in frames.into_values() {
-            let id = self.new_id("frame", &taken);
-            frame.nodes = frame.nodes.iter().filter_map(|id| new_id.get(id).cloned()).collect();
-            copied.push((id.to_string(), frame));
-            taken.insert(id);
-        }
-        copied
-    }
-
-    /// Makes these edits, adds the nodes, which may read each other, and selects them: one step.
-    pub(super) fn add_all(&mut self, step: &str, mut edits: Vec<Edit>, copies: Copies) -> bool {
-        let ids = copies.ids();
-        edits.extend(self.adding_all(copies));
-        self.edit_and_select(step, edits, ids)
-    }
-
-    /// The edits that add nodes which read each other: all of them first, then their wires and frames.
-    pub(super) fn adding_all(&self, copies: Copies) -> Vec<Edit> {
-        let body = self.body();
-        let mut wires = Vec::new();
-        let mut edits: Vec<Edit> = Vec::new();
-        for (id, mut node) in copies.nodes {
-            for (input, from) in std::mem::take(&mut node.inputs) {
-                wires.push(Edit::Connect {
-                    body: body.clone(),
-                    node: id.clone(),
-                    input,
-                    from,
-                });
-            }
-            edits.push(self.adding(&id, node));
-        }
-        edits.extend(wires);
-        edits.extend(copies.frames.into_iter().map(|(id, frame)| Edit::AddFrame {
-            body: body.clone(),
-            id,
-            frame,
-        }));
-        edits
-    }
+    edits.extend(wires);
+    edits.extend(copies.frames.into_iter().map(|(id, frame)| Edit::AddFrame {
+        body: body.clone(),
+        id,
+        frame,
+    }));
+    edits
 }

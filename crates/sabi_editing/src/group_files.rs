@@ -12,18 +12,18 @@ use sabi_graph::Document;
 type Stamp = Option<(u64, SystemTime)>;
 
 #[derive(Default)]
-pub(super) struct GroupFiles {
+pub(crate) struct GroupFiles {
     known: BTreeMap<PathBuf, (Stamp, Option<Document>)>,
 }
 
 impl GroupFiles {
     /// Reads these files again when they are used next, however little they seem to have changed.
-    pub(super) fn look_again(&mut self, files: &BTreeSet<PathBuf>) {
+    pub(crate) fn look_again(&mut self, files: &BTreeSet<PathBuf>) {
         self.known.retain(|file, _| !files.contains(file));
     }
 
     /// A graph file; none where there is none that can be read, and the evaluation says what is wrong with it.
-    pub(super) fn read(&mut self, path: &Path) -> Option<Document> {
+    pub(crate) fn read(&mut self, path: &Path) -> Option<Document> {
         // Taken first, so that a file that is saved meanwhile looks changed the next time.
         let stamp = stamp(path);
         if let Some((known, document)) = self.known.get(path)

@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::{Body, Document, Edit, Frame, GROUP_KIND, GroupDef, Node, NodeId};
 
-use super::OpenDocument;
+use crate::open_document::OpenDocument;
 
 /// What has to be done so that another document's groups are here.
-pub(super) struct Brought {
-    pub(super) edits: Vec<Edit>,
+pub(crate) struct Brought {
+    pub(crate) edits: Vec<Edit>,
     /// The name here of each group that was needed.
     names: BTreeMap<String, String>,
     /// Groups that were here already.
@@ -18,14 +18,14 @@ pub(super) struct Brought {
 
 impl Brought {
     /// Has an instance name its group as it is called here.
-    pub(super) fn rename(&self, node: &mut Node) {
+    pub(crate) fn rename(&self, node: &mut Node) {
         if let Some(new) = group_of(node).and_then(|name| self.names.get(name)) {
             node.group = Some(new.clone());
         }
     }
 
     /// Groups that are here already and are used by what is brought.
-    pub(super) fn used(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn used(&self) -> impl Iterator<Item = &str> {
         self.used.iter().map(String::as_str)
     }
 }
@@ -36,7 +36,7 @@ fn group_of(node: &Node) -> Option<&String> {
 }
 
 /// The groups of a document that these need, and they themselves.
-pub(super) fn needed(document: &Document, names: impl IntoIterator<Item = String>) -> BTreeSet<String> {
+pub(crate) fn needed(document: &Document, names: impl IntoIterator<Item = String>) -> BTreeSet<String> {
     let mut needed = BTreeSet::new();
     let mut next: Vec<String> = names.into_iter().collect();
     while let Some(name) = next.pop() {
@@ -52,7 +52,7 @@ pub(super) fn needed(document: &Document, names: impl IntoIterator<Item = String
 
 /// Some of a document's groups, each after those that it needs. Groups that hold themselves, which no evaluation takes, are
 /// left out, and what needs them is as well.
-pub(super) fn in_order(document: &Document, some: &BTreeSet<String>) -> Vec<String> {
+pub(crate) fn in_order(document: &Document, some: &BTreeSet<String>) -> Vec<String> {
     let mut ordered: Vec<String> = Vec::new();
     let mut rest: Vec<&String> = some.iter().collect();
     loop {
@@ -72,43 +72,41 @@ pub(super) fn in_order(document: &Document, some: &BTreeSet<String>) -> Vec<Stri
     }
 }
 
-impl OpenDocument {
-    /// What it takes to have the groups here that nodes of another document need.
-    pub(super) fn brought_groups(&self, document: &Document, nodes: &BTreeMap<NodeId, Node>) -> Brought {
-        let mut brought = Brought {
-            edits: Vec::new(),
-            names: BTreeMap::new(),
-            used: BTreeSet::new(),
-        };
-        let needed = needed(document, nodes.values().filter_map(|node| group_of(node).cloned()));
-        // As this document is once those before are in it.
-        let mut here = self.contents().clone();
-        for name in in_order(document, &needed) {
-            let edits = |free: &str| group_edits(free, &document.groups[&name], &brought);
-            let numbered = (2..).map(|number| format!("{name} {number}"));
-            for candidate in std::iter::once(name.clone()).chain(numbered) {
-                let mut made = here.clone();
-                if let Some(known) = made.groups.remove(&candidate) {
-                    let is_same = made.apply(Edit::Batch(edits(&candidate))).is_ok()
-                        && made.groups.get(&candidate) == Some(&known);
-                    if !is_same {
-                        continue;
-                    }
-                    brought.used.insert(candidate.clone());
-                } else {
-                    let edits = edits(&candidate);
-                    if made.apply(Edit::Batch(edits.clone())).is_err() {
-                        break;
-                    }
-                    brought.edits.extend(edits);
-                    here = made;
+/// What it takes to have the groups here that nodes of another document need.
+pub(crate) fn import_groups(document: &OpenDocument, other: &Document, nodes: &BTreeMap<NodeId, Node>) -> Brought {
+    let mut brought = Brought {
+        edits: Vec::new(),
+        names: BTreeMap::new(),
+        used: BTreeSet::new(),
+    };
+    let needed = needed(other, nodes.values().filter_map(|node| group_of(node).cloned()));
+    // As this document is once those before are in it.
+    let mut here = document.contents().clone();
+    for name in in_order(other, &needed) {
+        let edits = |free: &str| group_edits(free, &other.groups[&name], &brought);
+        let numbered = (2..).map(|number| format!("{name} {number}"));
+        for candidate in std::iter::once(name.clone()).chain(numbered) {
+            let mut made = here.clone();
+            if let Some(known) = made.groups.remove(&candidate) {
+                let is_same =
+                    made.apply(Edit::Batch(edits(&candidate))).is_ok() && made.groups.get(&candidate) == Some(&known);
+                if !is_same {
+                    continue;
                 }
-                brought.names.insert(name.clone(), candidate);
-                break;
+                brought.used.insert(candidate.clone());
+            } else {
+                let edits = edits(&candidate);
+                if made.apply(Edit::Batch(edits.clone())).is_err() {
+                    break;
+                }
+                brought.edits.extend(edits);
+                here = made;
             }
+            brought.names.insert(name.clone(), candidate);
+            break;
         }
-        brought
     }
+    brought
 }
 
 /// The edits that define a group whose inner groups may have other names here.
@@ -136,7 +134,7 @@ fn group_edits(name: &str, group: &GroupDef, brought: &Brought) -> Vec<Edit> {
 }
 
 /// The edits that publish what a definition of a group publishes, and its frames.
-pub(super) fn publishing(body: &Body, group: &GroupDef) -> Vec<Edit> {
+pub(crate) fn publishing(body: &Body, group: &GroupDef) -> Vec<Edit> {
     let inputs = group.inputs.iter().map(|(name, input)| Edit::SetInput {
         body: body.clone(),
         name: name.clone(),

@@ -19,14 +19,14 @@ pub(crate) struct IdGenerator {
 
 impl IdGenerator {
     /// Other names in every session, so that two people who add nodes to one file do not take the same.
-    pub(super) fn random() -> IdGenerator {
+    pub(crate) fn random() -> IdGenerator {
         IdGenerator {
             state: RandomState::new().hash_one(0),
         }
     }
 
     #[cfg(test)]
-    pub(super) fn seeded(state: u64) -> IdGenerator {
+    pub(crate) fn seeded(state: u64) -> IdGenerator {
         IdGenerator { state }
     }
 
@@ -40,12 +40,12 @@ impl IdGenerator {
     }
 
     /// A seed for a new node.
-    pub(super) fn seed(&mut self) -> u32 {
+    pub(crate) fn seed(&mut self) -> u32 {
         (self.next() % SEEDS) as u32
     }
 
     /// An id that is free in the graph and not among those `taken`: a readable stem, and a random tail.
-    pub(super) fn id(&mut self, stem: &str, graph: &Graph, taken: &BTreeSet<NodeId>) -> NodeId {
+    pub(crate) fn id(&mut self, stem: &str, graph: &Graph, taken: &BTreeSet<NodeId>) -> NodeId {
         let readable: String = stem
             .chars()
             .filter(|letter| letter.is_ascii_lowercase() || *letter == '_')
@@ -72,11 +72,5 @@ impl IdGenerator {
                 return id;
             }
         }
-    }
-
-    /// An id for a copy: the same stem.
-    pub(super) fn copy_of(&mut self, id: &NodeId, graph: &Graph, taken: &BTreeSet<NodeId>) -> NodeId {
-        let stem = id.as_str().rsplit_once('_').map_or(id.as_str(), |(stem, _)| stem);
-        self.id(stem, graph, taken)
     }
 }

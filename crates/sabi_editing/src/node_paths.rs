@@ -2,46 +2,44 @@
 
 use sabi_graph::{Body, NodeId};
 
-use super::OpenDocument;
+use crate::open_document::OpenDocument;
 
-impl OpenDocument {
-    /// Whether there is a node of that name. What is inside groups of other files is there as long as their instance is.
-    pub fn has(&self, full_id: &str) -> bool {
-        let mut body = Body::Main;
-        let mut steps = full_id.split('/').peekable();
-        while let Some(step) = steps.next() {
-            let Some(graph) = self.graph_of(&body) else {
-                return true;
-            };
-            let Some(node) = graph.node(step) else {
-                return false;
-            };
-            body = match &node.group {
-                Some(name) => Body::Group(name.clone()),
-                None => return steps.peek().is_none(),
-            };
-        }
-        true
+/// Whether there is a node of that name. What is inside groups of other files is there as long as their instance is.
+pub fn exists(document: &OpenDocument, full_id: &str) -> bool {
+    let mut body = Body::Main;
+    let mut steps = full_id.split('/').peekable();
+    while let Some(step) = steps.next() {
+        let Some(graph) = document.graph_of(&body) else {
+            return true;
+        };
+        let Some(node) = graph.node(step) else {
+            return false;
+        };
+        body = match &node.group {
+            Some(name) => Body::Group(name.clone()),
+            None => return steps.peek().is_none(),
+        };
     }
+    true
+}
 
-    /// What a node of that name is called, after the instances that it is in.
-    pub fn title_at(&self, full_id: &str) -> String {
-        let mut body = Some(Body::Main);
-        let mut titles = Vec::new();
-        for step in full_id.split('/') {
-            let node = body.as_ref().and_then(|body| self.graph_of(body)?.node(step));
-            let face = body.as_ref().and_then(|body| self.faces().of(body, step));
-            let own = node.and_then(|node| node.label.clone());
-            let title = own.or_else(|| face.map(|face| face.label.clone()));
-            titles.push(title.unwrap_or_else(|| step.to_owned()));
-            body = node.and_then(|node| node.group.clone()).map(Body::Group);
-        }
-        titles.join(" › ")
+/// What a node of that name is called, after the instances that it is in.
+pub fn title(document: &OpenDocument, full_id: &str) -> String {
+    let mut body = Some(Body::Main);
+    let mut titles = Vec::new();
+    for step in full_id.split('/') {
+        let node = body.as_ref().and_then(|body| document.graph_of(body)?.node(step));
+        let face = body.as_ref().and_then(|body| document.faces().of(body, step));
+        let own = node.and_then(|node| node.label.clone());
+        let title = own.or_else(|| face.map(|face| face.label.clone()));
+        titles.push(title.unwrap_or_else(|| step.to_owned()));
+        body = node.and_then(|node| node.group.clone()).map(Body::Group);
     }
+    titles.join(" › ")
+}
 
-    /// The node of that name, where it is in the graph that is seen.
-    pub fn seen_at(&self, full_id: &str) -> Option<NodeId> {
-        let own = full_id.rsplit('/').next()?.parse::<NodeId>().ok()?;
-        (self.full_id(&own) == full_id).then_some(own)
-    }
+/// The node of that name, where it is in the graph that is seen.
+pub fn in_shown_graph(document: &OpenDocument, full_id: &str) -> Option<NodeId> {
+    let own = full_id.rsplit('/').next()?.parse::<NodeId>().ok()?;
+    (document.full_id(&own) == full_id).then_some(own)
 }

@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use sabi_engine::catalog::{Entry, Knob, KnobRole, Port};
 use sabi_graph::{Edit, Node, NodeId, OutputRef, SlotRef, Value};
 
-use super::OpenDocument;
-use super::references::Heir;
-use super::wires::port_in_wire;
+use crate::connections::port_in_wire;
+use crate::open_document::OpenDocument;
+use crate::references::Heir;
+use crate::{connections, new_nodes, nodes, references};
 
 /// A node that takes the place of another.
 struct Successor<'a> {
@@ -80,113 +81,122 @@ fn takes(knob: &Knob, value: &Value) -> bool {
     }
 }
 
-impl OpenDocument {
-    /// Puts a node of another kind in the place of one; wires that fit stay, and so do parameters of the same name, what is
-    /// published of them and the frames around it.
-    pub fn replace(&mut self, id: &NodeId, kind: &str) -> bool {
-        let Some(entry) = self.catalog.entry(kind).cloned() else {
-            return self.refuse(format!("there is no node kind '{kind}'"));
-        };
-        let (new_id, node) = self.fresh(kind, [0.0; 2]);
-        self.put_in_place(id, new_id, node, &entry)
-    }
+/// Puts a node of another kind in the place of one; wires that fit stay, and so do parameters of the same name, what is
+/// published of them and the frames around it.
+pub fn by_kind(document: &mut OpenDocument, id: &NodeId, kind: &str) -> bool {
+    let Some(entry) = document.catalog().entry(kind).cloned() else {
+        return document.refuse(format!("there is no node kind '{kind}'"));
+    };
+    let (new_id, node) = new_nodes::of_kind(document, kind, [0.0; 2]);
+    put_in_place(document, id, new_id, node, &entry)
+}
 
-    /// The same with an instance of a group.
-    pub fn replace_by_group(&mut self, id: &NodeId, group: &str) -> bool {
-        let made = self.new_instance(group, [0.0; 2]);
-        made.is_some_and(|(new_id, node, entry)| self.put_in_place(id, new_id, node, &entry))
-    }
+/// The same with an instance of a group.
+pub fn by_group(document: &mut OpenDocument, id: &NodeId, group: &str) -> bool {
+    let made = nodes::new_instance(document, group, [0.0; 2]);
+    made.is_some_and(|(new_id, node, entry)| put_in_place(document, id, new_id, node, &entry))
+}
 
-    fn put_in_place(&mut self, id: &NodeId, new_id: NodeId, mut node: Node, entry: &Entry) -> bool {
-        let Some((old, face)) = self.node(id).cloned().zip(self.face(id).cloned()) else {
-            return self.refuse("the node that should be replaced is gone");
-        };
-        if entry.id == face.id && node.group == old.group {
-            return self.refuse(format!("this is a node of kind '{}' already", entry.label));
+fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut node: Node, entry: &Entry) -> bool {
+    let Some((old, face)) = document.node(id).cloned().zip(document.face(id).cloned()) else {
+        return document.refuse("the node that should be replaced is gone");
+    };
+    if entry.id == face.id && node.group == old.group {
+        return document.refuse(format!("this is a node of kind '{}' already", entry.label));
+    }
+    node.pos = old.pos;
+    node.muted = old.muted;
+    node.label = old.label.clone();
+    let successor = Successor {
+        id: &new_id,
+        faces: [&face, entry],
+        inputs: paired_inputs(document, id, &old, &face, entry),
+    };
+    for (name, from) in &old.inputs {
+        if let Some(input) = successor.inputs.get(name) {
+            node.inputs.insert(input.clone(), from.clone());
         }
-        node.pos = old.pos;
-        node.muted = old.muted;
-        node.label = old.label.clone();
-        let successor = Successor {
-            id: &new_id,
-            faces: [&face, entry],
-            inputs: self.paired_inputs(id, &old, &face, entry),
+    }
+    for (name, value) in &old.params {
+        let slot = SlotRef {
+            node: id.clone(),
+            name: name.clone(),
         };
-        for (name, from) in &old.inputs {
-            if let Some(input) = successor.inputs.get(name) {
-                node.inputs.insert(input.clone(), from.clone());
-            }
-        }
-        for (name, value) in &old.params {
+        let heirs = successor.knobs("", &slot).into_iter();
+        let taken = heirs.filter(|slot| entry.knob(&slot.name).is_some_and(|knob| takes(knob, value)));
+        node.params.extend(taken.map(|slot| (slot.name, value.clone())));
+    }
+    let readers = document.graph().readers(id.as_str());
+    let mut edits = vec![new_nodes::addition(document, &new_id, node)];
+    edits.extend(readers.iter().filter_map(|slot| retied(document, slot, &new_id, entry)));
+    edits.extend(references::handed_over(
+        document,
+        &BTreeSet::from([id.clone()]),
+        &successor,
+    ));
+    edits.push(Edit::RemoveNode {
+        body: document.body(),
+        id: id.clone(),
+    });
+    document.edit_and_select(&format!("Replace by {}", entry.label), edits, [new_id])
+}
+
+/// The inputs of a new kind that take what leads to the old ones: those of the same name first, then others that fit.
+fn paired_inputs(
+    document: &OpenDocument,
+    id: &NodeId,
+    old: &Node,
+    face: &Entry,
+    entry: &Entry,
+) -> BTreeMap<String, String> {
+    let mut free: Vec<&Port> = entry.inputs.iter().collect();
+    let mut paired = BTreeMap::new();
+    // In the order in which they stand on the node; those that nobody knows come last.
+    let known = face.inputs.iter().map(|port| &port.name);
+    let unknown = old.inputs.keys().filter(|name| face.input(name).is_none());
+    let names: Vec<&String> = known.chain(unknown).collect();
+    for is_named in [true, false] {
+        for name in &names {
+            let carried = match old.inputs.get(*name) {
+                Some(from) => connections::carried(document, from),
+                None => face.input(name).and_then(|port| port.ty),
+            };
             let slot = SlotRef {
                 node: id.clone(),
-                name: name.clone(),
+                name: (*name).clone(),
             };
-            let heirs = successor.knobs("", &slot).into_iter();
-            let taken = heirs.filter(|slot| entry.knob(&slot.name).is_some_and(|knob| takes(knob, value)));
-            node.params.extend(taken.map(|slot| (slot.name, value.clone())));
-        }
-        let readers = self.graph().readers(id.as_str());
-        let mut edits = vec![self.adding(&new_id, node)];
-        edits.extend(readers.iter().filter_map(|slot| self.retied(slot, &new_id, entry)));
-        edits.extend(self.inherited(&BTreeSet::from([id.clone()]), &successor));
-        edits.push(Edit::RemoveNode {
-            body: self.body(),
-            id: id.clone(),
-        });
-        self.edit_and_select(&format!("Replace by {}", entry.label), edits, [new_id])
-    }
-
-    /// The inputs of a new kind that take what leads to the old ones: those of the same name first, then others that fit.
-    fn paired_inputs(&self, id: &NodeId, old: &Node, face: &Entry, entry: &Entry) -> BTreeMap<String, String> {
-        let mut free: Vec<&Port> = entry.inputs.iter().collect();
-        let mut paired = BTreeMap::new();
-        // In the order in which they stand on the node; those that nobody knows come last.
-        let known = face.inputs.iter().map(|port| &port.name);
-        let unknown = old.inputs.keys().filter(|name| face.input(name).is_none());
-        let names: Vec<&String> = known.chain(unknown).collect();
-        for is_named in [true, false] {
-            for name in &names {
-                let carried = match old.inputs.get(*name) {
-                    Some(from) => self.carried(from),
-                    None => face.input(name).and_then(|port| port.ty),
-                };
-                let slot = SlotRef {
-                    node: id.clone(),
-                    name: (*name).clone(),
-                };
-                let is_used = old.inputs.contains_key(*name) || self.feeder(&self.seen, &slot).is_some();
-                if paired.contains_key(*name) || !is_used {
-                    continue;
-                }
-                let fitting = match is_named {
-                    true => free
-                        .iter()
-                        .position(|port| port.name == **name && port.accepts(carried)),
-                    false => free.iter().position(|port| port.ty == carried),
-                };
-                if let Some(at) = fitting {
-                    paired.insert((*name).clone(), free.remove(at).name.clone());
-                }
+            let is_used =
+                old.inputs.contains_key(*name) || connections::feeder(document, document.shown(), &slot).is_some();
+            if paired.contains_key(*name) || !is_used {
+                continue;
+            }
+            let fitting = match is_named {
+                true => free
+                    .iter()
+                    .position(|port| port.name == **name && port.accepts(carried)),
+                false => free.iter().position(|port| port.ty == carried),
+            };
+            if let Some(at) = fitting {
+                paired.insert((*name).clone(), free.remove(at).name.clone());
             }
         }
-        paired
     }
+    paired
+}
 
-    /// The edit that has a reader read another node instead, by the output of the same name or one that fits.
-    fn retied(&self, slot: &SlotRef, id: &NodeId, entry: &Entry) -> Option<Edit> {
-        let input = self.input(slot)?;
-        let named = self.wire_into(slot)?.port.clone();
-        let same = entry.output(named.as_deref()).filter(|port| input.accepts(port.ty));
-        let output = same.or_else(|| entry.output_for(input))?;
-        Some(Edit::Connect {
-            body: self.body(),
-            node: slot.node.clone(),
-            input: slot.name.clone(),
-            from: OutputRef {
-                node: id.clone(),
-                port: port_in_wire(entry, output),
-            },
-        })
-    }
+/// The edit that has a reader read another node instead, by the output of the same name or one that fits.
+fn retied(document: &OpenDocument, slot: &SlotRef, id: &NodeId, entry: &Entry) -> Option<Edit> {
+    let input = connections::input(document, slot)?;
+    let named = connections::wire_into(document, slot)?.port.clone();
+    let same = entry.output(named.as_deref()).filter(|port| input.accepts(port.ty));
+    let output = same.or_else(|| entry.output_for(input))?;
+    Some(Edit::Connect {
+        body: document.body(),
+        node: slot.node.clone(),
+        input: slot.name.clone(),
+        from: OutputRef {
+            node: id.clone(),
+            port: port_in_wire(entry, output),
+        },
+    })
 }

@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_graph::{Body, Edit, GROUP_KIND, GroupInput, NodeId, OutputRef, REROUTE_KIND, SlotRef};
+use sabi_graph::{Body, Edit, GROUP_KIND, NodeId, OutputRef, REROUTE_KIND, SlotRef};
 
-use super::{OpenDocument, group_instances};
+use crate::open_document::OpenDocument;
+use crate::{connections, instances};
 
 /// Groups inside groups beyond this pass nothing on; no evaluation takes them.
 const DEEPEST: usize = 256;
@@ -21,55 +22,48 @@ struct Passed {
 /// What leads to an input: a group's input, a wire, or both.
 type Sources = (Option<String>, Option<OutputRef>);
 
-impl OpenDocument {
-    /// The edits that tie everybody who reads these nodes to what the nodes pass on, the group's outputs too.
-    pub(super) fn healing(&self, gone: &BTreeSet<NodeId>) -> Vec<Edit> {
-        let mut behind = Behind::new(self, gone);
-        let mut edits = Vec::new();
-        let mut fed: BTreeMap<String, Vec<SlotRef>> = BTreeMap::new();
-        for id in gone {
-            let readers = self.graph().readers(id.as_str());
-            for slot in readers.into_iter().filter(|slot| !gone.contains(&slot.node)) {
-                let passed = self.wire_into(&slot).map(|from| behind.passed_on(from));
-                let passed = passed.unwrap_or_default();
-                let fitting = passed.wire.filter(|from| self.carries_what_fits(from, &slot).is_ok());
-                edits.push(match fitting {
-                    Some(from) => self.tie(&from, &slot),
-                    None => self.untie(&slot),
-                });
-                if let Some(input) = passed.fed.filter(|_| self.feeder(&self.seen, &slot).is_none()) {
-                    fed.entry(input).or_default().push(slot);
-                }
+/// The edits that tie everybody who reads these nodes to what the nodes pass on, the group's outputs too.
+pub(crate) fn around(document: &OpenDocument, gone: &BTreeSet<NodeId>) -> Vec<Edit> {
+    let mut behind = Behind::new(document, gone);
+    let mut edits = Vec::new();
+    let mut fed: BTreeMap<String, Vec<SlotRef>> = BTreeMap::new();
+    for id in gone {
+        let readers = document.graph().readers(id.as_str());
+        for slot in readers.into_iter().filter(|slot| !gone.contains(&slot.node)) {
+            let passed = connections::wire_into(document, &slot).map(|from| behind.passed_on(from));
+            let passed = passed.unwrap_or_default();
+            let fitting = passed
+                .wire
+                .filter(|from| connections::check_type(document, from, &slot).is_ok());
+            edits.push(match fitting {
+                Some(from) => connections::connecting(document, &from, &slot),
+                None => connections::disconnecting(document, &slot),
+            });
+            if let Some(input) = passed
+                .fed
+                .filter(|_| connections::feeder(document, document.shown(), &slot).is_none())
+            {
+                fed.entry(input).or_default().push(slot);
             }
         }
-        let (inputs, outputs) = group_instances::ports(self.contents(), &self.seen);
-        for (name, slots) in fed {
-            let Some(mut input) = inputs.get(&name).cloned() else {
-                continue;
-            };
-            input.to.extend(slots);
-            let (body, input) = (self.body(), Some(input));
-            edits.push(Edit::SetInput { body, name, input });
-        }
-        for (name, from) in outputs.iter().filter(|(_, from)| gone.contains(&from.node)) {
-            let same = |wire: &OutputRef| self.carried(wire) == self.carried(from);
-            if let Some(wire) = behind.passed_on(from).wire.filter(same) {
-                let (body, name, output) = (self.body(), name.clone(), Some(wire));
-                edits.push(Edit::SetOutput { body, name, output });
-            }
-        }
-        edits
     }
-
-    /// The group's input that feeds an input of a node in that graph.
-    pub(super) fn feeder(&self, body: &Body, slot: &SlotRef) -> Option<&str> {
-        let (inputs, _) = group_instances::ports(self.contents(), body);
-        let feeds = |input: &GroupInput| input.to.contains(slot);
-        inputs
-            .iter()
-            .find(|(_, input)| feeds(input))
-            .map(|(name, _)| name.as_str())
+    let (inputs, outputs) = instances::ports(document.contents(), document.shown());
+    for (name, slots) in fed {
+        let Some(mut input) = inputs.get(&name).cloned() else {
+            continue;
+        };
+        input.to.extend(slots);
+        let (body, input) = (document.body(), Some(input));
+        edits.push(Edit::SetInput { body, name, input });
     }
+    for (name, from) in outputs.iter().filter(|(_, from)| gone.contains(&from.node)) {
+        let same = |wire: &OutputRef| connections::carried(document, wire) == connections::carried(document, from);
+        if let Some(wire) = behind.passed_on(from).wire.filter(same) {
+            let (body, name, output) = (document.body(), name.clone(), Some(wire));
+            edits.push(Edit::SetOutput { body, name, output });
+        }
+    }
+    edits
 }
 
 /// What lies behind nodes that are mere wires.
@@ -112,12 +106,12 @@ impl<'d> Behind<'d> {
                 }
                 silent = silent.or(Some(at));
             } else if asked.insert(at.node.clone()) {
-                let inputs = self.passing(&self.document.seen, &at);
+                let inputs = self.passing(self.document.shown(), &at);
                 ways.extend(
                     inputs
                         .into_iter()
                         .rev()
-                        .map(|input| self.sources(&self.document.seen, &at.node, input)),
+                        .map(|input| self.sources(self.document.shown(), &at.node, input)),
                 );
             }
         }
@@ -128,7 +122,7 @@ impl<'d> Behind<'d> {
         let node = self.document.graph_of(body).and_then(|graph| graph.node(id.as_str()));
         let wire = node.and_then(|node| node.inputs.get(&name).cloned());
         let slot = SlotRef { node: id.clone(), name };
-        (self.document.feeder(body, &slot).map(str::to_owned), wire)
+        (connections::feeder(self.document, body, &slot).map(str::to_owned), wire)
     }
 
     /// Whether something comes out of a wire: it does not begin at a reroute or a muted node with nothing behind it.
@@ -146,8 +140,8 @@ impl<'d> Behind<'d> {
             if !asked.insert(at.node.clone()) {
                 continue;
             }
-            for input in self.passing(&self.document.seen, &at) {
-                let (fed, wire) = self.sources(&self.document.seen, &at.node, input);
+            for input in self.passing(self.document.shown(), &at) {
+                let (fed, wire) = self.sources(self.document.shown(), &at.node, input);
                 if fed.is_some() {
                     return true;
                 }
@@ -187,7 +181,7 @@ impl<'d> Behind<'d> {
         self.depth += 1;
         self.inside.insert(key.clone(), Vec::new());
         let body = Body::Group(group.to_owned());
-        let (_, outputs) = group_instances::ports(self.document.contents(), &body);
+        let (_, outputs) = instances::ports(self.document.contents(), &body);
         let given = match port {
             Some(port) => outputs.get(port),
             None => outputs.values().next(),

@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 
 use sabi_graph::{Edit, Exposed, Frame, GroupInput, NodeId, OutputRef, SlotRef};
 
-use super::{OpenDocument, group_instances};
+use crate::instances;
+use crate::open_document::OpenDocument;
 
 /// What comes after nodes that are removed. What has no heir is taken off by their removal.
-pub(super) trait Heir {
+pub(crate) trait Heir {
     /// Knobs that a published knob of that name turns in place of one.
     fn knobs(&self, _published: &str, _knob: &SlotRef) -> Vec<SlotRef> {
         Vec::new()
@@ -30,46 +31,44 @@ pub(super) trait Heir {
     }
 }
 
-impl OpenDocument {
-    /// The edits by which everything that names the nodes in the graph that is seen, wires aside, names their heir; to be
-    /// made once the heir is there and before the nodes go.
-    pub(super) fn inherited(&self, gone: &BTreeSet<NodeId>, heir: &dyn Heir) -> Vec<Edit> {
-        let mut edits = Vec::new();
-        let body = || self.body();
-        let is_gone = |slot: &SlotRef| gone.contains(&slot.node);
-        for (name, knob) in self.graph().exposed() {
-            let to = handed_on(&knob.to, is_gone, |slot| heir.knobs(name, slot));
-            if to != knob.to && !to.is_empty() {
-                let knob = Exposed { to, ..knob.clone() };
-                let (body, name) = (body(), name.clone());
-                edits.push(Edit::Expose { body, name, knob });
-            }
+/// The edits by which everything that names the nodes in the graph that is seen, wires aside, names their heir; to be
+/// made once the heir is there and before the nodes go.
+pub(crate) fn handed_over(document: &OpenDocument, gone: &BTreeSet<NodeId>, heir: &dyn Heir) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    let body = || document.body();
+    let is_gone = |slot: &SlotRef| gone.contains(&slot.node);
+    for (name, knob) in document.graph().exposed() {
+        let to = handed_on(&knob.to, is_gone, |slot| heir.knobs(name, slot));
+        if to != knob.to && !to.is_empty() {
+            let knob = Exposed { to, ..knob.clone() };
+            let (body, name) = (body(), name.clone());
+            edits.push(Edit::Expose { body, name, knob });
         }
-        let (inputs, outputs) = group_instances::ports(self.contents(), &self.seen);
-        for (name, input) in inputs {
-            let to = handed_on(&input.to, is_gone, |slot| heir.inputs(slot));
-            if to != input.to {
-                let input = Some(GroupInput { to, ..input.clone() });
-                let (body, name) = (body(), name.clone());
-                edits.push(Edit::SetInput { body, name, input });
-            }
-        }
-        for (name, from) in outputs.iter().filter(|(_, from)| gone.contains(&from.node)) {
-            if let Some(from) = heir.output(from) {
-                let (body, name, output) = (body(), name.clone(), Some(from));
-                edits.push(Edit::SetOutput { body, name, output });
-            }
-        }
-        for (id, frame) in self.graph().frames() {
-            let nodes = handed_on(&frame.nodes, |id| gone.contains(id), |id| heir.nodes(id));
-            if nodes != frame.nodes {
-                let frame = Frame { nodes, ..frame.clone() };
-                let (body, id) = (body(), id.clone());
-                edits.push(Edit::AddFrame { body, id, frame });
-            }
-        }
-        edits
     }
+    let (inputs, outputs) = instances::ports(document.contents(), document.shown());
+    for (name, input) in inputs {
+        let to = handed_on(&input.to, is_gone, |slot| heir.inputs(slot));
+        if to != input.to {
+            let input = Some(GroupInput { to, ..input.clone() });
+            let (body, name) = (body(), name.clone());
+            edits.push(Edit::SetInput { body, name, input });
+        }
+    }
+    for (name, from) in outputs.iter().filter(|(_, from)| gone.contains(&from.node)) {
+        if let Some(from) = heir.output(from) {
+            let (body, name, output) = (body(), name.clone(), Some(from));
+            edits.push(Edit::SetOutput { body, name, output });
+        }
+    }
+    for (id, frame) in document.graph().frames() {
+        let nodes = handed_on(&frame.nodes, |id| gone.contains(id), |id| heir.nodes(id));
+        if nodes != frame.nodes {
+            let frame = Frame { nodes, ..frame.clone() };
+            let (body, id) = (body(), id.clone());
+            edits.push(Edit::AddFrame { body, id, frame });
+        }
+    }
+    edits
 }
 
 /// A list with heirs in the places of those that go, each once.

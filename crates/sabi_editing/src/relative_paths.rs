@@ -2,34 +2,45 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{NotText, PathBase, canonical, path_text};
+use sabi_engine::{NotText, PathBase, canonical, moved_to, path_text, with_whole_paths};
+use sabi_graph::Document;
 
-use super::OpenDocument;
+use crate::open_document::OpenDocument;
 
-impl OpenDocument {
-    /// Writes a path as the document names it: relative to its own folder where that is possible, absolute while the
-    /// document has no file.
-    ///
-    /// # Errors
-    /// The path cannot be named in a file.
-    pub fn relative(&self, path: &Path) -> Result<String, NotText> {
-        match self.session.file() {
-            Some(_) => self.seen_from_own_folder(path),
-            None => path_text(&absolute(path)),
-        }
+/// Writes a path as the document names it: relative to its own folder where that is possible, absolute while the document
+/// has no file.
+///
+/// # Errors
+/// The path cannot be named in a file.
+pub fn relative(document: &OpenDocument, path: &Path) -> Result<String, NotText> {
+    match document.session.file() {
+        Some(_) => from_own_folder(document, path),
+        None => path_text(&absolute(path)),
     }
+}
 
-    /// Writes a path relative to the document's folder. A document without a file has the working directory as its folder.
-    ///
-    /// # Errors
-    /// The path cannot be named in a file.
-    pub fn seen_from_own_folder(&self, path: &Path) -> Result<String, NotText> {
-        let folder = absolute(self.session.graph().folder());
-        PathBase::of_folder(folder).write(&absolute(path))
-    }
+/// Writes a path relative to the document's folder. A document without a file has the working directory as its folder.
+///
+/// # Errors
+/// The path cannot be named in a file.
+pub fn from_own_folder(document: &OpenDocument, path: &Path) -> Result<String, NotText> {
+    let folder = absolute(document.session.graph().folder());
+    PathBase::of_folder(folder).write(&absolute(path))
 }
 
 /// Returns the canonical path of a file that exists, and the path itself of one that does not.
 fn absolute(path: &Path) -> PathBuf {
     canonical(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// A document of another folder as this graph can take it over: its paths lead where they led. Before a graph has a file
+/// there is no folder that they could begin at.
+pub(crate) fn relocated(document: &OpenDocument, other: &Document, from: &Path) -> Document {
+    let here = document.session.graph().folder();
+    let is_same = canonical(from).ok() == canonical(here).ok();
+    match document.session.file() {
+        Some(_) => moved_to(other, from, here),
+        None if is_same => other.clone(),
+        None => with_whole_paths(other, from),
+    }
 }

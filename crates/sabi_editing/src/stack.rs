@@ -1,9 +1,10 @@
 //! The graph as a stack of layers: the chain of materials behind an output, the topmost first.
 
 use sabi_engine::catalog::{Entry, Port};
-use sabi_graph::{GROUP_KIND, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef, Value};
+use sabi_graph::{GROUP_KIND, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef};
 
-use super::{OpenDocument, group_instances};
+use crate::open_document::OpenDocument;
+use crate::{connections, instances, ports};
 
 /// What a stack leads to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,14 +50,14 @@ pub struct Stack {
 
 /// What leads from a layer, or from the end, to the layer below.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Link {
+pub(crate) struct Link {
     /// What reads the layer below: an input of the layer above, or of the last bend on the way. None where a group's output
     /// does, and below the material at the bottom.
-    pub(super) slot: Option<SlotRef>,
+    pub(crate) slot: Option<SlotRef>,
     /// What it reads.
-    pub(super) from: Option<OutputRef>,
+    pub(crate) from: Option<OutputRef>,
     /// Whether others read a bend on the way.
-    pub(super) is_shared: bool,
+    pub(crate) is_shared: bool,
 }
 
 impl Stack {
@@ -66,165 +67,148 @@ impl Stack {
     }
 }
 
-impl OpenDocument {
-    /// The stacks of the graph that is seen: one for each material that it puts out.
-    pub fn stacks(&self) -> Vec<Stack> {
-        let nodes = self.graph().nodes();
-        let ends = nodes.filter(|(id, _)| {
-            let face = self.face(id);
-            face.is_some_and(|face| face.category() == "output" && self.material_input(id).is_some())
+/// The stacks of the graph that is seen: one for each material that it puts out.
+pub fn all(document: &OpenDocument) -> Vec<Stack> {
+    let nodes = document.graph().nodes();
+    let ends = nodes.filter(|(id, _)| {
+        let face = document.face(id);
+        face.is_some_and(|face| face.category() == "output" && material_input(document, id).is_some())
+    });
+    let ends: Vec<StackEnd> = ends.map(|(id, _)| StackEnd::Node(id.clone())).collect();
+    let (_, outputs) = instances::ports(document.contents(), document.shown());
+    let given = outputs
+        .iter()
+        .filter(|(_, from)| connections::carried(document, from) == Some(PortType::Material));
+    let ports = given.map(|(name, _)| StackEnd::Port(name.clone()));
+    ends.into_iter().chain(ports).map(|end| of(document, end)).collect()
+}
+
+fn of(document: &OpenDocument, end: StackEnd) -> Stack {
+    let (title, slot, from) = match &end {
+        StackEnd::Node(id) => {
+            let slot = material_input(document, id);
+            let from = slot
+                .as_ref()
+                .and_then(|slot| connections::wire_into(document, slot).cloned());
+            (document.title(id), slot, from)
+        }
+        StackEnd::Port(name) => (name.clone(), None, ports::outputs(document).get(name).cloned()),
+    };
+    let mut stack = Stack {
+        end,
+        title,
+        layers: Vec::new(),
+        links: vec![link(document, slot, from)],
+    };
+    // Wires lead in no circle, so that this ends.
+    while let Some(at) = stack.links.last().and_then(|link| link.from.clone()) {
+        let slot = material_input(document, &at.node);
+        let from = slot
+            .as_ref()
+            .and_then(|slot| connections::wire_into(document, slot).cloned());
+        let link = link(document, slot, from);
+        let above = &stack.links[stack.links.len() - 1];
+        let layer = layer(document, &at, above, &link);
+        stack.layers.push(layer);
+        stack.links.push(link);
+    }
+    stack
+}
+
+/// Follows bends to what they come from.
+fn link(document: &OpenDocument, slot: Option<SlotRef>, from: Option<OutputRef>) -> Link {
+    let mut link = Link {
+        slot,
+        from,
+        is_shared: false,
+    };
+    while let Some(bend) = link.from.as_ref().map(|from| from.node.clone()) {
+        let Some(node) = document.node(&bend).filter(|node| node.kind == REROUTE_KIND) else {
+            break;
+        };
+        link.is_shared |= document.graph().readers(bend.as_str()).len() + output_count(document, &bend) > 1;
+        link.from = node.inputs.get("source").cloned();
+        link.slot = Some(SlotRef {
+            node: bend,
+            name: "source".to_owned(),
         });
-        let ends: Vec<StackEnd> = ends.map(|(id, _)| StackEnd::Node(id.clone())).collect();
-        let (_, outputs) = group_instances::ports(self.contents(), &self.seen);
-        let given = outputs
-            .iter()
-            .filter(|(_, from)| self.carried(from) == Some(PortType::Material));
-        let ports = given.map(|(name, _)| StackEnd::Port(name.clone()));
-        ends.into_iter().chain(ports).map(|end| self.stack(end)).collect()
     }
+    link
+}
 
-    fn stack(&self, end: StackEnd) -> Stack {
-        let (title, slot, from) = match &end {
-            StackEnd::Node(id) => {
-                let slot = self.material_input(id);
-                let from = slot.as_ref().and_then(|slot| self.wire_into(slot).cloned());
-                (self.title(id), slot, from)
-            }
-            StackEnd::Port(name) => (name.clone(), None, self.group_outputs().get(name).cloned()),
-        };
-        let mut stack = Stack {
-            end,
-            title,
-            layers: Vec::new(),
-            links: vec![self.link(slot, from)],
-        };
-        // Wires lead in no circle, so that this ends.
-        while let Some(at) = stack.links.last().and_then(|link| link.from.clone()) {
-            let slot = self.material_input(&at.node);
-            let from = slot.as_ref().and_then(|slot| self.wire_into(slot).cloned());
-            let link = self.link(slot, from);
-            let above = &stack.links[stack.links.len() - 1];
-            let layer = self.layer(&at, above, &link);
-            stack.layers.push(layer);
-            stack.links.push(link);
-        }
-        stack
-    }
+fn output_count(document: &OpenDocument, id: &NodeId) -> usize {
+    ports::outputs(document)
+        .values()
+        .filter(|from| from.node == *id)
+        .count()
+}
 
-    /// Follows bends to what they come from.
-    fn link(&self, slot: Option<SlotRef>, from: Option<OutputRef>) -> Link {
-        let mut link = Link {
-            slot,
-            from,
-            is_shared: false,
-        };
-        while let Some(bend) = link.from.as_ref().map(|from| from.node.clone()) {
-            let Some(node) = self.node(&bend).filter(|node| node.kind == REROUTE_KIND) else {
-                break;
-            };
-            link.is_shared |= self.graph().readers(bend.as_str()).len() + self.ports_that_give(&bend) > 1;
-            link.from = node.inputs.get("source").cloned();
-            link.slot = Some(SlotRef {
-                node: bend,
-                name: "source".to_owned(),
-            });
-        }
-        link
-    }
+/// The input through which a node takes the material that it changes.
+fn material_input(document: &OpenDocument, id: &NodeId) -> Option<SlotRef> {
+    let port = main_input(document.face(id)?)?;
+    Some(SlotRef {
+        node: id.clone(),
+        name: port.name.clone(),
+    })
+}
 
-    fn ports_that_give(&self, id: &NodeId) -> usize {
-        self.group_outputs().values().filter(|from| from.node == *id).count()
-    }
-
-    /// The input through which a node takes the material that it changes.
-    fn material_input(&self, id: &NodeId) -> Option<SlotRef> {
-        let port = main_input(self.face(id)?)?;
-        Some(SlotRef {
-            node: id.clone(),
-            name: port.name.clone(),
-        })
-    }
-
-    fn layer(&self, at: &OutputRef, above: &Link, below: &Link) -> Layer {
-        let id = &at.node;
-        let face = self.face(id);
-        let node = self.node(id);
-        let opacity = face.and_then(|face| face.knob("opacity"));
-        let opacity = opacity.and_then(|knob| {
-            let set = node.and_then(|node| node.params.get("opacity"));
-            set.unwrap_or(&knob.ty.default).as_number()
-        });
-        let is_of_chain = |slot: &SlotRef| above.slot.as_ref() == Some(slot);
-        let readers = self.graph().readers(id.as_str()).into_iter();
-        let mut also_read_by: Vec<NodeId> = readers
-            .filter(|slot| !is_of_chain(slot))
-            .map(|slot| slot.node)
-            .collect();
-        also_read_by.dedup();
-        // The chain itself may begin at one of them.
-        let given = self.ports_that_give(id) - usize::from(above.slot.is_none());
-        Layer {
-            node: id.clone(),
-            title: self.title(id),
-            is_muted: node.is_some_and(|node| node.muted),
-            opacity,
-            mask: node.and_then(|node| node.inputs.get("mask").cloned()),
-            shared: self.why_shared(id, &also_read_by, given > 0),
-            also_read_by,
-            is_lowest: self.why_lowest(id, below),
-        }
-    }
-
-    fn why_shared(&self, id: &NodeId, others: &[NodeId], is_given: bool) -> Option<String> {
-        let title = self.title(id);
-        if let Some(other) = others.first() {
-            let other = self.title(other);
-            return Some(format!(
-                "'{title}' is also read by '{other}', which would change too; use the canvas"
-            ));
-        }
-        is_given.then(|| {
-            format!("'{title}' is also given to an output of the group, which would change too; use the canvas")
-        })
-    }
-
-    fn why_lowest(&self, id: &NodeId, below: &Link) -> Option<String> {
-        let title = self.title(id);
-        let Some(slot) = &below.slot else {
-            return Some(format!(
-                "'{title}' is the material at the bottom; nothing can lie below it"
-            ));
-        };
-        let feeder = self.feeder(&self.seen, slot)?;
-        Some(format!(
-            "'{title}' lies on what comes in through the group's input '{feeder}'; nothing can come between"
-        ))
-    }
-
-    /// Shows or hides a layer.
-    pub fn toggle_layer(&mut self, id: &NodeId) -> bool {
-        let Some(is_muted) = self.node(id).map(|node| node.muted) else {
-            return false;
-        };
-        self.set_muted([id.clone()], !is_muted)
-    }
-
-    /// Sets how much of a layer is used.
-    pub fn set_layer_opacity(&mut self, id: &NodeId, opacity: f64) -> bool {
-        let Some(knob) = self.face(id).and_then(|face| face.knob("opacity")) else {
-            let title = self.title(id);
-            return self.refuse(format!("'{title}' has no Opacity"));
-        };
-        let [low, high] = knob.ty.range.unwrap_or([0.0, 1.0]);
-        if opacity.is_nan() {
-            return self.refuse("an Opacity is a number");
-        }
-        self.set_knob(id, "opacity", Some(Value::Number(opacity.clamp(low, high))))
+fn layer(document: &OpenDocument, at: &OutputRef, above: &Link, below: &Link) -> Layer {
+    let id = &at.node;
+    let face = document.face(id);
+    let node = document.node(id);
+    let opacity = face.and_then(|face| face.knob("opacity"));
+    let opacity = opacity.and_then(|knob| {
+        let set = node.and_then(|node| node.params.get("opacity"));
+        set.unwrap_or(&knob.ty.default).as_number()
+    });
+    let is_of_chain = |slot: &SlotRef| above.slot.as_ref() == Some(slot);
+    let readers = document.graph().readers(id.as_str()).into_iter();
+    let mut also_read_by: Vec<NodeId> = readers
+        .filter(|slot| !is_of_chain(slot))
+        .map(|slot| slot.node)
+        .collect();
+    also_read_by.dedup();
+    // The chain itself may begin at one of them.
+    let given = output_count(document, id) - usize::from(above.slot.is_none());
+    Layer {
+        node: id.clone(),
+        title: document.title(id),
+        is_muted: node.is_some_and(|node| node.muted),
+        opacity,
+        mask: node.and_then(|node| node.inputs.get("mask").cloned()),
+        shared: why_shared(document, id, &also_read_by, given > 0),
+        also_read_by,
+        is_lowest: why_lowest(document, id, below),
     }
 }
 
+fn why_shared(document: &OpenDocument, id: &NodeId, others: &[NodeId], is_given: bool) -> Option<String> {
+    let title = document.title(id);
+    if let Some(other) = others.first() {
+        let other = document.title(other);
+        return Some(format!(
+            "'{title}' is also read by '{other}', which would change too; use the canvas"
+        ));
+    }
+    is_given
+        .then(|| format!("'{title}' is also given to an output of the group, which would change too; use the canvas"))
+}
+
+fn why_lowest(document: &OpenDocument, id: &NodeId, below: &Link) -> Option<String> {
+    let title = document.title(id);
+    let Some(slot) = &below.slot else {
+        return Some(format!(
+            "'{title}' is the material at the bottom; nothing can lie below it"
+        ));
+    };
+    let feeder = connections::feeder(document, document.shown(), slot)?;
+    Some(format!(
+        "'{title}' lies on what comes in through the group's input '{feeder}'; nothing can come between"
+    ))
+}
+
 /// The input through which a node of such a face takes the material that it changes.
-pub(super) fn main_input(face: &Entry) -> Option<&Port> {
+pub(crate) fn main_input(face: &Entry) -> Option<&Port> {
     let mut inputs = face.inputs.iter().filter(|port| port.ty == Some(PortType::Material));
     if face.id != GROUP_KIND {
         return inputs.next();

@@ -1,22 +1,22 @@
 //! Claims about the document: what an artist does with a graph, and that all of it can be taken back.
 
-mod arrangement;
-mod clipboard;
-mod frames;
+mod arranging;
+mod copying;
+mod entering;
+mod framing;
 mod group_ports;
 mod grouping;
-mod layers;
-mod navigation;
-mod node_replacement;
-mod nodes;
-mod panel;
+mod inserting;
+mod layering;
+mod node_edits;
+mod panel_variants;
+mod publishing;
 mod random;
-mod reconnection;
+mod reconnecting;
+mod replacing;
 mod saving;
-mod texture_sets;
-mod variants;
-mod wire_insertion;
-mod wires;
+mod texture_set_import;
+mod wiring;
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -26,8 +26,18 @@ use sabi_engine::catalog::Catalog;
 use sabi_engine::{Kinds, Overrides, Session};
 use sabi_graph::{Document, FlatGraph, NodeId, OutputRef, SlotRef, Value};
 
-use super::new_ids::IdGenerator;
-use super::{OpenDocument, PendingWire};
+use crate::arrangement::Align;
+use crate::connections::PendingWire;
+use crate::knob_target::{self, KnobTarget};
+use crate::new_ids::IdGenerator;
+use crate::node_size::{GRID, NODE_WIDTH, input_row, output_row};
+use crate::open_document::OpenDocument;
+use crate::stack::StackEnd;
+use crate::wires::MaskMerge;
+use crate::{
+    arrangement, clipboard, connections, duplication, frames, groups, layers, library, navigation, node_paths,
+    node_replacement, node_size, nodes, panel, panel_values, ports, selection, stack, texture_sets, variants, wires,
+};
 
 /// The built-in kinds, read once for all tests.
 fn kinds() -> (Arc<Kinds>, Arc<Catalog>) {
@@ -65,7 +75,7 @@ fn id(text: &str) -> NodeId {
 }
 
 fn add(document: &mut OpenDocument, kind: &str) -> NodeId {
-    document.add(kind, [0.0, 0.0], None).expect("a built-in kind")
+    nodes::add(document, kind, [0.0, 0.0], None).expect("a built-in kind")
 }
 
 fn out(id: &NodeId) -> OutputRef {
@@ -98,8 +108,7 @@ fn select(document: &mut OpenDocument, ids: &[&str]) {
 
 /// What an input reads, as the file has it; empty where it reads nothing.
 fn wire(document: &OpenDocument, text: &str) -> String {
-    document
-        .wire_into(&to(text))
+    connections::wire_into(document, &to(text))
         .map(OutputRef::to_string)
         .unwrap_or_default()
 }
@@ -134,7 +143,9 @@ fn step<T>(document: &mut OpenDocument, does: impl FnOnce(&mut OpenDocument) -> 
     document.redo();
     assert_eq!(document.session.text(), after);
     document.take_notices();
-    document.notices = notices;
+    for notice in notices {
+        document.notify(notice);
+    }
     document.select(selection);
     done
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// What a picture of a texture set holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Map {
+pub(crate) enum Map {
     Color,
     Roughness,
     Metallic,
@@ -48,15 +48,15 @@ const STORED: [&str; 6] = ["jpg", "jpeg", "png", "exr", "tif", "tiff"];
 
 /// What the name of a file says.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct MapName {
+pub(crate) struct MapName {
     /// The set that it belongs to, in small letters.
-    pub(super) set: String,
-    pub(super) map: Map,
+    pub(crate) set: String,
+    pub(crate) map: Map,
 }
 
 impl MapName {
     /// Reads the name of a file; none where it is not that of a map.
-    pub(super) fn of(file: &Path) -> Option<MapName> {
+    pub(crate) fn of(file: &Path) -> Option<MapName> {
         let stem = file.file_stem()?.to_string_lossy().to_lowercase();
         let words: Vec<&str> = stem
             .split(|letter: char| !letter.is_alphanumeric())

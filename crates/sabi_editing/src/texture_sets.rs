@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use sabi_engine::catalog::readable;
 use sabi_graph::{Edit, Node, NodeId, OutputRef, Value};
 
-use super::OpenDocument;
-use super::arrangement::{NODE_WIDTH, size_of};
-use super::texture_map_names::{Map, MapName};
+use crate::node_size::{NODE_WIDTH, size_of};
+use crate::open_document::OpenDocument;
+use crate::texture_map_names::{Map, MapName};
+use crate::{new_nodes, relative_paths};
 
 const IMAGE: &str = "source/image";
 const COMBINE: &str = "material/combine";
@@ -22,40 +23,38 @@ const RELIEF: f64 = 0.02;
 /// Pictures of one set, by what they hold.
 type Set = BTreeMap<Map, PathBuf>;
 
-impl OpenDocument {
-    /// Adds the texture sets that these pictures are, by their names, as one step: for each set a material of all its maps,
-    /// which is selected.
-    pub fn add_texture_sets(&mut self, files: &[PathBuf], pos: [f32; 2]) -> bool {
-        let mut sets = sets_of(files);
-        let packed = sets.values_mut().filter_map(|set| set.remove(&Map::Packed));
-        let packed: Vec<String> = packed.map(|file| name_of(&file)).collect();
-        sets.retain(|_, set| !set.is_empty());
-        if !packed.is_empty() {
-            let names = packed.join(", ");
-            self.say(format!(
-                "{names} holds several channels in one picture and is left out; use a file for each"
-            ));
-        }
-        if sets.is_empty() {
-            let count = files.len();
-            return self.refuse(format!(
-                "none of these {count} files is named as a map of a texture set, as bricks_color.png or bricks_nor_gl.png are"
-            ));
-        }
-        let mut adding = Adding {
-            document: self,
-            edits: Vec::new(),
-            taken: BTreeSet::new(),
-        };
-        let (mut materials, mut at) = (Vec::new(), pos);
-        for (name, set) in &sets {
-            let (material, bottom) = adding.set(name, set, at);
-            materials.push(material);
-            at[1] = bottom + GAP;
-        }
-        let edits = adding.edits;
-        self.edit_and_select("Add texture set", edits, materials)
+/// Adds the texture sets that these pictures are, by their names, as one step: for each set a material of all its maps,
+/// which is selected.
+pub fn add(document: &mut OpenDocument, files: &[PathBuf], pos: [f32; 2]) -> bool {
+    let mut sets = sets_of(files);
+    let packed = sets.values_mut().filter_map(|set| set.remove(&Map::Packed));
+    let packed: Vec<String> = packed.map(|file| name_of(&file)).collect();
+    sets.retain(|_, set| !set.is_empty());
+    if !packed.is_empty() {
+        let names = packed.join(", ");
+        document.notify(format!(
+            "{names} holds several channels in one picture and is left out; use a file for each"
+        ));
     }
+    if sets.is_empty() {
+        let count = files.len();
+        return document.refuse(format!(
+            "none of these {count} files is named as a map of a texture set, as bricks_color.png or bricks_nor_gl.png are"
+        ));
+    }
+    let mut adding = Adding {
+        document,
+        edits: Vec::new(),
+        taken: BTreeSet::new(),
+    };
+    let (mut materials, mut at) = (Vec::new(), pos);
+    for (name, set) in &sets {
+        let (material, bottom) = adding.add_set(name, set, at);
+        materials.push(material);
+        at[1] = bottom + GAP;
+    }
+    let edits = adding.edits;
+    document.edit_and_select("Add texture set", edits, materials)
 }
 
 /// What is added so far.
@@ -67,19 +66,19 @@ struct Adding<'d> {
 
 impl Adding<'_> {
     /// Adds one set; gives its material and where it ends below.
-    fn set(&mut self, name: &str, set: &Set, [x, y]: [f32; 2]) -> (NodeId, f32) {
+    fn add_set(&mut self, name: &str, set: &Set, [x, y]: [f32; 2]) -> (NodeId, f32) {
         let step = NODE_WIDTH + GAP;
         let mut below = y;
         let mut inputs = BTreeMap::new();
         for (map, file) in set {
             let (input, output) = ports(*map);
-            let image = self.image(*map, file, [x, below]);
+            let image = self.add_image(*map, file, [x, below]);
             let mut from = OutputRef {
                 node: image,
                 port: output.map(str::to_owned),
             };
             if *map == Map::Height {
-                from = self.relief(from, [x + step, below]);
+                from = self.add_relief(from, [x + step, below]);
             }
             inputs.insert(input.to_owned(), from);
             below += self.height(IMAGE) + GAP / 2.0;
@@ -88,44 +87,44 @@ impl Adding<'_> {
         material.label = Some(readable(name)).filter(|label| !label.is_empty());
         material.inputs = inputs;
         let middle = ((y + below - self.height(COMBINE)) / 2.0).max(y);
-        let id = self.add("material", material, [x + 2.0 * step, middle]);
+        let id = self.add_node("material", material, [x + 2.0 * step, middle]);
         (id, below.max(middle + self.height(COMBINE)))
     }
 
-    fn image(&mut self, map: Map, file: &Path, pos: [f32; 2]) -> NodeId {
+    fn add_image(&mut self, map: Map, file: &Path, pos: [f32; 2]) -> NodeId {
         let mut image = Node::new(IMAGE);
         let (input, _) = ports(map);
         image.label = Some(readable(input));
-        match self.document.relative(file) {
+        match relative_paths::relative(self.document, file) {
             Ok(path) => {
                 image.params.insert("file".to_owned(), Value::Text(path));
             }
-            Err(refused) => self.document.say(refused.to_string()),
+            Err(refused) => self.document.notify(refused.to_string()),
         }
         if map == (Map::Normal { is_down: true }) {
             image
                 .params
                 .insert("normal_y".to_owned(), Value::Text("down".to_owned()));
         }
-        self.add(input, image, pos)
+        self.add_node(input, image, pos)
     }
 
     /// Turns what a height map holds, 0 to 1 with its middle where the model is, into heights.
-    fn relief(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
+    fn add_relief(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
         let mut remap = Node::new(REMAP);
         remap.inputs.insert("source".to_owned(), from);
         for (param, value) in [("to_low", -RELIEF / 2.0), ("to_high", RELIEF / 2.0)] {
             remap.params.insert(param.to_owned(), Value::Number(value));
         }
-        let node = self.add("relief", remap, pos);
+        let node = self.add_node("relief", remap, pos);
         OutputRef { node, port: None }
     }
 
-    fn add(&mut self, stem: &str, mut node: Node, pos: [f32; 2]) -> NodeId {
+    fn add_node(&mut self, stem: &str, mut node: Node, pos: [f32; 2]) -> NodeId {
         node.pos = pos.map(f32::round);
         let id = self.document.new_id(stem, &self.taken);
         self.taken.insert(id.clone());
-        self.edits.push(self.document.adding(&id, node));
+        self.edits.push(new_nodes::addition(self.document, &id, node));
         id
     }
 

@@ -5,7 +5,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::Pos2;
-use sabi_editing::{KnobTarget, MaskMerge, PendingWire, StackEnd};
+use sabi_editing::connections::PendingWire;
+use sabi_editing::knob_target::KnobTarget;
+use sabi_editing::stack::StackEnd;
+use sabi_editing::wires::MaskMerge;
 use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
 use sabi_graph::{Fit, NodeId, OutputRef, SlotRef, Value};

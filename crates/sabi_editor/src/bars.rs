@@ -9,6 +9,8 @@ use egui::containers::menu::MenuConfig;
 use egui::{Color32, Frame, Margin, PopupCloseBehavior, RichText, Ui};
 use egui_phosphor::regular as icon;
 
+use sabi_editing::navigation;
+
 use crate::action::{Action, FileAction};
 use crate::context::ViewContext;
 use crate::paths::file_name;
@@ -22,7 +24,7 @@ pub(crate) use status::status;
 /// Path into groups above the canvas, while a group is shown.
 pub(crate) fn path(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
-    let path = context.document.path();
+    let path = navigation::breadcrumb(&context.document);
     if path.is_empty() {
         return actions;
     }

@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use egui::{Pos2, Rect, Sense, Ui, pos2, vec2};
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, navigation, node_paths, node_size};
 use sabi_graph::{NodeId, NodeRef};
 
 use crate::action::Action;
@@ -115,7 +115,7 @@ impl crate::context::View for Canvas {
                 waits: evaluation.waits(&result.node).cloned(),
             }
         };
-        let here = |result: &NodeRef| document.seen_at(&result.node);
+        let here = |result: &NodeRef| node_paths::in_shown_graph(&document, &result.node);
         let previewed = looks.inspected().and_then(here);
         let pinned = looks.pinned.as_ref().and_then(here);
         let around = CanvasContext {
@@ -252,7 +252,7 @@ impl Canvas {
     }
 
     fn follow_path(&mut self, document: &OpenDocument) {
-        let path: Vec<NodeId> = document.path().into_iter().map(|(id, _)| id).collect();
+        let path: Vec<NodeId> = navigation::breadcrumb(document).into_iter().map(|(id, _)| id).collect();
         if path == self.path {
             return;
         }
@@ -363,7 +363,10 @@ pub(crate) fn focus_id() -> egui::Id {
 /// Rectangle of a node on the canvas.
 fn node_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
     let pos = document.node(id)?.pos;
-    Some(Rect::from_min_size(pos2(pos[0], pos[1]), document.size(id).into()))
+    Some(Rect::from_min_size(
+        pos2(pos[0], pos[1]),
+        node_size::of(document, id).into(),
+    ))
 }
 
 fn draw_grid(ui: &Ui, panel: Rect, view: &View, theme: &Theme) {

@@ -13,7 +13,8 @@ use egui::{Button, Id, Key, Modal, RichText, TextEdit, Ui, WidgetInfo, WidgetTyp
 use crate::action::{Action, ExportAction, FileAction, ModelAction, Next};
 use crate::context::{View, ViewContext};
 use crate::paths::{file_name, with_graph_ending};
-use sabi_editing::{KnobTarget, OpenDocument};
+use sabi_editing::OpenDocument;
+use sabi_editing::knob_target::KnobTarget;
 use system_dialog::{PathFor, SystemDialog, answer_of};
 
 /// Question that has to be answered before anything else.

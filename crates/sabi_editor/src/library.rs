@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_editing::GRAPH_EXTENSION;
+use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_engine::OpenGraph;
 use sabi_engine::catalog::{Catalog, Faces};
 

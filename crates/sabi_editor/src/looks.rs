@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use sabi_editing::{KnobTarget, OpenDocument};
+use sabi_editing::knob_target::KnobTarget;
+use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::ViewSubject;
 use sabi_graph::{NodeId, NodeRef};
 
@@ -89,9 +90,9 @@ impl Looks {
     /// Shows results of deleted nodes no longer.
     pub(crate) fn forget_deleted(&mut self, document: &OpenDocument) {
         for result in self.results() {
-            result.take_if(|result| !document.has(&result.node));
+            result.take_if(|result| !node_paths::exists(document, &result.node));
         }
-        self.outputs.retain(|node, _| document.has(node));
+        self.outputs.retain(|node, _| node_paths::exists(document, node));
     }
 
     /// Shows the result of one node wherever that of another one was shown, whose full id is `before`.
@@ -162,7 +163,7 @@ pub(crate) fn result_of(document: &OpenDocument, id: &NodeId, output: Option<Str
 
 /// Title of a node, with the output of a result where it is not the first.
 pub(crate) fn title_of(document: &OpenDocument, result: &NodeRef) -> String {
-    let title = document.title_at(&result.node);
+    let title = node_paths::title(document, &result.node);
     match &result.port {
         Some(output) => format!("{title} · {output}"),
         None => title,

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{RenderState, WgpuSetup};
 use egui::{ClippedPrimitive, Context, Event, RawInput, Rect, TextureId, Vec2};
+use sabi_editing::nodes;
 use sabi_engine::{AdapterChoice, EngineError, Gpu, Session, default_cache_dir};
 use sabi_graph::{Document, Edit, NodeId, Value};
 
@@ -176,10 +177,12 @@ impl Offscreen {
     pub fn turn(&mut self, node: &str, knob: &str, value: f64, is_drag: bool) {
         let Ok(node) = node.parse::<NodeId>() else { return };
         self.editor.documents.is_dragging = is_drag;
-        self.editor
-            .documents
-            .document
-            .set_knob(&node, knob, Some(Value::Number(value)));
+        nodes::set_knob(
+            &mut self.editor.documents.document,
+            &node,
+            knob,
+            Some(Value::Number(value)),
+        );
     }
 
     /// Shows a node's result, as a click on it does.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use sabi_editing::GRAPH_EXTENSION;
+use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_engine::{Session, canonical};
 
 /// Endings of models.

@@ -18,29 +18,31 @@ fn wear() -> OpenDocument {
         "out": { "kind": "output/mask", "inputs": { "source": "o" } },
         "two": { "kind": "output/mask", "inputs": { "source": "g.mask" } }"#;
     let mut document = opened(groups, nodes);
-    assert!(document.enter(&id("g")));
+    assert!(navigation::enter(&mut document, &id("g")));
     document
 }
 
 #[test]
 fn an_input_feeds_what_takes_it_and_nothing_else() {
     let mut document = wear();
-    let name = step(&mut document, |document| document.publish_input(&to("b.above")));
+    let name = step(&mut document, |document| ports::publish_input(document, &to("b.above")));
     assert_eq!(name.as_deref(), Some("above"));
-    step(&mut document, |document| document.feed("above", &to("b.mask")));
-    assert_eq!(document.group_inputs()["above"].to, [to("b.above"), to("b.mask")]);
+    step(&mut document, |document| ports::feed(document, "above", &to("b.mask")));
+    assert_eq!(ports::inputs(&document)["above"].to, [to("b.above"), to("b.mask")]);
     // What another input fed it feeds no more.
-    step(&mut document, |document| document.feed("where", &to("b.mask")));
-    assert_eq!(document.group_inputs()["above"].to, [to("b.above")]);
-    step(&mut document, |document| document.unfeed(&to("b.mask")));
-    let mut said = |input: &str, slot: &str| refused(&mut document, |document| document.feed(input, &to(slot)));
+    step(&mut document, |document| ports::feed(document, "where", &to("b.mask")));
+    assert_eq!(ports::inputs(&document)["above"].to, [to("b.above")]);
+    step(&mut document, |document| ports::unfeed(document, &to("b.mask")));
+    let mut said = |input: &str, slot: &str| refused(&mut document, |document| ports::feed(document, input, &to(slot)));
     assert_eq!(
         said("above", "n.position"),
         "'Position' takes a vector, and this input of the group carries a mask"
     );
     assert_eq!(said("above", "n.lost"), "'Cells' has no input 'lost'");
     assert_eq!(said("lost", "b.mask"), "the group has no input 'lost'");
-    let said = refused(&mut document, |document| document.publish_input(&to("l.source")));
+    let said = refused(&mut document, |document| {
+        ports::publish_input(document, &to("l.source"))
+    });
     assert_eq!(said, "the group's input 'where' leads there already");
     flat(&document);
 }
@@ -49,10 +51,14 @@ fn an_input_feeds_what_takes_it_and_nothing_else() {
 fn a_renamed_input_is_renamed_in_all_instances_and_in_groups_around() {
     let mut document = wear();
     let before = evaluated(&document);
-    step(&mut document, |document| document.rename_input("where", "place"));
+    step(&mut document, |document| {
+        ports::rename_input(document, "where", "place")
+    });
     assert_eq!(evaluated(&document), before);
-    step(&mut document, |document| document.label_input("place", "The place"));
-    document.leave();
+    step(&mut document, |document| {
+        ports::set_input_label(document, "place", "The place")
+    });
+    navigation::leave(&mut document);
     assert_eq!(wire(&document, "g.place"), "w");
     assert_eq!(
         document
@@ -66,8 +72,8 @@ fn a_renamed_input_is_renamed_in_all_instances_and_in_groups_around() {
 #[test]
 fn a_removed_input_takes_the_wires_of_all_instances_with_it() {
     let mut document = wear();
-    step(&mut document, |document| document.remove_input("where"));
-    document.leave();
+    step(&mut document, |document| ports::remove_input(document, "where"));
+    navigation::leave(&mut document);
     assert_eq!(wire(&document, "g.where"), "");
     assert!(document.contents().groups["outer"].inputs["in"].to.is_empty());
     flat(&document);
@@ -77,14 +83,18 @@ fn a_removed_input_takes_the_wires_of_all_instances_with_it() {
 fn a_second_output_does_not_make_wires_from_the_first_one_unclear() {
     let mut document = wear();
     let before = evaluated(&document);
-    let name = step(&mut document, |document| document.publish_output(&from("n.id")));
+    let name = step(&mut document, |document| ports::publish_output(document, &from("n.id")));
     assert_eq!(name.as_deref(), Some("id"));
     assert_eq!(evaluated(&document), before);
-    step(&mut document, |document| document.rename_output("mask", "result"));
+    step(&mut document, |document| {
+        ports::rename_output(document, "mask", "result")
+    });
     assert_eq!(evaluated(&document), before);
-    step(&mut document, |document| document.retarget_output("result", &from("b")));
+    step(&mut document, |document| {
+        ports::retarget_output(document, "result", &from("b"))
+    });
     assert_ne!(evaluated(&document), before);
-    document.leave();
+    navigation::leave(&mut document);
     assert_eq!(
         [wire(&document, "o.in"), wire(&document, "two.source")],
         ["g.result", "g.result"]
@@ -94,8 +104,8 @@ fn a_second_output_does_not_make_wires_from_the_first_one_unclear() {
 #[test]
 fn a_removed_output_takes_the_wires_from_all_instances_with_it() {
     let mut document = wear();
-    step(&mut document, |document| document.remove_output("mask"));
-    document.leave();
+    step(&mut document, |document| ports::remove_output(document, "mask"));
+    navigation::leave(&mut document);
     assert_eq!([wire(&document, "two.source"), wire(&document, "out.source")], ["", ""]);
     assert!(
         document.contents().groups["outer"].outputs.is_empty(),
@@ -108,8 +118,8 @@ fn a_removed_output_takes_the_wires_from_all_instances_with_it() {
 fn a_removed_node_takes_along_what_it_published_everywhere() {
     let mut document = wear();
     select(&mut document, &["l"]);
-    step(&mut document, |document| document.delete(false));
-    document.leave();
+    step(&mut document, |document| nodes::delete(document, false));
+    navigation::leave(&mut document);
     assert_eq!(param(&document, "g", "low"), None);
     assert_eq!(
         param(&document, "o", "outer_low"),
@@ -127,35 +137,35 @@ fn a_removed_node_takes_along_what_it_published_everywhere() {
 #[test]
 fn what_is_taken_already_is_no_new_name() {
     let mut document = wear();
-    document.publish_input(&to("b.above"));
-    document.publish_output(&from("n.id"));
+    ports::publish_input(&mut document, &to("b.above"));
+    ports::publish_output(&mut document, &from("n.id"));
     let mut said = |does: &dyn Fn(&mut OpenDocument) -> bool| refused(&mut document, |document| does(document));
     assert_eq!(
-        said(&|document| document.rename_input("where", "above")),
+        said(&|document| ports::rename_input(document, "where", "above")),
         "the group has an input 'above' already; choose another name"
     );
     assert_eq!(
-        said(&|document| document.rename_output("mask", "id")),
+        said(&|document| ports::rename_output(document, "mask", "id")),
         "the group has an output 'id' already; choose another name"
     );
     assert_eq!(
-        said(&|document| document.rename_input("lost", "x")),
+        said(&|document| ports::rename_input(document, "lost", "x")),
         "the group has no input 'lost'"
     );
     assert_eq!(
-        said(&|document| document.rename_output("lost", "x")),
+        said(&|document| ports::rename_output(document, "lost", "x")),
         "the group has no output 'lost'"
     );
     assert_eq!(
-        said(&|document| document.retarget_output("lost", &from("n"))),
+        said(&|document| ports::retarget_output(document, "lost", &from("n"))),
         "the group has no output 'lost'"
     );
     assert_eq!(
-        said(&|document| document.retarget_output("mask", &from("n.x"))),
+        said(&|document| ports::retarget_output(document, "mask", &from("n.x"))),
         "'Cells' gives no such result"
     );
     assert_eq!(
-        said(&|document| document.rename_input("where", "a.b")),
+        said(&|document| ports::rename_input(document, "where", "a.b")),
         "\"a.b\" cannot be the name of a port; use 1 to 64 characters without dots and slashes"
     );
 }
@@ -163,12 +173,16 @@ fn what_is_taken_already_is_no_new_name() {
 #[test]
 fn the_main_graph_has_inputs_and_outputs_for_those_who_use_its_file() {
     let mut document = opened("", r#""l": { "kind": "adjust/levels" }"#);
-    step(&mut document, |document| document.publish_input(&to("l.source")));
-    step(&mut document, |document| document.publish_output(&from("l")));
-    step(&mut document, |document| document.rename_output("mask", "wear"));
-    step(&mut document, |document| document.rename_input("source", "where"));
-    assert_eq!(document.group_inputs()["where"].to, [to("l.source")]);
-    assert_eq!(document.group_outputs()["wear"], from("l"));
+    step(&mut document, |document| {
+        ports::publish_input(document, &to("l.source"))
+    });
+    step(&mut document, |document| ports::publish_output(document, &from("l")));
+    step(&mut document, |document| ports::rename_output(document, "mask", "wear"));
+    step(&mut document, |document| {
+        ports::rename_input(document, "source", "where")
+    });
+    assert_eq!(ports::inputs(&document)["where"].to, [to("l.source")]);
+    assert_eq!(ports::outputs(&document)["wear"], from("l"));
 }
 
 #[test]
@@ -179,9 +193,9 @@ fn what_an_instance_never_had_from_its_group_is_left_alone() {
         groups,
         r#""i": { "kind": "graph/group", "group": "g", "params": { "of_old": 1 } }"#,
     );
-    document.enter(&id("i"));
-    step(&mut document, |document| document.unexpose("size"));
-    document.leave();
+    navigation::enter(&mut document, &id("i"));
+    step(&mut document, |document| panel::unexpose(document, "size"));
+    navigation::leave(&mut document);
     assert_eq!(
         param(&document, "i", "of_old"),
         number(1.0),

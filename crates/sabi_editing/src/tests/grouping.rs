@@ -29,15 +29,15 @@ fn a_group_and_its_end_leave_the_evaluation_as_it_was() {
     ] {
         let mut document = opened("", NODES);
         select(&mut document, &ids);
-        step(&mut document, OpenDocument::make_group);
+        step(&mut document, groups::make);
         let instance = document.selected_one().cloned().expect("the instance");
         assert_eq!(evaluated(&document), before, "{ids:?}");
         assert_eq!(document.contents().groups.len(), 1);
         // Once more around the first.
-        step(&mut document, OpenDocument::make_group);
+        step(&mut document, groups::make);
         assert_eq!(evaluated(&document), before, "{ids:?}");
-        step(&mut document, OpenDocument::dissolve_groups);
-        step(&mut document, OpenDocument::dissolve_groups);
+        step(&mut document, groups::dissolve_selected);
+        step(&mut document, groups::dissolve_selected);
         assert_eq!(evaluated(&document), before, "{ids:?}");
         assert!(document.contents().groups.is_empty() && document.node(&instance).is_none());
         assert_eq!(document.selection().len(), ids.len(), "what came out is selected");
@@ -48,17 +48,15 @@ fn a_group_and_its_end_leave_the_evaluation_as_it_was() {
 fn several_wires_from_one_place_are_one_input_and_several_readers_of_one_result_one_output() {
     let mut document = opened("", NODES);
     select(&mut document, &["low", "i"]);
-    step(&mut document, OpenDocument::make_group);
+    step(&mut document, groups::make);
     let instance = document.selected_one().cloned().expect("the instance");
-    document.enter(&instance);
-    let inputs: Vec<(&String, usize)> = document
-        .group_inputs()
+    navigation::enter(&mut document, &instance);
+    let inputs: Vec<(&String, usize)> = ports::inputs(&document)
         .iter()
         .map(|(name, input)| (name, input.to.len()))
         .collect();
     assert_eq!(inputs, [(&"base".to_owned(), 1), (&"source".to_owned(), 2)]);
-    let outputs: Vec<String> = document
-        .group_outputs()
+    let outputs: Vec<String> = ports::outputs(&document)
         .iter()
         .map(|(name, from)| format!("{name} {from}"))
         .collect();
@@ -69,16 +67,16 @@ fn several_wires_from_one_place_are_one_input_and_several_readers_of_one_result_
 fn what_cannot_be_grouped_is_told() {
     let mut document = opened("", NODES);
     select(&mut document, &["layer", "out"]);
-    let said = refused(&mut document, OpenDocument::make_group);
+    let said = refused(&mut document, groups::make);
     assert_eq!(
         said,
         "an output cannot be inside a group; leave it outside and group what leads to it"
     );
     select(&mut document, &["n", "layer"]);
-    let said = refused(&mut document, OpenDocument::make_group);
+    let said = refused(&mut document, groups::make);
     assert_eq!(said, "'Invert' lies between the selected nodes; select it too");
     select(&mut document, &["n"]);
-    let said = refused(&mut document, OpenDocument::dissolve_groups);
+    let said = refused(&mut document, groups::dissolve_selected);
     assert_eq!(said, "select an instance of a group to take it apart");
 }
 
@@ -110,13 +108,13 @@ fn the_panel_the_border_and_frames_go_into_the_group_and_come_out_again() {
     };
     let deep = with(&document);
     select(&mut document, &["n", "w", "r", "m", "low"]);
-    step(&mut document, OpenDocument::make_group);
+    step(&mut document, groups::make);
     let instance = document.selected_one().cloned().expect("the instance");
     assert_eq!((evaluated(&document), with(&document)), (before.clone(), deep.clone()));
     let knobs = document.graph().exposed();
     assert_eq!(knobs["seed_of_noise"].to, [slot(&instance, "seed_of_noise")]);
-    assert_eq!(document.group_inputs()["where"].to, [slot(&instance, "position")]);
-    assert_eq!(document.group_outputs()["mask"].node, instance);
+    assert_eq!(ports::inputs(&document)["where"].to, [slot(&instance, "position")]);
+    assert_eq!(ports::outputs(&document)["mask"].node, instance);
     assert_eq!(document.graph().frames().keys().collect::<Vec<_>>(), ["g"]);
     assert_eq!(document.graph().frames()["g"].nodes, [instance.clone(), id("layer")]);
     assert_eq!(
@@ -127,12 +125,12 @@ fn the_panel_the_border_and_frames_go_into_the_group_and_come_out_again() {
             .collect::<Vec<_>>(),
         ["f"]
     );
-    step(&mut document, OpenDocument::dissolve_groups);
+    step(&mut document, groups::dissolve_selected);
     assert_eq!((evaluated(&document), with(&document)), (before, deep));
     assert_eq!(document.graph().exposed()["seed_of_noise"].to.len(), 2);
-    assert_eq!(document.group_inputs()["where"].to.len(), 2);
+    assert_eq!(ports::inputs(&document)["where"].to.len(), 2);
     assert_eq!(
-        (document.graph().frames().len(), document.group_outputs().len()),
+        (document.graph().frames().len(), ports::outputs(&document).len()),
         (2, 2)
     );
 }
@@ -146,11 +144,11 @@ fn an_input_that_is_fed_and_wired_keeps_both() {
         "out": { "kind": "output/mask", "inputs": { "source": "fed" } }, "two": { "kind": "output/mask", "inputs": { "source": "free" } }"#;
     let mut document = opened(group, nodes);
     let before = evaluated(&document);
-    document.enter(&id("free"));
+    navigation::enter(&mut document, &id("free"));
     select(&mut document, &["l"]);
-    step(&mut document, OpenDocument::make_group);
+    step(&mut document, groups::make);
     assert_eq!(evaluated(&document), before);
-    step(&mut document, OpenDocument::dissolve_groups);
+    step(&mut document, groups::dissolve_selected);
     assert_eq!(evaluated(&document), before);
 }
 
@@ -160,11 +158,11 @@ fn a_group_made_inside_one_keeps_the_size_it_is_for() {
     let nodes = r#""g": { "kind": "graph/group", "group": "g" }, "out": { "kind": "output/mask", "inputs": { "source": "g" } }"#;
     let mut document = opened(group, nodes);
     let before = evaluated(&document);
-    document.enter(&id("g"));
-    document.select_all();
-    step(&mut document, OpenDocument::make_group);
+    navigation::enter(&mut document, &id("g"));
+    selection::select_all(&mut document);
+    step(&mut document, groups::make);
     assert_eq!(evaluated(&document), before);
-    step(&mut document, OpenDocument::dissolve_groups);
+    step(&mut document, groups::dissolve_selected);
     assert_eq!(evaluated(&document), before);
     assert_eq!(document.take_notices(), Vec::<String>::new());
 }
@@ -182,7 +180,7 @@ fn what_an_instance_sets_is_set_on_what_comes_out() {
         "out": { "kind": "output/mask", "inputs": { "source": "g.mask" } }"#;
     let mut document = opened(group, nodes);
     select(&mut document, &["g"]);
-    step(&mut document, OpenDocument::dissolve_groups);
+    step(&mut document, groups::dissolve_selected);
     let noise = document
         .graph()
         .nodes()
@@ -215,7 +213,7 @@ fn what_cannot_be_carried_out_of_a_group_is_told() {
         r#""g": { "kind": "graph/group", "group": "g", "label": "Dust", "params": { "seed": 5 } }"#,
     );
     select(&mut document, &["g"]);
-    step(&mut document, OpenDocument::dissolve_groups);
+    step(&mut document, groups::dissolve_selected);
     assert_eq!(
         document.take_notices(),
         [
@@ -234,11 +232,11 @@ fn a_group_goes_with_its_last_instance_only() {
     let mut document = opened(group, nodes);
     let before = evaluated(&document);
     select(&mut document, &["a", "m"]);
-    step(&mut document, OpenDocument::dissolve_groups);
+    step(&mut document, groups::dissolve_selected);
     assert_eq!(document.contents().groups.len(), 1);
     assert!(document.is_selected(&id("m")) && document.selection().len() == 2);
     select(&mut document, &["b"]);
-    step(&mut document, OpenDocument::dissolve_groups);
+    step(&mut document, groups::dissolve_selected);
     assert!(document.contents().groups.is_empty());
     assert_eq!(evaluated(&document), before);
 }
@@ -248,12 +246,12 @@ fn a_group_is_renamed_for_all_its_instances_also_while_one_is_inside() {
     let group = r#""groups": { "g": { "name": "Shown", "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let nodes = r#""a": { "kind": "graph/group", "group": "g" }, "b": { "kind": "graph/group", "group": "g" }"#;
     let mut document = opened(group, nodes);
-    document.enter(&id("a"));
+    navigation::enter(&mut document, &id("a"));
     select(&mut document, &["n"]);
-    step(&mut document, |document| document.rename_group("g", " Fine dust "));
+    step(&mut document, |document| groups::rename(document, "g", " Fine dust "));
     assert_eq!(document.body(), sabi_graph::Body::Group("Fine dust".to_owned()));
     assert_eq!(document.selected_one(), Some(&id("n")));
-    document.leave();
+    navigation::leave(&mut document);
     assert_eq!(["a", "b"].map(|name| document.title(&id(name))), ["Fine dust"; 2]);
     for (name, said) in [
         (
@@ -266,7 +264,7 @@ fn a_group_is_renamed_for_all_its_instances_also_while_one_is_inside() {
         ),
     ] {
         assert_eq!(
-            refused(&mut document, |document| document.rename_group("Fine dust", name)),
+            refused(&mut document, |document| groups::rename(document, "Fine dust", name)),
             said
         );
     }

@@ -29,7 +29,7 @@ impl Hands {
                 .iter()
                 .all(|node| self.document.node(node).is_some())
         );
-        self.document.panel();
+        panel::knobs(&self.document);
         if let Err(error) = self.document.session.graph().flatten(&Overrides::default()) {
             panic!("{error}\n{text}");
         }
@@ -89,7 +89,7 @@ fn a_long_day_of_edits_takes_no_more_memory_than_a_short_one() {
     let mut document = document();
     let node = add(&mut document, "noise/white");
     for edit in 0..2 * UNDO_STEPS {
-        document.set_knob(&node, "size", number(edit as f64));
+        nodes::set_knob(&mut document, &node, "size", number(edit as f64));
         document.take_notices();
     }
     assert!(document.session.undo_names().count() <= UNDO_STEPS + UNDO_STEPS / 4);

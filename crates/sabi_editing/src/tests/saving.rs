@@ -13,10 +13,13 @@ fn a_graph_saved_elsewhere_finds_its_group_files_and_undo_still_works() {
     document
         .save_as(&folder.path().join("main.sabi"))
         .expect("a writable folder");
-    let wear = document
-        .add_group_instance("wear.sabi", [0.0; 2], None)
-        .expect("a group file");
-    document.add("output/mask", [300.0, 0.0], Some(&PendingWire::From(out(&wear))));
+    let wear = nodes::add_instance(&mut document, "wear.sabi", [0.0; 2], None).expect("a group file");
+    nodes::add(
+        &mut document,
+        "output/mask",
+        [300.0, 0.0],
+        Some(&PendingWire::From(out(&wear))),
+    );
     let before = evaluated(&document);
     document
         .save_as(&folder.path().join("deep/main.sabi"))

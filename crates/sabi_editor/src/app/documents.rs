@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, relative_paths};
 use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
 use sabi_graph::{Edit, Preview};
 
@@ -151,7 +151,7 @@ impl Documents {
     pub(crate) fn reread_kinds(&mut self, folders: &[PathBuf]) {
         let mut kinds = Kinds::clone(self.document.kinds().0);
         kinds.reread(folders);
-        self.document.take_kinds(kinds);
+        self.document.replace_kinds(kinds);
     }
 
     /// Saves copies of the graph and of node files, if they have changed and the last copies are old enough.
@@ -196,9 +196,9 @@ impl Documents {
         if is_named || named.is_none() && is_example || has_redo || evaluation.model_failure.is_some() {
             return;
         }
-        let mesh = match self.document.seen_from_own_folder(model) {
+        let mesh = match relative_paths::from_own_folder(&self.document, model) {
             Ok(mesh) => mesh,
-            Err(refused) => return self.document.say(refused.to_string()),
+            Err(refused) => return self.document.notify(refused.to_string()),
         };
         let preview = Preview {
             mesh: Some(mesh),

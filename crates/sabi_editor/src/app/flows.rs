@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
+use sabi_editing::library;
 use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
 
 use super::Editor;
@@ -203,7 +204,7 @@ impl Editor {
             let result = crate::looks::result_of(&documents.document, id, None);
             self.evaluation.thumbnail_pixels(&result).cloned()
         });
-        let Some(file) = documents.document.shelve(&folder) else {
+        let Some(file) = library::save_group(&mut documents.document, &folder) else {
             return;
         };
         documents.library.invalidate();

@@ -7,7 +7,11 @@ mod graph;
 use std::path::Path;
 
 use egui::Ui;
-use sabi_editing::{KnobTarget, PendingWire};
+use sabi_editing::connections::PendingWire;
+use sabi_editing::knob_target::KnobTarget;
+use sabi_editing::{
+    clipboard, knob_target, layers, navigation, nodes, panel, panel_values, relative_paths, selection, variants, wires,
+};
 use sabi_graph::{NodeId, SlotRef, Value};
 
 use super::Editor;
@@ -64,23 +68,23 @@ impl Editor {
             Action::Replace { node, by } => self.replace(&node, &by),
             Action::Wire(action) => graph::change_wires(document, action),
             Action::Move(action) => graph::move_nodes(document, action),
-            Action::TakeOut => drop(document.take_out()),
+            Action::TakeOut => drop(wires::detach_selected(document)),
             Action::Select(ids) => self.select(ids),
             Action::Arrow(key) => self.follow_arrow(key, ui),
-            Action::Toggle(id) => document.toggle(&id),
+            Action::Toggle(id) => selection::toggle(document, &id),
             Action::Show { node, port } => self.looks.show(document, &node, port),
             Action::Pin { node } => self.looks.toggle_pin(document, &node),
             Action::Look(action) => self.looks.perform(action, &mut self.shell.settings),
-            Action::Enter(id) => drop(document.enter(&id)),
-            Action::LeaveTo(depth) => drop(document.leave_to(depth)),
+            Action::Enter(id) => drop(navigation::enter(document, &id)),
+            Action::LeaveTo(depth) => drop(navigation::leave_to(document, depth)),
             Action::Knob { node, event } => self.change_knob(&node, event),
             Action::Published(action) => self.change_published(action),
             Action::Variant(action) => self.change_variants(action),
             Action::Port(action) => graph::change_ports(document, action),
             Action::Layer(action) => self.change_layers(action),
-            Action::Rename { node, name } => drop(document.rename(&node, &name)),
+            Action::Rename { node, name } => drop(nodes::rename(document, &node, &name)),
             Action::Frame(action) => graph::change_frames(document, action),
-            Action::Paste { text, place } => drop(document.paste(&text, place)),
+            Action::Paste { text, place } => drop(clipboard::paste(document, &text, place)),
             Action::Document(action) => graph::change_document(document, action),
             Action::File(action) => self.perform_on_file(action),
             Action::Model(action) => self.perform_on_model(action),
@@ -131,11 +135,11 @@ impl Editor {
 
     fn set_image(&mut self, parameter: &KnobTarget, file: &Path) {
         let document = &mut self.documents.document;
-        match document.relative(file) {
+        match relative_paths::relative(document, file) {
             Ok(text) => {
-                document.set_at(parameter, Value::Text(text));
+                knob_target::set(document, parameter, Value::Text(text));
             }
-            Err(refused) => document.say(refused.to_string()),
+            Err(refused) => document.notify(refused.to_string()),
         }
     }
 
@@ -194,12 +198,12 @@ impl Editor {
     fn change_layers(&mut self, action: LayerAction) {
         let document = &mut self.documents.document;
         match action {
-            LayerAction::Toggle(id) => drop(document.toggle_layer(&id)),
-            LayerAction::Opacity { node, opacity } => drop(document.set_layer_opacity(&node, opacity)),
-            LayerAction::Move { end, from, to } => drop(document.move_layer(&end, from, to)),
-            LayerAction::Remove { end, at } => drop(document.remove_layer(&end, at)),
+            LayerAction::Toggle(id) => drop(layers::toggle(document, &id)),
+            LayerAction::Opacity { node, opacity } => drop(layers::set_opacity(document, &node, opacity)),
+            LayerAction::Move { end, from, to } => drop(layers::move_to(document, &end, from, to)),
+            LayerAction::Remove { end, at } => drop(layers::remove(document, &end, at)),
             LayerAction::Add { end, at, kind } => {
-                if let Some(id) = document.add_layer(&end, at, &kind) {
+                if let Some(id) = layers::add(document, &end, at, &kind) {
                     self.looks.show(document, &id, None);
                 }
             }
@@ -210,10 +214,10 @@ impl Editor {
     fn change_knob(&mut self, node: &NodeId, event: KnobEvent) {
         let document = &mut self.documents.document;
         match event {
-            KnobEvent::Set { knob, value } => drop(document.set_knob_of_alike(node, &knob, Some(value))),
-            KnobEvent::Reset { knob } => drop(document.set_knob_of_alike(node, &knob, None)),
+            KnobEvent::Set { knob, value } => drop(nodes::set_knob_of_selected(document, node, &knob, Some(value))),
+            KnobEvent::Reset { knob } => drop(nodes::set_knob_of_selected(document, node, &knob, None)),
             KnobEvent::Expose { knob } => graph::expose_of_alike(document, node, &knob),
-            KnobEvent::Unexpose { knob } => drop(document.take_off_panel(node, &knob)),
+            KnobEvent::Unexpose { knob } => drop(panel::unexpose_knob(document, node, &knob)),
             KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::of_node(node, knob)),
             KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::of_node(node, knob)),
             KnobEvent::Began => self.begin_drag(),
@@ -227,22 +231,22 @@ impl Editor {
         let document = &mut self.documents.document;
         match action {
             PublishedAction::Turn(event) => self.change_published_value(event),
-            PublishedAction::Label { name, label } => drop(document.label_exposed(&name, &label)),
-            PublishedAction::Rename { name, to } => drop(document.rename_exposed(&name, &to)),
-            PublishedAction::Section { name, section } => drop(document.set_section(&name, &section)),
-            PublishedAction::Range { name, range } => drop(document.set_exposed_range(&name, range)),
-            PublishedAction::Default { name, default } => drop(document.set_exposed_default(&name, default)),
-            PublishedAction::Move { name, before } => drop(document.move_exposed(&name, before.as_deref())),
-            PublishedAction::TakeOff(name) => drop(document.unexpose(&name)),
+            PublishedAction::Label { name, label } => drop(panel::set_label(document, &name, &label)),
+            PublishedAction::Rename { name, to } => drop(panel::rename(document, &name, &to)),
+            PublishedAction::Section { name, section } => drop(panel::set_section(document, &name, &section)),
+            PublishedAction::Range { name, range } => drop(panel_values::set_range(document, &name, range)),
+            PublishedAction::Default { name, default } => drop(panel_values::set_default(document, &name, default)),
+            PublishedAction::Move { name, before } => drop(panel::move_knob(document, &name, before.as_deref())),
+            PublishedAction::TakeOff(name) => drop(panel::unexpose(document, &name)),
         }
     }
 
     fn change_published_value(&mut self, event: KnobEvent) {
         let document = &mut self.documents.document;
         match event {
-            KnobEvent::Set { knob, value } => drop(document.turn(&knob, &value)),
-            KnobEvent::Reset { knob } => drop(document.turn_back(&knob)),
-            KnobEvent::Unexpose { knob } => drop(document.unexpose(&knob)),
+            KnobEvent::Set { knob, value } => drop(panel_values::set(document, &knob, &value)),
+            KnobEvent::Reset { knob } => drop(panel_values::reset(document, &knob)),
+            KnobEvent::Unexpose { knob } => drop(panel::unexpose(document, &knob)),
             KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::Panel(knob)),
             KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::Panel(knob)),
             KnobEvent::Began => self.begin_drag(),
@@ -270,7 +274,7 @@ impl Editor {
 
     /// Cancels the drag of a parameter.
     fn cancel_drag(&mut self) {
-        self.documents.document.take_back();
+        self.documents.document.cancel_step();
         self.documents.is_dragging = false;
     }
 
@@ -288,18 +292,18 @@ impl Editor {
         };
         if let Some(parameter) = self.looks.color_target.take() {
             let text = format!("#{red:02x}{green:02x}{blue:02x}");
-            self.documents.document.set_at(&parameter, Value::Text(text));
+            knob_target::set(&mut self.documents.document, &parameter, Value::Text(text));
         }
     }
 
     fn change_variants(&mut self, action: VariantAction) {
         let document = &mut self.documents.document;
         match action {
-            VariantAction::Apply(name) => drop(document.apply_variant(&name)),
-            VariantAction::Rename { name, to } => drop(document.rename_variant(&name, &to)),
-            VariantAction::Remove(name) => drop(document.remove_variant(&name)),
+            VariantAction::Apply(name) => drop(variants::apply(document, &name)),
+            VariantAction::Rename { name, to } => drop(variants::rename(document, &name, &to)),
+            VariantAction::Remove(name) => drop(variants::remove(document, &name)),
             VariantAction::Save(name) => {
-                if document.save_variant(&name) {
+                if variants::save(document, &name) {
                     self.store_picture_of_variant(name.trim());
                 }
             }
@@ -313,7 +317,7 @@ impl Editor {
         };
         let documents = &mut self.documents;
         let file = documents.document.session.file().unwrap_or(Path::new(""));
-        let text = documents.document.variant_as_text(name);
+        let text = variants::as_text(&documents.document, name);
         let stored = documents.pictures.store(&self.shell.context, file, &text, &picture);
         self.shell.report(stored);
     }

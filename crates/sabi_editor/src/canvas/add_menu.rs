@@ -2,7 +2,8 @@
 
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Key, Order, Pos2, Sense, Ui, vec2};
 use egui_phosphor::regular as icon;
-use sabi_editing::{OpenDocument, PendingWire};
+use sabi_editing::connections::PendingWire;
+use sabi_editing::{OpenDocument, connections, wires};
 use sabi_graph::{NodeId, SlotRef};
 
 use crate::action::{Action, NewNode};
@@ -199,14 +200,16 @@ impl AddMenu {
     fn fits(&self, document: &OpenDocument, candidate: &Candidate) -> bool {
         let face = &candidate.face;
         if let Some(into) = &self.purpose.into {
-            return document.may_insert_new(face, into);
+            return wires::can_insert_new(document, face, into);
         }
         match &self.purpose.loose {
             None => true,
             Some(PendingWire::From(from)) => face
                 .input_for(document.faces().carried(&document.body(), from))
                 .is_some(),
-            Some(PendingWire::Into(to)) => document.input(to).is_some_and(|input| face.output_for(input).is_some()),
+            Some(PendingWire::Into(to)) => {
+                connections::input(document, to).is_some_and(|input| face.output_for(input).is_some())
+            }
         }
     }
 

@@ -1,7 +1,8 @@
 //! A node that is dragged to the canvas from another panel.
 
 use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
-use sabi_editing::{NODE_WIDTH, OpenDocument, PICTURE_SIDE, TITLE_HEIGHT};
+use sabi_editing::OpenDocument;
+use sabi_editing::node_size::{NODE_WIDTH, PICTURE_SIDE, TITLE_HEIGHT};
 use sabi_engine::catalog::Entry;
 use sabi_graph::SlotRef;
 
@@ -58,7 +59,7 @@ impl Canvas {
         let panel = self.panel.filter(|panel| panel.contains(at))?;
         let wires = wires::visible(document, &self.view, panel);
         let wire = wires::under(&wires, at)?;
-        document.may_insert_new(face, &wire.to).then(|| wire.clone())
+        sabi_editing::wires::can_insert_new(document, face, &wire.to).then(|| wire.clone())
     }
 
     /// Scrolls the canvas under a drag near its edge, once the drag has been farther in.

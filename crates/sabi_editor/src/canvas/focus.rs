@@ -1,6 +1,6 @@
 //! The canvas by keys alone: moving between nodes and ports, and connecting them.
 
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, connections};
 use sabi_graph::{NodeId, OutputRef};
 
 use super::gesture::Gesture;
@@ -184,7 +184,7 @@ fn aside(document: &OpenDocument, place: &PortRef, way: ArrowKey) -> Option<Port
     };
     match (place, way) {
         (PortRef::Input(slot), ArrowKey::Left) => {
-            let from = document.wire_into(slot)?;
+            let from = connections::wire_into(document, slot)?;
             let port = document.face(&from.node)?.output(from.port.as_deref())?;
             Some(PortRef::Output(OutputRef {
                 node: from.node.clone(),
@@ -193,7 +193,9 @@ fn aside(document: &OpenDocument, place: &PortRef, way: ArrowKey) -> Option<Port
         }
         (PortRef::Output(from), ArrowKey::Right) => {
             let mut readers = document.graph().readers(from.node.as_str()).into_iter();
-            readers.find(|slot| document.reads(slot, from)).map(PortRef::Input)
+            readers
+                .find(|slot| connections::reads(document, slot, from))
+                .map(PortRef::Input)
         }
         (PortRef::Input(_), _) => inside(false),
         (PortRef::Output(_), _) => inside(true),

@@ -1,7 +1,8 @@
 //! Rectangles of frames.
 
 use egui::{Pos2, Rect, vec2};
-use sabi_editing::{FRAME_AROUND, FRAME_STRIP, OpenDocument};
+use sabi_editing::OpenDocument;
+use sabi_editing::frames::{FRAME_AROUND, FRAME_STRIP};
 
 use super::{Canvas, node_rect};
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
-use sabi_editing::FRAME_STRIP;
+use sabi_editing::frames::FRAME_STRIP;
 
 use super::frame_rects::rect_of;
 use super::gesture::Gesture;

@@ -7,7 +7,8 @@ mod wiring;
 use std::collections::BTreeMap;
 
 use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
-use sabi_editing::{OpenDocument, PendingWire};
+use sabi_editing::connections::PendingWire;
+use sabi_editing::{OpenDocument, connections};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::port_refs::{self, PortRef};
@@ -75,7 +76,11 @@ impl Gesture {
             return None;
         };
         let ends = ends(loose, place);
-        Some(ends.is_some_and(|(from, to)| from.node != to.node && document.fits(from, to).is_ok()))
+        Some(
+            ends.is_some_and(|(from, to)| {
+                from.node != to.node && sabi_editing::wires::check(document, from, to).is_ok()
+            }),
+        )
     }
 
     /// Rank of a port among those that take the dragged wire, lower first: free ports first, then ports of the wire's
@@ -87,8 +92,9 @@ impl Gesture {
         let Some((from, to)) = ends(loose, place) else {
             return (true, true);
         };
-        let is_taken = matches!(place, PortRef::Input(_)) && document.wire_into(to).is_some();
-        let converts = document.input(to).is_none_or(|port| port.ty != document.carried(from));
+        let is_taken = matches!(place, PortRef::Input(_)) && connections::wire_into(document, to).is_some();
+        let converts =
+            connections::input(document, to).is_none_or(|port| port.ty != connections::carried(document, from));
         (is_taken, converts)
     }
 
@@ -319,7 +325,7 @@ impl Canvas {
         if off.as_ref() == Some(&to) {
             return;
         }
-        if off.is_none() && document.may_merge(&from, &to) {
+        if off.is_none() && sabi_editing::wires::can_merge(document, &from, &to) {
             self.merge = Some(MergeQuestion::new(at, from, to));
         } else {
             actions.push(Action::Wire(WireAction::Connect { from, to, off }));

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use egui::layers::ShapeIdx;
 use egui::{Rect, Response, Shape, Ui, WidgetInfo, WidgetType, vec2};
 use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
-use sabi_editing::{TITLE_HEIGHT, is_bend};
+use sabi_editing::node_size::{TITLE_HEIGHT, is_bend};
 use sabi_graph::NodeId;
 
 use super::node_summary::RowContext;
@@ -265,7 +265,8 @@ mod tests {
     use super::super::snapshot::Snapshot;
     use super::*;
     use crate::theme::{Shade, Theme};
-    use sabi_editing::{NODE_WIDTH, OpenDocument, input_row, output_row};
+    use sabi_editing::OpenDocument;
+    use sabi_editing::node_size::{NODE_WIDTH, input_row, output_row};
 
     /// Ports and size of a node as the canvas crate's widget has them.
     fn drawn(document: &OpenDocument, id: &NodeId, zoom: f32) -> (Vec<(AnyParameterId, Pos2)>, Rect) {
@@ -314,7 +315,7 @@ mod tests {
         let drawn_by_widget = document.catalog().entries().filter(|entry| !is_bend(entry));
         let kinds: Vec<String> = drawn_by_widget.map(|entry| entry.id.clone()).collect();
         for (at, kind) in kinds.iter().enumerate() {
-            let id = document.add(kind, [0.0, 0.0], None).expect("a kind of the catalog");
+            let id = sabi_editing::nodes::add(&mut document, kind, [0.0, 0.0], None).expect("a kind of the catalog");
             let face = document.face(&id).expect("a node").clone();
             for zoom in [[1.0, 0.6], [1.7, 1.0], [0.6, 3.0]][at % 3] {
                 let (ports, rect) = drawn(&document, &id, zoom);
@@ -327,7 +328,7 @@ mod tests {
                     });
                     assert!(is_there, "{kind} at {zoom}: {expected:?} in {ports:?}");
                 }
-                let size = vec2(NODE_WIDTH, document.size(&id)[1]) * zoom;
+                let size = vec2(NODE_WIDTH, sabi_editing::node_size::of(&document, &id)[1]) * zoom;
                 assert!(
                     (rect.size() - size).length() < 1.5,
                     "{kind} at {zoom}: {rect:?}, and we say {size:?}"

@@ -1,7 +1,7 @@
 //! The context menu of ports, and the marks of published ports.
 
 use egui::{Align2, FontId, Painter, Pos2, Response, Stroke, vec2};
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, connections, ports};
 use sabi_graph::{Body, SlotRef};
 
 use super::port_refs::PortRef;
@@ -25,7 +25,7 @@ pub(super) fn show(
             Body::Main => "graph",
             Body::Group(_) => "group",
         };
-        let given_as = document.given_as(&place.loose());
+        let given_as = ports::published_as(document, &place.loose());
         let (publish, off) = match place {
             PortRef::Input(_) => (
                 format!("Publish as input of the {whole}"),
@@ -78,10 +78,15 @@ fn taken_back(place: &PortRef, name: &str) -> PortAction {
 /// Inputs whose wires end or begin at a port.
 fn tied(document: &OpenDocument, place: &PortRef) -> Vec<SlotRef> {
     match place {
-        PortRef::Input(slot) => document.wire_into(slot).map(|_| slot.clone()).into_iter().collect(),
+        PortRef::Input(slot) => connections::wire_into(document, slot)
+            .map(|_| slot.clone())
+            .into_iter()
+            .collect(),
         PortRef::Output(from) => {
             let readers = document.graph().readers(from.node.as_str()).into_iter();
-            readers.filter(|slot| document.reads(slot, from)).collect()
+            readers
+                .filter(|slot| connections::reads(document, slot, from))
+                .collect()
         }
     }
 }
@@ -90,7 +95,7 @@ impl Canvas {
     /// Opens the menu of nodes, to add one that is connected to a port.
     fn open_port_menu(&mut self, document: &OpenDocument, place: &PortRef, at: Pos2) {
         let aside = match place {
-            PortRef::Input(_) => -(sabi_editing::NODE_WIDTH + 60.0),
+            PortRef::Input(_) => -(sabi_editing::node_size::NODE_WIDTH + 60.0),
             PortRef::Output(_) => 60.0,
         };
         let Some(on_canvas) = place.on_canvas(document) else {
@@ -114,7 +119,7 @@ pub(super) fn mark(
     center: Pos2,
     zoom: f32,
 ) {
-    let Some(name) = document.given_as(&place.loose()) else {
+    let Some(name) = ports::published_as(document, &place.loose()) else {
         return;
     };
     let (way, align) = match place {

@@ -1,7 +1,8 @@
 //! Ports of the shown graph, and where they are.
 
 use egui::{Pos2, Rect};
-use sabi_editing::{OpenDocument, PendingWire};
+use sabi_editing::OpenDocument;
+use sabi_editing::connections::PendingWire;
 use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 

@@ -1,7 +1,7 @@
 //! Ports: their dots, by color and shape, and dragging wires from them.
 
 use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetType, vec2};
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, connections, node_size};
 use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, PortType};
 
@@ -32,7 +32,7 @@ pub(super) fn show(
         let reach = reach_of(zoom);
         let is_input = matches!(place, PortRef::Input(_));
         // Leaves enough of a small node to drag the node itself.
-        let inside = reach.min(document.size(id)[0] * zoom * INSIDE);
+        let inside = reach.min(node_size::of(&document, id)[0] * zoom * INSIDE);
         let [left, right] = if is_input { [reach, inside] } else { [inside, reach] };
         let rect = Rect::from_min_max(center - vec2(left, reach), center + vec2(right, reach));
         let widget = ui.id().with(("port", id, &port.name, is_input));
@@ -103,14 +103,14 @@ pub(super) fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port) {
 
 pub(super) fn is_wired(document: &OpenDocument, place: &PortRef) -> bool {
     match place {
-        PortRef::Input(slot) => document.wire_into(slot).is_some(),
+        PortRef::Input(slot) => connections::wire_into(document, slot).is_some(),
         PortRef::Output(from) => {
             let face = document.face(&from.node);
             let first = face.and_then(|face| face.outputs.first()).map(|port| &port.name);
             let readers = document.graph().readers(from.node.as_str());
             readers
                 .iter()
-                .filter_map(|slot| document.wire_into(slot))
+                .filter_map(|slot| connections::wire_into(document, slot))
                 .any(|wire| wire.port == from.port || wire.port.is_none() && first == from.port.as_ref())
         }
     }

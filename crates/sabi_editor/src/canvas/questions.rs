@@ -1,7 +1,7 @@
 //! Small questions on the canvas: how to merge two masks, and the name of a node or a frame.
 
 use egui::{Area, EventFilter, Frame, Id, Key, Order, Pos2, Ui, WidgetInfo, WidgetType};
-use sabi_editing::MaskMerge;
+use sabi_editing::wires::MaskMerge;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::{Canvas, CanvasContext, focus_id};

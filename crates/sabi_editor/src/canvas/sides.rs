@@ -1,7 +1,8 @@
 //! The sides of cards, whose ports are too small for the pointer: a drag takes the nearest one.
 
 use egui::{PointerButton, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, pos2};
-use sabi_editing::{OpenDocument, input_row, output_row};
+use sabi_editing::OpenDocument;
+use sabi_editing::node_size::{input_row, output_row};
 use sabi_engine::catalog::{Entry, Port};
 use sabi_graph::NodeId;
 

@@ -8,7 +8,8 @@ use egui::{Color32, Ui};
 use egui_node_graph::{
     DataTypeTrait, InputParamKind, NodeDataTrait, NodeResponse, UserResponseTrait, WidgetValueTrait,
 };
-use sabi_editing::{OpenDocument, own_knobs};
+use sabi_editing::OpenDocument;
+use sabi_editing::node_size::own_knobs;
 use sabi_engine::catalog::Entry;
 use sabi_graph::{Body, NodeId, PortType};
 

@@ -1,7 +1,8 @@
 //! Wires: their curves, and tests against the pointer and lines.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, epaint::CubicBezierShape, pos2};
-use sabi_editing::{OpenDocument, TITLE_HEIGHT, input_row, output_row, size_of};
+use sabi_editing::node_size::{TITLE_HEIGHT, input_row, output_row, size_of};
+use sabi_editing::{OpenDocument, connections};
 use sabi_graph::{OutputRef, PortType, SlotRef};
 
 use super::view::View;
@@ -72,7 +73,7 @@ pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<
                 continue;
             }
             let carries = document.faces().carried(&document.body(), from);
-            let takes = document.input(&to).and_then(|port| port.ty);
+            let takes = connections::input(document, &to).and_then(|port| port.ty);
             wires.push(Wire {
                 from: from.clone(),
                 to,

@@ -1,6 +1,6 @@
 //! Results that are dropped to bound memory.
 
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::ViewSubject;
 use sabi_graph::NodeRef;
 
@@ -20,7 +20,7 @@ impl Evaluation {
         let is_kept = |seen: &ViewSubject, picture: &Picture| {
             let is_there = match seen {
                 ViewSubject::Outputs => true,
-                ViewSubject::Node(node) => document.has(&node.node),
+                ViewSubject::Node(node) => node_paths::exists(document, &node.node),
             };
             is_there && oldest.is_none_or(|oldest| picture.number >= oldest) && picture.model.model_revision == revision
         };
@@ -28,9 +28,9 @@ impl Evaluation {
         let gone = gone.filter(|(seen, picture)| !wanted.subjects.contains(seen) && !is_kept(seen, picture));
         let gone: Vec<ViewSubject> = gone.map(|(seen, _)| seen.clone()).collect();
         let nodes = self.thumbnails.keys();
-        let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !document.has(&node.node));
+        let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !node_paths::exists(document, &node.node));
         let nodes: Vec<NodeRef> = nodes.cloned().collect();
-        self.times.retain(|node, _| document.has(node));
+        self.times.retain(|node, _| node_paths::exists(document, node));
         self.forget(gone, nodes);
     }
 

@@ -5,7 +5,8 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use egui::Context;
 use rfd::{AsyncFileDialog, FileHandle};
-use sabi_editing::{GRAPH_EXTENSION, KnobTarget};
+use sabi_editing::knob_target::KnobTarget;
+use sabi_editing::library::GRAPH_EXTENSION;
 
 use crate::paths::{IMAGES, MODELS};
 

@@ -1,7 +1,7 @@
 //! Rows on nodes: name and value in one bar.
 
 use egui::{Align2, Color32, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
-use sabi_editing::ROW_HEIGHT;
+use sabi_editing::node_size::ROW_HEIGHT;
 use sabi_engine::catalog::{KnobRole, readable};
 use sabi_graph::Value;
 

@@ -1,7 +1,7 @@
 //! Parameters of the selected nodes; with nothing selected, what the shown graph publishes.
 
 use egui::{Label, RichText, ScrollArea, Ui};
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, panel};
 use sabi_graph::{NodeId, Value};
 
 use super::{ports, published, variants};
@@ -86,7 +86,7 @@ fn of_node(memory: &mut KnobMemory, ui: &mut Ui, context: &ViewContext<'_>, id: 
     let exposed: Vec<Option<String>> = face
         .knobs
         .iter()
-        .map(|knob| document.exposed_as(id, &knob.name).map(str::to_owned))
+        .map(|knob| panel::exposed_as(&document, id, &knob.name).map(str::to_owned))
         .collect();
     let rows: Vec<KnobRow<'_>> = face
         .knobs

@@ -2,6 +2,8 @@
 
 use egui::{RichText, Ui};
 
+use sabi_editing::node_paths;
+
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::time_text::time_text;
@@ -65,13 +67,15 @@ fn node_times(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
     // A result may arrive after its node was deleted.
     let times = context.evaluation.times().iter();
-    let mut times: Vec<_> = times.filter(|(node, _)| context.document.has(node)).collect();
+    let mut times: Vec<_> = times
+        .filter(|(node, _)| node_paths::exists(&context.document, node))
+        .collect();
     times.sort_by(|(_, one), (_, other)| other.cmp(one));
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::Grid::new("times").num_columns(2).striped(true).show(ui, |ui| {
             for (node, time) in times.into_iter().take(100) {
                 if ui
-                    .link(context.document.title_at(node))
+                    .link(node_paths::title(&context.document, node))
                     .on_hover_text("Goes to the node")
                     .clicked()
                 {

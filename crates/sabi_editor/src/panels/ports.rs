@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, connections, groups, ports};
 use sabi_engine::catalog::Port;
 use sabi_graph::{Body, GroupInput, OutputRef, SlotRef};
 
@@ -14,7 +14,7 @@ use crate::theme::{Theme, space, type_size};
 pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortAction> {
     let mut asked = Vec::new();
     let is_group = matches!(document.body(), Body::Group(_));
-    let count = document.group_inputs().len() + document.group_outputs().len();
+    let count = ports::inputs(document).len() + ports::outputs(document).len();
     let title = match (is_group, count) {
         (true, _) => "THE GROUP".to_owned(),
         (false, 0) => "AS A GROUP".to_owned(),
@@ -48,7 +48,7 @@ fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, ask
                 "Name of the graph"
             },
             hint: "no name",
-            held: &document.graph_name(),
+            held: &groups::graph_name(document),
             width: ui.available_width() - space::USUAL,
         };
         asked.extend(field.show(ui, ("name of", document.body())).map(PortAction::NameGraph));
@@ -56,10 +56,10 @@ fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, ask
 }
 
 fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAction>) {
-    if !document.group_inputs().is_empty() {
+    if !ports::inputs(document).is_empty() {
         ui.label(RichText::new("Inputs").color(theme.quiet));
     }
-    for (name, input) in document.group_inputs() {
+    for (name, input) in ports::inputs(document) {
         let port = document.own_face().and_then(|face| face.input(name));
         ui.horizontal(|ui| {
             dot(ui, theme, port);
@@ -111,7 +111,7 @@ fn fed(
                 asked.push(PortAction::Unfeed(slot.clone()));
             }
         }
-        let feedable = document.feedable(name);
+        let feedable = ports::feedable(document, name);
         let more = ui.add_enabled_ui(!feedable.is_empty(), |ui| {
             let menu = ui.menu_button(icon::PLUS, |ui| {
                 list(
@@ -138,10 +138,10 @@ fn fed(
 }
 
 fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAction>) {
-    if !document.group_outputs().is_empty() {
+    if !ports::outputs(document).is_empty() {
         ui.label(RichText::new("Outputs").color(theme.quiet));
     }
-    for (name, from) in document.group_outputs() {
+    for (name, from) in ports::outputs(document) {
         let port = document.own_face().and_then(|face| face.output(Some(name)));
         ui.horizontal(|ui| {
             dot(ui, theme, port);
@@ -157,7 +157,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
                 asked.push(PortAction::RenameOutput { name, to });
             }
             let menu = ui.menu_button(title_of_result(document, from), |ui| {
-                let results = document.results();
+                let results = ports::results(document);
                 list(
                     ui,
                     results.iter().map(|from| (title_of_result(document, from), from)),
@@ -189,7 +189,7 @@ fn list<'l, T: 'l>(ui: &mut Ui, entries: impl Iterator<Item = (String, &'l T)>, 
 }
 
 fn title_of_slot(document: &OpenDocument, slot: &SlotRef) -> String {
-    let port = document.input(slot).map_or(&slot.name, |port| &port.label);
+    let port = connections::input(document, slot).map_or(&slot.name, |port| &port.label);
     format!("{} · {port}", document.title(&slot.node))
 }
 

@@ -4,7 +4,8 @@ mod editing;
 
 use egui::{RichText, Ui};
 use egui_phosphor::regular as icon;
-use sabi_editing::PanelKnob;
+use sabi_editing::panel::PanelKnob;
+use sabi_editing::{groups, panel};
 
 use crate::action::PublishedAction;
 use crate::context::ViewContext;
@@ -26,10 +27,10 @@ impl Published {
         memory: &mut KnobMemory,
     ) -> Vec<PublishedAction> {
         let (document, theme) = (context.document, context.theme);
-        let panel = document.panel();
+        let panel = panel::knobs(&document);
         let mut asked = Vec::new();
         ui.horizontal(|ui| {
-            let name = document.graph_name();
+            let name = groups::graph_name(&document);
             ui.heading(if name.is_empty() { "Untitled" } else { &name });
             if context.is_use_view || panel.is_empty() {
                 self.is_editing = false;

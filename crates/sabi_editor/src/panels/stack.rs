@@ -4,7 +4,8 @@ mod row;
 
 use egui::{Rect, RichText, Ui};
 use egui_phosphor::regular as icon;
-use sabi_editing::{OpenDocument, Stack, StackEnd};
+use sabi_editing::stack::{Stack, StackEnd};
+use sabi_editing::{OpenDocument, layers, stack};
 use sabi_graph::NodeRef;
 
 use super::reordering;
@@ -29,7 +30,7 @@ struct Dragged {
 impl View for Layers {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
-        let stacks = context.document.stacks();
+        let stacks = stack::all(&context.document);
         self.wanted = wanted(context.document, &stacks);
         if stacks.is_empty() {
             let sentence = "There is no output yet; add a Material output and wire a material to it.";
@@ -118,7 +119,7 @@ fn head(document: &OpenDocument, ui: &mut Ui, stack: &Stack, actions: &mut Vec<A
 /// Menu of the kinds that a layer can have.
 fn kinds(document: &OpenDocument, ui: &mut Ui, stack: &Stack, at: usize, actions: &mut Vec<Action>) {
     let is_lowest = stack.layers.is_empty();
-    for kind in document.layer_kinds(is_lowest) {
+    for kind in layers::kinds(document, is_lowest) {
         if ui.button(&kind.label).on_hover_text(&kind.summary).clicked() {
             actions.push(Action::Layer(LayerAction::Add {
                 end: stack.end.clone(),

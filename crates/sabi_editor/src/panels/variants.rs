@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, panel, variants};
 use sabi_engine::catalog::readable;
 use sabi_graph::Value;
 
@@ -34,7 +34,7 @@ impl Variants {
     /// Shows the variants of the shown graph and gives what is asked of them.
     pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Option<VariantAction> {
         let (document, theme) = (context.document, context.theme);
-        let panel = document.panel();
+        let panel = panel::knobs(&document);
         if panel.is_empty() {
             return None;
         }
@@ -45,7 +45,7 @@ impl Variants {
             ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
             for (name, values) in document.graph().variants() {
                 let holds = |knob: &str, value: &Value| panel.iter().any(|it| it.name == knob && it.value == *value);
-                let text = document.variant_as_text(name);
+                let text = variants::as_text(&document, name);
                 let card = Card {
                     name,
                     picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &text),

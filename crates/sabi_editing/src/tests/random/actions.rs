@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use super::super::super::{Align, MaskMerge};
 use super::super::*;
 use super::dice::Dice;
 
@@ -124,7 +123,7 @@ impl Hands {
         match self.dice.below(24) {
             0..=4 => {
                 let (kind, pos, loose) = (self.kind(), self.dice.place(), self.loose());
-                self.document.add(&kind, pos, loose.as_ref());
+                nodes::add(&mut self.document, &kind, pos, loose.as_ref());
             }
             5..=7 => {
                 self.wire();
@@ -136,7 +135,7 @@ impl Hands {
                 let ids: Vec<NodeId> = self.ids().into_iter().filter(|_| self.dice.one_in(3)).collect();
                 self.document.select(ids);
                 if self.dice.one_in(8) {
-                    self.document.select_stream(self.dice.one_in(2));
+                    selection::select_connected(&mut self.document, self.dice.one_in(2));
                 }
             }
             12..=14 => {
@@ -167,24 +166,24 @@ impl Hands {
     fn wire(&mut self) -> bool {
         let (from, to) = (self.output(), self.input());
         match self.dice.below(12) {
-            0 => self.document.cut(&[to]),
+            0 => wires::disconnect(&mut self.document, &[to]),
             1 => {
                 let node = self.id();
-                let may = self.document.may_insert(&node, &to);
-                assert_eq!(self.document.insert(&node, &to), may);
+                let may = wires::can_insert(&self.document, &node, &to);
+                assert_eq!(wires::insert(&mut self.document, &node, &to), may);
                 may
             }
-            2 => self.document.reroute(&to, self.dice.place()),
+            2 => wires::reroute(&mut self.document, &to, self.dice.place()),
             3 => {
                 let (_, how) = self.dice.pick(&MaskMerge::OFFERED).unwrap_or(MaskMerge::OFFERED[0]);
-                self.document.may_merge(&from, &to);
-                self.document.merge(&from, &to, how)
+                wires::can_merge(&self.document, &from, &to);
+                wires::merge(&mut self.document, &from, &to, how)
             }
-            4 => self.document.swap_inputs(),
-            5 => self.document.take_out(),
+            4 => wires::swap_inputs(&mut self.document),
+            5 => wires::detach_selected(&mut self.document),
             _ => {
-                let fits = self.document.fits(&from, &to).is_ok();
-                assert_eq!(self.document.connect(&from, &to), fits, "{from} into {to}");
+                let fits = wires::check(&self.document, &from, &to).is_ok();
+                assert_eq!(wires::connect(&mut self.document, &from, &to), fits, "{from} into {to}");
                 fits
             }
         }
@@ -197,100 +196,109 @@ impl Hands {
                 self.document.session.begin("Drag");
                 for _ in 0..5 {
                     let value = self.dice.value();
-                    self.document.set_knob(&node, &knob, value);
+                    nodes::set_knob(&mut self.document, &node, &knob, value);
                 }
                 self.document.session.end();
                 true
             }
-            1 => self.document.set_knob_of_alike(&node, &knob, value),
-            _ => self.document.set_knob(&node, &knob, value),
+            1 => nodes::set_knob_of_selected(&mut self.document, &node, &knob, value),
+            _ => nodes::set_knob(&mut self.document, &node, &knob, value),
         }
     }
 
     fn change_nodes(&mut self) -> bool {
         match self.dice.below(12) {
-            0 => self.document.delete(self.dice.one_in(2)),
-            1 => self.document.mute(),
-            2 => self.document.duplicate(self.dice.one_in(2)),
+            0 => nodes::delete(&mut self.document, self.dice.one_in(2)),
+            1 => nodes::toggle_muted(&mut self.document),
+            2 => duplication::duplicate(&mut self.document, self.dice.one_in(2)),
             3 => {
                 let (node, kind) = (self.id(), self.kind());
-                self.document.replace(&node, &kind)
+                node_replacement::by_kind(&mut self.document, &node, &kind)
             }
             4 => {
                 let (node, name) = (self.id(), self.name());
-                self.document.rename(&node, &name)
+                nodes::rename(&mut self.document, &node, &name)
             }
             5 => {
-                self.clipboard = self.document.copied().unwrap_or_default();
+                self.clipboard = clipboard::copy(&self.document).unwrap_or_default();
                 true
             }
             6 => {
-                self.clipboard = self.document.cut_out().unwrap_or_default();
+                self.clipboard = clipboard::cut(&mut self.document).unwrap_or_default();
                 true
             }
             7 | 8 => {
                 let pos = self.dice.place();
-                self.document.paste(&self.clipboard.clone(), pos)
+                clipboard::paste(&mut self.document, &self.clipboard.clone(), pos)
             }
-            9 => self.document.frame(),
+            9 => frames::add(&mut self.document),
             10 => {
                 let frames: Vec<String> = self.document.graph().frames().keys().cloned().collect();
                 let frame = self.dice.pick(&frames).unwrap_or_default();
                 let nodes = self.document.selection().clone();
                 match self.dice.below(3) {
-                    0 => self.document.remove_frame(&frame),
-                    1 => self.document.put_into_frame(&nodes, None),
-                    _ => self.document.put_into_frame(&nodes, Some(&frame)),
+                    0 => frames::remove(&mut self.document, &frame),
+                    1 => frames::assign(&mut self.document, &nodes, None),
+                    _ => frames::assign(&mut self.document, &nodes, Some(&frame)),
                 }
             }
-            _ => self.document.delete(true),
+            _ => nodes::delete(&mut self.document, true),
         }
     }
 
     fn change_groups(&mut self) -> bool {
         let (group, name, input, output) = (self.group(), self.name(), self.input(), self.output());
         let of = |names: Vec<&String>, dice: &mut Dice| dice.pick(&names).cloned().unwrap_or_default();
-        let port_in = of(self.document.group_inputs().keys().collect(), &mut self.dice);
-        let port_out = of(self.document.group_outputs().keys().collect(), &mut self.dice);
+        let port_in = of(ports::inputs(&self.document).keys().collect(), &mut self.dice);
+        let port_out = of(ports::outputs(&self.document).keys().collect(), &mut self.dice);
         match self.dice.below(16) {
-            0 | 1 => self.document.make_group(),
-            2 => self.document.dissolve_groups(),
+            0 | 1 => groups::make(&mut self.document),
+            2 => groups::dissolve_selected(&mut self.document),
             3..=5 => {
                 let instances: Vec<NodeId> = self.ids();
                 let is_instance = |id: &NodeId| self.document.node(id).is_some_and(|node| node.group.is_some());
                 let instances: Vec<NodeId> = instances.into_iter().filter(is_instance).collect();
                 let instance = self.dice.pick(&instances);
-                instance.is_some_and(|instance| self.document.enter(&instance))
+                instance.is_some_and(|instance| navigation::enter(&mut self.document, &instance))
             }
-            6 | 7 => self.document.leave(),
+            6 | 7 => navigation::leave(&mut self.document),
             8 => {
                 let (pos, loose) = (self.dice.place(), self.loose());
-                self.document.add_group_instance(&group, pos, loose.as_ref()).is_some()
+                nodes::add_instance(&mut self.document, &group, pos, loose.as_ref()).is_some()
             }
-            9 => self.document.rename_group(&group, &name),
-            10 => self.document.publish_input(&input).is_some(),
-            11 => self.document.publish_output(&output).is_some(),
-            12 => self.document.feed(&port_in, &input) || self.document.unfeed(&input),
-            13 => self.document.rename_input(&port_in, &name) || self.document.rename_output(&port_out, &name),
-            14 => self.document.retarget_output(&port_out, &output) || self.document.label_input(&port_in, &name),
+            9 => groups::rename(&mut self.document, &group, &name),
+            10 => ports::publish_input(&mut self.document, &input).is_some(),
+            11 => ports::publish_output(&mut self.document, &output).is_some(),
+            12 => ports::feed(&mut self.document, &port_in, &input) || ports::unfeed(&mut self.document, &input),
+            13 => {
+                ports::rename_input(&mut self.document, &port_in, &name)
+                    || ports::rename_output(&mut self.document, &port_out, &name)
+            }
+            14 => {
+                ports::retarget_output(&mut self.document, &port_out, &output)
+                    || ports::set_input_label(&mut self.document, &port_in, &name)
+            }
             _ => match self.dice.one_in(2) {
-                true => self.document.remove_input(&port_in),
-                false => self.document.remove_output(&port_out),
+                true => ports::remove_input(&mut self.document, &port_in),
+                false => ports::remove_output(&mut self.document, &port_out),
             },
         }
     }
 
     fn arrange(&mut self) -> bool {
         match self.dice.below(5) {
-            0 => self
-                .document
-                .align([Align::Left, Align::Right, Align::Top, Align::Bottom][self.dice.below(4)]),
-            1 => self.document.straighten(),
-            2 => self.document.lay_out(),
+            0 => arrangement::align(
+                &mut self.document,
+                [Align::Left, Align::Right, Align::Top, Align::Bottom][self.dice.below(4)],
+            ),
+            1 => arrangement::straighten(&mut self.document),
+            2 => arrangement::lay_out(&mut self.document),
             _ => {
-                let places = self.document.places().into_keys().map(|id| (id, self.dice.place()));
+                let places = arrangement::selected_positions(&self.document)
+                    .into_keys()
+                    .map(|id| (id, self.dice.place()));
                 let places = places.collect();
-                self.document.move_to("Move", places)
+                arrangement::move_nodes(&mut self.document, "Move", places)
             }
         }
     }
@@ -302,42 +310,42 @@ impl Hands {
         let variant = self.dice.pick(&variants).unwrap_or_default();
         let document = &mut self.document;
         match self.dice.below(16) {
-            0..=3 => document.expose(&node, &knob),
-            4 => document.unexpose(&published),
-            5 => document.expose_as(&node, &knob, &published) || document.take_off_panel(&node, &knob),
-            6 => document.rename_exposed(&published, &name),
-            7 => document.label_exposed(&published, &name) && document.set_section(&published, &name),
-            8 => document.move_exposed(&published, Some(&name)),
-            9 => document.set_exposed_range(&published, Some([0.0, end]).filter(|_| end > 0.0)),
-            10 => document.set_exposed_default(&published, value),
-            11 | 12 => document.turn(&published, &value.unwrap_or(Value::Null)),
-            13 => document.save_variant(&name),
-            14 => document.apply_variant(&variant),
-            _ => document.rename_variant(&variant, &name) || document.remove_variant(&variant),
+            0..=3 => panel::expose(document, &node, &knob),
+            4 => panel::unexpose(document, &published),
+            5 => panel::expose_also(document, &node, &knob, &published) || panel::unexpose_knob(document, &node, &knob),
+            6 => panel::rename(document, &published, &name),
+            7 => panel::set_label(document, &published, &name) && panel::set_section(document, &published, &name),
+            8 => panel::move_knob(document, &published, Some(&name)),
+            9 => panel_values::set_range(document, &published, Some([0.0, end]).filter(|_| end > 0.0)),
+            10 => panel_values::set_default(document, &published, value),
+            11 | 12 => panel_values::set(document, &published, &value.unwrap_or(Value::Null)),
+            13 => variants::save(document, &name),
+            14 => variants::apply(document, &variant),
+            _ => variants::rename(document, &variant, &name) || variants::remove(document, &variant),
         }
     }
 
     fn stack(&mut self) {
-        let Some(stack) = self.dice.pick(&self.document.stacks()) else {
+        let Some(stack) = self.dice.pick(&stack::all(&self.document)) else {
             return;
         };
         let [one, other] = [0, 1].map(|_| self.dice.below(stack.layers.len() + 1));
         match self.dice.below(5) {
             0 => {
                 let kind = self.kind();
-                self.document.add_layer(&stack.end, one, &kind);
+                layers::add(&mut self.document, &stack.end, one, &kind);
             }
             1 => {
-                self.document.remove_layer(&stack.end, one);
+                layers::remove(&mut self.document, &stack.end, one);
             }
             2 => {
                 if let Some(layer) = stack.layers.get(one) {
-                    self.document.toggle_layer(&layer.node);
-                    self.document.set_layer_opacity(&layer.node, other as f64 / 4.0);
+                    layers::toggle(&mut self.document, &layer.node);
+                    layers::set_opacity(&mut self.document, &layer.node, other as f64 / 4.0);
                 }
             }
             _ => {
-                self.document.move_layer(&stack.end, one, other);
+                layers::move_to(&mut self.document, &stack.end, one, other);
             }
         }
     }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use egui::Ui;
+use sabi_editing::{nodes, relative_paths, texture_sets};
 use sabi_engine::path_text;
 use sabi_graph::Value;
 
@@ -50,7 +51,7 @@ impl Editor {
             return self.shell.say(format!("{} holds no pictures", folder.display()));
         }
         let place = self.views.canvas.place_for_new(ui);
-        self.documents.document.add_texture_sets(&files, place);
+        texture_sets::add(&mut self.documents.document, &files, place);
     }
 
     fn take_environment(&mut self, path: &Path) {
@@ -64,14 +65,14 @@ impl Editor {
     fn add_image(&mut self, path: &Path, ui: &Ui) {
         let place = self.views.canvas.place_for_new(ui);
         let document = &mut self.documents.document;
-        let text = match document.relative(path) {
+        let text = match relative_paths::relative(document, path) {
             Ok(text) => text,
-            Err(refused) => return document.say(refused.to_string()),
+            Err(refused) => return document.notify(refused.to_string()),
         };
         document.session.begin("Add picture");
-        let added = document.add("source/image", place, None);
+        let added = nodes::add(document, "source/image", place, None);
         if let Some(id) = &added {
-            document.set_knob(id, "file", Some(Value::Text(text)));
+            nodes::set_knob(document, id, "file", Some(Value::Text(text)));
         }
         document.session.end();
         if let Some(id) = added {

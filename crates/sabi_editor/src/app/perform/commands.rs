@@ -1,7 +1,8 @@
 //! Commands, performed by the owner of their group. No match here has a wildcard.
 
 use egui::Ui;
-use sabi_editing::Align;
+use sabi_editing::arrangement::Align;
+use sabi_editing::{arrangement, clipboard, duplication, frames, groups, navigation, nodes, selection, wires};
 
 use super::Editor;
 use crate::action::{FileAction, LookAction, Next};
@@ -63,34 +64,34 @@ impl Editor {
         match command {
             GraphCommand::Undo => document.undo(),
             GraphCommand::Redo => document.redo(),
-            GraphCommand::Delete => drop(document.delete(false)),
-            GraphCommand::Heal => drop(document.delete(true)),
-            GraphCommand::TakeOut => drop(document.take_out()),
-            GraphCommand::SwapInputs => drop(document.swap_inputs()),
-            GraphCommand::Mute => drop(document.mute()),
-            GraphCommand::Duplicate => drop(document.duplicate(false)),
-            GraphCommand::DuplicateWired => drop(document.duplicate(true)),
-            GraphCommand::Copy => match document.copied() {
+            GraphCommand::Delete => drop(nodes::delete(document, false)),
+            GraphCommand::Heal => drop(nodes::delete(document, true)),
+            GraphCommand::TakeOut => drop(wires::detach_selected(document)),
+            GraphCommand::SwapInputs => drop(wires::swap_inputs(document)),
+            GraphCommand::Mute => drop(nodes::toggle_muted(document)),
+            GraphCommand::Duplicate => drop(duplication::duplicate(document, false)),
+            GraphCommand::DuplicateWired => drop(duplication::duplicate(document, true)),
+            GraphCommand::Copy => match clipboard::copy(document) {
                 Some(text) => ui.ctx().copy_text(text),
                 None => self.shell.say("Select the nodes to copy first"),
             },
             GraphCommand::Cut => {
-                if let Some(text) = document.cut_out() {
+                if let Some(text) = clipboard::cut(document) {
                     ui.ctx().copy_text(text);
                 }
             }
             GraphCommand::Paste => self.shell.keyboard.ask_paste(ui.ctx()),
-            GraphCommand::Frame => drop(document.frame()),
-            GraphCommand::Group => drop(document.make_group()),
-            GraphCommand::Ungroup => drop(document.dissolve_groups()),
+            GraphCommand::Frame => drop(frames::add(document)),
+            GraphCommand::Group => drop(groups::make(document)),
+            GraphCommand::Ungroup => drop(groups::dissolve_selected(document)),
             GraphCommand::Enter => {
                 if let Some(id) = document.selected_one().cloned() {
-                    document.enter(&id);
+                    navigation::enter(document, &id);
                 }
             }
             GraphCommand::Leave => {
                 if !self.views.canvas.cancel_drag() {
-                    document.leave();
+                    navigation::leave(document);
                 }
             }
         }
@@ -99,15 +100,15 @@ impl Editor {
     fn arrange_command(&mut self, command: ArrangeCommand) {
         let document = &mut self.documents.document;
         match command {
-            ArrangeCommand::AlignLeft => drop(document.align(Align::Left)),
-            ArrangeCommand::AlignRight => drop(document.align(Align::Right)),
-            ArrangeCommand::AlignTop => drop(document.align(Align::Top)),
-            ArrangeCommand::AlignBottom => drop(document.align(Align::Bottom)),
-            ArrangeCommand::Straighten => drop(document.straighten()),
-            ArrangeCommand::LayOut => drop(document.lay_out()),
-            ArrangeCommand::SelectAll => document.select_all(),
-            ArrangeCommand::SelectUp => document.select_stream(true),
-            ArrangeCommand::SelectDown => document.select_stream(false),
+            ArrangeCommand::AlignLeft => drop(arrangement::align(document, Align::Left)),
+            ArrangeCommand::AlignRight => drop(arrangement::align(document, Align::Right)),
+            ArrangeCommand::AlignTop => drop(arrangement::align(document, Align::Top)),
+            ArrangeCommand::AlignBottom => drop(arrangement::align(document, Align::Bottom)),
+            ArrangeCommand::Straighten => drop(arrangement::straighten(document)),
+            ArrangeCommand::LayOut => drop(arrangement::lay_out(document)),
+            ArrangeCommand::SelectAll => selection::select_all(document),
+            ArrangeCommand::SelectUp => selection::select_connected(document, true),
+            ArrangeCommand::SelectDown => selection::select_connected(document, false),
         }
     }
 
@@ -161,7 +162,7 @@ impl Editor {
     /// Shows only the model and the published parameters of the whole graph, or all panels again.
     pub(crate) fn toggle_use_view(&mut self) {
         if self.shell.dock.toggle_use_view() {
-            self.documents.document.leave_to(0);
+            navigation::leave_to(&mut self.documents.document, 0);
             self.looks.followed = None;
             self.shell.keyboard.active = Panel::Viewport;
         }

@@ -1,6 +1,10 @@
 //! Actions that only edit the open graph.
 
-use sabi_editing::{OpenDocument, PendingWire};
+use sabi_editing::connections::PendingWire;
+use sabi_editing::{
+    OpenDocument, arrangement, document_settings, frames, groups, library, navigation, node_replacement, nodes, panel,
+    ports, wires,
+};
 use sabi_graph::{Frame, NodeId, SlotRef};
 
 use crate::action::{DocumentAction, FrameAction, MoveAction, NewNode, PortAction, WireAction};
@@ -15,12 +19,12 @@ pub(super) fn add(
 ) -> Option<NodeId> {
     document.session.begin("Add");
     let added = match new {
-        NewNode::Kind(kind) => document.add(kind, place, loose),
-        NewNode::Group(group) => document.add_group_instance(group, place, loose),
-        NewNode::Library(file) => document.add_from_library(file, place, loose),
+        NewNode::Kind(kind) => nodes::add(document, kind, place, loose),
+        NewNode::Group(group) => nodes::add_instance(document, group, place, loose),
+        NewNode::Library(file) => library::add(document, file, place, loose),
     };
     if let Some((id, into)) = added.as_ref().zip(into) {
-        document.insert(id, into);
+        wires::insert(document, id, into);
     }
     document.session.end();
     added
@@ -29,16 +33,16 @@ pub(super) fn add(
 /// Replaces a node; gives the new one.
 pub(super) fn replace(document: &mut OpenDocument, node: &NodeId, by: &NewNode) -> Option<NodeId> {
     let is_replaced = match by {
-        NewNode::Kind(kind) => document.replace(node, kind),
-        NewNode::Group(group) => document.replace_by_group(node, group),
+        NewNode::Kind(kind) => node_replacement::by_kind(document, node, kind),
+        NewNode::Group(group) => node_replacement::by_group(document, node, group),
         NewNode::Library(file) => {
             document.session.begin("Replace by a group");
-            let group = document.bring_from_library(file);
-            let is_replaced = group.is_some_and(|group| document.replace_by_group(node, &group));
+            let group = library::import(document, file);
+            let is_replaced = group.is_some_and(|group| node_replacement::by_group(document, node, &group));
             if is_replaced {
                 document.session.end();
             } else {
-                document.take_back();
+                document.cancel_step();
             }
             is_replaced
         }
@@ -50,26 +54,26 @@ pub(super) fn change_wires(document: &mut OpenDocument, action: WireAction) {
     match action {
         WireAction::Connect { from, to, off } => {
             document.session.begin("Connect");
-            if document.connect(&from, &to)
+            if wires::connect(document, &from, &to)
                 && let Some(off) = off
             {
-                document.cut(&[off]);
+                wires::disconnect(document, &[off]);
             }
             document.session.end();
         }
-        WireAction::Merge { from, to, how } => drop(document.merge(&from, &to, how)),
-        WireAction::Cut(slots) => drop(document.cut(&slots)),
-        WireAction::Insert { node, into } => drop(document.insert(&node, &into)),
-        WireAction::Reroute { into, place } => drop(document.reroute(&into, place)),
+        WireAction::Merge { from, to, how } => drop(wires::merge(document, &from, &to, how)),
+        WireAction::Cut(slots) => drop(wires::disconnect(document, &slots)),
+        WireAction::Insert { node, into } => drop(wires::insert(document, &node, &into)),
+        WireAction::Reroute { into, place } => drop(wires::reroute(document, &into, place)),
     }
 }
 
 pub(super) fn move_nodes(document: &mut OpenDocument, action: MoveAction) {
     match action {
         MoveAction::Begin => document.session.begin("Move"),
-        MoveAction::To(places) => drop(document.move_to("Move", places)),
+        MoveAction::To(places) => drop(arrangement::move_nodes(document, "Move", places)),
         MoveAction::End => document.session.end(),
-        MoveAction::Cancel => document.take_back(),
+        MoveAction::Cancel => document.cancel_step(),
     }
 }
 
@@ -77,45 +81,45 @@ pub(super) fn change_frames(document: &mut OpenDocument, action: FrameAction) {
     match action {
         FrameAction::Rename { frame, title } => change_frame(document, &frame, |known| known.title = Some(title)),
         FrameAction::Recolor(frame) => change_frame(document, &frame, |known| {
-            known.color = Some(OpenDocument::next_color(known.color.as_deref()));
+            known.color = Some(frames::next_color(known.color.as_deref()));
         }),
-        FrameAction::Select(frame) => document.select_frame(&frame),
+        FrameAction::Select(frame) => frames::select(document, &frame),
         FrameAction::Fill(frame) => {
             let nodes = document.selection().clone();
-            document.put_into_frame(&nodes, frame.as_deref());
+            frames::assign(document, &nodes, frame.as_deref());
         }
-        FrameAction::Remove(frame) => drop(document.remove_frame(&frame)),
+        FrameAction::Remove(frame) => drop(frames::remove(document, &frame)),
     }
 }
 
 fn change_frame(document: &mut OpenDocument, id: &str, change: impl FnOnce(&mut Frame)) {
     if let Some(mut frame) = document.graph().frames().get(id).cloned() {
         change(&mut frame);
-        document.set_frame("Change frame", id, frame);
+        frames::set(document, "Change frame", id, frame);
     }
 }
 
 pub(super) fn change_ports(document: &mut OpenDocument, action: PortAction) {
     match action {
-        PortAction::NameGraph(name) => drop(document.rename_graph(&name)),
-        PortAction::PublishInput(slot) => drop(document.publish_input(&slot)),
-        PortAction::PublishOutput(from) => drop(document.publish_output(&from)),
-        PortAction::LabelInput { name, label } => drop(document.label_input(&name, &label)),
-        PortAction::RenameInput { name, to } => drop(document.rename_input(&name, &to)),
-        PortAction::RemoveInput(name) => drop(document.remove_input(&name)),
-        PortAction::Feed { name, slot } => drop(document.feed(&name, &slot)),
-        PortAction::Unfeed(slot) => drop(document.unfeed(&slot)),
-        PortAction::RenameOutput { name, to } => drop(document.rename_output(&name, &to)),
-        PortAction::RemoveOutput(name) => drop(document.remove_output(&name)),
-        PortAction::Retarget { name, from } => drop(document.retarget_output(&name, &from)),
+        PortAction::NameGraph(name) => drop(groups::rename_graph(document, &name)),
+        PortAction::PublishInput(slot) => drop(ports::publish_input(document, &slot)),
+        PortAction::PublishOutput(from) => drop(ports::publish_output(document, &from)),
+        PortAction::LabelInput { name, label } => drop(ports::set_input_label(document, &name, &label)),
+        PortAction::RenameInput { name, to } => drop(ports::rename_input(document, &name, &to)),
+        PortAction::RemoveInput(name) => drop(ports::remove_input(document, &name)),
+        PortAction::Feed { name, slot } => drop(ports::feed(document, &name, &slot)),
+        PortAction::Unfeed(slot) => drop(ports::unfeed(document, &slot)),
+        PortAction::RenameOutput { name, to } => drop(ports::rename_output(document, &name, &to)),
+        PortAction::RemoveOutput(name) => drop(ports::remove_output(document, &name)),
+        PortAction::Retarget { name, from } => drop(ports::retarget_output(document, &name, &from)),
     }
 }
 
 pub(super) fn change_document(document: &mut OpenDocument, action: DocumentAction) {
     match action {
-        DocumentAction::Size(size) => document.set_size(size),
-        DocumentAction::Fit(fit) => document.set_fit(fit),
-        DocumentAction::Seed(seed) => document.set_seed(seed),
+        DocumentAction::Size(size) => document_settings::set_size(document, size),
+        DocumentAction::Fit(fit) => document_settings::set_fit(document, fit),
+        DocumentAction::Seed(seed) => document_settings::set_seed(document, seed),
     };
 }
 
@@ -135,10 +139,10 @@ pub(super) fn expose_of_alike(document: &mut OpenDocument, node: &NodeId, knob: 
         .filter(|id| *id != node && kind(id) == kind(node));
     let alike: Vec<NodeId> = alike.cloned().collect();
     document.session.begin("Expose");
-    document.expose(node, knob);
-    if let Some(name) = document.exposed_as(node, knob).map(str::to_owned) {
+    panel::expose(document, node, knob);
+    if let Some(name) = panel::exposed_as(document, node, knob).map(str::to_owned) {
         for other in alike {
-            document.expose_as(&other, knob, &name);
+            panel::expose_also(document, &other, knob, &name);
         }
     }
     document.session.end();
@@ -147,11 +151,11 @@ pub(super) fn expose_of_alike(document: &mut OpenDocument, node: &NodeId, knob: 
 /// Selects a node, which is named as the evaluation names it, in the group that it is in. Of a node in a group file, that is
 /// the instance of the group.
 pub(super) fn go_to(document: &mut OpenDocument, node: &str) -> Option<NodeId> {
-    document.leave_to(0);
+    navigation::leave_to(document, 0);
     let steps: Vec<NodeId> = node.split('/').filter_map(|step| step.parse().ok()).collect();
     let (mut last, instances) = steps.split_last()?;
     for instance in instances {
-        if !document.enter(instance) {
+        if !navigation::enter(document, instance) {
             last = instance;
             break;
         }

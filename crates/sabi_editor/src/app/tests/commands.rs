@@ -7,6 +7,8 @@ use egui_kittest::kittest::Queryable;
 
 use super::Window;
 use super::hands::id;
+use sabi_editing::navigation;
+
 use crate::bars::{ARRANGE, EDIT};
 use crate::command::{Command, GraphCommand, InputPreset, Scope};
 use crate::dock::Panel;
@@ -38,7 +40,7 @@ impl Window {
         while editor.documents.document.session.undo_names().next().is_some() {
             editor.documents.document.undo();
         }
-        editor.documents.document.leave_to(0);
+        navigation::leave_to(&mut editor.documents.document, 0);
         editor.documents.document.take_notices();
         editor.documents.document.select(selected.iter().map(|text| id(text)));
         editor.views.canvas.frame_all(&editor.documents.document);
@@ -190,9 +192,9 @@ fn undo_redo_groups_and_files_by_their_keys() {
         let grouped = window.text();
         for enter in Command::Graph(GraphCommand::Enter).keys(habit) {
             window.chord(enter);
-            assert_eq!(window.document().path().len(), 1, "{enter} in {name}");
+            assert_eq!(navigation::breadcrumb(window.document()).len(), 1, "{enter} in {name}");
             window.key(Key::Escape);
-            assert_eq!(window.document().path().len(), 0, "Escape in {name}");
+            assert_eq!(navigation::breadcrumb(window.document()).len(), 0, "Escape in {name}");
             assert_eq!(
                 window.document().selected_one(),
                 Some(&group),

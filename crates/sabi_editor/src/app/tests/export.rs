@@ -9,6 +9,8 @@ use egui_kittest::kittest::Queryable;
 
 use super::Window;
 use super::hands::id;
+use sabi_editing::nodes;
+
 use crate::dock::Panel;
 
 const LAYERED: &str = r##"
@@ -83,7 +85,7 @@ fn maps_are_written_to_the_folder_that_was_named() {
 fn a_material_without_any_pattern_says_why_there_are_no_maps() {
     let mut window = ready();
     window.harness.state_mut().documents.document.select([id("clouds")]);
-    window.harness.state_mut().documents.document.delete(false);
+    nodes::delete(&mut window.harness.state_mut().documents.document, false);
     window.press("Export");
     window.until("the end", |editor| editor.exports.running.is_none());
     assert!(

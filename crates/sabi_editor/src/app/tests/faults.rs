@@ -1,6 +1,7 @@
 //! What is wrong is shown where it is, and the rest goes on.
 
 use egui_kittest::kittest::{NodeT, Queryable};
+use sabi_editing::navigation;
 use sabi_engine::{EngineError, ErrorKind, Remedy};
 
 use super::Window;
@@ -66,7 +67,7 @@ fn a_click_in_problems_goes_to_the_node_whatever_group_it_is_in() {
     let fault = window.editor().evaluation.faults.faults[0].sentence.clone();
     let at = window.harness.get_by_label_contains(&fault).rect().center();
     window.click_at(at);
-    assert_eq!(window.document().path().len(), 1);
+    assert_eq!(navigation::breadcrumb(window.document()).len(), 1);
     assert_eq!(window.document().selected_one(), Some(&id("blur")));
     assert!(
         window.editor().shell.dock.rects[&Panel::Canvas].contains(window.rect(&id("blur")).center()),

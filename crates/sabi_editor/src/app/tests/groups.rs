@@ -6,6 +6,8 @@ use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::Window;
 use super::hands::{beside, id};
+use sabi_editing::navigation;
+
 use crate::dock::Panel;
 
 const WORN: &str = r#"
@@ -42,7 +44,11 @@ fn a_group_is_made_entered_by_a_double_click_and_left_by_escape() {
     window.key(Key::Escape);
     assert!(window.document().node(&id("layer")).is_some());
     window.double_click(window.title(&id("layer")));
-    assert_eq!(window.document().path().len(), 0, "only groups are entered");
+    assert_eq!(
+        navigation::breadcrumb(window.document()).len(),
+        0,
+        "only groups are entered"
+    );
 }
 
 #[test]
@@ -54,9 +60,9 @@ fn groups_in_groups_are_left_step_by_step_or_at_once_by_the_path() {
     window.keys(Modifiers::COMMAND, Key::G);
     let inner = window.document().selected_one().expect("an instance").clone();
     window.double_click(window.title(&inner));
-    assert_eq!(window.document().path().len(), 2);
+    assert_eq!(navigation::breadcrumb(window.document()).len(), 2);
     window.key(Key::Escape);
-    assert_eq!(window.document().path().len(), 1);
+    assert_eq!(navigation::breadcrumb(window.document()).len(), 1);
     window.double_click(window.title(&inner));
     let way_out = window
         .harness
@@ -64,7 +70,7 @@ fn groups_in_groups_are_left_step_by_step_or_at_once_by_the_path() {
         .rect()
         .center();
     window.click_at(way_out);
-    assert_eq!(window.document().path().len(), 0);
+    assert_eq!(navigation::breadcrumb(window.document()).len(), 0);
     // Undo takes back steps inside of the group, whatever graph is shown.
     window.undo(2);
     assert_eq!(window.document().contents().groups.len(), 0);
@@ -183,7 +189,7 @@ fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
     let mut window = grouped();
     let group = window.document().selected_one().expect("an instance").clone();
     window.double_click(window.title(&group));
-    let inside = window.document().path().len();
+    let inside = navigation::breadcrumb(window.document()).len();
     let nodes = window.document().graph().len();
     // A text in a panel, with the pointer over the canvas.
     window.open(Panel::Library);
@@ -192,12 +198,20 @@ fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
     window.typed("clouds");
     window.point(window.on_canvas([0.9, 0.9]));
     window.key(Key::Escape);
-    assert_eq!(window.document().path().len(), inside, "it ended the text");
+    assert_eq!(
+        navigation::breadcrumb(window.document()).len(),
+        inside,
+        "it ended the text"
+    );
     // A menu.
     window.click_with(window.title(&id("clouds")), PointerButton::Secondary, Modifiers::NONE);
     assert!(egui::Popup::is_any_open(&window.harness.ctx));
     window.key(Key::Escape);
-    assert_eq!(window.document().path().len(), inside, "it closed the menu");
+    assert_eq!(
+        navigation::breadcrumb(window.document()).len(),
+        inside,
+        "it closed the menu"
+    );
     // An entry of the library that is being dragged.
     let library = window.editor().shell.dock.rects[&Panel::Library];
     let entries = window.harness.query_all_by_label("Clouds");
@@ -210,9 +224,12 @@ fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
     window.button(to, PointerButton::Primary, false);
     window.settle();
     assert_eq!(
-        (window.document().path().len(), window.document().graph().len()),
+        (
+            navigation::breadcrumb(window.document()).len(),
+            window.document().graph().len()
+        ),
         (inside, nodes)
     );
     window.key(Key::Escape);
-    assert_eq!(window.document().path().len(), inside - 1);
+    assert_eq!(navigation::breadcrumb(window.document()).len(), inside - 1);
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Rect, TouchPhase, Vec2, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable, by};
-use sabi_editing::TITLE_HEIGHT;
+use sabi_editing::node_size::TITLE_HEIGHT;
+use sabi_editing::{connections, node_size};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::Window;
@@ -181,7 +182,7 @@ impl Window {
     /// Rectangle of a node on the screen.
     pub(super) fn rect(&self, id: &NodeId) -> Rect {
         let pos = self.document().node(id).expect("a node").pos;
-        let size = Vec2::from(self.document().size(id)) * self.zoom();
+        let size = Vec2::from(node_size::of(self.document(), id)) * self.zoom();
         Rect::from_min_size(self.screen(pos), size)
     }
 
@@ -249,7 +250,7 @@ impl Window {
             node: node.clone(),
             name: input.to_owned(),
         };
-        self.document().wire_into(&slot).cloned()
+        connections::wire_into(self.document(), &slot).cloned()
     }
 
     /// Output that an input reads, as files name it; empty where it is not connected.

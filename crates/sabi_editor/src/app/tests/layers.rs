@@ -4,6 +4,8 @@ use egui::{Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 
 use super::Window;
+use sabi_editing::stack;
+
 use crate::dock::{Layout, Panel};
 
 const LAYERED: &str = r#"{
@@ -25,7 +27,7 @@ fn layered(text: &str) -> Window {
 }
 
 fn titles(window: &Window) -> Vec<String> {
-    let stacks = window.editor().documents.document.stacks();
+    let stacks = stack::all(&window.editor().documents.document);
     stacks[0].layers.iter().map(|layer| layer.title.clone()).collect()
 }
 
@@ -59,7 +61,7 @@ fn a_layer_is_dragged_to_another_place_and_what_cannot_be_says_why() {
 fn eyes_bars_and_bins_of_layers_do_what_they_say_as_one_step_each() {
     let mut window = layered(LAYERED);
     window.click("Show Rust");
-    assert!(window.editor().documents.document.stacks()[0].layers[0].is_muted);
+    assert!(stack::all(&window.editor().documents.document)[0].layers[0].is_muted);
     let bars: Vec<egui::Rect> = window
         .harness
         .get_all_by_label("Opacity")
@@ -74,7 +76,7 @@ fn eyes_bars_and_bins_of_layers_do_what_they_say_as_one_step_each() {
         PointerButton::Primary,
         Modifiers::NONE,
     );
-    let opacity = window.editor().documents.document.stacks()[0].layers[0]
+    let opacity = stack::all(&window.editor().documents.document)[0].layers[0]
         .opacity
         .expect("an opacity");
     assert!((0.0..1.0).contains(&opacity), "{opacity}");

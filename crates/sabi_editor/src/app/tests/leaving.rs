@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
+use sabi_editing::{navigation, nodes, selection};
 use sabi_engine::Session;
 
 use super::safety::CLOUDS;
@@ -115,10 +116,13 @@ fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
     assert_eq!(keep(&mut window), 1);
     assert_eq!(keep(&mut window), 1, "the same is kept once");
     let instance = window.document().selected_one().cloned().expect("the group");
-    assert!(window.harness.state_mut().documents.document.enter(&instance));
-    window.harness.state_mut().documents.document.select_all();
-    window.harness.state_mut().documents.document.mute();
-    window.harness.state_mut().documents.document.leave();
+    assert!(navigation::enter(
+        &mut window.harness.state_mut().documents.document,
+        &instance
+    ));
+    selection::select_all(&mut window.harness.state_mut().documents.document);
+    nodes::toggle_muted(&mut window.harness.state_mut().documents.document);
+    navigation::leave(&mut window.harness.state_mut().documents.document);
     window.harness.state_mut().documents.document.select([instance]);
     assert_eq!(keep(&mut window), 2);
 }

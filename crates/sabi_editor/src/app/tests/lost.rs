@@ -1,5 +1,6 @@
 //! The loss of a device loses no work.
 
+use sabi_editing::nodes;
 use sabi_engine::Session;
 
 use super::{Window, open};
@@ -22,7 +23,7 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     window.add([0.2, 0.2], "clouds");
     let added = window.text();
     window.destroy_device();
-    window.harness.state_mut().documents.document.mute();
+    nodes::toggle_muted(&mut window.harness.state_mut().documents.document);
     let muted = window.text();
     assert_ne!(muted, added);
     let handover = window.handover.clone();

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use egui::{Event, Key, Modifiers, PointerButton, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
+use sabi_editing::{panel, variants};
 use sabi_engine::Session;
 use sabi_graph::Value;
 
@@ -78,7 +79,7 @@ impl Window {
     }
 
     pub(super) fn held(&self, knob: &str) -> Option<Value> {
-        let panel = self.editor().documents.document.panel();
+        let panel = panel::knobs(&self.editor().documents.document);
         panel
             .into_iter()
             .find(|known| known.name == knob)
@@ -184,11 +185,7 @@ fn published_knobs_are_put_into_order_by_dragging() {
         PointerButton::Primary,
         Modifiers::NONE,
     );
-    let names: Vec<String> = window
-        .editor()
-        .documents
-        .document
-        .panel()
+    let names: Vec<String> = panel::knobs(&window.editor().documents.document)
         .into_iter()
         .map(|knob| knob.name)
         .collect();
@@ -205,7 +202,7 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
     window.fill("Name of a variant", "as bought");
     let variants = window.editor().documents.document.graph().variants().clone();
     assert_eq!(variants["as bought"]["amount"], Value::Number(0.25));
-    let what = window.editor().documents.document.variant_as_text("as bought");
+    let what = variants::as_text(&window.editor().documents.document, "as bought");
     let file = window.path("worn.sabi");
     let cache = window.editor().evaluation.cache_dir().expect("a cache");
     let kept = sabi_engine::find_thumbnail(cache, &[&file.to_string_lossy(), &what]).expect("a picture");
@@ -222,7 +219,7 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
             .contains_key("new")
     );
     assert_eq!(
-        window.editor().documents.document.variant_as_text("new"),
+        variants::as_text(&window.editor().documents.document, "new"),
         what,
         "the picture is found under the new name"
     );

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use egui::Rect;
-use sabi_editing::{MARGIN, PICTURE_SIDE};
+use sabi_editing::node_size::{MARGIN, PICTURE_SIDE};
 
 use super::Window;
 use super::hands::id;

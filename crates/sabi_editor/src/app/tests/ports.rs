@@ -1,6 +1,7 @@
 //! Inputs and outputs of graphs that are used as groups, by menus of ports and the list in the parameters.
 
 use egui_kittest::kittest::Queryable;
+use sabi_editing::{navigation, ports};
 use sabi_graph::Body;
 
 use super::Window;
@@ -21,7 +22,10 @@ const GROUPED: &str = r#"{
 fn inside() -> Window {
     let mut window = Window::of(GROUPED);
     let instance = "g".parse().expect("an id");
-    assert!(window.harness.state_mut().documents.document.enter(&instance));
+    assert!(navigation::enter(
+        &mut window.harness.state_mut().documents.document,
+        &instance
+    ));
     window.settle();
     window
 }
@@ -33,15 +37,15 @@ fn ports_are_published_and_taken_back_by_their_menus() {
     window.choose("Cells, output Mask, mask", "Publish as output of the group");
     let document = &window.editor().documents.document;
     assert_eq!(
-        document.group_inputs()["position"].to,
+        ports::inputs(document)["position"].to,
         ["n.position".parse().expect("an input")]
     );
-    assert_eq!(document.group_outputs()["mask_2"].to_string(), "n");
+    assert_eq!(ports::outputs(document)["mask_2"].to_string(), "n");
     window.choose("Cells, output Mask, mask", "Take back the output 'mask_2'");
     window.choose("Levels, input Source, mask", "Take off the input 'where'");
     let document = &window.editor().documents.document;
-    assert!(!document.group_outputs().contains_key("mask_2"));
-    assert!(document.group_inputs()["where"].to.is_empty());
+    assert!(!ports::outputs(document).contains_key("mask_2"));
+    assert!(ports::inputs(document)["where"].to.is_empty());
     assert_eq!(window.steps(), 4);
 }
 
@@ -75,10 +79,10 @@ fn inputs_and_outputs_of_the_group_that_is_open_are_changed_in_a_list() {
     window.click("Cells · Id");
     let document = &window.editor().documents.document;
     assert_eq!(
-        document.group_inputs()["place"].label.as_deref(),
+        ports::inputs(document)["place"].label.as_deref(),
         Some("Where it is worn")
     );
-    assert_eq!(document.group_outputs()["worn"].to_string(), "n.id");
+    assert_eq!(ports::outputs(document)["worn"].to_string(), "n.id");
     let instance = document.contents().graph.node("g").expect("the instance");
     assert!(instance.inputs.contains_key("place"), "instances follow");
     window.fill("Name of the group", "Wear and tear");
@@ -87,7 +91,7 @@ fn inputs_and_outputs_of_the_group_that_is_open_are_changed_in_a_list() {
         Body::Group("Wear and tear".to_owned())
     );
     window.click("Remove the input place");
-    assert!(window.editor().documents.document.group_inputs().is_empty());
+    assert!(ports::inputs(&window.editor().documents.document).is_empty());
     assert_eq!(window.steps(), 6);
 }
 
@@ -103,7 +107,7 @@ fn the_main_graph_is_named_and_can_be_a_group_for_others() {
     assert_eq!(window.editor().documents.document.contents().name, "Old edges");
     window.choose("wear, output Mask, mask", "Publish as output of the graph");
     assert_eq!(
-        window.editor().documents.document.group_outputs()["mask"].to_string(),
+        ports::outputs(&window.editor().documents.document)["mask"].to_string(),
         "g.mask"
     );
 }

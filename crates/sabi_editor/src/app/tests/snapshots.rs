@@ -5,7 +5,7 @@
 
 use egui::{Key, Rect, vec2};
 use egui_kittest::{SnapshotOptions, SnapshotResult, SnapshotResults, try_image_snapshot_options};
-use sabi_editing::TITLE_HEIGHT;
+use sabi_editing::node_size::TITLE_HEIGHT;
 
 use super::Window;
 use super::hands::id;

@@ -7,6 +7,8 @@ use egui_kittest::kittest::{NodeT, Queryable, by};
 use super::Window;
 use super::commands::window_with;
 use super::hands::id;
+use sabi_editing::clipboard;
+
 use crate::command::{Command, InputPreset, Scope, ViewportCommand};
 use crate::dock::Panel;
 
@@ -140,7 +142,7 @@ fn escape_leaves_the_list_of_keys_as_it_was_and_a_known_key_is_not_added_twice()
 fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
     let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
-    let copied = window.harness.state_mut().documents.document.copied().expect("a copy");
+    let copied = clipboard::copy(&window.harness.state_mut().documents.document).expect("a copy");
     let count = window.document().graph().len();
     let editor = window.harness.state_mut();
     editor.shell.settings.keys.insert("paste".to_owned(), Vec::new());
@@ -160,7 +162,7 @@ fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
 fn paste_works_by_the_menu_and_by_any_key_wherever_the_pointer_is() {
     let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
-    let copied = window.harness.state_mut().documents.document.copied().expect("a copy");
+    let copied = clipboard::copy(&window.harness.state_mut().documents.document).expect("a copy");
     let count = window.document().graph().len();
     window.press_entry("Edit", "Paste");
     // The clipboard arrives.

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use egui_kittest::kittest::Queryable;
+use sabi_editing::nodes;
 use sabi_engine::Session;
 
 use super::{Editor, Window};
@@ -230,7 +231,8 @@ fn saving_is_no_news() {
     let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
     let editor = watched.window.harness.state_mut();
     let seen = "seen".parse().expect("an id");
-    editor.documents.document.set_knob(
+    nodes::set_knob(
+        &mut editor.documents.document,
         &seen,
         "projection",
         Some(sabi_graph::Value::Text("triplanar".to_owned())),

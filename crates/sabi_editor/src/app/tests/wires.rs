@@ -1,7 +1,7 @@
 //! Wires by the pointer.
 
 use egui::{Key, Modifiers, PointerButton};
-use sabi_editing::{ROW_HEIGHT, TITLE_HEIGHT};
+use sabi_editing::node_size::{ROW_HEIGHT, TITLE_HEIGHT};
 
 use super::Window;
 use super::hands::{beside, between, id};

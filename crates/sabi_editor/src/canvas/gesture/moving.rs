@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use egui::{Key, Modifiers, Pos2, Rect, Response, Ui};
-use sabi_editing::{GRID, OpenDocument};
+use sabi_editing::node_size::GRID;
+use sabi_editing::{OpenDocument, arrangement};
 use sabi_graph::{NodeId, SlotRef};
 
 use super::super::wires::{self, Wire};
@@ -34,7 +35,7 @@ impl Gesture {
                 });
                 let crossing = crossing
                     .min_by(|one, other| one.distance(rect.center()).total_cmp(&other.distance(rect.center())))?;
-                document.may_insert(id, &crossing.to).then_some(&crossing.to)
+                sabi_editing::wires::can_insert(document, id, &crossing.to).then_some(&crossing.to)
             }
             _ => None,
         }
@@ -54,7 +55,7 @@ impl Canvas {
         let (Some(panel), Some(at)) = (self.panel, response.ctx.input(|input| input.pointer.press_origin())) else {
             return;
         };
-        let mut from = around.document.places();
+        let mut from = arrangement::selected_positions(around.document);
         if !from.contains_key(id) {
             actions.push(Action::Select(vec![id.clone()]));
             let Some(node) = around.document.node(id) else { return };

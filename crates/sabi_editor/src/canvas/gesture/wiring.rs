@@ -1,7 +1,8 @@
 //! Wires that are dragged: where they begin and where they would be dropped.
 
 use egui::{Pos2, Rect, pos2};
-use sabi_editing::{OpenDocument, PendingWire};
+use sabi_editing::connections::PendingWire;
+use sabi_editing::{OpenDocument, connections};
 
 use super::super::port_refs::{PortRef, places};
 use super::super::{Canvas, CanvasContext, node_rect};
@@ -11,7 +12,7 @@ impl Gesture {
     /// Drag that begins at a port: of a wire from it or, at an input that has one, of that wire.
     pub(in crate::canvas) fn taken_at(document: &OpenDocument, place: &PortRef) -> Gesture {
         if let PortRef::Input(slot) = place
-            && let Some(from) = document.wire_into(slot)
+            && let Some(from) = connections::wire_into(document, slot)
         {
             return Gesture::wire(PendingWire::From(from.clone()), Some(slot.clone()));
         }

@@ -2,7 +2,7 @@
 
 use egui::{DragValue, Rect, RichText, Sense, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_editing::PanelKnob;
+use sabi_editing::panel::PanelKnob;
 use sabi_graph::Value;
 
 use crate::action::PublishedAction;

@@ -5,7 +5,7 @@ use egui::{
     WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_editing::Layer;
+use sabi_editing::stack::Layer;
 use sabi_graph::Value;
 
 use crate::action::{Action, LayerAction};

@@ -1,6 +1,7 @@
 //! Proofs of commands, as far as one key press shows their effect.
 
 use egui::{Key, Modifiers};
+use sabi_editing::node_size;
 use sabi_engine::ViewSubject;
 use sabi_graph::NodeId;
 
@@ -112,7 +113,7 @@ fn of_arrange(command: ArrangeCommand) -> Proof {
         ArrangeCommand::AlignRight => (&["clouds", "dots"], |window, _| window.place("clouds")[0] == 10.0),
         ArrangeCommand::AlignTop => (&["clouds", "mix"], |window, _| window.place("mix")[1] == 0.0),
         ArrangeCommand::AlignBottom => (&["clouds", "mix"], |window, before| {
-            let bottom = |node: &str| window.place(node)[1] + window.document().size(&id(node))[1];
+            let bottom = |node: &str| window.place(node)[1] + node_size::of(window.document(), &id(node))[1];
             (bottom("clouds") - bottom("mix")).abs() < 1.0 && window.places() != before.places
         }),
         ArrangeCommand::Straighten => (&["clouds", "mix"], |window, _| {

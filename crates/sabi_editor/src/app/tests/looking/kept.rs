@@ -1,6 +1,7 @@
 //! What is kept: choices between runs, and a bounded number of results.
 
 use egui::Modifiers;
+use sabi_editing::nodes;
 use sabi_engine::Session;
 use sabi_engine::view::{Background, ViewTransform};
 
@@ -33,7 +34,7 @@ fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
     let all = (0..COUNT).map(|at| id(&format!("n{at}")));
     let document = &mut window.harness.state_mut().documents.document;
     document.select(all.skip(1));
-    document.delete(false);
+    nodes::delete(document, false);
     window.until("the end of it", |editor| {
         let [pictures, thumbnails, times] = editor.evaluation.held();
         pictures <= 2 && thumbnails <= 1 && times <= 1 && !editor.evaluation.is_busy()

@@ -5,6 +5,8 @@ use egui_kittest::kittest::Queryable;
 use super::super::Window;
 use super::super::hands::{beside, id};
 use super::shown::NODES;
+use sabi_editing::nodes;
+
 use crate::dock::Panel;
 
 #[test]
@@ -31,7 +33,7 @@ fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
     assert!(times.iter().any(is_beside), "its time");
     window.click_at(at);
     assert_eq!(window.document().selected_one(), Some(&id("dots")));
-    window.harness.state_mut().documents.document.delete(false);
+    nodes::delete(&mut window.harness.state_mut().documents.document, false);
     window.settle();
     assert!(row(&window, "Spots").is_none() && row(&window, "Tiles").is_some());
 }

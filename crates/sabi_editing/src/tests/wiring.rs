@@ -1,6 +1,5 @@
 //! Connecting, cutting, inserting, merging.
 
-use super::super::MaskMerge;
 use super::*;
 
 fn two_masks() -> OpenDocument {
@@ -19,11 +18,14 @@ fn two_masks() -> OpenDocument {
 fn a_wire_takes_the_place_of_the_one_that_was_there() {
     let mut document = two_masks();
     step(&mut document, |document| {
-        document.connect(&from("b"), &to("levels.source"))
+        wires::connect(document, &from("b"), &to("levels.source"))
     });
     assert_eq!(wire(&document, "levels.source"), "b");
     step(&mut document, |document| {
-        document.cut(&[to("levels.source"), to("layer.mask"), to("layer.color_map")])
+        wires::disconnect(
+            document,
+            &[to("levels.source"), to("layer.mask"), to("layer.color_map")],
+        )
     });
     assert_eq!(
         [wire(&document, "levels.source"), wire(&document, "layer.mask")],
@@ -34,12 +36,12 @@ fn a_wire_takes_the_place_of_the_one_that_was_there() {
 #[test]
 fn a_wire_from_the_first_result_names_the_node_alone_unless_it_is_a_group() {
     let mut document = two_masks();
-    document.connect(&from("a.mask"), &to("levels.source"));
+    wires::connect(&mut document, &from("a.mask"), &to("levels.source"));
     assert_eq!(wire(&document, "levels.source"), "a");
-    document.connect(&from("a.id"), &to("levels.source"));
+    wires::connect(&mut document, &from("a.id"), &to("levels.source"));
     assert_eq!(wire(&document, "levels.source"), "a.id");
     for port in ["g", "g.mask"] {
-        document.connect(&from(port), &to("levels.source"));
+        wires::connect(&mut document, &from(port), &to("levels.source"));
         // A group of two outputs is asked which one; so is one that gets a second one later.
         assert_eq!(wire(&document, "levels.source"), "g.mask");
     }
@@ -49,7 +51,11 @@ fn a_wire_from_the_first_result_names_the_node_alone_unless_it_is_a_group() {
 #[test]
 fn a_wire_that_does_not_fit_is_refused_and_says_why() {
     let mut document = two_masks();
-    let mut said = |from_: &str, to_: &str| refused(&mut document, |document| document.connect(&from(from_), &to(to_)));
+    let mut said = |from_: &str, to_: &str| {
+        refused(&mut document, |document| {
+            wires::connect(document, &from(from_), &to(to_))
+        })
+    };
     assert_eq!(
         said("a", "layer.base"),
         "'Base' takes a material, and this wire carries a mask; only masks and colors turn into each other"
@@ -64,9 +70,9 @@ fn a_wire_that_does_not_fit_is_refused_and_says_why() {
         "'Position' takes a vector, and this wire carries a mask; only masks and colors turn into each other"
     );
     let invert = add(&mut document, "adjust/invert");
-    document.connect(&from("levels"), &slot(&invert, "source"));
+    wires::connect(&mut document, &from("levels"), &slot(&invert, "source"));
     let said = refused(&mut document, |document| {
-        document.connect(&out(&invert), &to("levels.source"))
+        wires::connect(document, &out(&invert), &to("levels.source"))
     });
     assert_eq!(said, "'Invert' is made from 'Levels'; this wire would lead in a circle");
 }
@@ -74,18 +80,24 @@ fn a_wire_that_does_not_fit_is_refused_and_says_why() {
 #[test]
 fn a_bend_takes_what_those_take_who_read_it() {
     let mut document = two_masks();
-    step(&mut document, |document| document.reroute(&to("layer.base"), [0.0; 2]));
+    step(&mut document, |document| {
+        wires::reroute(document, &to("layer.base"), [0.0; 2])
+    });
     let bend = wire(&document, "layer.base");
     assert_eq!(wire(&document, &format!("{bend}.source")), "base");
     let said = refused(&mut document, |document| {
-        document.connect(&from("a"), &to(&format!("{bend}.source")))
+        wires::connect(document, &from("a"), &to(&format!("{bend}.source")))
     });
     assert!(said.starts_with("'Base' takes a material"), "{said}");
     // One that nobody reads takes anything, whatever comes in now.
-    document.cut(&[to("layer.base")]);
-    assert!(document.connect(&from("a"), &to(&format!("{bend}.source"))));
+    wires::disconnect(&mut document, &[to("layer.base")]);
+    assert!(wires::connect(
+        &mut document,
+        &from("a"),
+        &to(&format!("{bend}.source"))
+    ));
     let said = refused(&mut document, |document| {
-        document.connect(&from(&bend), &to("layer.base"))
+        wires::connect(document, &from(&bend), &to("layer.base"))
     });
     assert!(said.starts_with("'Base' takes a material"), "{said}");
 }
@@ -94,8 +106,10 @@ fn a_bend_takes_what_those_take_who_read_it() {
 fn a_node_is_put_into_a_wire() {
     let mut document = two_masks();
     let invert = add(&mut document, "adjust/invert");
-    assert!(document.may_insert(&invert, &to("layer.mask")));
-    step(&mut document, |document| document.insert(&invert, &to("layer.mask")));
+    assert!(wires::can_insert(&document, &invert, &to("layer.mask")));
+    step(&mut document, |document| {
+        wires::insert(document, &invert, &to("layer.mask"))
+    });
     assert_eq!(wire(&document, &format!("{invert}.source")), "levels");
     assert_eq!(wire(&document, "layer.mask"), invert.as_str());
 }
@@ -104,8 +118,10 @@ fn a_node_is_put_into_a_wire() {
 fn a_node_is_put_into_a_wire_by_an_input_that_is_free() {
     let mut document = two_masks();
     let blend = add(&mut document, "blend/mask");
-    document.connect(&from("b"), &slot(&blend, "below"));
-    step(&mut document, |document| document.insert(&blend, &to("layer.mask")));
+    wires::connect(&mut document, &from("b"), &slot(&blend, "below"));
+    step(&mut document, |document| {
+        wires::insert(document, &blend, &to("layer.mask"))
+    });
     assert_eq!(wire(&document, &format!("{blend}.above")), "levels");
     assert_eq!(wire(&document, &format!("{blend}.below")), "b");
 }
@@ -124,9 +140,9 @@ fn a_node_that_does_not_fit_is_not_put_into_a_wire() {
         (id("lost"), "layer.mask"),
         (relief, "layer.color_map"),
     ] {
-        assert!(!document.may_insert(&node, &to(input)), "{node} into {input}");
+        assert!(!wires::can_insert(&document, &node, &to(input)), "{node} into {input}");
         assert_eq!(
-            refused(&mut document, |document| document.insert(&node, &to(input))),
+            refused(&mut document, |document| wires::insert(document, &node, &to(input))),
             why
         );
     }
@@ -139,9 +155,9 @@ fn a_node_made_from_a_reader_is_not_put_before_it() {
         r#""a": { "kind": "noise/cells" }, "levels": { "kind": "adjust/levels", "inputs": { "source": "a" } },
            "blend": { "kind": "blend/mask", "inputs": { "mask": "levels" } }"#,
     );
-    assert!(!document.may_insert(&id("blend"), &to("levels.source")));
+    assert!(!wires::can_insert(&document, &id("blend"), &to("levels.source")));
     let said = refused(&mut document, |document| {
-        document.insert(&id("blend"), &to("levels.source"))
+        wires::insert(document, &id("blend"), &to("levels.source"))
     });
     assert!(said.starts_with("only a node"), "{said}");
 }
@@ -149,20 +165,21 @@ fn a_node_made_from_a_reader_is_not_put_before_it() {
 #[test]
 fn a_second_mask_is_blended_with_the_first_one() {
     let mut document = two_masks();
-    assert!(document.may_merge(&from("b"), &to("layer.mask")));
+    assert!(wires::can_merge(&document, &from("b"), &to("layer.mask")));
     for same in ["levels", "levels.mask"] {
         assert!(
-            !document.may_merge(&from(same), &to("layer.mask")),
+            !wires::can_merge(&document, &from(same), &to("layer.mask")),
             "it is there already"
         );
     }
     assert!(
-        !document.may_merge(&from("b"), &to("layer.base")) && !document.may_merge(&from("b"), &to("layer.height_map"))
+        !wires::can_merge(&document, &from("b"), &to("layer.base"))
+            && !wires::can_merge(&document, &from("b"), &to("layer.height_map"))
     );
     for (_, how) in MaskMerge::OFFERED {
         let MaskMerge::Blend(mode) = how else { continue };
         step(&mut document, |document| {
-            document.merge(&from("b"), &to("layer.mask"), how)
+            wires::merge(document, &from("b"), &to("layer.mask"), how)
         });
         let blend = wire(&document, "layer.mask");
         assert_eq!(wire(&document, &format!("{blend}.below")), "levels");
@@ -176,7 +193,7 @@ fn a_second_mask_is_blended_with_the_first_one() {
         document.undo();
     }
     step(&mut document, |document| {
-        document.merge(&from("b"), &to("layer.mask"), MaskMerge::Replace)
+        wires::merge(document, &from("b"), &to("layer.mask"), MaskMerge::Replace)
     });
     assert_eq!(wire(&document, "layer.mask"), "b");
 }
@@ -185,9 +202,9 @@ fn a_second_mask_is_blended_with_the_first_one() {
 fn a_mask_is_not_merged_into_what_it_is_made_from() {
     let mut document = two_masks();
     let invert = add(&mut document, "adjust/invert");
-    document.connect(&from("levels"), &slot(&invert, "source"));
+    wires::connect(&mut document, &from("levels"), &slot(&invert, "source"));
     let said = refused(&mut document, |document| {
-        document.merge(&out(&invert), &to("levels.source"), MaskMerge::Blend("add"))
+        wires::merge(document, &out(&invert), &to("levels.source"), MaskMerge::Blend("add"))
     });
     assert_eq!(said, "'Invert' is made from 'Levels'; this wire would lead in a circle");
 }
@@ -201,13 +218,13 @@ fn swapping_takes_along_the_knob_of_an_input_that_nothing_leads_to() {
            "alone": { "kind": "blend/mask" }"#,
     );
     select(&mut document, &["m", "alone"]);
-    step(&mut document, OpenDocument::swap_inputs);
+    step(&mut document, wires::swap_inputs);
     assert_eq!([wire(&document, "m.below"), wire(&document, "m.above")], ["a", ""]);
     assert_eq!(
         [param(&document, "m", "below"), param(&document, "m", "above")],
         [None, number(0.25)]
     );
-    step(&mut document, OpenDocument::swap_inputs);
+    step(&mut document, wires::swap_inputs);
     assert_eq!([wire(&document, "m.below"), wire(&document, "m.above")], ["", "a"]);
 }
 
@@ -219,12 +236,12 @@ fn swapping_takes_along_what_feeds_an_input_from_outside() {
         "nodes": { "a": { "kind": "noise/cells" }, "other": { "kind": "blend/mask" },
                    "m": { "kind": "blend/mask", "inputs": { "above": "a" } } } } },"#;
     let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);
-    assert!(document.enter(&id("g")));
+    assert!(navigation::enter(&mut document, &id("g")));
     select(&mut document, &["m"]);
-    step(&mut document, OpenDocument::swap_inputs);
+    step(&mut document, wires::swap_inputs);
     assert_eq!([wire(&document, "m.below"), wire(&document, "m.above")], ["a", ""]);
-    assert_eq!(document.group_inputs()["one"].to, [to("other.below"), to("m.above")]);
-    step(&mut document, OpenDocument::swap_inputs);
+    assert_eq!(ports::inputs(&document)["one"].to, [to("other.below"), to("m.above")]);
+    step(&mut document, wires::swap_inputs);
     assert_eq!(wire(&document, "m.above"), "a");
-    assert_eq!(document.group_inputs()["one"].to, [to("other.below"), to("m.below")]);
+    assert_eq!(ports::inputs(&document)["one"].to, [to("other.below"), to("m.below")]);
 }

@@ -43,14 +43,14 @@ fn heard(document: &OpenDocument) -> Vec<String> {
 fn heals_as_muting(mut document: OpenDocument, ids: &[&str]) -> OpenDocument {
     select(&mut document, ids);
     for text in ids {
-        document.set_muted([id(text)], true);
+        nodes::set_muted(&mut document, [id(text)], true);
     }
     let muted = heard(&document);
     for _ in ids {
         document.undo();
     }
     select(&mut document, ids);
-    step(&mut document, |document| document.delete(true));
+    step(&mut document, |document| nodes::delete(document, true));
     assert_eq!(heard(&document), muted);
     document
 }
@@ -116,10 +116,10 @@ fn wires_heal_through_bends() {
         "out": { "kind": "output/mask", "inputs": { "source": "b" } }"#;
     let mut document = opened("", nodes);
     select(&mut document, &["b", "m"]);
-    step(&mut document, |document| document.delete(true));
+    step(&mut document, |document| nodes::delete(document, true));
     assert_eq!(wire(&document, "out.source"), "r");
     select(&mut document, &["r"]);
-    step(&mut document, |document| document.delete(true));
+    step(&mut document, |document| nodes::delete(document, true));
     assert_eq!(wire(&document, "out.source"), "n");
 }
 
@@ -154,14 +154,14 @@ fn inside_a_group_its_inputs_and_outputs_heal_too() {
         "nodes": { "one": { "kind": "effect/layer" }, "two": { "kind": "effect/relief", "inputs": { "base": "one" } },
                    "three": { "kind": "material/adjust", "inputs": { "material": "two" } } } } },"#;
     let mut document = opened(groups, nodes);
-    assert!(document.enter(&id("g")));
+    assert!(navigation::enter(&mut document, &id("g")));
     select(&mut document, &["one"]);
-    step(&mut document, |document| document.delete(true));
-    assert_eq!(document.group_inputs()["base"].to, [to("two.base")]);
+    step(&mut document, |document| nodes::delete(document, true));
+    assert_eq!(ports::inputs(&document)["base"].to, [to("two.base")]);
     select(&mut document, &["three"]);
-    step(&mut document, |document| document.delete(true));
-    assert_eq!(document.group_outputs()["material"], from("two"));
-    document.leave();
+    step(&mut document, |document| nodes::delete(document, true));
+    assert_eq!(ports::outputs(&document)["material"], from("two"));
+    navigation::leave(&mut document);
     assert_eq!(wire(&document, "out.material"), "g.material");
     flat(&document);
 }
@@ -170,7 +170,7 @@ fn inside_a_group_its_inputs_and_outputs_heal_too() {
 fn what_is_taken_out_of_its_wires_keeps_those_among_itself() {
     let mut document = opened("", CHAIN);
     select(&mut document, &["two", "three"]);
-    step(&mut document, OpenDocument::take_out);
+    step(&mut document, wires::detach_selected);
     assert_eq!(wire(&document, "layer.mask"), "w");
     assert_eq!(wire(&document, "three.source"), "two");
     assert_eq!([wire(&document, "two.above"), wire(&document, "two.below")], ["", ""]);
@@ -186,8 +186,11 @@ fn groups_that_hold_themselves_end_a_heal_all_the_same() {
         "out": { "kind": "output/mask", "inputs": { "source": "g.out" } }"#;
     let mut document = opened(groups, nodes);
     select(&mut document, &["g"]);
-    assert!(document.copied().is_none(), "what holds itself cannot be told in order");
-    step(&mut document, |document| document.delete(true));
+    assert!(
+        clipboard::copy(&document).is_none(),
+        "what holds itself cannot be told in order"
+    );
+    step(&mut document, |document| nodes::delete(document, true));
     assert_eq!(wire(&document, "out.source"), "");
 }
 
@@ -196,8 +199,8 @@ fn what_is_taken_out_of_its_wires_is_not_fed_from_outside_any_more() {
     let groups = r#""groups": { "G": { "inputs": { "base": { "to": ["one.base"] } }, "outputs": { "material": "two.material" },
         "nodes": { "one": { "kind": "effect/layer" }, "two": { "kind": "effect/relief", "inputs": { "base": "one" } } } } },"#;
     let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);
-    assert!(document.enter(&id("g")));
+    assert!(navigation::enter(&mut document, &id("g")));
     select(&mut document, &["one"]);
-    step(&mut document, OpenDocument::take_out);
-    assert_eq!(document.group_inputs()["base"].to, [to("two.base")]);
+    step(&mut document, wires::detach_selected);
+    assert_eq!(ports::inputs(&document)["base"].to, [to("two.base")]);
 }

@@ -8,12 +8,11 @@ const NODES: &str = r#"
     "out": { "kind": "output/mask", "inputs": { "source": "m" } }"#;
 
 fn names(document: &OpenDocument) -> Vec<String> {
-    document.panel().into_iter().map(|knob| knob.name).collect()
+    panel::knobs(document).into_iter().map(|knob| knob.name).collect()
 }
 
 fn value(document: &OpenDocument, name: &str) -> Option<Value> {
-    document
-        .panel()
+    panel::knobs(document)
         .into_iter()
         .find(|knob| knob.name == name)
         .map(|knob| knob.value)
@@ -22,75 +21,85 @@ fn value(document: &OpenDocument, name: &str) -> Option<Value> {
 #[test]
 fn a_knob_is_published_and_taken_back() {
     let mut document = opened("", NODES);
-    step(&mut document, |document| document.expose(&id("n"), "size"));
-    step(&mut document, |document| document.expose(&id("w"), "size"));
+    step(&mut document, |document| panel::expose(document, &id("n"), "size"));
+    step(&mut document, |document| panel::expose(document, &id("w"), "size"));
     assert_eq!(names(&document), ["size", "size_2"]);
     assert_eq!(
         [value(&document, "size"), value(&document, "size_2")],
         [number(0.5), number(0.25)]
     );
-    assert_eq!(document.exposed_as(&id("w"), "size"), Some("size_2"));
-    let said = refused(&mut document, |document| document.expose(&id("w"), "size"));
+    assert_eq!(panel::exposed_as(&document, &id("w"), "size"), Some("size_2"));
+    let said = refused(&mut document, |document| panel::expose(document, &id("w"), "size"));
     assert_eq!(said, "this knob is on the panel already, as 'size_2'");
-    let said = refused(&mut document, |document| document.expose(&id("w"), "nothing"));
+    let said = refused(&mut document, |document| panel::expose(document, &id("w"), "nothing"));
     assert_eq!(said, "'Cells' has no knob 'nothing'");
-    step(&mut document, |document| document.unexpose("size"));
+    step(&mut document, |document| panel::unexpose(document, "size"));
     assert_eq!(names(&document), ["size_2"]);
-    let said = refused(&mut document, |document| document.unexpose("size"));
+    let said = refused(&mut document, |document| panel::unexpose(document, "size"));
     assert!(said.starts_with("there is no knob \"size\""), "{said}");
 }
 
 #[test]
 fn one_published_knob_turns_several_of_the_same_sort() {
     let mut document = opened("", NODES);
-    document.expose(&id("n"), "size");
-    step(&mut document, |document| document.expose_as(&id("w"), "size", "size"));
-    step(&mut document, |document| document.turn("size", &Value::Number(0.75)));
+    panel::expose(&mut document, &id("n"), "size");
+    step(&mut document, |document| {
+        panel::expose_also(document, &id("w"), "size", "size")
+    });
+    step(&mut document, |document| {
+        panel_values::set(document, "size", &Value::Number(0.75))
+    });
     assert_eq!(
         ["n", "w"].map(|id| param(&document, id, "size")),
         [number(0.75), number(0.75)]
     );
-    let said = refused(&mut document, |document| document.expose_as(&id("n"), "mode", "size"));
+    let said = refused(&mut document, |document| {
+        panel::expose_also(document, &id("n"), "mode", "size")
+    });
     assert_eq!(said, "'size' holds values of another sort than 'mode'");
-    step(&mut document, |document| document.take_off_panel(&id("n"), "size"));
+    step(&mut document, |document| {
+        panel::unexpose_knob(document, &id("n"), "size")
+    });
     assert_eq!(document.graph().exposed()["size"].to, [to("w.size")]);
-    step(&mut document, |document| document.take_off_panel(&id("w"), "size"));
-    assert!(document.panel().is_empty() && !document.take_off_panel(&id("w"), "size"));
+    step(&mut document, |document| {
+        panel::unexpose_knob(document, &id("w"), "size")
+    });
+    assert!(panel::knobs(&document).is_empty() && !panel::unexpose_knob(&mut document, &id("w"), "size"));
 }
 
 #[test]
 fn a_published_knob_is_reset_to_what_it_held_when_the_graph_was_opened() {
     let mut document = opened(r#""exposed": { "size": { "to": ["n.size", "w.size"] } },"#, NODES);
-    document.turn("size", &Value::Number(0.75));
-    assert_eq!(document.panel()[0].at_first, Value::Number(0.5));
-    step(&mut document, |document| document.turn_back("size"));
+    panel_values::set(&mut document, "size", &Value::Number(0.75));
+    assert_eq!(panel::knobs(&document)[0].at_first, Value::Number(0.5));
+    step(&mut document, |document| panel_values::reset(document, "size"));
     assert_eq!(
         ["n", "w"].map(|id| param(&document, id, "size")),
         [number(0.5), number(0.5)]
     );
-    document.expose(&id("n"), "gain");
-    document.turn("gain", &Value::Number(0.125));
-    step(&mut document, |document| document.turn_back("gain"));
+    panel::expose(&mut document, &id("n"), "gain");
+    panel_values::set(&mut document, "gain", &Value::Number(0.125));
+    step(&mut document, |document| panel_values::reset(document, "gain"));
     assert_eq!(
         value(&document, "gain"),
         number(0.5),
         "that of the kind, since it was not there then"
     );
-    let said = refused(&mut document, |document| document.turn_back("nothing"));
+    let said = refused(&mut document, |document| panel_values::reset(document, "nothing"));
     assert_eq!(said, "there is no knob 'nothing' on the panel");
 }
 
 #[test]
 fn a_seed_on_a_panel_is_not_called_as_that_of_every_instance() {
     let mut document = opened("", NODES);
-    document.select_all();
-    document.toggle(&id("out"));
-    document.make_group();
+    selection::select_all(&mut document);
+    selection::toggle(&mut document, &id("out"));
+    groups::make(&mut document);
     let group = document.selected_one().cloned().expect("the instance");
-    document.enter(&group);
-    step(&mut document, |document| document.expose(&id("n"), "seed"));
+    navigation::enter(&mut document, &group);
+    step(&mut document, |document| panel::expose(document, &id("n"), "seed"));
     assert_eq!(names(&document), ["n_seed"]);
-    let said = refused(&mut document, |document| document.rename_exposed("n_seed", "seed"));
+    let said = refused(&mut document, |document| panel::rename(document, "n_seed", "seed"));
     assert_eq!(said, "every instance has a knob 'seed'; choose another name");
     flat(&document);
 }
@@ -106,15 +115,17 @@ fn a_renamed_knob_is_renamed_in_variants_instances_and_panels_around() {
         "out": { "kind": "output/mask", "inputs": { "source": "i" } }, "two": { "kind": "output/mask", "inputs": { "source": "j" } }"#;
     let mut document = opened(groups, nodes);
     let before = evaluated(&document);
-    document.enter(&id("i"));
-    step(&mut document, |document| document.rename_exposed("size", "grain size"));
-    step(&mut document, |document| document.label_exposed("grain size", "Grain"));
+    navigation::enter(&mut document, &id("i"));
+    step(&mut document, |document| panel::rename(document, "size", "grain size"));
+    step(&mut document, |document| {
+        panel::set_label(document, "grain size", "Grain")
+    });
     assert_eq!(evaluated(&document), before);
-    assert_eq!(document.panel()[0].knob.label, "Grain");
-    document.leave();
+    assert_eq!(panel::knobs(&document)[0].knob.label, "Grain");
+    navigation::leave(&mut document);
     assert_eq!(document.graph().exposed()["outer"].to, [to("i.grain size")]);
     assert_eq!(param(&document, "i", "grain size"), number(2.0));
-    let mut said = |name: &str, to: &str| refused(&mut document, |document| document.rename_exposed(name, to));
+    let mut said = |name: &str, to: &str| refused(&mut document, |document| panel::rename(document, name, to));
     assert_eq!(said("lost", "x"), "there is no knob 'lost' on the panel");
     assert_eq!(
         said("outer", "a=b"),
@@ -126,30 +137,41 @@ fn a_renamed_knob_is_renamed_in_variants_instances_and_panels_around() {
 fn knobs_stand_in_the_order_and_the_sections_that_they_are_put_in() {
     let mut document = opened("", NODES);
     for (node, knob) in [("n", "size"), ("n", "gain"), ("m", "opacity"), ("w", "jitter")] {
-        document.expose(&id(node), knob);
+        panel::expose(&mut document, &id(node), knob);
     }
     assert_eq!(names(&document), ["gain", "jitter", "opacity", "size"]);
-    step(&mut document, |document| document.move_exposed("size", Some("gain")));
+    step(&mut document, |document| {
+        panel::move_knob(document, "size", Some("gain"))
+    });
     assert_eq!(names(&document), ["size", "gain", "jitter", "opacity"]);
-    step(&mut document, |document| document.set_section("gain", " Noise "));
-    step(&mut document, |document| document.move_exposed("opacity", Some("gain")));
+    step(&mut document, |document| {
+        panel::set_section(document, "gain", " Noise ")
+    });
+    step(&mut document, |document| {
+        panel::move_knob(document, "opacity", Some("gain"))
+    });
     assert_eq!(names(&document), ["size", "jitter", "opacity", "gain"]);
-    let sections: Vec<_> = document.panel().into_iter().map(|knob| knob.exposed.section).collect();
+    let sections: Vec<_> = panel::knobs(&document)
+        .into_iter()
+        .map(|knob| knob.exposed.section)
+        .collect();
     let noise = Some("Noise".to_owned());
     assert_eq!(sections, [None, None, noise.clone(), noise]);
-    step(&mut document, |document| document.move_exposed("size", None));
+    step(&mut document, |document| panel::move_knob(document, "size", None));
     assert_eq!(names(&document), ["jitter", "opacity", "gain", "size"]);
-    refused(&mut document, |document| document.move_exposed("size", Some("size")));
-    refused(&mut document, |document| document.move_exposed("lost", None));
-    refused(&mut document, |document| document.move_exposed("size", None));
+    refused(&mut document, |document| {
+        panel::move_knob(document, "size", Some("size"))
+    });
+    refused(&mut document, |document| panel::move_knob(document, "lost", None));
+    refused(&mut document, |document| panel::move_knob(document, "size", None));
 }
 
 #[test]
 fn a_knob_with_a_default_holds_that_and_turning_the_nodes_own_turns_it_too() {
     let mut document = opened("", NODES);
-    document.expose(&id("n"), "size");
+    panel::expose(&mut document, &id("n"), "size");
     step(&mut document, |document| {
-        document.set_exposed_default("size", number(0.125))
+        panel_values::set_default(document, "size", number(0.125))
     });
     assert_eq!(
         (value(&document, "size"), param(&document, "n", "size")),
@@ -163,16 +185,20 @@ fn a_knob_with_a_default_holds_that_and_turning_the_nodes_own_turns_it_too() {
             .and_then(|node| node.params.get("size").cloned())
     };
     assert_eq!(size(&document), number(0.125));
-    step(&mut document, |document| document.turn("size", &Value::Number(0.25)));
+    step(&mut document, |document| {
+        panel_values::set(document, "size", &Value::Number(0.25))
+    });
     assert_eq!(size(&document), number(0.25));
     step(&mut document, |document| {
-        document.set_knob(&id("n"), "size", number(0.75))
+        nodes::set_knob(document, &id("n"), "size", number(0.75))
     });
     assert_eq!(
         (value(&document, "size"), size(&document)),
         (number(0.75), number(0.75))
     );
-    step(&mut document, |document| document.set_knob(&id("n"), "size", None));
+    step(&mut document, |document| {
+        nodes::set_knob(document, &id("n"), "size", None)
+    });
     assert_eq!(size(&document), None, "reset is reset");
 }
 
@@ -189,10 +215,10 @@ fn dust() -> OpenDocument {
 #[test]
 fn a_range_holds_for_everything_that_is_set() {
     let mut document = dust();
-    document.enter(&id("i"));
+    navigation::enter(&mut document, &id("i"));
     let mut said = |range: [f64; 2]| {
         refused(&mut document, |document| {
-            document.set_exposed_range("size", Some(range))
+            panel_values::set_range(document, "size", Some(range))
         })
     };
     assert_eq!(
@@ -208,27 +234,34 @@ fn a_range_holds_for_everything_that_is_set() {
         "the variant 'v' would lie outside: 'size' takes 1 to 0, and this is 0.5"
     );
     step(&mut document, |document| {
-        document.set_exposed_range("size", Some([0.5, 0.75]))
+        panel_values::set_range(document, "size", Some([0.5, 0.75]))
     });
     let said = refused(&mut document, |document| {
-        document.set_exposed_default("size", number(2.0))
+        panel_values::set_default(document, "size", number(2.0))
     });
     assert_eq!(said, "'size' takes 0.5 to 0.75, and this is 2");
-    let said = refused(&mut document, |document| document.turn("size", &Value::from("much")));
+    let said = refused(&mut document, |document| {
+        panel_values::set(document, "size", &Value::from("much"))
+    });
     assert_eq!(said, "'size' takes numbers from 0.5 to 0.75, and this is none");
-    step(&mut document, |document| document.set_exposed_range("size", None));
+    step(&mut document, |document| {
+        panel_values::set_range(document, "size", None)
+    });
 }
 
 #[test]
 fn an_instance_refuses_values_outside_of_the_range_and_names_that_its_group_lacks() {
     let mut document = dust();
-    document.enter(&id("i"));
+    navigation::enter(&mut document, &id("i"));
     step(&mut document, |document| {
-        document.set_exposed_range("size", Some([0.5, 0.75]))
+        panel_values::set_range(document, "size", Some([0.5, 0.75]))
     });
-    document.leave();
-    let mut said =
-        |knob: &str, value: Value| refused(&mut document, |document| document.set_knob(&id("i"), knob, Some(value)));
+    navigation::leave(&mut document);
+    let mut said = |knob: &str, value: Value| {
+        refused(&mut document, |document| {
+            nodes::set_knob(document, &id("i"), knob, Some(value))
+        })
+    };
     for (knob, value, sentence) in [
         (
             "size",
@@ -251,10 +284,10 @@ fn an_instance_refuses_values_outside_of_the_range_and_names_that_its_group_lack
     assert!(said("variant", Value::from("w")).starts_with("there is no variant \"w\" of \"i\""));
     assert!(said("lost", Value::Number(0.0)).starts_with("group instance \"i\" has no knob \"lost\""));
     step(&mut document, |document| {
-        document.set_knob(&id("i"), "variant", Some(Value::from("v")))
+        nodes::set_knob(document, &id("i"), "variant", Some(Value::from("v")))
     });
     step(&mut document, |document| {
-        document.set_knob(&id("i"), "variant", Some(Value::from("none")))
+        nodes::set_knob(document, &id("i"), "variant", Some(Value::from("none")))
     });
     assert_eq!(param(&document, "i", "variant"), None);
     flat(&document);
@@ -267,9 +300,9 @@ fn a_color_that_is_taken_and_a_file_that_is_chosen_are_for_all_selected_nodes_of
         r#""a": { "kind": "source/image" }, "b": { "kind": "source/image" }"#,
     );
     select(&mut document, &["a", "b"]);
-    let knob = super::super::KnobTarget::of_node(&id("a"), "file".to_owned());
+    let knob = KnobTarget::of_node(&id("a"), "file".to_owned());
     step(&mut document, |document| {
-        document.set_at(&knob, Value::from("torn.png"))
+        knob_target::set(document, &knob, Value::from("torn.png"))
     });
     assert_eq!(param(&document, "b", "file"), Some(Value::from("torn.png")));
 }

@@ -10,15 +10,15 @@ const SWEEPS: usize = 8;
 
 /// A box to be placed.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Boxed {
-    pub(super) width: f32,
-    pub(super) height: f32,
+pub(crate) struct Boxed {
+    pub(crate) width: f32,
+    pub(crate) height: f32,
     /// Boxes whose results it reads, by index; they never lead in a circle.
-    pub(super) reads: Vec<usize>,
+    pub(crate) reads: Vec<usize>,
 }
 
 /// Upper left corners, from the upper left corner of all.
-pub(super) fn lay_out(boxes: &[Boxed]) -> Vec<[f32; 2]> {
+pub(crate) fn lay_out(boxes: &[Boxed]) -> Vec<[f32; 2]> {
     let readers = readers_of(boxes);
     let columns = columns_of(boxes, &readers);
     let last = columns.iter().copied().max().unwrap_or(0);

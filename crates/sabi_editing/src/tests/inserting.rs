@@ -1,7 +1,5 @@
 //! Room for what is put into a wire.
 
-use super::super::Align;
-use super::super::arrangement::input_row;
 use super::*;
 
 const CHAIN: &str = r#"
@@ -20,7 +18,7 @@ fn what_is_made_from_a_node_in_a_wire_makes_room_for_it_in_one_step() {
     let mut document = opened("", CHAIN);
     let before = ["clouds", "aside", "invert", "levels", "new"].map(|id| pos(&document, id));
     step(&mut document, |document| {
-        document.insert(&id("new"), &to("invert.source"))
+        wires::insert(document, &id("new"), &to("invert.source"))
     });
     assert_eq!(
         [wire(&document, "new.source"), wire(&document, "invert.source")],
@@ -48,9 +46,9 @@ fn where_there_is_room_nothing_moves() {
         "",
         &CHAIN.replace("[250, 0]", "[600, 0]").replace("[500, 40]", "[900, 40]"),
     );
-    document.move_to("Move", BTreeMap::from([(id("new"), [300.0, 0.0])]));
+    arrangement::move_nodes(&mut document, "Move", BTreeMap::from([(id("new"), [300.0, 0.0])]));
     step(&mut document, |document| {
-        document.insert(&id("new"), &to("invert.source"))
+        wires::insert(document, &id("new"), &to("invert.source"))
     });
     let all = ["new", "invert", "levels"].map(|id| pos(&document, id)[0]);
     assert_eq!(all, [300.0, 600.0, 900.0]);
@@ -62,32 +60,35 @@ fn what_may_be_put_into_a_wire_fits_both_of_its_ends() {
     let into = to("invert.source");
     let fits = |kind: &str| {
         let entry = document.catalog().entry(kind).expect("a kind");
-        document.may_insert_new(entry, &into)
+        wires::can_insert_new(&document, entry, &into)
     };
     let kinds = ["adjust/levels", "graph/reroute", "output/mask", "source/material"];
     assert_eq!(kinds.map(fits), [true, true, false, false]);
     let levels = document.catalog().entry("adjust/levels").expect("a kind");
-    assert!(!document.may_insert_new(levels, &to("new.source")), "there is no wire");
+    assert!(
+        !wires::can_insert_new(&document, levels, &to("new.source")),
+        "there is no wire"
+    );
 }
 
 #[test]
 fn a_bend_is_brought_in_line_by_its_own_size() {
     let mut document = opened("", CHAIN);
     step(&mut document, |document| {
-        document.reroute(&to("levels.source"), [470.0, 300.0])
+        wires::reroute(document, &to("levels.source"), [470.0, 300.0])
     });
     let bend: NodeId = wire(&document, "levels.source").parse().expect("a bend");
-    let [width, height] = document.size(&bend);
+    let [width, height] = node_size::of(&document, &bend);
     assert!(width < 50.0 && height < 30.0);
     assert_eq!(
         pos(&document, bend.as_str()),
         [470.0 - width / 2.0, 300.0 - height / 2.0]
     );
     document.select([bend.clone(), id("levels")]);
-    document.straighten();
+    arrangement::straighten(&mut document);
     let level = pos(&document, "levels")[1] + input_row(document.face(&id("levels")).expect("a face"), 0);
     assert!((pos(&document, bend.as_str())[1] + height / 2.0 - level).abs() < 1e-3);
-    step(&mut document, |document| document.align(Align::Right));
-    let right = |id: &NodeId| pos(&document, id.as_str())[0] + document.size(id)[0];
+    step(&mut document, |document| arrangement::align(document, Align::Right));
+    let right = |id: &NodeId| pos(&document, id.as_str())[0] + node_size::of(&document, id)[0];
     assert!((right(&bend) - right(&id("levels"))).abs() < 1e-3);
 }

@@ -8,23 +8,23 @@ fn panel() -> OpenDocument {
         r#""n": { "kind": "noise/simplex", "params": { "size": 0.5 } }, "m": { "kind": "blend/mask", "inputs": { "below": "n" } },
            "out": { "kind": "output/mask", "inputs": { "source": "m" } }"#,
     );
-    document.expose(&id("n"), "size");
-    document.expose(&id("m"), "mode");
+    panel::expose(&mut document, &id("n"), "size");
+    panel::expose(&mut document, &id("m"), "mode");
     document
 }
 
 #[test]
 fn a_variant_keeps_what_the_panel_shows_and_brings_it_back() {
     let mut document = panel();
-    step(&mut document, |document| document.save_variant(" fine "));
+    step(&mut document, |document| variants::save(document, " fine "));
     let kept: Vec<String> = document.graph().variants()["fine"]
         .iter()
         .map(|(name, value)| format!("{name} {value:?}"))
         .collect();
     assert_eq!(kept, ["mode Text(\"multiply\")", "size Number(0.5)"]);
-    document.set_exposed_default("size", number(0.25));
-    document.set_knob(&id("m"), "mode", Some(Value::from("add")));
-    step(&mut document, |document| document.save_variant("coarse"));
+    panel_values::set_default(&mut document, "size", number(0.25));
+    nodes::set_knob(&mut document, &id("m"), "mode", Some(Value::from("add")));
+    step(&mut document, |document| variants::save(document, "coarse"));
     let with = |document: &OpenDocument, variant: Option<&str>| {
         let overrides = Overrides {
             variant: variant.map(str::to_owned),
@@ -35,9 +35,9 @@ fn a_variant_keeps_what_the_panel_shows_and_brings_it_back() {
     };
     assert_eq!(with(&document, Some("coarse")), with(&document, None));
     let fine = with(&document, Some("fine"));
-    step(&mut document, |document| document.apply_variant("fine"));
+    step(&mut document, |document| variants::apply(document, "fine"));
     assert_eq!(with(&document, None), fine);
-    step(&mut document, |document| document.remove_variant("fine"));
+    step(&mut document, |document| variants::remove(document, "fine"));
     assert_eq!(document.graph().variants().len(), 1);
 }
 
@@ -49,8 +49,8 @@ fn a_renamed_variant_is_renamed_in_instances_and_a_removed_one_is_gone_there() {
         "out": { "kind": "output/mask", "inputs": { "source": "i" } }"#;
     let mut document = opened(groups, nodes);
     let before = evaluated(&document);
-    document.enter(&id("i"));
-    step(&mut document, |document| document.rename_variant("big", "huge"));
+    navigation::enter(&mut document, &id("i"));
+    step(&mut document, |document| variants::rename(document, "big", "huge"));
     assert_eq!(evaluated(&document), before);
     assert_eq!(
         document
@@ -60,48 +60,51 @@ fn a_renamed_variant_is_renamed_in_instances_and_a_removed_one_is_gone_there() {
             .and_then(|node| node.params["variant"].as_text()),
         Some("huge")
     );
-    step(&mut document, |document| document.remove_variant("huge"));
+    step(&mut document, |document| variants::remove(document, "huge"));
     assert_ne!(evaluated(&document), before);
 }
 
 #[test]
 fn what_is_no_variant_is_told() {
     let mut document = panel();
-    document.save_variant("one");
-    document.save_variant("two");
+    variants::save(&mut document, "one");
+    variants::save(&mut document, "two");
     let mut said = |does: &dyn Fn(&mut OpenDocument) -> bool| refused(&mut document, |document| does(document));
-    assert_eq!(said(&|document| document.save_variant("  ")), "a variant needs a name");
     assert_eq!(
-        said(&|document| document.save_variant("none")),
+        said(&|document| variants::save(document, "  ")),
+        "a variant needs a name"
+    );
+    assert_eq!(
+        said(&|document| variants::save(document, "none")),
         "'none' stands for no variant; choose another name"
     );
     assert_eq!(
-        said(&|document| document.apply_variant("lost")),
+        said(&|document| variants::apply(document, "lost")),
         "there is no variant 'lost'"
     );
     assert_eq!(
-        said(&|document| document.remove_variant("lost")),
+        said(&|document| variants::remove(document, "lost")),
         "there is no variant 'lost'"
     );
     assert_eq!(
-        said(&|document| document.rename_variant("lost", "x")),
+        said(&|document| variants::rename(document, "lost", "x")),
         "there is no variant 'lost'"
     );
     assert_eq!(
-        said(&|document| document.rename_variant("one", "two")),
+        said(&|document| variants::rename(document, "one", "two")),
         "there is a variant 'two' already; choose another name"
     );
-    document.set_exposed_range("size", Some([0.0, 1.0]));
+    panel_values::set_range(&mut document, "size", Some([0.0, 1.0]));
     let wide =
         r#""exposed": { "size": { "to": ["n.size"], "range": [0, 1] } }, "variants": { "wide": { "size": 2 } },"#;
     let mut document = opened(wide, r#""n": { "kind": "noise/white" }"#);
     assert_eq!(
-        refused(&mut document, |document| document.apply_variant("wide")),
+        refused(&mut document, |document| variants::apply(document, "wide")),
         "'size' takes 0 to 1, and this is 2"
     );
-    document.unexpose("size");
+    panel::unexpose(&mut document, "size");
     assert_eq!(
-        refused(&mut document, |document| document.save_variant("empty")),
+        refused(&mut document, |document| variants::save(document, "empty")),
         "a variant keeps the knobs of the panel, and there are none; publish some first"
     );
 }

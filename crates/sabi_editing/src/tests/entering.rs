@@ -11,15 +11,18 @@ const NODES: &str = r#""g": { "kind": "graph/group", "group": "outer", "label": 
 #[test]
 fn one_goes_into_groups_and_back_to_where_one_came_from() {
     let mut document = opened(GROUPS, NODES);
-    assert!(!document.enter(&id("n")), "no group");
-    assert!(document.enter(&id("g")) && document.enter(&id("i")));
-    let path: Vec<String> = document.path().into_iter().map(|(_, title)| title).collect();
+    assert!(!navigation::enter(&mut document, &id("n")), "no group");
+    assert!(navigation::enter(&mut document, &id("g")) && navigation::enter(&mut document, &id("i")));
+    let path: Vec<String> = navigation::breadcrumb(&document)
+        .into_iter()
+        .map(|(_, title)| title)
+        .collect();
     assert_eq!(path, ["Wear", "inner"]);
     assert_eq!(document.body(), sabi_graph::Body::Group("inner".to_owned()));
     assert_eq!(document.full_id(&id("n")), "g/i/n");
-    assert!(document.leave());
+    assert!(navigation::leave(&mut document));
     assert_eq!(document.selected_one(), Some(&id("i")));
-    assert!(document.leave_to(0) && !document.leave());
+    assert!(navigation::leave_to(&mut document, 0) && !navigation::leave(&mut document));
     assert_eq!(document.selected_one(), Some(&id("g")));
     assert_eq!(document.full_id(&id("n")), "n");
 }
@@ -35,26 +38,30 @@ fn a_node_is_found_and_called_by_the_way_to_it() {
         ("n/n", None),
         ("gone", None),
     ] {
-        assert_eq!(document.has(path), title.is_some(), "{path}");
+        assert_eq!(node_paths::exists(&document, path), title.is_some(), "{path}");
         assert!(
-            title.is_none_or(|title| document.title_at(path) == title),
+            title.is_none_or(|title| node_paths::title(&document, path) == title),
             "{path}: {}",
-            document.title_at(path)
+            node_paths::title(&document, path)
         );
     }
-    assert_eq!(document.title_at("gone"), "gone", "what is not there goes by its id");
-    document.enter(&id("g"));
-    assert_eq!(document.seen_at("g/i"), Some(id("i")));
-    assert_eq!(document.seen_at("i"), None);
+    assert_eq!(
+        node_paths::title(&document, "gone"),
+        "gone",
+        "what is not there goes by its id"
+    );
+    navigation::enter(&mut document, &id("g"));
+    assert_eq!(node_paths::in_shown_graph(&document, "g/i"), Some(id("i")));
+    assert_eq!(node_paths::in_shown_graph(&document, "i"), None);
 }
 
 #[test]
 fn an_edit_inside_is_one_in_all_instances() {
     let mut document = opened(GROUPS, NODES);
-    document.enter(&id("g"));
-    document.enter(&id("i"));
+    navigation::enter(&mut document, &id("g"));
+    navigation::enter(&mut document, &id("i"));
     step(&mut document, |document| {
-        document.set_knob(&id("n"), "size", number(0.5))
+        nodes::set_knob(document, &id("n"), "size", number(0.5))
     });
     let sizes: Vec<_> = flat(&document)
         .nodes
@@ -68,13 +75,13 @@ fn an_edit_inside_is_one_in_all_instances() {
 fn an_entered_group_that_is_gone_is_left_and_nothing_there_stays_selected() {
     let mut document = opened(GROUPS, NODES);
     select(&mut document, &["n"]);
-    document.make_group();
+    groups::make(&mut document);
     let made = document.selected_one().cloned().expect("the instance");
-    document.enter(&made);
+    navigation::enter(&mut document, &made);
     select(&mut document, &["n"]);
     // The graph outside has a node of that id once more.
     document.undo();
-    assert!(document.path().is_empty());
+    assert!(navigation::breadcrumb(&document).is_empty());
     assert!(document.selection().is_empty(), "{:?}", document.selection());
     document.redo();
     assert_eq!(document.selected_one(), Some(&made), "what came back is selected");
@@ -84,7 +91,7 @@ fn an_entered_group_that_is_gone_is_left_and_nothing_there_stays_selected() {
 fn undo_keeps_the_selection_as_far_as_it_is_there() {
     let mut document = opened("", NODES_PLAIN);
     select(&mut document, &["a", "b"]);
-    document.set_knob(&id("a"), "size", number(0.5));
+    nodes::set_knob(&mut document, &id("a"), "size", number(0.5));
     document.undo();
     assert_eq!(document.selection().len(), 2);
     let new = add(&mut document, "noise/white");
@@ -102,14 +109,14 @@ fn streams_are_selected_up_and_down() {
     let mut document = opened("", NODES_PLAIN);
     let selected = |document: &OpenDocument| document.selection().iter().map(NodeId::to_string).collect::<Vec<_>>();
     select(&mut document, &["b", "lost"]);
-    document.select_stream(true);
+    selection::select_connected(&mut document, true);
     assert_eq!(selected(&document), ["a", "b"]);
     select(&mut document, &["b"]);
-    document.select_stream(false);
+    selection::select_connected(&mut document, false);
     assert_eq!(selected(&document), ["b", "c"]);
-    document.toggle(&id("b"));
-    document.toggle(&id("d"));
-    document.toggle(&id("lost"));
+    selection::toggle(&mut document, &id("b"));
+    selection::toggle(&mut document, &id("d"));
+    selection::toggle(&mut document, &id("lost"));
     assert_eq!(selected(&document), ["c", "d"]);
 }
 
@@ -117,8 +124,8 @@ fn streams_are_selected_up_and_down() {
 fn a_group_that_holds_itself_is_entered_once() {
     let groups = r#""groups": { "a": { "nodes": { "i": { "kind": "graph/group", "group": "a" } } } },"#;
     let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "a" }"#);
-    assert!(document.enter(&id("g")));
-    assert!(!document.enter(&id("i")));
+    assert!(navigation::enter(&mut document, &id("g")));
+    assert!(!navigation::enter(&mut document, &id("i")));
     assert_eq!(
         document.take_notices(),
         ["'a' holds itself; take this instance of it away"]

@@ -1,52 +1,79 @@
-//! Instances follow their group: what it does not publish any more, nothing outside of it names either. An instance that
-//! names an input, an output or a knob that is not there would take the whole graph with it.
+//! Edits that follow from other edits: group instances keep up with what their group publishes, and frames that lose their
+//! last node are removed.
+//!
+//! An instance that named an input, an output or a knob which its group does not publish would make the whole graph
+//! impossible to evaluate.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::{
-    Body, Document, Edit, GROUP_KIND, Graph, GroupDef, GroupInput, Node, NodeId, OutputRef, SlotRef, Value,
+    Body, Document, Edit, Exposed, Frame, Graph, GroupDef, GroupInput, Node, NodeId, OutputRef, SlotRef, Value,
 };
 
-/// The graphs of a document.
-pub(super) fn bodies(document: &Document) -> Vec<(Body, &Graph)> {
-    let groups = document.groups.iter();
-    let groups = groups.map(|(name, group)| (Body::Group(name.clone()), &group.graph));
-    std::iter::once((Body::Main, &document.graph)).chain(groups).collect()
+use crate::instances::{bodies, instances, ports};
+
+/// Adds to edits of the shown graph those that follow from them.
+pub(crate) fn completed(document: &Document, shown: &Body, mut edits: Vec<Edit>) -> Vec<Edit> {
+    let removals = emptied_frames(document, shown, &edits);
+    edits.extend(removals);
+    with_instances(document, edits)
 }
 
-/// The instances of a group in a graph.
-pub(super) fn instances<'g>(graph: &'g Graph, group: &'g str) -> impl Iterator<Item = (&'g NodeId, &'g Node)> {
-    let of_group = move |node: &Node| node.kind == GROUP_KIND && node.group.as_deref() == Some(group);
-    graph.nodes().filter(move |(_, node)| of_group(node))
-}
-
-/// What a graph takes and gives as a group.
-pub(super) fn ports<'d>(
-    document: &'d Document,
-    body: &Body,
-) -> (&'d BTreeMap<String, GroupInput>, &'d BTreeMap<String, OutputRef>) {
-    let group = match body {
-        Body::Main => None,
-        Body::Group(name) => document.groups.get(name),
+/// Removals of frames of the shown graph that edits leave without a node: they would be invisible.
+fn emptied_frames(document: &Document, shown: &Body, edits: &[Edit]) -> Vec<Edit> {
+    let Ok(graph) = document.body(shown) else {
+        return Vec::new();
     };
-    match group {
-        Some(group) => (&group.inputs, &group.outputs),
-        None => (&document.inputs, &document.outputs),
+    let exists = |id: &NodeId| graph.node(id.as_str()).is_some();
+    let (mut removed, mut added) = (BTreeSet::new(), BTreeSet::new());
+    // Frames that the edits change (`Some`) or remove themselves (`None`).
+    let mut changed: BTreeMap<&String, Option<&Frame>> = BTreeMap::new();
+    for edit in edits {
+        match edit {
+            Edit::RemoveNode { body, id } if body == shown => {
+                removed.insert(id);
+            }
+            Edit::AddNode { body, id, .. } if body == shown => {
+                added.insert(id);
+            }
+            Edit::AddFrame { body, id, frame } if body == shown => {
+                changed.insert(id, Some(frame));
+            }
+            Edit::RemoveFrame { body, id } if body == shown => {
+                changed.insert(id, None);
+            }
+            _ => {}
+        }
     }
+    let stays = |id: &NodeId| added.contains(id) || (!removed.contains(id) && exists(id));
+    let held = graph
+        .frames()
+        .iter()
+        .filter(|(_, frame)| frame.nodes.iter().any(exists));
+    let emptied = held.filter(|(id, frame)| match changed.get(id) {
+        Some(None) => false,
+        Some(Some(changed)) => !changed.nodes.iter().any(stays),
+        None => !frame.nodes.iter().any(stays),
+    });
+    let remove = |id: &String| Edit::RemoveFrame {
+        body: shown.clone(),
+        id: id.clone(),
+    };
+    emptied.map(|(id, _)| remove(id)).collect()
 }
 
-/// The edits, and after them those that instances need to follow.
-pub(super) fn followed(document: &Document, mut edits: Vec<Edit>) -> Vec<Edit> {
+/// Adds the edits by which instances keep up with the groups that these edits change.
+fn with_instances(document: &Document, mut edits: Vec<Edit>) -> Vec<Edit> {
     let mut changed = changed_groups(&edits);
     if changed.is_empty() {
         return edits;
     }
     let mut after = document.clone();
     if after.apply(Edit::Batch(edits.clone())).is_err() {
-        // It is refused once more by the session, which says why.
+        // The session refuses it as well, with the reason.
         return edits;
     }
-    // What follows in a group may in turn be published by it; groups hold each other no deeper than there are some.
+    // What changes in a group may in turn be published by it; nesting is no deeper than the number of groups.
     for _ in 0..=document.groups.len() {
         let follows = following(document, &after, &changed);
         changed = changed_groups(&follows);
@@ -58,7 +85,7 @@ pub(super) fn followed(document: &Document, mut edits: Vec<Edit>) -> Vec<Edit> {
     edits
 }
 
-/// Groups that may publish something else after these edits.
+/// Groups whose inputs, outputs, knobs or variants these edits may change.
 fn changed_groups(edits: &[Edit]) -> BTreeSet<String> {
     let mut changed = BTreeSet::new();
     for edit in edits {
@@ -82,7 +109,7 @@ fn changed_groups(edits: &[Edit]) -> BTreeSet<String> {
     changed
 }
 
-/// The edits that bring everything outside of the changed groups in line with them.
+/// Edits that adapt all instances of the changed groups, and what refers to those.
 fn following(before: &Document, after: &Document, changed: &BTreeSet<String>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for name in changed {
@@ -117,7 +144,7 @@ fn following(before: &Document, after: &Document, changed: &BTreeSet<String>) ->
     edits
 }
 
-/// A group before the edits and after them. What it never published is not theirs to take away.
+/// A group before and after the edits. A name that it did not publish before was broken already and stays as it is.
 struct Change<'a> {
     was: &'a GroupDef,
     is: &'a GroupDef,
@@ -138,14 +165,14 @@ impl Change<'_> {
         was && !is
     }
 
-    /// What becomes of a wire from an instance: nothing, or it leads from another output, or (`Some(None)`) is gone.
+    /// Change of a wire from an instance: none, a wire from another output, or (`Some(None)`) its removal.
     fn output(&self, from: &OutputRef) -> Option<Option<OutputRef>> {
         let is_there = |name: &str| self.is.outputs.contains_key(name);
         match from.port.as_deref() {
             Some(port) if is_there(port) || !self.was.outputs.contains_key(port) => None,
             Some(_) => Some(None),
             None if self.is.outputs.len() == 1 || self.was.outputs.len() != 1 => None,
-            // A wire that names no output means the only one.
+            // A wire without an output name reads the only output.
             None => {
                 let only = self.was.outputs.keys().next().filter(|only| is_there(only));
                 Some(only.map(|only| OutputRef {
@@ -212,7 +239,7 @@ impl Instance<'_> {
     }
 }
 
-/// What a graph publishes of the instances in it.
+/// A graph that contains instances of a changed group, with what it publishes of them.
 struct Published<'a> {
     document: &'a Document,
     body: &'a Body,
@@ -232,7 +259,7 @@ impl Published<'_> {
             edits.push(if to.is_empty() {
                 Edit::Unexpose { body, name }
             } else {
-                let knob = sabi_graph::Exposed { to, ..knob.clone() };
+                let knob = Exposed { to, ..knob.clone() };
                 Edit::Expose { body, name, knob }
             });
         }

@@ -1,6 +1,5 @@
 //! The graph as a stack of layers.
 
-use super::super::StackEnd;
 use super::*;
 
 const NODES: &str = r#"
@@ -13,7 +12,7 @@ const NODES: &str = r#"
     "out": { "kind": "output/material", "inputs": { "material": "moss" }, "pos": [1200, 0] }"#;
 
 fn titles(document: &OpenDocument) -> Vec<String> {
-    let stacks = document.stacks();
+    let stacks = stack::all(document);
     stacks[0].layers.iter().map(|layer| layer.title.clone()).collect()
 }
 
@@ -24,7 +23,7 @@ fn end() -> StackEnd {
 #[test]
 fn the_chain_behind_an_output_is_a_list_of_layers() {
     let document = opened("", NODES);
-    let stacks = document.stacks();
+    let stacks = stack::all(&document);
     assert_eq!(
         (stacks.len(), &stacks[0].end, stacks[0].title.as_str()),
         (1, &end(), "Material output")
@@ -45,14 +44,18 @@ fn the_chain_behind_an_output_is_a_list_of_layers() {
 #[test]
 fn an_eye_and_an_opacity_are_those_of_the_node() {
     let mut document = opened("", NODES);
-    step(&mut document, |document| document.toggle_layer(&id("moss")));
-    assert!(!document.stacks()[0].layers[0].is_muted);
-    step(&mut document, |document| document.set_layer_opacity(&id("rust"), 7.0));
-    assert_eq!(document.stacks()[0].layers[1].opacity, Some(1.0));
-    let said = refused(&mut document, |document| document.set_layer_opacity(&id("dents"), 0.5));
+    step(&mut document, |document| layers::toggle(document, &id("moss")));
+    assert!(!stack::all(&document)[0].layers[0].is_muted);
+    step(&mut document, |document| {
+        layers::set_opacity(document, &id("rust"), 7.0)
+    });
+    assert_eq!(stack::all(&document)[0].layers[1].opacity, Some(1.0));
+    let said = refused(&mut document, |document| {
+        layers::set_opacity(document, &id("dents"), 0.5)
+    });
     assert_eq!(said, "'Dents' has no Opacity");
     let said = refused(&mut document, |document| {
-        document.set_layer_opacity(&id("rust"), f64::NAN)
+        layers::set_opacity(document, &id("rust"), f64::NAN)
     });
     assert_eq!(said, "an Opacity is a number");
 }
@@ -71,12 +74,12 @@ fn a_layer_is_moved_with_all_that_it_is() {
             kept.map(|input| wire(document, input))
         };
         let before = apart(&document);
-        step(&mut document, |document| document.move_layer(&end(), from, to));
+        step(&mut document, |document| layers::move_to(document, &end(), from, to));
         assert_eq!(titles(&document)[..3], now);
         assert_eq!(titles(&document)[3], "Plain material");
         assert_eq!(apart(&document), before);
         assert_eq!(document.graph().len(), 8);
-        document.move_layer(&end(), to, from);
+        layers::move_to(&mut document, &end(), to, from);
         assert_eq!(titles(&document), ["Moss", "Rust", "Dents", "Plain material"]);
         assert_eq!(evaluated(&document), evaluated(&opened("", NODES)));
     }
@@ -85,14 +88,15 @@ fn a_layer_is_moved_with_all_that_it_is() {
 #[test]
 fn what_cannot_be_moved_says_why() {
     let mut document = opened("", NODES);
-    let mut said = |from: usize, to: usize| refused(&mut document, |document| document.move_layer(&end(), from, to));
+    let mut said =
+        |from: usize, to: usize| refused(&mut document, |document| layers::move_to(document, &end(), from, to));
     let bottom = "'Plain material' is the material at the bottom; nothing can lie below it";
     assert_eq!((said(0, 3), said(3, 2)), (bottom.to_owned(), bottom.to_owned()));
     assert_eq!(said(0, 4), "there is no such layer");
     assert_eq!(said(1, 1), "");
     let lost = StackEnd::Node(id("lost"));
     assert_eq!(
-        refused(&mut document, |document| document.move_layer(&lost, 0, 1)),
+        refused(&mut document, |document| layers::move_to(document, &lost, 0, 1)),
         "the output of this stack is gone"
     );
     let shared = NODES.replace("\"n.id\"", "\"split\"")
@@ -101,18 +105,21 @@ fn what_cannot_be_moved_says_why() {
         "",
         &shared.replace("\"split\" }, \"params\"", "\"split.roughness\" }, \"params\""),
     );
-    assert!(!document.stacks()[0].is_plain());
-    assert_eq!(document.stacks()[0].layers[2].also_read_by, [id("split")]);
+    assert!(!stack::all(&document)[0].is_plain());
+    assert_eq!(stack::all(&document)[0].layers[2].also_read_by, [id("split")]);
     let why = "'Dents' is also read by 'Split material', which would change too; use the canvas";
     let said = |document: &mut OpenDocument, from: usize, to: usize| {
-        refused(document, |document| document.move_layer(&end(), from, to))
+        refused(document, |document| layers::move_to(document, &end(), from, to))
     };
     assert_eq!(
         (said(&mut document, 2, 1), said(&mut document, 0, 2)),
         (why.to_owned(), why.to_owned())
     );
-    assert_eq!(refused(&mut document, |document| document.remove_layer(&end(), 2)), why);
-    step(&mut document, |document| document.move_layer(&end(), 0, 1));
+    assert_eq!(
+        refused(&mut document, |document| layers::remove(document, &end(), 2)),
+        why
+    );
+    step(&mut document, |document| layers::move_to(document, &end(), 0, 1));
     assert_eq!(titles(&document)[..2], ["Rust", "Moss"]);
 }
 
@@ -120,14 +127,16 @@ fn what_cannot_be_moved_says_why() {
 fn a_bend_that_others_read_too_keeps_its_layers_in_place() {
     let nodes = format!(r#"{NODES}, "two": {{ "kind": "output/material", "inputs": {{ "material": "bend" }} }}"#);
     let mut document = opened("", &nodes);
-    assert_eq!(document.stacks().len(), 2);
-    assert!(!document.stacks()[0].is_plain());
-    let said = refused(&mut document, |document| document.move_layer(&end(), 1, 2));
+    assert_eq!(stack::all(&document).len(), 2);
+    assert!(!stack::all(&document)[0].is_plain());
+    let said = refused(&mut document, |document| layers::move_to(document, &end(), 1, 2));
     assert_eq!(
         said,
         "a bend between these layers is also read by others, which would change too; use the canvas"
     );
-    let said = refused(&mut document, |document| document.add_layer(&end(), 2, "effect/layer"));
+    let said = refused(&mut document, |document| {
+        layers::add(document, &end(), 2, "effect/layer")
+    });
     assert_eq!(
         said,
         "a bend there is also read by others, which would change too; use the canvas"
@@ -137,15 +146,15 @@ fn a_bend_that_others_read_too_keeps_its_layers_in_place() {
 #[test]
 fn a_layer_is_removed_as_if_it_were_mute() {
     let mut document = opened("", NODES);
-    step(&mut document, |document| document.remove_layer(&end(), 1));
+    step(&mut document, |document| layers::remove(document, &end(), 1));
     assert_eq!(titles(&document), ["Moss", "Dents", "Plain material"]);
-    step(&mut document, |document| document.remove_layer(&end(), 2));
+    step(&mut document, |document| layers::remove(document, &end(), 2));
     assert_eq!(titles(&document), ["Moss", "Dents"]);
     assert_eq!(
-        refused(&mut document, |document| document.remove_layer(&end(), 9)),
+        refused(&mut document, |document| layers::remove(document, &end(), 9)),
         "there is no such layer"
     );
-    step(&mut document, |document| document.move_layer(&end(), 0, 1));
+    step(&mut document, |document| layers::move_to(document, &end(), 0, 1));
     assert_eq!(
         titles(&document),
         ["Dents", "Moss"],
@@ -157,7 +166,7 @@ fn a_layer_is_removed_as_if_it_were_mute() {
 fn a_layer_is_added_above_another() {
     let mut document = opened("", NODES);
     let add_ = |document: &mut OpenDocument, at: usize, kind: &str| {
-        step(document, |document| document.add_layer(&end(), at, kind)).expect("a layer")
+        step(document, |document| layers::add(document, &end(), at, kind)).expect("a layer")
     };
     let top = add_(&mut document, 0, "effect/layer");
     assert_eq!(wire(&document, "out.material"), top.as_str());
@@ -174,7 +183,7 @@ fn a_layer_is_added_above_another() {
         titles(&document),
         ["Layer", "Moss", "Rust", "Dents", "Adjust material", "Plain material"]
     );
-    let mut said = |at: usize, kind: &str| refused(&mut document, |document| document.add_layer(&end(), at, kind));
+    let mut said = |at: usize, kind: &str| refused(&mut document, |document| layers::add(document, &end(), at, kind));
     assert_eq!(
         said(6, "effect/layer"),
         "nothing can lie below the material at the bottom"
@@ -186,9 +195,11 @@ fn a_layer_is_added_above_another() {
     );
     assert_eq!(said(0, "lost/kind"), "there is no node kind 'lost/kind'");
     let mut document = opened("", r#""out": { "kind": "output/material" }"#);
-    step(&mut document, |document| document.add_layer(&end(), 0, "effect/relief"));
     step(&mut document, |document| {
-        document.add_layer(&end(), 1, "source/material")
+        layers::add(document, &end(), 0, "effect/relief")
+    });
+    step(&mut document, |document| {
+        layers::add(document, &end(), 1, "source/material")
     });
     assert_eq!(titles(&document), ["Relief", "Plain material"]);
 }
@@ -202,27 +213,27 @@ fn inside_a_group_its_material_outputs_are_stacks() {
         "out": { "kind": "output/material", "inputs": { "material": "g" } }"#;
     let mut document = opened(groups, nodes);
     assert_eq!(titles(&document), ["g", "Plain material"]);
-    document.enter(&id("g"));
+    navigation::enter(&mut document, &id("g"));
     let end = StackEnd::Port("material".to_owned());
-    assert_eq!(document.stacks()[0].end, end);
-    step(&mut document, |document| document.move_layer(&end, 0, 1));
+    assert_eq!(stack::all(&document)[0].end, end);
+    step(&mut document, |document| layers::move_to(document, &end, 0, 1));
     assert_eq!(titles(&document), ["Mid", "Top", "Low"]);
-    let said = refused(&mut document, |document| document.move_layer(&end, 1, 2));
+    let said = refused(&mut document, |document| layers::move_to(document, &end, 1, 2));
     assert_eq!(
         said,
         "'Low' lies on what comes in through the group's input 'under'; nothing can come between"
     );
-    let said = refused(&mut document, |document| document.add_layer(&end, 3, "effect/layer"));
+    let said = refused(&mut document, |document| layers::add(document, &end, 3, "effect/layer"));
     assert_eq!(
         said,
         "what comes in through the group's input 'under' would go past the layer; use the canvas"
     );
-    step(&mut document, |document| document.add_layer(&end, 0, "effect/layer"));
-    step(&mut document, |document| document.remove_layer(&end, 1));
+    step(&mut document, |document| layers::add(document, &end, 0, "effect/layer"));
+    step(&mut document, |document| layers::remove(document, &end, 1));
     assert_eq!(titles(&document), ["Layer", "Top", "Low"]);
-    step(&mut document, |document| document.remove_layer(&end, 2));
+    step(&mut document, |document| layers::remove(document, &end, 2));
     assert_eq!(
-        document.group_inputs()["under"].to.len(),
+        ports::inputs(&document)["under"].to.len(),
         1,
         "what came in goes on to the next layer"
     );

@@ -1,7 +1,5 @@
 //! Where nodes stand.
 
-use super::super::Align;
-use super::super::arrangement::{GRID, NODE_WIDTH, input_row, output_row};
 use super::*;
 
 const NODES: &str = r#"
@@ -20,17 +18,17 @@ fn nodes_are_brought_in_line() {
     let mut document = opened("", NODES);
     select(&mut document, &["n", "w", "m"]);
     let all = |document: &OpenDocument| ["n", "w", "m"].map(|id| pos(document, id));
-    step(&mut document, |document| document.align(Align::Left));
+    step(&mut document, |document| arrangement::align(document, Align::Left));
     assert_eq!(all(&document), [[-30.0, 400.0], [-30.0, 90.0], [-30.0, 0.0]]);
     document.undo();
-    step(&mut document, |document| document.align(Align::Right));
+    step(&mut document, |document| arrangement::align(document, Align::Right));
     assert_eq!(all(&document).map(|pos| pos[0]), [250.0; 3]);
     document.undo();
-    step(&mut document, |document| document.align(Align::Top));
+    step(&mut document, |document| arrangement::align(document, Align::Top));
     assert_eq!(all(&document).map(|pos| pos[1]), [0.0; 3]);
     document.undo();
-    step(&mut document, |document| document.align(Align::Bottom));
-    let ends = ["n", "w", "m"].map(|name| pos(&document, name)[1] + document.size(&id(name))[1]);
+    step(&mut document, |document| arrangement::align(document, Align::Bottom));
+    let ends = ["n", "w", "m"].map(|name| pos(&document, name)[1] + node_size::of(&document, &id(name))[1]);
     assert!(ends.iter().all(|end| (end - ends[0]).abs() < 1e-3), "{ends:?}");
     assert_eq!(pos(&document, "out"), [0.0, 0.0], "what is not selected stays");
 }
@@ -38,7 +36,7 @@ fn nodes_are_brought_in_line() {
 /// How far the ends of a wire are from each other, up and down.
 fn slant(document: &OpenDocument, input: &str) -> f32 {
     let input = to(input);
-    let wire = document.wire_into(&input).expect("a wire");
+    let wire = connections::wire_into(document, &input).expect("a wire");
     let [reader, source] = [&input.node, &wire.node].map(|id| document.face(id).expect("a face"));
     let row = reader
         .inputs
@@ -58,8 +56,8 @@ fn slant(document: &OpenDocument, input: &str) -> f32 {
 #[test]
 fn wires_among_straightened_nodes_run_level() {
     let mut document = opened("", NODES);
-    document.select_all();
-    step(&mut document, OpenDocument::straighten);
+    selection::select_all(&mut document);
+    step(&mut document, arrangement::straighten);
     // Each node is level with the first that it reads.
     for input in ["m.below", "layer.base", "out.material"] {
         assert!(
@@ -71,14 +69,14 @@ fn wires_among_straightened_nodes_run_level() {
     assert_eq!(["n", "w", "base"].map(|id| pos(&document, id)[1]), [400.0, 90.0, 0.0]);
     let before = pos(&document, "m");
     select(&mut document, &["m"]);
-    refused(&mut document, OpenDocument::straighten);
+    refused(&mut document, arrangement::straighten);
     assert_eq!(pos(&document, "m"), before, "alone it is level with nothing");
 }
 
 #[test]
 fn a_layout_reads_from_left_to_right_without_overlaps_and_is_the_same_again() {
     let mut document = opened("", NODES);
-    step(&mut document, OpenDocument::lay_out);
+    step(&mut document, arrangement::lay_out);
     let ids: Vec<NodeId> = document.graph().ids().cloned().collect();
     for one in &ids {
         let node = document.node(one).expect("a node");
@@ -89,14 +87,14 @@ fn a_layout_reads_from_left_to_right_without_overlaps_and_is_the_same_again() {
         for other in ids.iter().filter(|other| *other != one) {
             let [[x, y], [other_x, other_y]] = [one, other].map(|id| pos(&document, id.as_str()));
             let is_apart = (x - other_x).abs() >= NODE_WIDTH
-                || y + document.size(one)[1] <= other_y
-                || other_y + document.size(other)[1] <= y;
+                || y + node_size::of(&document, one)[1] <= other_y
+                || other_y + node_size::of(&document, other)[1] <= y;
             assert!(is_apart, "{one} and {other}");
         }
         assert!(pos(&document, one.as_str()).iter().all(|at| at % GRID == 0.0));
     }
-    refused(&mut document, OpenDocument::lay_out);
-    assert!(!super::document().lay_out(), "nothing is laid out");
+    refused(&mut document, arrangement::lay_out);
+    assert!(!arrangement::lay_out(&mut super::document()), "nothing is laid out");
 }
 
 #[test]
@@ -105,10 +103,10 @@ fn frames_are_laid_out_whole_and_apart_unless_they_read_each_other_in_turn() {
         let mut document = opened("", NODES);
         for ids in frames {
             select(&mut document, &ids);
-            step(&mut document, OpenDocument::frame);
+            step(&mut document, frames::add);
         }
         document.select([]);
-        step(&mut document, OpenDocument::lay_out);
+        step(&mut document, arrangement::lay_out);
         let ends = |ids: [&str; 2]| {
             let lefts = ids.map(|id| pos(&document, id)[0]);
             [lefts[0].min(lefts[1]), lefts[0].max(lefts[1]) + NODE_WIDTH]
@@ -125,7 +123,7 @@ fn frames_are_laid_out_whole_and_apart_unless_they_read_each_other_in_turn() {
 fn only_what_is_selected_is_laid_out() {
     let mut document = opened("", NODES);
     select(&mut document, &["base", "layer"]);
-    step(&mut document, OpenDocument::lay_out);
+    step(&mut document, arrangement::lay_out);
     assert_eq!(pos(&document, "n"), [10.0, 400.0]);
     assert!(pos(&document, "base")[0] + NODE_WIDTH < pos(&document, "layer")[0]);
 }
@@ -134,7 +132,7 @@ fn only_what_is_selected_is_laid_out() {
 fn a_drag_is_one_step_and_only_of_what_moves() {
     let mut document = opened("", NODES);
     select(&mut document, &["n", "w"]);
-    let begin = document.places();
+    let begin = arrangement::selected_positions(&document);
     step(&mut document, |document| {
         document.session.begin("Move");
         for way in 1..20u8 {
@@ -142,14 +140,18 @@ fn a_drag_is_one_step_and_only_of_what_moves() {
                 .iter()
                 .map(|(id, pos)| (id.clone(), [pos[0] + f32::from(way), pos[1]]));
             let shifted = shifted.collect();
-            document.move_to("Move", shifted);
+            arrangement::move_nodes(document, "Move", shifted);
         }
         document.session.end();
     });
     assert_eq!(pos(&document, "n"), [29.0, 400.0]);
-    let places = document.places();
-    refused(&mut document, |document| document.move_to("Move", places));
+    let places = arrangement::selected_positions(&document);
+    refused(&mut document, |document| {
+        arrangement::move_nodes(document, "Move", places)
+    });
     let nowhere = [(id("n"), [f32::INFINITY, 0.0])].into();
-    let said = refused(&mut document, |document| document.move_to("Move", nowhere));
+    let said = refused(&mut document, |document| {
+        arrangement::move_nodes(document, "Move", nowhere)
+    });
     assert_eq!(said, "a node can only stand at a finite place on the canvas");
 }

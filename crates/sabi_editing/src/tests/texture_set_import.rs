@@ -11,7 +11,7 @@ fn files(names: &[&str]) -> Vec<PathBuf> {
 /// What a channel of the selected material reads: the kind, the file or the node behind it, and the output.
 fn reads(document: &OpenDocument, channel: &str) -> Option<(String, Option<String>)> {
     let material = document.selected_one()?;
-    let from = document.wire_into(&slot(material, channel))?;
+    let from = connections::wire_into(document, &slot(material, channel))?;
     Some((document.node(&from.node)?.kind.clone(), from.port.clone()))
 }
 
@@ -27,7 +27,11 @@ fn a_texture_set_becomes_a_material_in_one_step() {
         "Bricks001_2K_Displacement.png",
         "Bricks001.png",
     ]);
-    assert!(step(&mut document, |document| document.add_texture_sets(&set, [100.0, 40.0])));
+    assert!(step(&mut document, |document| texture_sets::add(
+        document,
+        &set,
+        [100.0, 40.0]
+    )));
     let image = |port: Option<&str>| Some(("source/image".to_owned(), port.map(str::to_owned)));
     assert_eq!(reads(&document, "base_color"), image(None));
     assert_eq!(reads(&document, "roughness"), image(Some("mask")));
@@ -37,8 +41,7 @@ fn a_texture_set_becomes_a_material_in_one_step() {
     assert_eq!(reads(&document, "metallic"), None);
     let material = document.selected_one().cloned().expect("the material");
     assert_eq!(document.title(&material), "Bricks001");
-    let slope = document
-        .wire_into(&slot(&material, "slope"))
+    let slope = connections::wire_into(&document, &slot(&material, "slope"))
         .cloned()
         .expect("a normal map");
     let file = param(&document, slope.node.as_str(), "file");
@@ -54,10 +57,9 @@ fn a_texture_set_becomes_a_material_in_one_step() {
 #[test]
 fn a_normal_map_of_direct_x_is_read_as_such() {
     let mut document = opened("", "");
-    document.add_texture_sets(&files(&["wall_nor_dx_1k.png"]), [0.0; 2]);
+    texture_sets::add(&mut document, &files(&["wall_nor_dx_1k.png"]), [0.0; 2]);
     let material = document.selected_one().cloned().expect("the material");
-    let slope = document
-        .wire_into(&slot(&material, "slope"))
+    let slope = connections::wire_into(&document, &slot(&material, "slope"))
         .cloned()
         .expect("a normal map");
     assert_eq!(
@@ -76,12 +78,12 @@ fn each_set_of_a_folder_is_a_material_and_none_lies_over_another() {
         "floor_ao.png",
         "floor_disp.png",
     ]);
-    step(&mut document, |document| document.add_texture_sets(&sets, [0.0; 2]));
+    step(&mut document, |document| texture_sets::add(document, &sets, [0.0; 2]));
     assert_eq!(document.selection().len(), 2);
     let placed: Vec<([f32; 2], f32)> = document
         .graph()
         .nodes()
-        .map(|(id, node)| (node.pos, document.size(id)[1]))
+        .map(|(id, node)| (node.pos, node_size::of(&document, id)[1]))
         .collect();
     for (at, (one, height)) in placed.iter().enumerate() {
         for (other, _) in placed[at + 1..].iter().filter(|(other, _)| other[0] == one[0]) {
@@ -95,13 +97,17 @@ fn each_set_of_a_folder_is_a_material_and_none_lies_over_another() {
 fn pictures_that_are_no_maps_and_packed_ones_are_told() {
     let mut document = opened("", "");
     let said = refused(&mut document, |document| {
-        document.add_texture_sets(&files(&["cat.png", "dog.jpg"]), [0.0; 2])
+        texture_sets::add(document, &files(&["cat.png", "dog.jpg"]), [0.0; 2])
     });
     assert_eq!(
         said,
         "none of these 2 files is named as a map of a texture set, as bricks_color.png or bricks_nor_gl.png are"
     );
-    document.add_texture_sets(&files(&["wall_arm_2k.png", "wall_diff_2k.png"]), [0.0; 2]);
+    texture_sets::add(
+        &mut document,
+        &files(&["wall_arm_2k.png", "wall_diff_2k.png"]),
+        [0.0; 2],
+    );
     assert_eq!(
         document.take_notices(),
         ["wall_arm_2k.png holds several channels in one picture and is left out; use a file for each"]

@@ -7,10 +7,10 @@ use super::*;
 #[test]
 fn a_frame_stands_around_the_selected_nodes_and_goes_without_them() {
     let mut document = opened("", r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#);
-    document.select_all();
-    step(&mut document, OpenDocument::frame);
+    selection::select_all(&mut document);
+    step(&mut document, frames::add);
     select(&mut document, &["b"]);
-    step(&mut document, OpenDocument::frame);
+    step(&mut document, frames::add);
     let frames: Vec<String> = document.graph().frames().keys().cloned().collect();
     let colors: Vec<_> = document
         .graph()
@@ -26,15 +26,15 @@ fn a_frame_stands_around_the_selected_nodes_and_goes_without_them() {
         .iter()
         .find(|(_, frame)| frame.nodes.len() == 2);
     let both = both.map(|(name, _)| name.clone()).expect("the first frame");
-    document.select_frame(&both);
+    frames::select(&mut document, &both);
     assert_eq!(document.selection().len(), 2);
-    step(&mut document, |document| document.remove_frame(&both));
+    step(&mut document, |document| frames::remove(document, &both));
     assert_eq!(document.graph().len(), 2);
-    let said = refused(&mut document, |document| document.remove_frame(&both));
+    let said = refused(&mut document, |document| frames::remove(document, &both));
     assert!(said.starts_with("there is no frame"), "{said}");
     assert_eq!(
-        OpenDocument::next_color(Some("#123456")),
-        OpenDocument::next_color(None),
+        frames::next_color(Some("#123456")),
+        frames::next_color(None),
         "a color of one's own begins the row"
     );
 }
@@ -53,10 +53,10 @@ fn a_node_is_in_one_frame_at_a_time_where_it_is_put_into_one() {
     let expected =
         |nodes: &[&str]| BTreeMap::from([("g".to_owned(), nodes.iter().map(|id| (*id).to_owned()).collect())]);
     let a = [id("a")].into();
-    step(&mut document, |document| document.put_into_frame(&a, Some("g")));
+    step(&mut document, |document| frames::assign(document, &a, Some("g")));
     assert_eq!(nodes(&document), expected(&["b", "a"]), "an empty frame goes");
-    refused(&mut document, |document| document.put_into_frame(&a, Some("g")));
-    step(&mut document, |document| document.put_into_frame(&a, None));
+    refused(&mut document, |document| frames::assign(document, &a, Some("g")));
+    step(&mut document, |document| frames::assign(document, &a, None));
     assert_eq!(nodes(&document), expected(&["b"]));
 }
 
@@ -67,10 +67,10 @@ fn a_frame_goes_with_its_last_node_and_comes_back_with_it() {
         r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }, "c": { "kind": "noise/white" }"#,
     );
     select(&mut document, &["a"]);
-    step(&mut document, |document| document.delete(false));
+    step(&mut document, |document| nodes::delete(document, false));
     assert!(document.graph().frames().contains_key("f"), "it holds another node");
     select(&mut document, &["b"]);
-    step(&mut document, |document| document.delete(false));
+    step(&mut document, |document| nodes::delete(document, false));
     assert!(document.graph().frames().is_empty());
     document.undo();
     assert!(document.graph().frames().contains_key("f"));

@@ -11,7 +11,9 @@ fn wires_knobs_names_frames_and_the_panel_turn_to_the_new_node() {
            "levels": { "kind": "adjust/levels", "inputs": { "source": "n" } },
            "out": { "kind": "output/mask", "inputs": { "source": "levels" } }"#,
     );
-    step(&mut document, |document| document.replace(&id("n"), "noise/cells"));
+    step(&mut document, |document| {
+        node_replacement::by_kind(document, &id("n"), "noise/cells")
+    });
     let new = document.selected_one().cloned().expect("the new node");
     assert!(document.node(&id("n")).is_none() && new.as_str().starts_with("cells_"));
     assert_eq!(document.title(&new), "Dust");
@@ -20,7 +22,7 @@ fn wires_knobs_names_frames_and_the_panel_turn_to_the_new_node() {
     assert_eq!(wire(&document, "levels.source"), new.as_str());
     assert_eq!(document.graph().exposed()["wear"].to, [slot(&new, "size")]);
     assert_eq!(document.graph().frames()["f"].nodes, [new.clone(), id("levels")]);
-    assert_eq!(document.group_outputs()["mask"], out(&new));
+    assert_eq!(ports::outputs(&document)["mask"], out(&new));
 }
 
 #[test]
@@ -30,13 +32,17 @@ fn wires_go_to_inputs_of_their_name_before_others_that_fit() {
         "blend": { "kind": "material/blend", "inputs": { "above": "c", "below": "d", "mask": "a" } },
         "out": { "kind": "output/material", "inputs": { "material": "blend" } }"#;
     let mut document = opened("", nodes);
-    step(&mut document, |document| document.replace(&id("blend"), "effect/layer"));
+    step(&mut document, |document| {
+        node_replacement::by_kind(document, &id("blend"), "effect/layer")
+    });
     let layer = document.selected_one().cloned().expect("the new node");
     let wires = ["base", "mask", "color_map"].map(|input| wire(&document, &format!("{layer}.{input}")));
     assert_eq!(wires, ["d", "a", ""], "the material below comes first");
     assert_eq!(wire(&document, "out.material"), layer.as_str());
     // Nothing fits a mask there, and no material comes out.
-    step(&mut document, |document| document.replace(&layer, "noise/simplex"));
+    step(&mut document, |document| {
+        node_replacement::by_kind(document, &layer, "noise/simplex")
+    });
     assert_eq!(wire(&document, "out.material"), "");
 }
 
@@ -46,7 +52,9 @@ fn a_value_that_the_new_kind_does_not_take_is_left_behind() {
         "",
         r#""n": { "kind": "noise/simplex", "params": { "size": 1e30, "stretch": [1, 2, 3], "mode": "ridged" } }"#,
     );
-    step(&mut document, |document| document.replace(&id("n"), "noise/cells"));
+    step(&mut document, |document| {
+        node_replacement::by_kind(document, &id("n"), "noise/cells")
+    });
     let new = document.selected_one().cloned().expect("the new node");
     let values = ["size", "mode"].map(|name| param(&document, new.as_str(), name));
     assert_eq!(values, [None, None]);
@@ -63,15 +71,15 @@ fn a_node_in_a_group_is_replaced_with_what_feeds_it() {
            "g": { "kind": "graph/group", "group": "wear", "inputs": { "where": "n" }, "params": { "low": 0.5 } },
            "out": { "kind": "output/mask", "inputs": { "source": "g" } }"#,
     );
-    document.enter(&id("g"));
+    navigation::enter(&mut document, &id("g"));
     step(&mut document, |document| {
-        document.replace(&id("levels"), "adjust/invert")
+        node_replacement::by_kind(document, &id("levels"), "adjust/invert")
     });
     let new = document.selected_one().cloned().expect("the new node");
-    assert_eq!(document.group_inputs()["where"].to, [slot(&new, "source")]);
-    assert_eq!(document.group_outputs()["mask"], out(&new));
+    assert_eq!(ports::inputs(&document)["where"].to, [slot(&new, "source")]);
+    assert_eq!(ports::outputs(&document)["mask"], out(&new));
     // The new kind has no such knob: the instance must not set what is not there.
-    document.leave();
+    navigation::leave(&mut document);
     assert_eq!(param(&document, "g", "low"), None);
     flat(&document);
 }
@@ -79,9 +87,13 @@ fn a_node_in_a_group_is_replaced_with_what_feeds_it() {
 #[test]
 fn what_cannot_be_replaced_is_told() {
     let mut document = opened("", r#""n": { "kind": "noise/simplex" }"#);
-    let said = refused(&mut document, |document| document.replace(&id("n"), "noise/simplex"));
+    let said = refused(&mut document, |document| {
+        node_replacement::by_kind(document, &id("n"), "noise/simplex")
+    });
     assert_eq!(said, "this is a node of kind 'Clouds' already");
-    let said = refused(&mut document, |document| document.replace(&id("n"), "noise/nothing"));
+    let said = refused(&mut document, |document| {
+        node_replacement::by_kind(document, &id("n"), "noise/nothing")
+    });
     assert_eq!(said, "there is no node kind 'noise/nothing'");
 }
 
@@ -92,7 +104,9 @@ fn a_node_of_no_known_kind_can_be_replaced() {
         r#""a": { "kind": "noise/white" }, "n": { "kind": "magic/wand", "inputs": { "wood": "a" } },
            "l": { "kind": "adjust/levels", "inputs": { "source": "n" } }"#,
     );
-    step(&mut document, |document| document.replace(&id("n"), "adjust/invert"));
+    step(&mut document, |document| {
+        node_replacement::by_kind(document, &id("n"), "adjust/invert")
+    });
     let new = document.selected_one().cloned().expect("the new node");
     assert_eq!(wire(&document, &format!("{new}.source")), "a");
     assert_eq!(wire(&document, "l.source"), new.as_str());
@@ -109,15 +123,22 @@ fn an_instance_of_a_group_takes_the_place_of_a_node_and_of_another_instance() {
         "out": { "kind": "output/mask", "inputs": { "source": "x" } }"#;
     let mut document = opened(groups, nodes);
     for (group, output) in [("One", "mask"), ("Two", "other")] {
-        let before = document.wire_into(&to("out.source")).expect("a wire").node.clone();
-        assert!(step(&mut document, |document| document.replace_by_group(&before, group)));
+        let before = connections::wire_into(&document, &to("out.source"))
+            .expect("a wire")
+            .node
+            .clone();
+        assert!(step(&mut document, |document| node_replacement::by_group(
+            document, &before, group
+        )));
         let now = document.selected_one().cloned().expect("the instance");
         assert_eq!(wire(&document, &format!("{now}.source")), "a");
         assert_eq!(wire(&document, "out.source"), format!("{now}.{output}"));
         assert_eq!(document.node(&now).map(|node| node.pos), Some([30.0, 40.0]));
     }
     let now = document.selected_one().cloned().expect("the instance");
-    let said = refused(&mut document, |document| document.replace_by_group(&now, "Two"));
+    let said = refused(&mut document, |document| {
+        node_replacement::by_group(document, &now, "Two")
+    });
     assert!(said.starts_with("this is a node of kind"), "{said}");
     flat(&document);
 }

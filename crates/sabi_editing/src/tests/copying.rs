@@ -11,7 +11,7 @@ const NODES: &str = r#"
 fn a_duplicate_keeps_seeds_and_wires_among_the_copies() {
     let mut document = opened(r#""frames": { "f": { "title": "Both", "nodes": ["l", "n"] } },"#, NODES);
     select(&mut document, &["n", "l"]);
-    step(&mut document, |document| document.duplicate(false));
+    step(&mut document, |document| duplication::duplicate(document, false));
     let copies: Vec<NodeId> = document.selection().iter().cloned().collect();
     let [levels, noise] = copies.as_slice() else {
         panic!("{copies:?}")
@@ -32,11 +32,11 @@ fn a_duplicate_keeps_seeds_and_wires_among_the_copies() {
 fn a_duplicate_reads_what_was_read_only_if_it_is_asked_to() {
     let mut document = opened("", NODES);
     select(&mut document, &["l"]);
-    step(&mut document, |document| document.duplicate(true));
+    step(&mut document, |document| duplication::duplicate(document, true));
     let copy = document.selected_one().cloned().expect("one copy");
     assert_eq!(wire(&document, &format!("{copy}.source")), "n");
     select(&mut document, &["l"]);
-    step(&mut document, |document| document.duplicate(false));
+    step(&mut document, |document| duplication::duplicate(document, false));
     let copy = document.selected_one().cloned().expect("one copy");
     assert_eq!(wire(&document, &format!("{copy}.source")), "");
 }
@@ -48,20 +48,20 @@ fn a_copy_is_the_text_of_a_graph_file() {
         NODES,
     );
     select(&mut document, &["n", "l"]);
-    let text = document.copied().expect("two nodes");
+    let text = clipboard::copy(&document).expect("two nodes");
     let copy = Document::from_json(&text).expect("a graph file");
     assert_eq!(copy.to_json(), text);
     assert_eq!(copy.graph.ids().map(NodeId::as_str).collect::<Vec<_>>(), ["l", "n"]);
     assert_eq!(copy.graph.frames().keys().collect::<Vec<_>>(), ["f"]);
     let mut other = self::document();
-    step(&mut other, |document| document.paste(&text, [100.0, 50.0]));
+    step(&mut other, |document| clipboard::paste(document, &text, [100.0, 50.0]));
     assert_eq!(other.selection().len(), 2);
     let mut places: Vec<[f32; 2]> = other.graph().nodes().map(|(_, node)| node.pos).collect();
     places.sort_by(|one, two| one[0].total_cmp(&two[0]));
     assert_eq!(places, [[100.0, 50.0], [400.0, 50.0]]);
     assert_eq!(other.graph().frames().len(), 1);
     // Once more, beside the first.
-    step(&mut other, |document| document.paste(&text, [0.0; 2]));
+    step(&mut other, |document| clipboard::paste(document, &text, [0.0; 2]));
     assert_eq!((other.graph().len(), other.graph().frames().len()), (4, 2));
 }
 
@@ -69,7 +69,7 @@ fn a_copy_is_the_text_of_a_graph_file() {
 fn cutting_copies_and_deletes() {
     let mut document = opened("", NODES);
     select(&mut document, &["l"]);
-    let text = step(&mut document, OpenDocument::cut_out).expect("a node");
+    let text = step(&mut document, clipboard::cut).expect("a node");
     assert!(text.contains("adjust/levels") && document.node(&id("l")).is_none());
 }
 
@@ -83,15 +83,17 @@ fn what_is_no_graph_is_not_pasted() {
         "[1, 2",
         r#"{ "format": "sabi", "version": 99, "nodes": {} }"#,
     ] {
-        let said = refused(&mut document, |document| document.paste(text, [0.0; 2]));
+        let said = refused(&mut document, |document| clipboard::paste(document, text, [0.0; 2]));
         assert_eq!(said, "the clipboard holds no nodes; copy some first", "{text}");
     }
     let empty = Document::new("").to_json();
-    let said = refused(&mut document, |document| document.paste(&empty, [0.0; 2]));
+    let said = refused(&mut document, |document| clipboard::paste(document, &empty, [0.0; 2]));
     assert_eq!(said, "the clipboard holds a graph without nodes");
     select(&mut document, &["n"]);
-    let text = document.copied().expect("a node");
-    let said = refused(&mut document, |document| document.paste(&text, [f32::NAN, 0.0]));
+    let text = clipboard::copy(&document).expect("a node");
+    let said = refused(&mut document, |document| {
+        clipboard::paste(document, &text, [f32::NAN, 0.0])
+    });
     assert_eq!(said, "a node can only stand at a finite place on the canvas");
 }
 
@@ -118,33 +120,33 @@ fn group_names(document: &OpenDocument) -> Vec<&str> {
 #[test]
 fn groups_come_along_and_are_used_where_they_are_the_same() {
     let mut source = nested(0.5);
-    source.select_all();
-    let text = source.copied().expect("nodes");
+    selection::select_all(&mut source);
+    let text = clipboard::copy(&source).expect("nodes");
     assert!(!text.contains("unused"), "only what is needed");
     let mut target = document();
-    step(&mut target, |document| document.paste(&text, [0.0; 2]));
+    step(&mut target, |document| clipboard::paste(document, &text, [0.0; 2]));
     assert_eq!(group_names(&target), ["inner", "outer"]);
     for name in ["inner", "outer"] {
         assert_eq!(target.contents().groups[name], source.contents().groups[name]);
     }
     assert_eq!(evaluated(&target), evaluated(&source));
-    step(&mut target, |document| document.paste(&text, [0.0; 2]));
+    step(&mut target, |document| clipboard::paste(document, &text, [0.0; 2]));
     assert_eq!(group_names(&target), ["inner", "outer"], "used once more");
 }
 
 #[test]
 fn a_group_that_only_has_the_same_name_comes_under_another_once() {
     let mut source = nested(0.5);
-    source.select_all();
-    let text = source.copied().expect("nodes");
+    selection::select_all(&mut source);
+    let text = clipboard::copy(&source).expect("nodes");
     let mut target = nested(0.25);
-    step(&mut target, |document| document.paste(&text, [0.0; 2]));
+    step(&mut target, |document| clipboard::paste(document, &text, [0.0; 2]));
     let names = ["inner", "inner 2", "outer", "outer 2", "unused"];
     assert_eq!(group_names(&target), names, "the outer one holds another inner one");
     let mut both = [evaluated(&source), evaluated(&nested(0.25))].concat();
     both.sort_unstable();
     assert_eq!(evaluated(&target), both);
-    step(&mut target, |document| document.paste(&text, [0.0; 2]));
+    step(&mut target, |document| clipboard::paste(document, &text, [0.0; 2]));
     assert_eq!(group_names(&target), names, "what was brought is there now");
 }
 
@@ -163,11 +165,11 @@ fn names_that_two_groups_of_the_clipboard_would_take_stay_apart() {
     };
     let nodes = r#""one": { "kind": "graph/group", "group": "a" }, "two": { "kind": "graph/group", "group": "a 2" }"#;
     let mut source = opened(&groups(0.5), nodes);
-    source.select_all();
-    let text = source.copied().expect("nodes");
+    selection::select_all(&mut source);
+    let text = clipboard::copy(&source).expect("nodes");
     let only_first = groups(0.25).replace("a 2", "b");
     let mut target = opened(&only_first, r#""x": { "kind": "graph/group", "group": "a" }"#);
-    step(&mut target, |document| document.paste(&text, [0.0; 2]));
+    step(&mut target, |document| clipboard::paste(document, &text, [0.0; 2]));
     assert_eq!(group_names(&target), ["a", "a 2", "a 2 2", "b"]);
 }
 
@@ -175,28 +177,28 @@ fn names_that_two_groups_of_the_clipboard_would_take_stay_apart() {
 fn a_group_is_not_put_inside_itself() {
     let mut document = nested(0.5);
     select(&mut document, &["g"]);
-    let text = document.copied().expect("an instance");
-    document.enter(&id("g"));
-    let said = refused(&mut document, |document| document.paste(&text, [0.0; 2]));
+    let text = clipboard::copy(&document).expect("an instance");
+    navigation::enter(&mut document, &id("g"));
+    let said = refused(&mut document, |document| clipboard::paste(document, &text, [0.0; 2]));
     assert_eq!(
         said,
         "'outer' holds 'outer', which is open here; a group cannot be inside itself"
     );
-    document.enter(&id("i"));
-    let said = refused(&mut document, |document| document.paste(&text, [0.0; 2]));
+    navigation::enter(&mut document, &id("i"));
+    let said = refused(&mut document, |document| clipboard::paste(document, &text, [0.0; 2]));
     assert_eq!(
         said,
         "'outer' holds 'inner', which is open here; a group cannot be inside itself"
     );
     let said = refused(&mut document, |document| {
-        document.add_group_instance("outer", [0.0; 2], None)
+        nodes::add_instance(document, "outer", [0.0; 2], None)
     });
     assert_eq!(
         said,
         "'outer' holds 'inner', which is open here; a group cannot be inside itself"
     );
     step(&mut document, |document| {
-        document.add_group_instance("unused", [0.0; 2], None)
+        nodes::add_instance(document, "unused", [0.0; 2], None)
     });
     flat(&document);
 }
@@ -206,16 +208,16 @@ fn a_duplicate_with_its_inputs_is_fed_from_outside_as_well() {
     let groups = r#""groups": { "G": { "inputs": { "base": { "to": ["one.base"] } }, "outputs": { "material": "one.material" },
         "nodes": { "one": { "kind": "effect/layer" } } } },"#;
     let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);
-    assert!(document.enter(&id("g")));
+    assert!(navigation::enter(&mut document, &id("g")));
     select(&mut document, &["one"]);
-    step(&mut document, |document| document.duplicate(true));
+    step(&mut document, |document| duplication::duplicate(document, true));
     let copy = document.selected_one().cloned().expect("one copy");
     assert_eq!(
-        document.group_inputs()["base"].to,
+        ports::inputs(&document)["base"].to,
         [to("one.base"), slot(&copy, "base")]
     );
-    step(&mut document, |document| document.duplicate(false));
-    assert_eq!(document.group_inputs()["base"].to.len(), 2);
+    step(&mut document, |document| duplication::duplicate(document, false));
+    assert_eq!(ports::inputs(&document)["base"].to.len(), 2);
 }
 
 /// A graph in a file of that folder, with a picture beside it, alone and in a group.
@@ -241,13 +243,13 @@ fn pictures_of_what_is_pasted_are_those_of_what_was_copied() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = folder.path().canonicalize().expect("a folder");
     let [mut one, mut other] = ["one", "other"].map(|name| with_pictures(&root.join(name)));
-    one.select_all();
-    let text = one.copied().expect("two nodes");
-    step(&mut one, |document| document.paste(&text, [0.0; 2]));
+    selection::select_all(&mut one);
+    let text = clipboard::copy(&one).expect("two nodes");
+    step(&mut one, |document| clipboard::paste(document, &text, [0.0; 2]));
     let pasted = one.selection().iter().filter_map(|id| param(&one, id.as_str(), "file"));
     assert_eq!(pasted.collect::<Vec<_>>(), [Value::from("tex/torn.png")]);
     assert_eq!(one.contents().groups.len(), 1, "the group is the same one");
-    step(&mut other, |document| document.paste(&text, [0.0; 2]));
+    step(&mut other, |document| clipboard::paste(document, &text, [0.0; 2]));
     let pasted = other
         .selection()
         .iter()
@@ -258,7 +260,7 @@ fn pictures_of_what_is_pasted_are_those_of_what_was_copied() {
         Some(Value::from("../one/tex/torn.png"))
     );
     let mut untitled = document();
-    assert!(untitled.paste(&text, [0.0; 2]));
+    assert!(clipboard::paste(&mut untitled, &text, [0.0; 2]));
     let whole = root.join("one/tex/torn.png").display().to_string();
     assert_eq!(picture_in(&untitled, "Old", "inner"), Some(Value::from(whole.as_str())));
 }
@@ -269,14 +271,14 @@ fn pictures_of_a_group_lead_to_the_same_through_the_library() {
     let root = folder.path().canonicalize().expect("a folder");
     let mut one = with_pictures(&root.join("one"));
     select(&mut one, &["g"]);
-    let kept = one.shelve(&root.join("library")).expect("a file");
+    let kept = library::save_group(&mut one, &root.join("library")).expect("a file");
     let mut other = with_pictures(&root.join("deep/other"));
-    other.add_from_library(&kept, [0.0; 2], None).expect("a node");
+    library::add(&mut other, &kept, [0.0; 2], None).expect("a node");
     assert_eq!(
         picture_in(&other, "Old 2", "inner"),
         Some(Value::from("../../one/tex/torn.png"))
     );
-    one.add_from_library(&kept, [0.0; 2], None).expect("a node");
+    library::add(&mut one, &kept, [0.0; 2], None).expect("a node");
     assert_eq!(picture_in(&one, "Old 2", "inner"), Some(Value::from("tex/torn.png")));
 }
 
@@ -286,19 +288,18 @@ fn what_is_pasted_where_it_was_copied_names_its_files_as_before() {
     let mut document = with_pictures(folder.path());
     for written in ["./tex/torn.png", "/somewhere/torn.png", "tex/../torn.png"] {
         select(&mut document, &["torn"]);
-        document.set_knob(&id("torn"), "file", Some(Value::from(written)));
-        let text = document.copied().expect("a node");
-        step(&mut document, |document| document.paste(&text, [0.0; 2]));
+        nodes::set_knob(&mut document, &id("torn"), "file", Some(Value::from(written)));
+        let text = clipboard::copy(&document).expect("a node");
+        step(&mut document, |document| clipboard::paste(document, &text, [0.0; 2]));
         let pasted = document.selected_one().cloned().expect("the copy");
         assert_eq!(param(&document, pasted.as_str(), "file"), Some(Value::from(written)));
     }
     // As it comes from a machine that has other folders.
-    let text = document
-        .copied()
+    let text = clipboard::copy(&document)
         .expect("a node")
         .replace("\"folder\": \"", "\"folder\": \"/of/nobody");
     let mut other = with_pictures(&folder.path().join("other"));
-    step(&mut other, |document| document.paste(&text, [0.0; 2]));
+    step(&mut other, |document| clipboard::paste(document, &text, [0.0; 2]));
     let pasted = other.selected_one().cloned().expect("the copy");
     assert_eq!(
         param(&other, pasted.as_str(), "file"),

@@ -20,30 +20,35 @@ fn a_node_dropped_at_the_end_of_a_wire_is_tied_to_it() {
     let noise = add(&mut document, "noise/simplex");
     let loose = PendingWire::From(out(&noise));
     let levels = step(&mut document, |document| {
-        document.add("adjust/levels", [300.0, 0.0], Some(&loose))
+        nodes::add(document, "adjust/levels", [300.0, 0.0], Some(&loose))
     });
     let levels = levels.expect("a built-in kind");
-    assert_eq!(document.wire_into(&slot(&levels, "source")), Some(&out(&noise)));
+    assert_eq!(
+        connections::wire_into(&document, &slot(&levels, "source")),
+        Some(&out(&noise))
+    );
     let loose = PendingWire::Into(slot(&noise, "position"));
     let warp = step(&mut document, |document| {
-        document.add("vector/warp", [-300.0, 0.0], Some(&loose))
+        nodes::add(document, "vector/warp", [-300.0, 0.0], Some(&loose))
     });
     assert_eq!(
-        document.wire_into(&slot(&noise, "position")),
+        connections::wire_into(&document, &slot(&noise, "position")),
         warp.map(|id| out(&id)).as_ref()
     );
 }
 
 #[test]
 fn a_kind_that_nobody_knows_is_not_added() {
-    let said = refused(&mut document(), |document| document.add("noise/simplx", [0.0; 2], None));
+    let said = refused(&mut document(), |document| {
+        nodes::add(document, "noise/simplx", [0.0; 2], None)
+    });
     assert_eq!(said, "there is no node kind 'noise/simplx'");
     let said = refused(&mut document(), |document| {
-        document.add_group_instance("wear", [0.0; 2], None)
+        nodes::add_instance(document, "wear", [0.0; 2], None)
     });
     assert_eq!(said, "there is no group 'wear'");
     let said = refused(&mut document(), |document| {
-        document.add_group_instance("lost.sabi", [0.0; 2], None)
+        nodes::add_instance(document, "lost.sabi", [0.0; 2], None)
     });
     assert_eq!(said, "'lost.sabi' cannot be read; choose a graph file");
 }
@@ -62,12 +67,12 @@ fn a_group_file_is_added_with_what_it_takes_and_gives() {
     let noise = add(&mut document, "noise/white");
     let loose = PendingWire::From(out(&noise));
     let wear = step(&mut document, |document| {
-        document.add_group_instance("wear.sabi", [0.0; 2], Some(&loose))
+        nodes::add_instance(document, "wear.sabi", [0.0; 2], Some(&loose))
     });
     let wear = wear.expect("a file that is there");
     assert_eq!(wire(&document, &format!("{wear}.where")), noise.as_str());
     assert_eq!(document.title(&wear), "Wear");
-    assert!(!document.enter(&wear));
+    assert!(!navigation::enter(&mut document, &wear));
     let said = document.take_notices().pop().unwrap_or_default();
     assert_eq!(
         said,
@@ -86,7 +91,7 @@ fn deleting_takes_what_hangs_on_a_node_and_undo_brings_it_back_selected() {
         r#""a": { "kind": "noise/simplex" }, "b": { "kind": "adjust/invert", "inputs": { "source": "a" } }"#,
     );
     select(&mut document, &["a"]);
-    step(&mut document, |document| document.delete(false));
+    step(&mut document, |document| nodes::delete(document, false));
     assert!(document.selection().is_empty() && document.graph().exposed().is_empty());
     document.undo();
     assert_eq!(document.selected_one(), Some(&id("a")));
@@ -98,24 +103,24 @@ fn what_needs_a_selection_does_nothing_without_one() {
     let mut document = opened("", r#""a": { "kind": "noise/simplex" }"#);
     type Does = fn(&mut OpenDocument) -> bool;
     let all: [(&str, Does); 11] = [
-        ("delete", |document| document.delete(false)),
-        ("heal", |document| document.delete(true)),
-        ("mute", OpenDocument::mute),
-        ("duplicate", |document| document.duplicate(true)),
-        ("take out", OpenDocument::take_out),
-        ("swap", OpenDocument::swap_inputs),
-        ("group", OpenDocument::make_group),
-        ("ungroup", OpenDocument::dissolve_groups),
-        ("frame", OpenDocument::frame),
-        ("align", |document| document.align(super::super::Align::Left)),
-        ("straighten", OpenDocument::straighten),
+        ("delete", |document| nodes::delete(document, false)),
+        ("heal", |document| nodes::delete(document, true)),
+        ("mute", nodes::toggle_muted),
+        ("duplicate", |document| duplication::duplicate(document, true)),
+        ("take out", wires::detach_selected),
+        ("swap", wires::swap_inputs),
+        ("group", groups::make),
+        ("ungroup", groups::dissolve_selected),
+        ("frame", frames::add),
+        ("align", |document| arrangement::align(document, Align::Left)),
+        ("straighten", arrangement::straighten),
     ];
     for (name, does) in all {
         let mut is_made = true;
         refused(&mut document, |document| is_made = does(document));
         assert!(!is_made, "{name}");
     }
-    assert!(document.copied().is_none() && document.cut_out().is_none());
+    assert!(clipboard::copy(&document).is_none() && clipboard::cut(&mut document).is_none());
 }
 
 #[test]
@@ -123,21 +128,25 @@ fn what_is_done_to_a_node_that_is_gone_is_refused_with_a_sentence() {
     let mut document = opened("", r#""a": { "kind": "noise/simplex" }"#);
     let lost = id("lost");
     let refused_all = [
-        refused(&mut document, |document| document.set_knob(&lost, "gain", number(1.0))),
-        refused(&mut document, |document| document.rename(&lost, "x")),
-        refused(&mut document, |document| document.replace(&lost, "noise/cells")),
         refused(&mut document, |document| {
-            document.connect(&from("lost"), &to("a.position"))
+            nodes::set_knob(document, &lost, "gain", number(1.0))
+        }),
+        refused(&mut document, |document| nodes::rename(document, &lost, "x")),
+        refused(&mut document, |document| {
+            node_replacement::by_kind(document, &lost, "noise/cells")
         }),
         refused(&mut document, |document| {
-            document.connect(&from("a"), &to("lost.source"))
+            wires::connect(document, &from("lost"), &to("a.position"))
         }),
-        refused(&mut document, |document| document.expose(&lost, "gain")),
+        refused(&mut document, |document| {
+            wires::connect(document, &from("a"), &to("lost.source"))
+        }),
+        refused(&mut document, |document| panel::expose(document, &lost, "gain")),
     ];
     for said in refused_all {
         assert!(!said.is_empty());
     }
-    assert!(!document.enter(&lost) && !document.reroute(&to("lost.source"), [0.0; 2]));
+    assert!(!navigation::enter(&mut document, &lost) && !wires::reroute(&mut document, &to("lost.source"), [0.0; 2]));
 }
 
 #[test]
@@ -148,9 +157,9 @@ fn muting_is_for_all_selected_nodes_and_back_once_all_are_mute() {
     );
     select(&mut document, &["a", "b"]);
     let muted = |document: &OpenDocument| ["a", "b"].map(|id| document.graph().node(id).is_some_and(|node| node.muted));
-    step(&mut document, OpenDocument::mute);
+    step(&mut document, nodes::toggle_muted);
     assert_eq!(muted(&document), [true, true]);
-    step(&mut document, OpenDocument::mute);
+    step(&mut document, nodes::toggle_muted);
     assert_eq!(muted(&document), [false, false]);
 }
 
@@ -160,17 +169,19 @@ fn a_knob_is_set_on_all_selected_nodes_of_the_kind() {
         "",
         r#""a": { "kind": "noise/simplex" }, "b": { "kind": "noise/simplex" }, "c": { "kind": "noise/cells" }"#,
     );
-    document.select_all();
+    selection::select_all(&mut document);
     step(&mut document, |document| {
-        document.set_knob_of_alike(&id("a"), "size", number(0.5))
+        nodes::set_knob_of_selected(document, &id("a"), "size", number(0.5))
     });
     let sizes = ["a", "b", "c"].map(|id| param(&document, id, "size"));
     assert_eq!(sizes, [number(0.5), number(0.5), None]);
     let said = refused(&mut document, |document| {
-        document.set_knob(&id("a"), "size", number(f64::NAN))
+        nodes::set_knob(document, &id("a"), "size", number(f64::NAN))
     });
     assert!(said.starts_with("the value of \"size\" cannot be kept"), "{said}");
-    step(&mut document, |document| document.set_knob(&id("a"), "size", None));
+    step(&mut document, |document| {
+        nodes::set_knob(document, &id("a"), "size", None)
+    });
     assert_eq!(param(&document, "a", "size"), None);
 }
 
@@ -178,18 +189,22 @@ fn a_knob_is_set_on_all_selected_nodes_of_the_kind() {
 fn what_is_so_already_is_no_step() {
     let mut document = opened("", r#""a": { "kind": "noise/simplex", "params": { "size": 0.5 } }"#);
     refused(&mut document, |document| {
-        document.set_knob(&id("a"), "size", number(0.5))
+        nodes::set_knob(document, &id("a"), "size", number(0.5))
     });
-    refused(&mut document, |document| document.set_knob(&id("a"), "gain", None));
-    refused(&mut document, |document| document.rename(&id("a"), " "));
+    refused(&mut document, |document| {
+        nodes::set_knob(document, &id("a"), "gain", None)
+    });
+    refused(&mut document, |document| nodes::rename(document, &id("a"), " "));
 }
 
 #[test]
 fn a_node_has_the_name_that_it_was_given_or_that_of_its_kind() {
     let mut document = opened("", r#""a": { "kind": "noise/simplex" }"#);
     let plain = document.title(&id("a"));
-    step(&mut document, |document| document.rename(&id("a"), " Clouds of dust "));
+    step(&mut document, |document| {
+        nodes::rename(document, &id("a"), " Clouds of dust ")
+    });
     assert_eq!(document.title(&id("a")), "Clouds of dust");
-    step(&mut document, |document| document.rename(&id("a"), ""));
+    step(&mut document, |document| nodes::rename(document, &id("a"), ""));
     assert_eq!(document.title(&id("a")), plain);
 }

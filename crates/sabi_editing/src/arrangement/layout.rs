@@ -1,0 +1,145 @@
+//! Nodes laid out from left to right; what a frame holds stays together.
+
+use std::collections::BTreeMap;
+
+use sabi_graph::NodeId;
+
+use super::layered_drawing::{self, Boxed};
+use crate::frames::{FRAME_AROUND, FRAME_STRIP};
+use crate::node_size::GRID;
+use crate::open_document::OpenDocument;
+use crate::{arrangement, connections, node_size};
+
+/// Nodes that are laid out as one: those of a frame, or a single one.
+struct Cluster {
+    /// Sorted.
+    ids: Vec<NodeId>,
+    /// Where each stands, from the corner of the cluster.
+    places: Vec<[f32; 2]>,
+    size: [f32; 2],
+}
+
+/// Lays the selected nodes out from left to right, or all where none are selected.
+pub fn lay_out(document: &mut OpenDocument) -> bool {
+    let ids: Vec<NodeId> = match document.selection().is_empty() {
+        true => document.graph().ids().cloned().collect(),
+        false => document.selection().iter().cloned().collect(),
+    };
+    let at = |id: &NodeId| document.node(id).map_or([0.0; 2], |node| node.pos);
+    let corner = ids.iter().map(at).fold([f32::INFINITY; 2], |corner, pos| {
+        [corner[0].min(pos[0]), corner[1].min(pos[1])]
+    });
+    let clusters = clusters(document, &ids);
+    let reads = reads_of(document, &clusters);
+    // Frames that read each other in turn cannot stand side by side: then every node stands for itself.
+    let (clusters, reads) = match is_ordered(&reads) {
+        true => (clusters, reads),
+        false => {
+            let single: Vec<Cluster> = ids
+                .iter()
+                .map(|id| cluster(document, vec![id.clone()], false))
+                .collect();
+            let reads = reads_of(document, &single);
+            (single, reads)
+        }
+    };
+    let boxes: Vec<Boxed> = clusters
+        .iter()
+        .zip(reads)
+        .map(|(cluster, reads)| Boxed {
+            width: cluster.size[0],
+            height: cluster.size[1],
+            reads,
+        })
+        .collect();
+    let snapped = |at: f32| (at / GRID).round() * GRID;
+    let mut places = BTreeMap::new();
+    for (cluster, [x, y]) in clusters.iter().zip(layered_drawing::lay_out(&boxes)) {
+        for (id, [inner_x, inner_y]) in cluster.ids.iter().zip(&cluster.places) {
+            let place = [snapped(corner[0] + x + inner_x), snapped(corner[1] + y + inner_y)];
+            places.insert(id.clone(), place);
+        }
+    }
+    arrangement::move_nodes(document, "Lay out", places)
+}
+
+/// Frames with what they hold, and all other nodes one by one. A node in several frames goes with the first.
+fn clusters(document: &OpenDocument, ids: &[NodeId]) -> Vec<Cluster> {
+    let mut rest: Vec<NodeId> = ids.to_vec();
+    let mut clusters = Vec::new();
+    for frame in document.graph().frames().values() {
+        let (inside, outside): (Vec<NodeId>, Vec<NodeId>) = rest.into_iter().partition(|id| frame.nodes.contains(id));
+        rest = outside;
+        if !inside.is_empty() {
+            clusters.push(cluster(document, inside, true));
+        }
+    }
+    clusters.extend(rest.into_iter().map(|id| cluster(document, vec![id], false)));
+    clusters
+}
+
+fn cluster(document: &OpenDocument, ids: Vec<NodeId>, is_framed: bool) -> Cluster {
+    let boxes: Vec<Boxed> = ids
+        .iter()
+        .map(|id| {
+            let [width, height] = node_size::of(document, id);
+            let sources = connections::neighbors(document, id, true);
+            let reads = sources.iter().filter_map(|from| ids.binary_search(from).ok());
+            Boxed {
+                width,
+                height,
+                reads: reads.collect(),
+            }
+        })
+        .collect();
+    let mut places = layered_drawing::lay_out(&boxes);
+    let ends = places
+        .iter()
+        .zip(&boxes)
+        .map(|(place, boxed)| [place[0] + boxed.width, place[1] + boxed.height]);
+    let mut size = ends.fold([0.0; 2], |size: [f32; 2], end| {
+        [size[0].max(end[0]), size[1].max(end[1])]
+    });
+    if is_framed {
+        let above = FRAME_AROUND + FRAME_STRIP;
+        for place in &mut places {
+            *place = [place[0] + FRAME_AROUND, place[1] + above];
+        }
+        size = [size[0] + 2.0 * FRAME_AROUND, size[1] + FRAME_AROUND + above];
+    }
+    Cluster { ids, places, size }
+}
+
+/// For each cluster the others that it reads.
+fn reads_of(document: &OpenDocument, clusters: &[Cluster]) -> Vec<Vec<usize>> {
+    let owners = clusters
+        .iter()
+        .enumerate()
+        .flat_map(|(at, cluster)| cluster.ids.iter().map(move |id| (id, at)));
+    let owner_of: BTreeMap<&NodeId, usize> = owners.collect();
+    let reads = clusters.iter().enumerate().map(|(at, cluster)| {
+        let sources = cluster
+            .ids
+            .iter()
+            .flat_map(|id| connections::neighbors(document, id, true));
+        let mut reads: Vec<usize> = sources.filter_map(|from| owner_of.get(&from).copied()).collect();
+        reads.retain(|from| *from != at);
+        reads.sort_unstable();
+        reads.dedup();
+        reads
+    });
+    reads.collect()
+}
+
+/// Whether nothing reads itself by way of others.
+fn is_ordered(reads: &[Vec<usize>]) -> bool {
+    let mut is_placed = vec![false; reads.len()];
+    for _ in 0..reads.len() {
+        let ready = (0..reads.len()).find(|at| !is_placed[*at] && reads[*at].iter().all(|from| is_placed[*from]));
+        match ready {
+            Some(at) => is_placed[at] = true,
+            None => return is_placed.into_iter().all(|is_placed| is_placed),
+        }
+    }
+    true
+}

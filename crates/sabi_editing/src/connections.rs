@@ -1,0 +1,205 @@
+//! What is connected to what in the shown graph, and the edits that connect and disconnect.
+
+use std::collections::BTreeSet;
+
+use sabi_engine::catalog::{Entry, Port};
+use sabi_graph::{Body, Edit, GROUP_KIND, GroupInput, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef};
+
+use crate::instances;
+use crate::open_document::OpenDocument;
+
+/// Connected end of a wire that is being dragged.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PendingWire {
+    /// An output; the wire is dropped on an input.
+    From(OutputRef),
+    /// An input; the wire is dropped on an output.
+    Into(SlotRef),
+}
+
+/// Whether an input of a node reads this result.
+pub fn reads(document: &OpenDocument, slot: &SlotRef, from: &OutputRef) -> bool {
+    let read = wire_into(document, slot);
+    read.is_some_and(|read| shortest(document, read) == shortest(document, from))
+}
+
+/// The group's input that feeds an input of a node in that graph.
+pub(crate) fn feeder<'d>(document: &'d OpenDocument, body: &Body, slot: &SlotRef) -> Option<&'d str> {
+    let (inputs, _) = instances::ports(document.contents(), body);
+    let feeds = |input: &GroupInput| input.to.contains(slot);
+    inputs
+        .iter()
+        .find(|(_, input)| feeds(input))
+        .map(|(name, _)| name.as_str())
+}
+
+/// The nodes that one reads, or those that read it.
+pub fn neighbors(document: &OpenDocument, id: &NodeId, is_upstream: bool) -> Vec<NodeId> {
+    let graph = document.graph();
+    if !is_upstream {
+        return graph.readers(id.as_str()).into_iter().map(|slot| slot.node).collect();
+    }
+    let inputs = graph.node(id.as_str()).map(|node| node.inputs.values());
+    inputs.into_iter().flatten().map(|from| from.node.clone()).collect()
+}
+
+/// Why a wire that leads there carries something else.
+pub(crate) fn check_type(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<(), String> {
+    let Some(input) = input(document, to) else {
+        return Err(format!("'{}' has no input '{}'", document.title(&to.node), to.name));
+    };
+    let source = document.face(&from.node);
+    if source.and_then(|face| face.output(from.port.as_deref())).is_none() {
+        let title = document.title(&from.node);
+        return Err(match &from.port {
+            Some(port) => format!("'{title}' gives no result '{port}'"),
+            None => format!("'{title}' gives no result"),
+        });
+    }
+    let Some(carried) = carried(document, from) else {
+        return Ok(());
+    };
+    let refused = |label: &str, takes: PortType| {
+        let why = "only masks and colors turn into each other";
+        Err(format!(
+            "'{label}' takes a {takes}, and this wire carries a {carried}; {why}"
+        ))
+    };
+    if !is_reroute(document, &to.node) {
+        return match input.ty {
+            Some(takes) if !takes.accepts(carried) => refused(&input.label, takes),
+            _ => Ok(()),
+        };
+    }
+    // A bend takes whatever those take who read it.
+    match inputs_behind_reroutes(document, &to.node)
+        .into_iter()
+        .find(|(_, takes)| !takes.accepts(carried))
+    {
+        Some((label, takes)) => refused(&label, takes),
+        None => Ok(()),
+    }
+}
+
+fn is_reroute(document: &OpenDocument, id: &NodeId) -> bool {
+    document.node(id).is_some_and(|node| node.kind == REROUTE_KIND)
+}
+
+/// The inputs that a reroute leads to in the end, each with what it takes.
+fn inputs_behind_reroutes(document: &OpenDocument, id: &NodeId) -> Vec<(String, PortType)> {
+    let mut found = Vec::new();
+    let mut seen = BTreeSet::from([id.clone()]);
+    let mut next = vec![id.clone()];
+    while let Some(id) = next.pop() {
+        for slot in document.graph().readers(id.as_str()) {
+            if is_reroute(document, &slot.node) {
+                next.extend(Some(slot.node).filter(|id| seen.insert(id.clone())));
+            } else if let Some((port, takes)) = input(document, &slot).and_then(|port| Some((port, port.ty?))) {
+                found.push((port.label.clone(), takes));
+            }
+        }
+    }
+    found
+}
+
+/// What is carried by a wire from there.
+pub fn carried(document: &OpenDocument, from: &OutputRef) -> Option<PortType> {
+    document.faces().carried(document.shown(), from)
+}
+
+/// An input of a node that is seen.
+pub fn input<'d>(document: &'d OpenDocument, slot: &SlotRef) -> Option<&'d Port> {
+    document.face(&slot.node)?.input(&slot.name)
+}
+
+pub(crate) fn connecting(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Edit {
+    Edit::Connect {
+        body: document.body(),
+        node: to.node.clone(),
+        input: to.name.clone(),
+        from: shortest(document, from),
+    }
+}
+
+/// A wire from a node's first output names the node alone; one from a group always says which it means, since the group
+/// may get another.
+pub(crate) fn shortest(document: &OpenDocument, from: &OutputRef) -> OutputRef {
+    let face = document.face(&from.node);
+    let named = face.and_then(|face| Some(port_in_wire(face, face.output(from.port.as_deref())?)));
+    OutputRef {
+        node: from.node.clone(),
+        port: named.unwrap_or_else(|| from.port.clone()),
+    }
+}
+
+/// What an input reads.
+pub fn wire_into<'d>(document: &'d OpenDocument, slot: &SlotRef) -> Option<&'d OutputRef> {
+    document.node(&slot.node)?.inputs.get(&slot.name)
+}
+
+pub(crate) fn disconnecting(document: &OpenDocument, slot: &SlotRef) -> Edit {
+    Edit::Disconnect {
+        body: document.body(),
+        node: slot.node.clone(),
+        input: slot.name.clone(),
+    }
+}
+
+/// The edit that ties a loose wire to a node of the given face at its first port that fits; none where none does.
+pub(crate) fn connecting_pending(
+    document: &OpenDocument,
+    loose: &PendingWire,
+    id: &NodeId,
+    face: &Entry,
+) -> Option<Edit> {
+    let own = document.node(id).map(|node| &node.inputs);
+    let is_free = |port: &Port| own.is_none_or(|inputs| !inputs.contains_key(&port.name));
+    match loose {
+        PendingWire::From(from) => {
+            document.face(&from.node)?.output(from.port.as_deref())?;
+            let carried = carried(document, from);
+            let exact = face.inputs.iter().find(|port| port.ty == carried && is_free(port));
+            let input = exact.or_else(|| face.inputs.iter().find(|port| port.accepts(carried) && is_free(port)))?;
+            let to = SlotRef {
+                node: id.clone(),
+                name: input.name.clone(),
+            };
+            Some(connecting(document, from, &to))
+        }
+        PendingWire::Into(to) => {
+            let output = face.output_for(input(document, to)?)?;
+            Some(Edit::Connect {
+                body: document.body(),
+                node: to.node.clone(),
+                input: to.name.clone(),
+                from: OutputRef {
+                    node: id.clone(),
+                    port: port_in_wire(face, output),
+                },
+            })
+        }
+    }
+}
+
+/// Whether a node is another one, or made from it.
+pub(crate) fn depends_on(document: &OpenDocument, id: &NodeId, source: &NodeId) -> bool {
+    let mut seen = BTreeSet::from([id.clone()]);
+    let mut next = vec![id.clone()];
+    while let Some(id) = next.pop() {
+        if id == *source {
+            return true;
+        }
+        next.extend(
+            neighbors(document, &id, true)
+                .into_iter()
+                .filter(|id| seen.insert(id.clone())),
+        );
+    }
+    false
+}
+
+/// How a wire names an output of a node: not at all where it is the first one of a kind.
+pub(crate) fn port_in_wire(face: &Entry, port: &Port) -> Option<String> {
+    let is_first = face.outputs.first().is_some_and(|first| first.name == port.name);
+    (!is_first || face.id == GROUP_KIND).then(|| port.name.clone())
+}

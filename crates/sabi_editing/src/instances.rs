@@ -1,0 +1,102 @@
+//! Group instances: the ports of a graph as a group, where its instances are, and renames that reach them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_graph::{Body, Document, Edit, Exposed, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, SlotRef};
+
+use crate::open_document::OpenDocument;
+
+/// All graphs of a document.
+pub(crate) fn bodies(document: &Document) -> Vec<(Body, &Graph)> {
+    let groups = document.groups.iter();
+    let groups = groups.map(|(name, group)| (Body::Group(name.clone()), &group.graph));
+    std::iter::once((Body::Main, &document.graph)).chain(groups).collect()
+}
+
+/// Instances of a group in a graph.
+pub(crate) fn instances<'g>(graph: &'g Graph, group: &'g str) -> impl Iterator<Item = (&'g NodeId, &'g Node)> {
+    let of_group = move |node: &Node| node.kind == GROUP_KIND && node.group.as_deref() == Some(group);
+    graph.nodes().filter(move |(_, node)| of_group(node))
+}
+
+/// Inputs and outputs that a graph has as a group.
+pub(crate) fn ports<'d>(
+    document: &'d Document,
+    body: &Body,
+) -> (&'d BTreeMap<String, GroupInput>, &'d BTreeMap<String, OutputRef>) {
+    let group = match body {
+        Body::Main => None,
+        Body::Group(name) => document.groups.get(name),
+    };
+    match group {
+        Some(group) => (&group.inputs, &group.outputs),
+        None => (&document.inputs, &document.outputs),
+    }
+}
+
+/// Edits by which knobs of the panels around turn slots by their new name.
+pub(crate) fn renamed_knobs<'d>(
+    document: &'d OpenDocument,
+    is_meant: impl Fn(&Body, &SlotRef) -> bool,
+    to: &'d str,
+) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    for (body, graph) in bodies(document.contents()) {
+        for (name, knob) in graph.exposed() {
+            let mut knob: Exposed = knob.clone();
+            if renamed(&mut knob.to, |slot| is_meant(&body, slot), to) {
+                let (body, name) = (body.clone(), name.clone());
+                edits.push(Edit::Expose { body, name, knob });
+            }
+        }
+    }
+    edits
+}
+
+/// Instances of the group that is seen, wherever they are.
+pub(crate) fn of_shown(document: &OpenDocument) -> Vec<(Body, NodeId, Node)> {
+    let Body::Group(open) = document.shown() else {
+        return Vec::new();
+    };
+    let bodies = bodies(document.contents()).into_iter();
+    let found = bodies.flat_map(|(body, graph)| {
+        instances(graph, open).map(move |(id, node)| (body.clone(), id.clone(), node.clone()))
+    });
+    found.collect()
+}
+
+/// Tells slots of instances of the group that is seen.
+pub(crate) fn is_instance_of_shown(document: &OpenDocument) -> impl Fn(&Body, &SlotRef) -> bool + use<> {
+    let found = of_shown(document).into_iter();
+    let found: BTreeSet<(Body, NodeId)> = found.map(|(body, id, _)| (body, id)).collect();
+    move |body: &Body, slot: &SlotRef| found.contains(&(body.clone(), slot.node.clone()))
+}
+
+/// Edits by which inputs of the groups around feed slots by their new name.
+pub(crate) fn renamed_inputs<'d>(
+    document: &'d OpenDocument,
+    is_meant: impl Fn(&Body, &SlotRef) -> bool,
+    to: &'d str,
+) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    for (body, _) in bodies(document.contents()) {
+        for (name, input) in ports(document.contents(), &body).0 {
+            let mut input = input.clone();
+            if renamed(&mut input.to, |slot| is_meant(&body, slot), to) {
+                let (body, name, input) = (body.clone(), name.clone(), Some(input));
+                edits.push(Edit::SetInput { body, name, input });
+            }
+        }
+    }
+    edits
+}
+
+/// Renames the slots that are meant; says whether there were any.
+fn renamed(slots: &mut [SlotRef], is_meant: impl Fn(&SlotRef) -> bool, to: &str) -> bool {
+    let mut is_changed = false;
+    for slot in slots.iter_mut().filter(|slot| is_meant(slot)) {
+        slot.name = to.to_owned();
+        is_changed = true;
+    }
+    is_changed
+}

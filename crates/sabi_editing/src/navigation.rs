@@ -1,0 +1,55 @@
+//! Entering and leaving groups.
+
+use sabi_graph::{Body, GROUP_KIND, NodeId};
+
+use crate::names::of_its_own;
+use crate::open_document::OpenDocument;
+
+/// Instances that were entered, outermost first, each with what it is called: the path that a breadcrumb shows.
+pub fn breadcrumb(document: &OpenDocument) -> Vec<(NodeId, String)> {
+    let bodies = document.bodies();
+    let steps = document.instance_path().iter().zip(&bodies);
+    let title = |(id, body): (&NodeId, &Body)| {
+        let node = document.graph_of(body).and_then(|graph| graph.node(id.as_str()));
+        let label = node.and_then(|node| node.label.clone().or_else(|| node.group.clone()));
+        (id.clone(), label.unwrap_or_else(|| id.to_string()))
+    };
+    steps.take(bodies.len() - 1).map(title).collect()
+}
+
+/// Shows the graph of a group instance; returns whether it can be entered.
+pub fn enter(document: &mut OpenDocument, id: &NodeId) -> bool {
+    let instance = document.node(id).filter(|node| node.kind == GROUP_KIND);
+    let Some(group) = instance.and_then(|node| node.group.clone()) else {
+        return false;
+    };
+    if !document.contents().groups.contains_key(&group) {
+        return document.refuse(of_its_own(&group));
+    }
+    // A file may have a group that contains itself: entering it would have no end.
+    if document.bodies().contains(&Body::Group(group.clone())) {
+        return document.refuse(format!("'{group}' holds itself; take this instance of it away"));
+    }
+    let path = document.instance_path().iter().chain([id]).cloned().collect();
+    document.show_graph_at(path);
+    true
+}
+
+/// Leaves groups until `depth` instances are entered, and selects the instance that was left; returns whether one was.
+pub fn leave_to(document: &mut OpenDocument, depth: usize) -> bool {
+    let Some((stays, [left, ..])) = document.instance_path().split_at_checked(depth) else {
+        return false;
+    };
+    let (path, left) = (stays.to_vec(), left.clone());
+    document.show_graph_at(path);
+    document.select([left]);
+    true
+}
+
+/// Leaves the group that was entered last; returns whether there was one.
+pub fn leave(document: &mut OpenDocument) -> bool {
+    match document.instance_path().len() {
+        0 => false,
+        depth => leave_to(document, depth - 1),
+    }
+}

@@ -1,0 +1,34 @@
+//! New nodes that are not in a graph yet.
+
+use std::collections::BTreeSet;
+
+use sabi_engine::catalog::KnobRole;
+use sabi_graph::{Edit, Node, NodeId, Value};
+
+use crate::open_document::OpenDocument;
+
+/// A new node of a kind with its id and seeds of its own; it is in no graph yet.
+pub(crate) fn of_kind(document: &mut OpenDocument, kind: &str, pos: [f32; 2]) -> (NodeId, Node) {
+    let mut node = Node::new(kind);
+    node.pos = pos.map(f32::round);
+    let entry = document.catalog().entry(kind).cloned();
+    let seeds = entry
+        .iter()
+        .flat_map(|entry| &entry.knobs)
+        .filter(|knob| knob.ty.role == KnobRole::Seed);
+    for knob in seeds {
+        let seed = Value::Number(f64::from(document.new_seed()));
+        node.params.insert(knob.name.clone(), seed);
+    }
+    let stem = kind.rsplit_once('/').map_or(kind, |(_, name)| name);
+    let id = document.new_id(stem, &BTreeSet::new());
+    (id, node)
+}
+
+pub(crate) fn addition(document: &OpenDocument, id: &NodeId, node: Node) -> Edit {
+    Edit::AddNode {
+        body: document.body(),
+        id: id.clone(),
+        node,
+    }
+}

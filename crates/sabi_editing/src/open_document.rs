@@ -1,0 +1,414 @@
+//! The open document: what every edit needs, and the one place where edits are applied.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use sabi_engine::catalog::{Catalog, Entry, Faces};
+use sabi_engine::{EngineError, Kinds, Session};
+use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
+
+use crate::group_files::GroupFiles;
+use crate::new_ids::IdGenerator;
+use crate::{evaluability, follow_up};
+
+/// Document that is open in the editor, with everything that belongs to editing it but is not saved with it.
+///
+/// It holds what all edits need: the session with its undo history, the node kinds, the shown graph, the selection and
+/// notices. The edits themselves are functions of the other modules, each over `&mut OpenDocument`.
+pub struct OpenDocument {
+    /// The document with its file, undo history and recovery file.
+    pub session: Session,
+    kinds: Arc<Kinds>,
+    kinds_revision: u64,
+    catalog: Arc<Catalog>,
+    files_revision: u64,
+    /// Ports and knobs of the nodes, and the revisions of document and kinds that they belong to.
+    faces: (Option<(u64, u64)>, Faces),
+    /// Ports and knobs of the nodes when the document was opened.
+    opened: Faces,
+    group_files: GroupFiles,
+    /// Entered group instances, outermost first.
+    instance_path: Vec<NodeId>,
+    /// Graph that the entered instances lead to.
+    shown: Body,
+    selection: BTreeSet<NodeId>,
+    ids: IdGenerator,
+    notices: Vec<String>,
+}
+
+/// The shown graph before undo or redo, to find the nodes that it brings back.
+struct ShownBefore {
+    depth: usize,
+    ids: BTreeSet<NodeId>,
+}
+
+impl OpenDocument {
+    /// Opens the document of a session, with the node kinds beside its file.
+    pub fn new(session: Session) -> OpenDocument {
+        let kinds = Arc::new(Kinds::beside(session.file()));
+        let catalog = Arc::new(Catalog::new(&kinds));
+        OpenDocument::with_kinds(session, IdGenerator::random(), kinds, catalog)
+    }
+
+    pub(crate) fn with_kinds(
+        session: Session,
+        ids: IdGenerator,
+        kinds: Arc<Kinds>,
+        catalog: Arc<Catalog>,
+    ) -> OpenDocument {
+        // Revisions of a session are unique in the process, so those that count on from its first are, too.
+        let first = session.revision();
+        let mut document = OpenDocument {
+            session,
+            catalog,
+            kinds,
+            kinds_revision: first,
+            files_revision: first,
+            faces: (None, Faces::default()),
+            opened: Faces::default(),
+            group_files: GroupFiles::default(),
+            instance_path: Vec::new(),
+            shown: Body::Main,
+            selection: BTreeSet::new(),
+            ids,
+            notices: Vec::new(),
+        };
+        document.refresh();
+        document.opened = document.faces().clone();
+        document
+    }
+
+    /// Replaces the node kinds after their files changed.
+    pub fn replace_kinds(&mut self, kinds: Kinds) {
+        self.catalog = Arc::new(Catalog::new(&kinds));
+        self.kinds = Arc::new(kinds);
+        self.kinds_revision += 1;
+        self.refresh();
+    }
+
+    /// Node kinds, and a number that rises each time they are read again.
+    pub fn kinds(&self) -> (&Arc<Kinds>, u64) {
+        (&self.kinds, self.kinds_revision)
+    }
+
+    /// Number that rises each time a file that the graph names was written; no other open document has the same.
+    pub fn files_revision(&self) -> u64 {
+        self.files_revision
+    }
+
+    /// Descriptions of all node kinds.
+    pub fn catalog(&self) -> &Arc<Catalog> {
+        &self.catalog
+    }
+
+    /// Contents of the document, as a save would write them.
+    pub fn contents(&self) -> &Document {
+        self.session.document()
+    }
+
+    /// Name of the shown graph within the document: the main graph, or the group that was entered.
+    pub fn shown(&self) -> &Body {
+        &self.shown
+    }
+
+    /// A copy of [`OpenDocument::shown`], as edits take it.
+    pub fn body(&self) -> Body {
+        self.shown.clone()
+    }
+
+    /// The shown graph.
+    pub fn graph(&self) -> &Graph {
+        // `shown` always names an existing graph: `refresh` leaves groups that were removed.
+        self.graph_of(&self.shown).unwrap_or(&self.contents().graph)
+    }
+
+    pub(crate) fn graph_of(&self, body: &Body) -> Option<&Graph> {
+        self.contents().body(body).ok()
+    }
+
+    /// The main graph and the entered groups, outermost first.
+    pub(crate) fn bodies(&self) -> Vec<Body> {
+        let mut body = Body::Main;
+        let mut bodies = vec![Body::Main];
+        for id in &self.instance_path {
+            let graph = self.graph_of(&body);
+            let group = graph.and_then(|graph| graph.node(id.as_str())?.group.clone());
+            let Some(name) = group.filter(|name| self.contents().groups.contains_key(name)) else {
+                break;
+            };
+            body = Body::Group(name);
+            bodies.push(body.clone());
+        }
+        bodies
+    }
+
+    /// Entered group instances, outermost first.
+    pub(crate) fn instance_path(&self) -> &[NodeId] {
+        &self.instance_path
+    }
+
+    /// Shows the graph that group instances lead to, with nothing selected.
+    pub(crate) fn show_graph_at(&mut self, instance_path: Vec<NodeId>) {
+        self.instance_path = instance_path;
+        self.shown = self.bodies().pop().unwrap_or_default(); // never empty: the main graph comes first
+        self.selection.clear();
+    }
+
+    /// A node of the shown graph.
+    pub fn node(&self, id: &NodeId) -> Option<&Node> {
+        self.graph().node(id.as_str())
+    }
+
+    /// Ports and knobs of a node of the shown graph.
+    pub fn face(&self, id: &NodeId) -> Option<&Arc<Entry>> {
+        self.faces.1.of(&self.shown, id.as_str())
+    }
+
+    /// Ports and knobs of the nodes of all graphs of the document.
+    pub fn faces(&self) -> &Faces {
+        &self.faces.1
+    }
+
+    /// Ports and knobs that instances of the shown graph have.
+    pub fn own_face(&self) -> Option<&Arc<Entry>> {
+        face_of_body(self.faces(), &self.shown)
+    }
+
+    /// Ports and knobs that instances of the shown graph had when the document was opened.
+    pub(crate) fn own_face_when_opened(&self) -> Option<&Arc<Entry>> {
+        face_of_body(&self.opened, &self.shown)
+    }
+
+    /// Title of a node of the shown graph: its own label, or that of its kind.
+    pub fn title(&self, id: &NodeId) -> String {
+        let own = self.node(id).and_then(|node| node.label.clone());
+        own.or_else(|| self.face(id).map(|face| face.label.clone()))
+            .unwrap_or_else(|| id.to_string())
+    }
+
+    /// Id of a node of the shown graph in the evaluation: the entered instances and its own id, separated by slashes.
+    pub fn full_id(&self, id: &NodeId) -> String {
+        let path = self.instance_path.iter().chain([id]).map(NodeId::as_str);
+        path.collect::<Vec<_>>().join("/")
+    }
+
+    /// Selected nodes of the shown graph.
+    pub fn selection(&self) -> &BTreeSet<NodeId> {
+        &self.selection
+    }
+
+    /// Whether a node is selected.
+    pub fn is_selected(&self, id: &NodeId) -> bool {
+        self.selection.contains(id)
+    }
+
+    /// The selected node, if exactly one is selected.
+    pub fn selected_one(&self) -> Option<&NodeId> {
+        match self.selection.len() {
+            1 => self.selection.first(),
+            _ => None,
+        }
+    }
+
+    /// Selects these nodes, as far as they exist, and no others.
+    pub fn select(&mut self, ids: impl IntoIterator<Item = NodeId>) {
+        let ids = ids.into_iter().filter(|id| self.node(id).is_some());
+        self.selection = ids.collect();
+    }
+
+    /// Generates an id that is neither in the shown graph nor among `taken`: a readable stem and a random tail.
+    pub(crate) fn new_id(&mut self, stem: &str, taken: &BTreeSet<NodeId>) -> NodeId {
+        let OpenDocument {
+            session, shown, ids, ..
+        } = self;
+        let contents = session.document();
+        ids.id(stem, contents.body(shown).unwrap_or(&contents.graph), taken) // as in `graph`
+    }
+
+    /// Generates an id with the stem of another one.
+    pub(crate) fn new_id_like(&mut self, id: &NodeId, taken: &BTreeSet<NodeId>) -> NodeId {
+        let stem = id.as_str().rsplit_once('_').map_or(id.as_str(), |(stem, _)| stem);
+        self.new_id(stem, taken)
+    }
+
+    /// Generates a seed for a new node.
+    pub(crate) fn new_seed(&mut self) -> u32 {
+        self.ids.seed()
+    }
+
+    /// Reads a graph file that is used as a group, if it can be read.
+    pub(crate) fn read_group_file(&mut self, path: &Path) -> Option<Document> {
+        self.group_files.read(path)
+    }
+
+    /// Applies edits as [`OpenDocument::edit`] does, and selects nodes if they were applied.
+    pub(crate) fn edit_and_select(
+        &mut self,
+        step: &str,
+        edits: Vec<Edit>,
+        ids: impl IntoIterator<Item = NodeId>,
+    ) -> bool {
+        let is_made = self.edit(step, edits);
+        if is_made {
+            self.select(ids);
+        }
+        is_made
+    }
+
+    /// Applies edits as one undo step of that name, with the edits that follow from them; returns whether they were applied.
+    /// A refusal is a notice.
+    pub fn edit(&mut self, step: &str, edits: Vec<Edit>) -> bool {
+        if edits.is_empty() {
+            return false;
+        }
+        let edits = follow_up::completed(self.contents(), &self.shown, edits);
+        if let Some(why) = self.why_not_evaluable_after(&edits) {
+            return self.refuse(why);
+        }
+        let edit = match <[Edit; 1]>::try_from(edits) {
+            Ok([one]) => one,
+            Err(several) => Edit::Batch(several),
+        };
+        let made = self.session.edit(step, edit);
+        if let Err(error) = &made {
+            self.notify(error.to_string());
+        }
+        self.refresh();
+        made.is_ok()
+    }
+
+    /// Applies an edit that may be refused, in which case it changes nothing and adds no notice.
+    pub(crate) fn edit_quietly(&mut self, step: &str, edit: Edit) {
+        if self.session.edit(step, edit).is_ok() {
+            self.refresh();
+        }
+    }
+
+    fn why_not_evaluable_after(&mut self, edits: &[Edit]) -> Option<String> {
+        let base = self.session.graph().base();
+        let mut read = |name: &str| self.group_files.read(&base.resolve(name));
+        evaluability::why_lost_by(self.session.document(), edits, &mut read)
+    }
+
+    /// Undoes the last step, and selects the nodes that come back.
+    pub fn undo(&mut self) {
+        let before = self.shown_before();
+        let undone = self.session.undo();
+        self.after_history(undone, "Undone", &before);
+    }
+
+    /// Redoes the last step that was undone, and selects the nodes that come back.
+    pub fn redo(&mut self) {
+        let before = self.shown_before();
+        let redone = self.session.redo();
+        self.after_history(redone, "Done again", &before);
+    }
+
+    /// Cancels the step that was begun with `session.begin`: the document is as it was before.
+    pub fn cancel_step(&mut self) {
+        if let Err(error) = self.session.cancel() {
+            self.notify(error.to_string());
+        }
+        self.refresh();
+    }
+
+    fn shown_before(&self) -> ShownBefore {
+        ShownBefore {
+            depth: self.instance_path.len(),
+            ids: self.graph().ids().cloned().collect(),
+        }
+    }
+
+    fn after_history(&mut self, moved: Result<Option<String>, EditError>, verb: &str, before: &ShownBefore) {
+        match moved {
+            Ok(step) => self.notices.extend(step.map(|name| format!("{verb}: {name}"))),
+            Err(error) => self.notify(error.to_string()),
+        }
+        self.refresh();
+        let ids = self.graph().ids();
+        let returned: Vec<NodeId> = ids.filter(|id| !before.ids.contains(*id)).cloned().collect();
+        if before.depth == self.instance_path.len() && !returned.is_empty() {
+            self.select(returned);
+        }
+    }
+
+    /// Saves the document to its file.
+    pub fn save(&mut self) -> Result<(), EngineError> {
+        self.session.save()
+    }
+
+    /// Saves the document to another file, which becomes its own. Node kinds are read from the folder of that file.
+    pub fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
+        let folder = self.session.graph().folder().to_owned();
+        self.session.save_as(path)?;
+        if self.session.graph().folder() != folder {
+            self.replace_kinds(Kinds::beside(Some(path)));
+        }
+        self.refresh();
+        Ok(())
+    }
+
+    /// Reads the document's file again and takes its contents as one undo step.
+    pub fn read_again(&mut self) -> Result<(), EngineError> {
+        let read = self.session.read_again();
+        self.refresh();
+        read
+    }
+
+    /// Reads changed group files and images again.
+    pub fn files_changed(&mut self, files: &BTreeSet<PathBuf>) {
+        self.session.graph().look_again(files);
+        self.group_files.look_again(files);
+        self.faces.0 = None;
+        self.files_revision += 1;
+        self.refresh();
+    }
+
+    /// Adds a sentence for the artist to the notices.
+    pub fn notify(&mut self, sentence: impl Into<String>) {
+        self.notices.push(sentence.into());
+    }
+
+    /// Adds the reason why an edit is refused to the notices; returns `false`.
+    pub(crate) fn refuse(&mut self, why: impl Into<String>) -> bool {
+        self.notify(why);
+        false
+    }
+
+    /// Takes the notices since the last call.
+    pub fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// Updates what is derived from the document: ports and knobs of nodes, the shown graph and the selection.
+    fn refresh(&mut self) {
+        let now = (self.session.revision(), self.kinds_revision);
+        if self.faces.0 == Some(now) {
+            return;
+        }
+        let base = self.session.graph().base();
+        let mut read = |name: &str| self.group_files.read(&base.resolve(name));
+        let faces = Faces::new(&self.catalog, self.session.document(), &mut read);
+        self.faces = (Some(now), faces);
+        let bodies = self.bodies();
+        let depth = bodies.len() - 1;
+        if depth < self.instance_path.len() {
+            // An entered instance is gone: show the innermost graph that is left.
+            let path = self.instance_path[..depth].to_vec();
+            self.show_graph_at(path);
+        } else {
+            self.shown = bodies.into_iter().next_back().unwrap_or_default(); // never empty
+        }
+        let selection = std::mem::take(&mut self.selection);
+        self.select(selection);
+    }
+}
+
+/// Ports and knobs that instances of a graph have.
+fn face_of_body<'f>(faces: &'f Faces, body: &Body) -> Option<&'f Arc<Entry>> {
+    match body {
+        Body::Main => faces.of_whole(),
+        Body::Group(name) => faces.of_group(name),
+    }
+}

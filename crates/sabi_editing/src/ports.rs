@@ -1,0 +1,331 @@
+//! Inputs and outputs of the graph that is seen, for those who use it as a group. Instances follow.
+
+use std::collections::BTreeMap;
+
+use sabi_graph::{Edit, GroupInput, NodeId, OutputRef, PortType, SlotRef};
+
+use crate::connections::PendingWire;
+use crate::names::free_name;
+use crate::open_document::OpenDocument;
+use crate::{connections, instances};
+
+/// Inputs of the graph that is seen.
+pub fn inputs(document: &OpenDocument) -> &BTreeMap<String, GroupInput> {
+    instances::ports(document.contents(), document.shown()).0
+}
+
+/// Outputs of the graph that is seen.
+pub fn outputs(document: &OpenDocument) -> &BTreeMap<String, OutputRef> {
+    instances::ports(document.contents(), document.shown()).1
+}
+
+/// Makes an input of the group out of one of a node; gives its name.
+pub fn publish_input(document: &mut OpenDocument, slot: &SlotRef) -> Option<String> {
+    let name = free_name(&slot.name, '_', |name| inputs(document).contains_key(name));
+    let input = GroupInput {
+        to: vec![slot.clone()],
+        ..GroupInput::default()
+    };
+    if let Err(why) = check_feed(document, None, slot) {
+        document.notify(why);
+        return None;
+    }
+    let edit = setting_input(document, &name, Some(input));
+    document.edit("Add input", vec![edit]).then_some(name)
+}
+
+/// Has an input of the group feed an input of a node too.
+pub fn feed(document: &mut OpenDocument, name: &str, slot: &SlotRef) -> bool {
+    let Some(mut input) = inputs(document).get(name).cloned() else {
+        return document.refuse(format!("the group has no input '{name}'"));
+    };
+    if input.to.contains(slot) {
+        return true;
+    }
+    if let Err(why) = check_feed(document, Some(&input), slot) {
+        return document.refuse(why);
+    }
+    let mut edits = Vec::new();
+    // Fed by one input at most: the last one that was asked for.
+    if let Some((other, mut known)) = feeding(document, slot) {
+        known.to.retain(|fed| fed != slot);
+        edits.push(setting_input(document, &other, Some(known)));
+    }
+    input.to.push(slot.clone());
+    edits.push(setting_input(document, name, Some(input)));
+    document.edit("Connect input", edits)
+}
+
+/// Takes an input of a node off the group's input that feeds it.
+pub fn unfeed(document: &mut OpenDocument, slot: &SlotRef) -> bool {
+    let Some((name, mut input)) = feeding(document, slot) else {
+        return false;
+    };
+    input.to.retain(|fed| fed != slot);
+    let edit = setting_input(document, &name, Some(input));
+    document.edit("Disconnect input", vec![edit])
+}
+
+/// Inputs of these nodes that inputs of the group feed, each with the name of that one.
+pub(crate) fn fed_by_group(document: &OpenDocument, is_meant: impl Fn(&NodeId) -> bool) -> Vec<(SlotRef, String)> {
+    let inputs = inputs(document).iter();
+    let slots = inputs.flat_map(|(name, input)| input.to.iter().map(move |slot| (slot.clone(), name.clone())));
+    slots.filter(|(slot, _)| is_meant(&slot.node)).collect()
+}
+
+/// Has each of these inputs fed by that input of the group, or by none, besides what the edits do already.
+pub(crate) fn refeed(document: &OpenDocument, edits: &mut Vec<Edit>, fed: Vec<(SlotRef, Option<String>)>) {
+    let feeds = |name: &str, slot: &SlotRef| fed.iter().any(|(to, by)| to == slot && by.as_deref() == Some(name));
+    for (name, input) in inputs(document) {
+        let made = edits
+            .iter()
+            .rposition(|edit| matches!(edit, Edit::SetInput { name: set, .. } if set == name));
+        let by_edits = made.and_then(|at| match &edits[at] {
+            Edit::SetInput { input, .. } => input.clone(),
+            _ => None,
+        });
+        let before = by_edits.unwrap_or_else(|| input.clone());
+        let mut after = before.clone();
+        after
+            .to
+            .retain(|slot| feeds(name, slot) || fed.iter().all(|(known, _)| known != slot));
+        for (slot, _) in &fed {
+            if feeds(name, slot) && !after.to.contains(slot) {
+                after.to.push(slot.clone());
+            }
+        }
+        if after != before {
+            edits.push(setting_input(document, name, Some(after)));
+        }
+    }
+}
+
+fn feeding(document: &OpenDocument, slot: &SlotRef) -> Option<(String, GroupInput)> {
+    let name = connections::feeder(document, document.shown(), slot)?.to_owned();
+    let input = inputs(document).get(&name)?.clone();
+    Some((name, input))
+}
+
+/// Why an input cannot feed an input of a node.
+fn check_feed(document: &OpenDocument, input: Option<&GroupInput>, slot: &SlotRef) -> Result<(), String> {
+    let Some(port) = connections::input(document, slot) else {
+        return Err(format!("'{}' has no input '{}'", document.title(&slot.node), slot.name));
+    };
+    let Some(input) = input else {
+        return match connections::feeder(document, document.shown(), slot) {
+            Some(name) => Err(format!("the group's input '{name}' leads there already")),
+            None => Ok(()),
+        };
+    };
+    let fed = input.to.iter().find_map(|slot| connections::input(document, slot)?.ty);
+    let carried: Option<PortType> = input.ty.or(fed);
+    match (carried, port.ty) {
+        (Some(carried), Some(takes)) if !takes.accepts(carried) => Err(format!(
+            "'{}' takes a {takes}, and this input of the group carries a {carried}",
+            port.label
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Inputs of nodes that an input of the group could feed too: those that nothing leads to.
+pub fn feedable(document: &OpenDocument, name: &str) -> Vec<SlotRef> {
+    let Some(input) = inputs(document).get(name) else {
+        return Vec::new();
+    };
+    let all = document.graph().ids().flat_map(|id| {
+        let ports = document.face(id).map(|face| face.inputs.as_slice()).unwrap_or_default();
+        ports.iter().map(|port| SlotRef {
+            node: id.clone(),
+            name: port.name.clone(),
+        })
+    });
+    let is_free = |slot: &SlotRef| {
+        connections::wire_into(document, slot).is_none()
+            && connections::feeder(document, document.shown(), slot).is_none()
+    };
+    all.filter(|slot| is_free(slot) && check_feed(document, Some(input), slot).is_ok())
+        .collect()
+}
+
+/// All results of the nodes that are seen.
+pub fn results(document: &OpenDocument) -> Vec<OutputRef> {
+    let all = document.graph().ids().flat_map(|id| {
+        let ports = document
+            .face(id)
+            .map(|face| face.outputs.as_slice())
+            .unwrap_or_default();
+        ports.iter().map(|port| OutputRef {
+            node: id.clone(),
+            port: Some(port.name.clone()),
+        })
+    });
+    all.collect()
+}
+
+/// The name under which the graph gives a port on to those who use it as a group.
+pub fn published_as<'d>(document: &'d OpenDocument, port: &PendingWire) -> Option<&'d str> {
+    match port {
+        PendingWire::Into(slot) => connections::feeder(document, document.shown(), slot),
+        PendingWire::From(result) => {
+            let result = connections::shortest(document, result);
+            let mut outputs = outputs(document).iter();
+            let given = outputs.find(|(_, from)| connections::shortest(document, from) == result);
+            given.map(|(name, _)| name.as_str())
+        }
+    }
+}
+
+/// Removes an input of the group.
+pub fn remove_input(document: &mut OpenDocument, name: &str) -> bool {
+    let edit = setting_input(document, name, None);
+    document.edit("Remove input", vec![edit])
+}
+
+/// Gives an input of the group the name that artists see, or its own one back.
+pub fn set_input_label(document: &mut OpenDocument, name: &str, label: &str) -> bool {
+    let Some(input) = inputs(document).get(name).cloned() else {
+        return document.refuse(format!("the group has no input '{name}'"));
+    };
+    let label = Some(label.trim().to_owned()).filter(|label| !label.is_empty());
+    let edit = setting_input(document, name, Some(GroupInput { label, ..input }));
+    document.edit("Rename input", vec![edit])
+}
+
+/// Gives an input of the group another name in files, and in all its instances.
+pub fn rename_input(document: &mut OpenDocument, name: &str, to: &str) -> bool {
+    let to = to.trim();
+    let Some(input) = inputs(document).get(name).cloned() else {
+        return document.refuse(format!("the group has no input '{name}'"));
+    };
+    if name == to {
+        return true;
+    }
+    if inputs(document).contains_key(to) {
+        return document.refuse(format!("the group has an input '{to}' already; choose another name"));
+    }
+    let mut edits = vec![
+        setting_input(document, name, None),
+        setting_input(document, to, Some(input)),
+    ];
+    for (body, id, node) in instances::of_shown(document) {
+        let Some(from) = node.inputs.get(name).cloned() else {
+            continue;
+        };
+        let (node, input) = (id.clone(), name.to_owned());
+        edits.push(Edit::Disconnect {
+            body: body.clone(),
+            node: node.clone(),
+            input,
+        });
+        let (body, input) = (body.clone(), to.to_owned());
+        edits.push(Edit::Connect {
+            body,
+            node,
+            input,
+            from,
+        });
+    }
+    let is_ours = instances::is_instance_of_shown(document);
+    edits.extend(instances::renamed_inputs(
+        document,
+        |body, slot| is_ours(body, slot) && slot.name == name,
+        to,
+    ));
+    document.edit("Rename input", edits)
+}
+
+/// Makes an output of the group out of a result; gives its name.
+pub fn publish_output(document: &mut OpenDocument, from: &OutputRef) -> Option<String> {
+    let port = document
+        .face(&from.node)
+        .and_then(|face| face.output(from.port.as_deref()));
+    let Some(stem) = port.map(|port| port.name.clone()) else {
+        document.notify(format!("'{}' gives no such result", document.title(&from.node)));
+        return None;
+    };
+    let name = free_name(&stem, '_', |name| outputs(document).contains_key(name));
+    let edit = setting_output(document, &name, Some(connections::shortest(document, from)));
+    document.edit("Add output", vec![edit]).then_some(name)
+}
+
+/// Has an output of the group give another result.
+pub fn retarget_output(document: &mut OpenDocument, name: &str, from: &OutputRef) -> bool {
+    if !outputs(document).contains_key(name) {
+        return document.refuse(format!("the group has no output '{name}'"));
+    }
+    let face = document.face(&from.node);
+    if face.and_then(|face| face.output(from.port.as_deref())).is_none() {
+        let title = document.title(&from.node);
+        return document.refuse(format!("'{title}' gives no such result"));
+    }
+    let edit = setting_output(document, name, Some(connections::shortest(document, from)));
+    document.edit("Connect output", vec![edit])
+}
+
+/// Removes an output of the group.
+pub fn remove_output(document: &mut OpenDocument, name: &str) -> bool {
+    let edit = setting_output(document, name, None);
+    document.edit("Remove output", vec![edit])
+}
+
+/// Gives an output of the group another name, in all its instances.
+pub fn rename_output(document: &mut OpenDocument, name: &str, to: &str) -> bool {
+    let to = to.trim();
+    let Some(output) = outputs(document).get(name).cloned() else {
+        return document.refuse(format!("the group has no output '{name}'"));
+    };
+    if name == to {
+        return true;
+    }
+    if outputs(document).contains_key(to) {
+        return document.refuse(format!("the group has an output '{to}' already; choose another name"));
+    }
+    let mut edits = vec![
+        setting_output(document, name, None),
+        setting_output(document, to, Some(output)),
+    ];
+    for (body, id, _) in instances::of_shown(document) {
+        let Some(graph) = document.graph_of(&body) else {
+            continue;
+        };
+        let renamed = OutputRef {
+            node: id.clone(),
+            port: Some(to.to_owned()),
+        };
+        let is_meant = |from: &&OutputRef| from.node == id && from.port.as_deref() == Some(name);
+        for slot in graph.readers(id.as_str()) {
+            let tied = graph
+                .node(slot.node.as_str())
+                .and_then(|node| node.inputs.get(&slot.name));
+            edits.extend(tied.filter(is_meant).map(|_| Edit::Connect {
+                body: body.clone(),
+                node: slot.node,
+                input: slot.name,
+                from: renamed.clone(),
+            }));
+        }
+        let (_, outputs) = instances::ports(document.contents(), &body);
+        for (outer, _) in outputs.iter().filter(|(_, from)| is_meant(from)) {
+            let (body, name, output) = (body.clone(), outer.clone(), Some(renamed.clone()));
+            edits.push(Edit::SetOutput { body, name, output });
+        }
+    }
+    document.edit("Rename output", edits)
+}
+
+fn setting_input(document: &OpenDocument, name: &str, input: Option<GroupInput>) -> Edit {
+    Edit::SetInput {
+        body: document.body(),
+        name: name.to_owned(),
+        input,
+    }
+}
+
+fn setting_output(document: &OpenDocument, name: &str, output: Option<OutputRef>) -> Edit {
+    Edit::SetOutput {
+        body: document.body(),
+        name: name.to_owned(),
+        output,
+    }
+}
