@@ -78,6 +78,26 @@ pub fn set(document: &mut OpenDocument, step: &str, id: &str, frame: Frame) -> b
     document.edit(step, vec![edit])
 }
 
+/// Sets the title of a frame.
+pub fn rename(document: &mut OpenDocument, id: &str, title: String) -> bool {
+    change(document, id, |frame| frame.title = Some(title))
+}
+
+/// Gives a frame the next color of the palette.
+pub fn recolor(document: &mut OpenDocument, id: &str) -> bool {
+    change(document, id, |frame| {
+        frame.color = Some(next_color(frame.color.as_deref()))
+    })
+}
+
+fn change(document: &mut OpenDocument, id: &str, change: impl FnOnce(&mut Frame)) -> bool {
+    let Some(mut frame) = document.graph().frames().get(id).cloned() else {
+        return document.refuse("this frame is gone");
+    };
+    change(&mut frame);
+    set(document, "Change frame", id, frame)
+}
+
 /// Removes a frame; its nodes stay.
 pub fn remove(document: &mut OpenDocument, id: &str) -> bool {
     let edit = Edit::RemoveFrame {

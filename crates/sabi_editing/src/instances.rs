@@ -1,10 +1,10 @@
 //! Group instances: the ports of a graph as a group, where its instances are, and renames that reach them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
+use sabi_engine::catalog::{Entry, Faces};
 use sabi_graph::{Body, Document, Edit, Exposed, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, SlotRef};
-
-use crate::open_document::OpenDocument;
 
 /// All graphs of a document.
 pub(crate) fn bodies(document: &Document) -> Vec<(Body, &Graph)> {
@@ -35,13 +35,9 @@ pub(crate) fn ports<'d>(
 }
 
 /// Edits by which knobs of the panels around turn slots by their new name.
-pub(crate) fn renamed_knobs<'d>(
-    document: &'d OpenDocument,
-    is_meant: impl Fn(&Body, &SlotRef) -> bool,
-    to: &'d str,
-) -> Vec<Edit> {
+pub(crate) fn renamed_knobs(document: &Document, is_meant: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
     let mut edits = Vec::new();
-    for (body, graph) in bodies(document.contents()) {
+    for (body, graph) in bodies(document) {
         for (name, knob) in graph.exposed() {
             let mut knob: Exposed = knob.clone();
             if renamed(&mut knob.to, |slot| is_meant(&body, slot), to) {
@@ -54,11 +50,11 @@ pub(crate) fn renamed_knobs<'d>(
 }
 
 /// Instances of the group that is seen, wherever they are.
-pub(crate) fn of_shown(document: &OpenDocument) -> Vec<(Body, NodeId, Node)> {
-    let Body::Group(open) = document.shown() else {
+pub(crate) fn of_body(document: &Document, shown: &Body) -> Vec<(Body, NodeId, Node)> {
+    let Body::Group(open) = shown else {
         return Vec::new();
     };
-    let bodies = bodies(document.contents()).into_iter();
+    let bodies = bodies(document).into_iter();
     let found = bodies.flat_map(|(body, graph)| {
         instances(graph, open).map(move |(id, node)| (body.clone(), id.clone(), node.clone()))
     });
@@ -66,21 +62,17 @@ pub(crate) fn of_shown(document: &OpenDocument) -> Vec<(Body, NodeId, Node)> {
 }
 
 /// Tells slots of instances of the group that is seen.
-pub(crate) fn is_instance_of_shown(document: &OpenDocument) -> impl Fn(&Body, &SlotRef) -> bool + use<> {
-    let found = of_shown(document).into_iter();
+pub(crate) fn is_instance_of(document: &Document, shown: &Body) -> impl Fn(&Body, &SlotRef) -> bool + use<> {
+    let found = of_body(document, shown).into_iter();
     let found: BTreeSet<(Body, NodeId)> = found.map(|(body, id, _)| (body, id)).collect();
     move |body: &Body, slot: &SlotRef| found.contains(&(body.clone(), slot.node.clone()))
 }
 
 /// Edits by which inputs of the groups around feed slots by their new name.
-pub(crate) fn renamed_inputs<'d>(
-    document: &'d OpenDocument,
-    is_meant: impl Fn(&Body, &SlotRef) -> bool,
-    to: &'d str,
-) -> Vec<Edit> {
+pub(crate) fn renamed_inputs(document: &Document, is_meant: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
     let mut edits = Vec::new();
-    for (body, _) in bodies(document.contents()) {
-        for (name, input) in ports(document.contents(), &body).0 {
+    for (body, _) in bodies(document) {
+        for (name, input) in ports(document, &body).0 {
             let mut input = input.clone();
             if renamed(&mut input.to, |slot| is_meant(&body, slot), to) {
                 let (body, name, input) = (body.clone(), name.clone(), Some(input));
@@ -99,4 +91,12 @@ fn renamed(slots: &mut [SlotRef], is_meant: impl Fn(&SlotRef) -> bool, to: &str)
         is_changed = true;
     }
     is_changed
+}
+
+/// Ports and knobs that instances of a graph have.
+pub(crate) fn face_of<'f>(faces: &'f Faces, body: &Body) -> Option<&'f Arc<Entry>> {
+    match body {
+        Body::Main => faces.of_whole(),
+        Body::Group(name) => faces.of_group(name),
+    }
 }

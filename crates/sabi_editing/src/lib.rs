@@ -7,6 +7,7 @@
 
 pub mod arrangement;
 pub mod clipboard;
+pub mod command;
 pub mod connections;
 pub mod document_settings;
 pub mod duplication;

@@ -53,3 +53,19 @@ pub fn leave(document: &mut OpenDocument) -> bool {
         depth => leave_to(document, depth - 1),
     }
 }
+
+/// Selects a node in the graph that it is in, by its id in the evaluation. A node in a group file cannot be shown: its
+/// innermost instance that can be shown is selected instead. Returns what was selected.
+pub fn go_to(document: &mut OpenDocument, full_id: &str) -> Option<NodeId> {
+    leave_to(document, 0);
+    let steps: Vec<NodeId> = full_id.split('/').filter_map(|step| step.parse().ok()).collect();
+    let (mut selected, instances) = steps.split_last()?;
+    for instance in instances {
+        if !enter(document, instance) {
+            selected = instance;
+            break;
+        }
+    }
+    document.select([selected.clone()]);
+    Some(selected.clone())
+}

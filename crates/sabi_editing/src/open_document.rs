@@ -9,13 +9,13 @@ use sabi_engine::{EngineError, Kinds, Session};
 use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 
 use crate::group_files::GroupFiles;
+use crate::instances::face_of;
 use crate::new_ids::IdGenerator;
 use crate::{evaluability, follow_up};
 
 /// Document that is open in the editor, with everything that belongs to editing it but is not saved with it.
 ///
-/// It holds what all edits need: the session with its undo history, the node kinds, the shown graph, the selection and
-/// notices. The edits themselves are functions of the other modules, each over `&mut OpenDocument`.
+/// It holds what all edits need. The edits themselves are functions of the other modules, over `&mut OpenDocument`.
 pub struct OpenDocument {
     /// The document with its file, undo history and recovery file.
     pub session: Session,
@@ -35,12 +35,6 @@ pub struct OpenDocument {
     selection: BTreeSet<NodeId>,
     ids: IdGenerator,
     notices: Vec<String>,
-}
-
-/// The shown graph before undo or redo, to find the nodes that it brings back.
-struct ShownBefore {
-    depth: usize,
-    ids: BTreeSet<NodeId>,
 }
 
 impl OpenDocument {
@@ -172,12 +166,12 @@ impl OpenDocument {
 
     /// Ports and knobs that instances of the shown graph have.
     pub fn own_face(&self) -> Option<&Arc<Entry>> {
-        face_of_body(self.faces(), &self.shown)
+        face_of(self.faces(), &self.shown)
     }
 
     /// Ports and knobs that instances of the shown graph had when the document was opened.
     pub(crate) fn own_face_when_opened(&self) -> Option<&Arc<Entry>> {
-        face_of_body(&self.opened, &self.shown)
+        face_of(&self.opened, &self.shown)
     }
 
     /// Title of a node of the shown graph: its own label, or that of its kind.
@@ -205,10 +199,8 @@ impl OpenDocument {
 
     /// The selected node, if exactly one is selected.
     pub fn selected_one(&self) -> Option<&NodeId> {
-        match self.selection.len() {
-            1 => self.selection.first(),
-            _ => None,
-        }
+        let mut ids = self.selection.iter();
+        ids.next().filter(|_| ids.next().is_none())
     }
 
     /// Selects these nodes, as far as they exist, and no others.
@@ -293,14 +285,14 @@ impl OpenDocument {
 
     /// Undoes the last step, and selects the nodes that come back.
     pub fn undo(&mut self) {
-        let before = self.shown_before();
+        let before = self.shown_nodes();
         let undone = self.session.undo();
         self.after_history(undone, "Undone", &before);
     }
 
     /// Redoes the last step that was undone, and selects the nodes that come back.
     pub fn redo(&mut self) {
-        let before = self.shown_before();
+        let before = self.shown_nodes();
         let redone = self.session.redo();
         self.after_history(redone, "Done again", &before);
     }
@@ -313,22 +305,25 @@ impl OpenDocument {
         self.refresh();
     }
 
-    fn shown_before(&self) -> ShownBefore {
-        ShownBefore {
-            depth: self.instance_path.len(),
-            ids: self.graph().ids().cloned().collect(),
-        }
+    /// Number of entered instances and ids of the shown nodes, to find those that undo or redo brings back.
+    fn shown_nodes(&self) -> (usize, BTreeSet<NodeId>) {
+        (self.instance_path.len(), self.graph().ids().cloned().collect())
     }
 
-    fn after_history(&mut self, moved: Result<Option<String>, EditError>, verb: &str, before: &ShownBefore) {
+    fn after_history(
+        &mut self,
+        moved: Result<Option<String>, EditError>,
+        verb: &str,
+        before: &(usize, BTreeSet<NodeId>),
+    ) {
         match moved {
             Ok(step) => self.notices.extend(step.map(|name| format!("{verb}: {name}"))),
             Err(error) => self.notify(error.to_string()),
         }
         self.refresh();
         let ids = self.graph().ids();
-        let returned: Vec<NodeId> = ids.filter(|id| !before.ids.contains(*id)).cloned().collect();
-        if before.depth == self.instance_path.len() && !returned.is_empty() {
+        let returned: Vec<NodeId> = ids.filter(|id| !before.1.contains(*id)).cloned().collect();
+        if before.0 == self.instance_path.len() && !returned.is_empty() {
             self.select(returned);
         }
     }
@@ -395,20 +390,11 @@ impl OpenDocument {
         let depth = bodies.len() - 1;
         if depth < self.instance_path.len() {
             // An entered instance is gone: show the innermost graph that is left.
-            let path = self.instance_path[..depth].to_vec();
-            self.show_graph_at(path);
+            self.show_graph_at(self.instance_path[..depth].to_vec());
         } else {
             self.shown = bodies.into_iter().next_back().unwrap_or_default(); // never empty
         }
         let selection = std::mem::take(&mut self.selection);
         self.select(selection);
-    }
-}
-
-/// Ports and knobs that instances of a graph have.
-fn face_of_body<'f>(faces: &'f Faces, body: &Body) -> Option<&'f Arc<Entry>> {
-    match body {
-        Body::Main => faces.of_whole(),
-        Body::Group(name) => faces.of_group(name),
     }
 }

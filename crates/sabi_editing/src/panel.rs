@@ -108,6 +108,23 @@ pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &
     document.edit("Expose", vec![edit])
 }
 
+/// Publishes a knob of a node so that it sets those of the selected nodes of the same kind as well.
+pub fn expose_of_selected(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
+    let kind = |id: &NodeId| document.node(id).map(|node| &node.kind);
+    let selected = document.selection().iter();
+    let alike = selected.filter(|other| *other != id && kind(other) == kind(id));
+    let alike: Vec<NodeId> = alike.cloned().collect();
+    document.session.begin("Expose");
+    let is_new = expose(document, id, knob);
+    if let Some(name) = exposed_as(document, id, knob).map(str::to_owned) {
+        for other in alike {
+            expose_also(document, &other, knob, &name);
+        }
+    }
+    document.session.end();
+    is_new
+}
+
 /// The name under which a knob of a node is published.
 pub fn exposed_as<'d>(document: &'d OpenDocument, id: &NodeId, knob: &str) -> Option<&'d str> {
     let turns = |slot: &SlotRef| slot.node == *id && slot.name == knob;
@@ -173,7 +190,7 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
         body: document.body(),
         name: name.to_owned(),
     });
-    for (body, id, node) in instances::of_shown(document) {
+    for (body, id, node) in instances::of_body(document.contents(), document.shown()) {
         let Some(value) = node.params.get(name).cloned() else {
             continue;
         };
@@ -186,9 +203,9 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
             });
         }
     }
-    let is_ours = instances::is_instance_of_shown(document);
+    let is_ours = instances::is_instance_of(document.contents(), document.shown());
     edits.extend(instances::renamed_knobs(
-        document,
+        document.contents(),
         |body, slot| is_ours(body, slot) && slot.name == name,
         to,
     ));

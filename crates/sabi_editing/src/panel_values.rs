@@ -127,7 +127,7 @@ fn set_values<'d>(
     let variants = document.graph().variants().iter();
     let variants = variants
         .filter_map(move |(variant, values)| Some((format!("the variant '{variant}'"), values.get(name)?.clone())));
-    let instances = instances::of_shown(document).into_iter();
+    let instances = instances::of_body(document.contents(), document.shown()).into_iter();
     let instances = instances.filter_map(move |(_, id, node)| {
         let title = node.label.clone().unwrap_or_else(|| id.to_string());
         Some((format!("the instance '{title}'"), node.params.get(name)?.clone()))

@@ -208,7 +208,7 @@ pub fn rename_input(document: &mut OpenDocument, name: &str, to: &str) -> bool {
         setting_input(document, name, None),
         setting_input(document, to, Some(input)),
     ];
-    for (body, id, node) in instances::of_shown(document) {
+    for (body, id, node) in instances::of_body(document.contents(), document.shown()) {
         let Some(from) = node.inputs.get(name).cloned() else {
             continue;
         };
@@ -226,9 +226,9 @@ pub fn rename_input(document: &mut OpenDocument, name: &str, to: &str) -> bool {
             from,
         });
     }
-    let is_ours = instances::is_instance_of_shown(document);
+    let is_ours = instances::is_instance_of(document.contents(), document.shown());
     edits.extend(instances::renamed_inputs(
-        document,
+        document.contents(),
         |body, slot| is_ours(body, slot) && slot.name == name,
         to,
     ));
@@ -285,7 +285,7 @@ pub fn rename_output(document: &mut OpenDocument, name: &str, to: &str) -> bool 
         setting_output(document, name, None),
         setting_output(document, to, Some(output)),
     ];
-    for (body, id, _) in instances::of_shown(document) {
+    for (body, id, _) in instances::of_body(document.contents(), document.shown()) {
         let Some(graph) = document.graph_of(&body) else {
             continue;
         };

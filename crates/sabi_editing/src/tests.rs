@@ -1,6 +1,7 @@
 //! Claims about the document: what an artist does with a graph, and that all of it can be taken back.
 
 mod arranging;
+mod commands;
 mod copying;
 mod entering;
 mod framing;

@@ -62,7 +62,7 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
         return document.refuse(format!("there is a variant '{to}' already; choose another name"));
     }
     let mut edits = vec![setting(document, name, None), setting(document, &to, Some(values))];
-    for (body, id, node) in instances::of_shown(document) {
+    for (body, id, node) in instances::of_body(document.contents(), document.shown()) {
         if node.params.get("variant").and_then(Value::as_text) == Some(name) {
             edits.push(Edit::SetParam {
                 body,

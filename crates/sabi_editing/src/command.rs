@@ -1,0 +1,210 @@
+//! Edits as data: everything that an artist can do to the open document, and the one place where it is done.
+
+mod node_commands;
+mod perform;
+mod publishing_commands;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use sabi_graph::{Fit, NodeId, OutputRef, SlotRef};
+
+pub use node_commands::{ArrangeCommand, GroupCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource};
+pub use perform::perform;
+pub use publishing_commands::{PanelCommand, PortCommand, VariantCommand};
+
+use crate::wires::MaskMerge;
+
+/// Everything that an artist can do to the open document.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EditCommand {
+    /// Undo, redo and steps of several edits.
+    History(HistoryCommand),
+    /// Changes of what is selected.
+    Selection(SelectionCommand),
+    /// Changes of which graph is shown.
+    Navigation(NavigationCommand),
+    /// Nodes.
+    Node(NodeCommand),
+    /// Knobs of nodes.
+    Knob(KnobCommand),
+    /// Positions of nodes.
+    Arrange(ArrangeCommand),
+    /// Wires.
+    Wire(WireCommand),
+    /// Frames around nodes.
+    Frame(FrameCommand),
+    /// Groups.
+    Group(GroupCommand),
+    /// The clipboard.
+    Clipboard(ClipboardCommand),
+    /// The panel of published knobs.
+    Panel(PanelCommand),
+    /// Variants of the panel.
+    Variant(VariantCommand),
+    /// Inputs and outputs of the shown graph.
+    Port(PortCommand),
+    /// Layers of a stack.
+    Layer(LayerCommand),
+    /// What holds for the whole document.
+    Document(DocumentCommand),
+}
+
+/// Result of a command. The reason of a refusal is among the document's notices.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// The command was refused, or there was nothing to change.
+    Unchanged,
+    /// The command was carried out.
+    Done,
+    /// A node was added, or took the place of another one.
+    Added(NodeId),
+    /// Nodes were copied as this text, which belongs on the clipboard.
+    Copied(String),
+    /// A file was written.
+    Saved(PathBuf),
+}
+
+impl From<bool> for Outcome {
+    fn from(is_done: bool) -> Outcome {
+        if is_done { Outcome::Done } else { Outcome::Unchanged }
+    }
+}
+
+/// Undo, redo and steps of several edits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum HistoryCommand {
+    /// Undo the last step.
+    Undo,
+    /// Redo the last step that was undone.
+    Redo,
+    /// Begin a step of this name: everything until its end is undone at once.
+    Begin(String),
+    /// End the step that was begun.
+    End,
+    /// Cancel the step that was begun: the document is as it was before.
+    Cancel,
+}
+
+/// Change of what is selected.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SelectionCommand {
+    /// Select these nodes and no others.
+    Only(Vec<NodeId>),
+    /// Add a node to the selection, or remove it from there.
+    Toggle(NodeId),
+    /// Select all nodes of the shown graph.
+    All,
+    /// Add all nodes that the selected ones depend on.
+    Upstream,
+    /// Add all nodes that depend on the selected ones.
+    Downstream,
+}
+
+/// Change of which graph is shown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NavigationCommand {
+    /// Show the graph of a group instance.
+    Enter(NodeId),
+    /// Leave the group that was entered last.
+    Leave,
+    /// Leave groups until this many instances are entered.
+    LeaveTo(usize),
+    /// Select a node in the graph that it is in, by its id in the evaluation.
+    GoTo(String),
+}
+
+/// Change of wires.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WireCommand {
+    /// Connect an output to an input.
+    Connect {
+        /// Output that is read.
+        from: OutputRef,
+        /// Input that reads it.
+        to: SlotRef,
+        /// Input that the wire is taken from.
+        off: Option<SlotRef>,
+    },
+    /// Connect a second output to an input that is connected already.
+    Merge {
+        /// Second output.
+        from: OutputRef,
+        /// Input that is connected already.
+        to: SlotRef,
+        /// How both are merged.
+        how: MaskMerge,
+    },
+    /// Disconnect inputs.
+    Disconnect(Vec<SlotRef>),
+    /// Insert a node into a wire.
+    Insert {
+        /// Node that is inserted.
+        node: NodeId,
+        /// Input that the wire leads to.
+        into: SlotRef,
+    },
+    /// Add a reroute to a wire.
+    Reroute {
+        /// Input that the wire leads to.
+        into: SlotRef,
+        /// Center of the reroute, canvas points.
+        place: [f32; 2],
+    },
+    /// Disconnect the selected nodes, and connect what they were between.
+    DetachSelected,
+    /// Swap the first two inputs of the same type of each selected node.
+    SwapInputs,
+}
+
+/// Change of frames.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FrameCommand {
+    /// Add a frame around the selected nodes.
+    Add,
+    /// Set the title of a frame.
+    Rename {
+        /// Id of the frame.
+        frame: String,
+        /// New title.
+        title: String,
+    },
+    /// Give a frame the next color of the palette.
+    Recolor(String),
+    /// Select the nodes in a frame.
+    Select(String),
+    /// Move the selected nodes into a frame, or (`None`) out of all frames.
+    Assign(Option<String>),
+    /// Remove a frame; its nodes stay.
+    Remove(String),
+}
+
+/// Copying and pasting nodes as text.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClipboardCommand {
+    /// Copy the selected nodes.
+    Copy,
+    /// Copy the selected nodes and delete them.
+    Cut,
+    /// Paste nodes from a text.
+    Paste {
+        /// Text from the clipboard.
+        text: String,
+        /// Upper left corner of the pasted nodes, canvas points.
+        place: [f32; 2],
+    },
+}
+
+/// Change of what holds for the whole document.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DocumentCommand {
+    /// Set the texels along a side of a texture while working.
+    SetSize(u32),
+    /// Set the length that counts as 1.
+    SetFit(Fit),
+    /// Set the seed that all nodes' seeds are combined with.
+    SetSeed(u32),
+}
+
+/// Positions of nodes, canvas points.
+pub type Positions = BTreeMap<NodeId, [f32; 2]>;

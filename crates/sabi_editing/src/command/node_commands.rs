@@ -1,0 +1,177 @@
+//! Commands for nodes, their knobs, positions, groups and layers.
+
+use std::path::PathBuf;
+
+use sabi_graph::{NodeId, SlotRef, Value};
+
+use crate::arrangement::Align;
+use crate::connections::PendingWire;
+use crate::knob_target::KnobTarget;
+use crate::stack::StackEnd;
+
+use super::Positions;
+
+/// What a new node is made from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NodeSource {
+    /// A node kind.
+    Kind(String),
+    /// A group of the document, or a graph file by its path relative to the document.
+    Group(String),
+    /// A graph file of a library, which becomes a group of the document.
+    Library(PathBuf),
+}
+
+/// Change of nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NodeCommand {
+    /// Add a node and select it.
+    Add {
+        /// What the node is made from.
+        source: NodeSource,
+        /// Upper left corner, canvas points.
+        place: [f32; 2],
+        /// Wire that is connected to the node where it fits.
+        pending: Option<PendingWire>,
+        /// Input whose wire the node is inserted into.
+        into: Option<SlotRef>,
+    },
+    /// Replace a node, and keep its wires where they fit.
+    Replace {
+        /// Node that is replaced.
+        node: NodeId,
+        /// What the new node is made from.
+        by: NodeSource,
+    },
+    /// Set the label of a node; an empty one restores that of its kind.
+    Rename {
+        /// Node that is renamed.
+        node: NodeId,
+        /// New label.
+        name: String,
+    },
+    /// Delete the selected nodes.
+    DeleteSelected {
+        /// Whether what they were between is connected.
+        reconnects: bool,
+    },
+    /// Duplicate the selected nodes.
+    DuplicateSelected {
+        /// Whether the copies read what the originals read.
+        keeps_inputs: bool,
+    },
+    /// Mute the selected nodes, or unmute them if all are muted.
+    ToggleMuted,
+    /// Add the texture sets that image files are, by their names.
+    AddTextureSets {
+        /// Image files.
+        files: Vec<PathBuf>,
+        /// Upper left corner of the new nodes, canvas points.
+        place: [f32; 2],
+    },
+    /// Add a node that reads an image file.
+    AddImage {
+        /// Image file.
+        file: PathBuf,
+        /// Upper left corner, canvas points.
+        place: [f32; 2],
+    },
+}
+
+/// Change of knobs of nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum KnobCommand {
+    /// Set a knob of a node and of the selected nodes of its kind; `None` restores the default.
+    Set {
+        /// Node whose knob it is.
+        node: NodeId,
+        /// Name of the knob.
+        knob: String,
+        /// New value.
+        value: Option<Value>,
+    },
+    /// Set the knob that waits for a value.
+    SetTarget {
+        /// Knob that waits.
+        target: KnobTarget,
+        /// New value.
+        value: Value,
+    },
+    /// Publish a knob of a node together with those of the selected nodes of its kind.
+    Publish {
+        /// Node whose knob it is.
+        node: NodeId,
+        /// Name of the knob.
+        knob: String,
+    },
+    /// Take a knob of a node off the panel.
+    Unpublish {
+        /// Node whose knob it is.
+        node: NodeId,
+        /// Name of the knob.
+        knob: String,
+    },
+}
+
+/// Change of the positions of nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ArrangeCommand {
+    /// Move nodes.
+    Move(Positions),
+    /// Align the selected nodes.
+    Align(Align),
+    /// Move the selected nodes up or down until the wires between them are level.
+    Straighten,
+    /// Lay out the selected nodes from left to right, or all nodes if none is selected.
+    LayOut,
+}
+
+/// Change of groups.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum GroupCommand {
+    /// Make a group of the selected nodes.
+    Make,
+    /// Replace the selected instances by what their groups contain.
+    Dissolve,
+    /// Write the group of the selected instance into a library folder.
+    SaveToLibrary(PathBuf),
+}
+
+/// Change of layers, which are counted from the top of their stack.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LayerCommand {
+    /// Hide or show a layer.
+    Toggle(NodeId),
+    /// Set the opacity of a layer.
+    SetOpacity {
+        /// Node of the layer.
+        node: NodeId,
+        /// New opacity.
+        opacity: f64,
+    },
+    /// Move a layer.
+    Move {
+        /// Output of the stack.
+        end: StackEnd,
+        /// Position of the layer.
+        from: usize,
+        /// New position.
+        to: usize,
+    },
+    /// Remove a layer.
+    Remove {
+        /// Output of the stack.
+        end: StackEnd,
+        /// Position of the layer.
+        at: usize,
+    },
+    /// Add a node as a layer above another one.
+    Add {
+        /// Output of the stack.
+        end: StackEnd,
+        /// Position of the layer below.
+        at: usize,
+        /// Kind of the node.
+        kind: String,
+    },
+}

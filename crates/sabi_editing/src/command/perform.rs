@@ -1,0 +1,285 @@
+//! The one place where commands are performed. No match here has a wildcard: a command that is not handled does not compile.
+
+use std::path::Path;
+
+use sabi_graph::{NodeId, Value};
+
+use super::{
+    ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand,
+    KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand,
+    SelectionCommand, VariantCommand, WireCommand,
+};
+use crate::open_document::OpenDocument;
+use crate::{
+    arrangement, clipboard, document_settings, duplication, frames, groups, knob_target, layers, library, navigation,
+    node_replacement, nodes, panel, panel_values, ports, relative_paths, selection, texture_sets, variants, wires,
+};
+
+/// Performs a command on the open document.
+pub fn perform(document: &mut OpenDocument, command: EditCommand) -> Outcome {
+    match command {
+        EditCommand::History(command) => history(document, command),
+        EditCommand::Selection(command) => select(document, command),
+        EditCommand::Navigation(command) => navigate(document, &command),
+        EditCommand::Node(command) => node(document, command),
+        EditCommand::Knob(command) => knob(document, command),
+        EditCommand::Arrange(command) => arrange(document, command),
+        EditCommand::Wire(command) => wire(document, command),
+        EditCommand::Frame(command) => frame(document, command),
+        EditCommand::Group(command) => group(document, &command),
+        EditCommand::Clipboard(command) => clip(document, &command),
+        EditCommand::Panel(command) => published(document, command),
+        EditCommand::Variant(command) => variant(document, &command),
+        EditCommand::Port(command) => port(document, command),
+        EditCommand::Layer(command) => layer(document, command),
+        EditCommand::Document(command) => settings(document, command),
+    }
+}
+
+fn history(document: &mut OpenDocument, command: HistoryCommand) -> Outcome {
+    let before = document.session.revision();
+    match command {
+        HistoryCommand::Undo => document.undo(),
+        HistoryCommand::Redo => document.redo(),
+        HistoryCommand::Begin(step) => document.session.begin(&step),
+        HistoryCommand::End => document.session.end(),
+        HistoryCommand::Cancel => document.cancel_step(),
+    }
+    (document.session.revision() != before).into()
+}
+
+fn select(document: &mut OpenDocument, command: SelectionCommand) -> Outcome {
+    let before = document.selection().clone();
+    match command {
+        SelectionCommand::Only(ids) => document.select(ids),
+        SelectionCommand::Toggle(id) => selection::toggle(document, &id),
+        SelectionCommand::All => selection::select_all(document),
+        SelectionCommand::Upstream => selection::select_connected(document, true),
+        SelectionCommand::Downstream => selection::select_connected(document, false),
+    }
+    (*document.selection() != before).into()
+}
+
+fn navigate(document: &mut OpenDocument, command: &NavigationCommand) -> Outcome {
+    match command {
+        NavigationCommand::Enter(id) => navigation::enter(document, id).into(),
+        NavigationCommand::Leave => navigation::leave(document).into(),
+        NavigationCommand::LeaveTo(depth) => navigation::leave_to(document, *depth).into(),
+        NavigationCommand::GoTo(full_id) => navigation::go_to(document, full_id).is_some().into(),
+    }
+}
+
+fn node(document: &mut OpenDocument, command: NodeCommand) -> Outcome {
+    match command {
+        NodeCommand::Add {
+            source,
+            place,
+            pending,
+            into,
+        } => {
+            document.session.begin("Add");
+            let added = match &source {
+                NodeSource::Kind(kind) => nodes::add(document, kind, place, pending.as_ref()),
+                NodeSource::Group(group) => nodes::add_instance(document, group, place, pending.as_ref()),
+                NodeSource::Library(file) => library::add(document, file, place, pending.as_ref()),
+            };
+            if let Some((id, into)) = added.as_ref().zip(into) {
+                wires::insert(document, id, &into);
+            }
+            document.session.end();
+            added_as(added)
+        }
+        NodeCommand::Replace { node, by } => {
+            let is_replaced = replace(document, &node, &by);
+            added_as(document.selected_one().cloned().filter(|_| is_replaced))
+        }
+        NodeCommand::Rename { node, name } => nodes::rename(document, &node, &name).into(),
+        NodeCommand::DeleteSelected { reconnects } => nodes::delete(document, reconnects).into(),
+        NodeCommand::DuplicateSelected { keeps_inputs } => duplication::duplicate(document, keeps_inputs).into(),
+        NodeCommand::ToggleMuted => nodes::toggle_muted(document).into(),
+        NodeCommand::AddTextureSets { files, place } => texture_sets::add(document, &files, place).into(),
+        NodeCommand::AddImage { file, place } => added_as(add_image(document, &file, place)),
+    }
+}
+
+fn added_as(added: Option<NodeId>) -> Outcome {
+    added.map_or(Outcome::Unchanged, Outcome::Added)
+}
+
+fn replace(document: &mut OpenDocument, node: &NodeId, by: &NodeSource) -> bool {
+    match by {
+        NodeSource::Kind(kind) => node_replacement::by_kind(document, node, kind),
+        NodeSource::Group(group) => node_replacement::by_group(document, node, group),
+        NodeSource::Library(file) => {
+            document.session.begin("Replace by a group");
+            let group = library::import(document, file);
+            let is_replaced = group.is_some_and(|group| node_replacement::by_group(document, node, &group));
+            if is_replaced {
+                document.session.end();
+            } else {
+                document.cancel_step();
+            }
+            is_replaced
+        }
+    }
+}
+
+fn add_image(document: &mut OpenDocument, file: &Path, place: [f32; 2]) -> Option<NodeId> {
+    let path = match relative_paths::relative(document, file) {
+        Ok(path) => path,
+        Err(refused) => {
+            document.notify(refused.to_string());
+            return None;
+        }
+    };
+    document.session.begin("Add picture");
+    let added = nodes::add(document, "source/image", place, None);
+    if let Some(id) = &added {
+        nodes::set_knob(document, id, "file", Some(Value::Text(path)));
+    }
+    document.session.end();
+    added
+}
+
+fn knob(document: &mut OpenDocument, command: KnobCommand) -> Outcome {
+    let is_done = match command {
+        KnobCommand::Set { node, knob, value } => nodes::set_knob_of_selected(document, &node, &knob, value),
+        KnobCommand::SetTarget { target, value } => knob_target::set(document, &target, value),
+        KnobCommand::Publish { node, knob } => panel::expose_of_selected(document, &node, &knob),
+        KnobCommand::Unpublish { node, knob } => panel::unexpose_knob(document, &node, &knob),
+    };
+    is_done.into()
+}
+
+fn arrange(document: &mut OpenDocument, command: ArrangeCommand) -> Outcome {
+    let is_done = match command {
+        ArrangeCommand::Move(places) => arrangement::move_nodes(document, "Move", places),
+        ArrangeCommand::Align(by) => arrangement::align(document, by),
+        ArrangeCommand::Straighten => arrangement::straighten(document),
+        ArrangeCommand::LayOut => arrangement::lay_out(document),
+    };
+    is_done.into()
+}
+
+fn wire(document: &mut OpenDocument, command: WireCommand) -> Outcome {
+    let is_done = match command {
+        WireCommand::Connect { from, to, off } => {
+            document.session.begin("Connect");
+            let is_connected = wires::connect(document, &from, &to);
+            if let Some(off) = off.filter(|_| is_connected) {
+                wires::disconnect(document, &[off]);
+            }
+            document.session.end();
+            is_connected
+        }
+        WireCommand::Merge { from, to, how } => wires::merge(document, &from, &to, how),
+        WireCommand::Disconnect(slots) => wires::disconnect(document, &slots),
+        WireCommand::Insert { node, into } => wires::insert(document, &node, &into),
+        WireCommand::Reroute { into, place } => wires::reroute(document, &into, place),
+        WireCommand::DetachSelected => wires::detach_selected(document),
+        WireCommand::SwapInputs => wires::swap_inputs(document),
+    };
+    is_done.into()
+}
+
+fn frame(document: &mut OpenDocument, command: FrameCommand) -> Outcome {
+    let is_done = match command {
+        FrameCommand::Add => frames::add(document),
+        FrameCommand::Rename { frame, title } => frames::rename(document, &frame, title),
+        FrameCommand::Recolor(frame) => frames::recolor(document, &frame),
+        FrameCommand::Select(frame) => return select_frame(document, &frame),
+        FrameCommand::Assign(frame) => {
+            let nodes = document.selection().clone();
+            frames::assign(document, &nodes, frame.as_deref())
+        }
+        FrameCommand::Remove(frame) => frames::remove(document, &frame),
+    };
+    is_done.into()
+}
+
+fn select_frame(document: &mut OpenDocument, frame: &str) -> Outcome {
+    let before = document.selection().clone();
+    frames::select(document, frame);
+    (*document.selection() != before).into()
+}
+
+fn group(document: &mut OpenDocument, command: &GroupCommand) -> Outcome {
+    match command {
+        GroupCommand::Make => groups::make(document).into(),
+        GroupCommand::Dissolve => groups::dissolve_selected(document).into(),
+        GroupCommand::SaveToLibrary(folder) => {
+            library::save_group(document, folder).map_or(Outcome::Unchanged, Outcome::Saved)
+        }
+    }
+}
+
+fn clip(document: &mut OpenDocument, command: &ClipboardCommand) -> Outcome {
+    let copied = match command {
+        ClipboardCommand::Copy => clipboard::copy(document),
+        ClipboardCommand::Cut => clipboard::cut(document),
+        ClipboardCommand::Paste { text, place } => return clipboard::paste(document, text, *place).into(),
+    };
+    copied.map_or(Outcome::Unchanged, Outcome::Copied)
+}
+
+fn published(document: &mut OpenDocument, command: PanelCommand) -> Outcome {
+    let is_done = match command {
+        PanelCommand::Set { name, value } => panel_values::set(document, &name, &value),
+        PanelCommand::Reset(name) => panel_values::reset(document, &name),
+        PanelCommand::SetLabel { name, label } => panel::set_label(document, &name, &label),
+        PanelCommand::Rename { name, to } => panel::rename(document, &name, &to),
+        PanelCommand::SetSection { name, section } => panel::set_section(document, &name, &section),
+        PanelCommand::SetRange { name, range } => panel_values::set_range(document, &name, range),
+        PanelCommand::SetDefault { name, default } => panel_values::set_default(document, &name, default),
+        PanelCommand::Move { name, before } => panel::move_knob(document, &name, before.as_deref()),
+        PanelCommand::Remove(name) => panel::unexpose(document, &name),
+    };
+    is_done.into()
+}
+
+fn variant(document: &mut OpenDocument, command: &VariantCommand) -> Outcome {
+    let is_done = match command {
+        VariantCommand::Save(name) => variants::save(document, name),
+        VariantCommand::Apply(name) => variants::apply(document, name),
+        VariantCommand::Rename { name, to } => variants::rename(document, name, to),
+        VariantCommand::Remove(name) => variants::remove(document, name),
+    };
+    is_done.into()
+}
+
+fn port(document: &mut OpenDocument, command: PortCommand) -> Outcome {
+    let is_done = match command {
+        PortCommand::NameGraph(name) => groups::rename_graph(document, &name),
+        PortCommand::PublishInput(slot) => ports::publish_input(document, &slot).is_some(),
+        PortCommand::PublishOutput(from) => ports::publish_output(document, &from).is_some(),
+        PortCommand::SetInputLabel { name, label } => ports::set_input_label(document, &name, &label),
+        PortCommand::RenameInput { name, to } => ports::rename_input(document, &name, &to),
+        PortCommand::RemoveInput(name) => ports::remove_input(document, &name),
+        PortCommand::Feed { name, slot } => ports::feed(document, &name, &slot),
+        PortCommand::Unfeed(slot) => ports::unfeed(document, &slot),
+        PortCommand::RenameOutput { name, to } => ports::rename_output(document, &name, &to),
+        PortCommand::RemoveOutput(name) => ports::remove_output(document, &name),
+        PortCommand::Retarget { name, from } => ports::retarget_output(document, &name, &from),
+    };
+    is_done.into()
+}
+
+fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
+    let is_done = match command {
+        LayerCommand::Toggle(id) => layers::toggle(document, &id),
+        LayerCommand::SetOpacity { node, opacity } => layers::set_opacity(document, &node, opacity),
+        LayerCommand::Move { end, from, to } => layers::move_to(document, &end, from, to),
+        LayerCommand::Remove { end, at } => layers::remove(document, &end, at),
+        LayerCommand::Add { end, at, kind } => return added_as(layers::add(document, &end, at, &kind)),
+    };
+    is_done.into()
+}
+
+fn settings(document: &mut OpenDocument, command: DocumentCommand) -> Outcome {
+    let is_done = match command {
+        DocumentCommand::SetSize(size) => document_settings::set_size(document, size),
+        DocumentCommand::SetFit(fit) => document_settings::set_fit(document, fit),
+        DocumentCommand::SetSeed(seed) => document_settings::set_seed(document, seed),
+    };
+    is_done.into()
+}

@@ -1,0 +1,131 @@
+//! Commands for what a graph publishes: knobs, variants, inputs and outputs. All go by their published names.
+
+use sabi_graph::{OutputRef, SlotRef, Value};
+
+/// Change of the panel of published knobs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PanelCommand {
+    /// Set the value of a knob.
+    Set {
+        /// Name of the knob.
+        name: String,
+        /// New value.
+        value: Value,
+    },
+    /// Restore the value that a knob had when the document was opened.
+    Reset(String),
+    /// Set the label of a knob; an empty one restores that of the knob that it sets.
+    SetLabel {
+        /// Name of the knob.
+        name: String,
+        /// New label.
+        label: String,
+    },
+    /// Set the name of a knob in files and on command lines.
+    Rename {
+        /// Present name.
+        name: String,
+        /// New name.
+        to: String,
+    },
+    /// Set the section of the panel that a knob is in; an empty one is none.
+    SetSection {
+        /// Name of the knob.
+        name: String,
+        /// Title of the section.
+        section: String,
+    },
+    /// Set the range of a knob; `None` restores that of the knob that it sets.
+    SetRange {
+        /// Name of the knob.
+        name: String,
+        /// Least and greatest value.
+        range: Option<[f64; 2]>,
+    },
+    /// Set the default of a knob; `None` leaves the values of its nodes.
+    SetDefault {
+        /// Name of the knob.
+        name: String,
+        /// New default.
+        default: Option<Value>,
+    },
+    /// Move a knob before another one, or (`None`) to the end.
+    Move {
+        /// Name of the knob.
+        name: String,
+        /// Name of the knob that comes after it.
+        before: Option<String>,
+    },
+    /// Take a knob off the panel.
+    Remove(String),
+}
+
+/// Change of the variants of the panel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum VariantCommand {
+    /// Save the present values of the panel as a variant.
+    Save(String),
+    /// Set the panel to the values of a variant.
+    Apply(String),
+    /// Rename a variant.
+    Rename {
+        /// Present name.
+        name: String,
+        /// New name.
+        to: String,
+    },
+    /// Remove a variant.
+    Remove(String),
+}
+
+/// Change of the inputs and outputs that the shown graph has as a group.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PortCommand {
+    /// Set the name of the shown graph.
+    NameGraph(String),
+    /// Publish an input of a node.
+    PublishInput(SlotRef),
+    /// Publish an output of a node.
+    PublishOutput(OutputRef),
+    /// Set the label of an input; an empty one restores its name.
+    SetInputLabel {
+        /// Name of the input.
+        name: String,
+        /// New label.
+        label: String,
+    },
+    /// Set the name of an input in files.
+    RenameInput {
+        /// Present name.
+        name: String,
+        /// New name.
+        to: String,
+    },
+    /// Remove an input.
+    RemoveInput(String),
+    /// Connect an input of the graph to an input of a node.
+    Feed {
+        /// Name of the input.
+        name: String,
+        /// Input of a node.
+        slot: SlotRef,
+    },
+    /// Disconnect an input of a node from the input of the graph that feeds it.
+    Unfeed(SlotRef),
+    /// Set the name of an output.
+    RenameOutput {
+        /// Present name.
+        name: String,
+        /// New name.
+        to: String,
+    },
+    /// Remove an output.
+    RemoveOutput(String),
+    /// Connect an output to another result.
+    Retarget {
+        /// Name of the output.
+        name: String,
+        /// Result that it gives.
+        from: OutputRef,
+    },
+}
