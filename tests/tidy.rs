@@ -1,11 +1,17 @@
 //! The house rules, held against the files: who may name whom, sizes, names and left-overs.
 
+#[path = "tidy/conventions.rs"]
+mod conventions;
 #[path = "tidy/functions.rs"]
 mod functions;
 #[path = "tidy/literals.rs"]
 mod literals;
+#[path = "tidy/matches.rs"]
+mod matches;
 #[path = "tidy/mirrors.rs"]
 mod mirrors;
+#[path = "tidy/modules.rs"]
+mod modules;
 #[path = "tidy/rules.rs"]
 mod rules;
 
@@ -205,7 +211,7 @@ fn no_crate_below_the_front_ends_names_a_flag() {
         let sources = files_below(&format!("crates/{name}/src"));
         for path in sources.into_iter().filter(|path| ending(path) == "rs") {
             for (line, text) in literals_of(&text_of(&path)) {
-                if let Some(flag) = flag_in(&text) {
+                if let Some(flag) = flag_in(text) {
                     faults.push(format!(
                         "{path}:{line}: `{flag}` is a flag of the command line: say what is the case, and give a `Remedy` \
                          that each front end says in its own words."

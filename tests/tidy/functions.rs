@@ -25,7 +25,7 @@ pub(crate) fn functions_of(text: &str) -> Vec<(String, usize, usize)> {
 }
 
 /// The same lines with quoted texts and comments taken out: a shader inside a test is not a function of the test.
-fn without_texts(text: &str) -> String {
+pub(crate) fn without_texts(text: &str) -> String {
     let mut kept = String::new();
     let mut rest = text;
     while let Some(first) = rest.chars().next() {

@@ -24,7 +24,7 @@ pub(crate) use status::status;
 /// Path into groups above the canvas, while a group is shown.
 pub(crate) fn path(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
-    let path = navigation::breadcrumb(&context.document);
+    let path = navigation::breadcrumb(context.document);
     if path.is_empty() {
         return actions;
     }

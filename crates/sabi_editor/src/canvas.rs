@@ -115,7 +115,7 @@ impl crate::context::View for Canvas {
                 waits: evaluation.waits(&result.node).cloned(),
             }
         };
-        let here = |result: &NodeRef| node_paths::in_shown_graph(&document, &result.node);
+        let here = |result: &NodeRef| node_paths::in_shown_graph(document, &result.node);
         let previewed = looks.inspected().and_then(here);
         let pinned = looks.pinned.as_ref().and_then(here);
         let around = CanvasContext {

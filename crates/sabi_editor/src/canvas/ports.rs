@@ -32,7 +32,7 @@ pub(super) fn show(
         let reach = reach_of(zoom);
         let is_input = matches!(place, PortRef::Input(_));
         // Leaves enough of a small node to drag the node itself.
-        let inside = reach.min(node_size::of(&document, id)[0] * zoom * INSIDE);
+        let inside = reach.min(node_size::of(document, id)[0] * zoom * INSIDE);
         let [left, right] = if is_input { [reach, inside] } else { [inside, reach] };
         let rect = Rect::from_min_max(center - vec2(left, reach), center + vec2(right, reach));
         let widget = ui.id().with(("port", id, &port.name, is_input));

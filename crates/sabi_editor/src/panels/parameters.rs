@@ -86,7 +86,7 @@ fn of_node(memory: &mut KnobMemory, ui: &mut Ui, context: &ViewContext<'_>, id: 
     let exposed: Vec<Option<String>> = face
         .knobs
         .iter()
-        .map(|knob| panel::exposed_as(&document, id, &knob.name).map(str::to_owned))
+        .map(|knob| panel::exposed_as(document, id, &knob.name).map(str::to_owned))
         .collect();
     let rows: Vec<KnobRow<'_>> = face
         .knobs

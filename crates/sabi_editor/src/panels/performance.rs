@@ -68,14 +68,14 @@ fn node_times(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     // A result may arrive after its node was deleted.
     let times = context.evaluation.times().iter();
     let mut times: Vec<_> = times
-        .filter(|(node, _)| node_paths::exists(&context.document, node))
+        .filter(|(node, _)| node_paths::exists(context.document, node))
         .collect();
     times.sort_by(|(_, one), (_, other)| other.cmp(one));
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::Grid::new("times").num_columns(2).striped(true).show(ui, |ui| {
             for (node, time) in times.into_iter().take(100) {
                 if ui
-                    .link(node_paths::title(&context.document, node))
+                    .link(node_paths::title(context.document, node))
                     .on_hover_text("Goes to the node")
                     .clicked()
                 {

@@ -27,10 +27,10 @@ impl Published {
         memory: &mut KnobMemory,
     ) -> Vec<PublishedAction> {
         let (document, theme) = (context.document, context.theme);
-        let panel = panel::knobs(&document);
+        let panel = panel::knobs(document);
         let mut asked = Vec::new();
         ui.horizontal(|ui| {
-            let name = groups::graph_name(&document);
+            let name = groups::graph_name(document);
             ui.heading(if name.is_empty() { "Untitled" } else { &name });
             if context.is_use_view || panel.is_empty() {
                 self.is_editing = false;

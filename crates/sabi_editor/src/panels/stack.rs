@@ -30,7 +30,7 @@ struct Dragged {
 impl View for Layers {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
-        let stacks = stack::all(&context.document);
+        let stacks = stack::all(context.document);
         self.wanted = wanted(context.document, &stacks);
         if stacks.is_empty() {
             let sentence = "There is no output yet; add a Material output and wire a material to it.";

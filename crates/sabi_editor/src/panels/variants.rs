@@ -34,7 +34,7 @@ impl Variants {
     /// Shows the variants of the shown graph and gives what is asked of them.
     pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Option<VariantAction> {
         let (document, theme) = (context.document, context.theme);
-        let panel = panel::knobs(&document);
+        let panel = panel::knobs(document);
         if panel.is_empty() {
             return None;
         }
@@ -45,7 +45,7 @@ impl Variants {
             ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
             for (name, values) in document.graph().variants() {
                 let holds = |knob: &str, value: &Value| panel.iter().any(|it| it.name == knob && it.value == *value);
-                let text = variants::as_text(&document, name);
+                let text = variants::as_text(document, name);
                 let card = Card {
                     name,
                     picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &text),

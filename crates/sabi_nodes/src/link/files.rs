@@ -121,7 +121,7 @@ mod tests {
         let fault = link_files(&["atlas"], &[], Libraries::builtin()).unwrap_err();
         assert_eq!(fault.message, "Nothing gives `SURFACE_GROUP` to this file.");
         assert!(fault.line > 1 && fault.path.ends_with("lib/atlas.wgsl"), "{fault}");
-        let module = link_files(&["atlas"], &[group.clone()], Libraries::builtin()).unwrap();
+        let module = link_files(&["atlas"], std::slice::from_ref(&group), Libraries::builtin()).unwrap();
         assert!(module.wgsl().contains("const SURFACE_GROUP: u32 = 2u;"));
         let fault = link_files(&["hash"], &[group], Libraries::builtin()).unwrap_err();
         assert!(fault.message.contains("none of its files wants it"), "{fault}");

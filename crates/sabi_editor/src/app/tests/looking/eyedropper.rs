@@ -56,7 +56,7 @@ fn a_click_on_the_model_takes_the_color_that_is_seen_there_and_not_the_nodes_own
     );
     window.click_at(middle);
     assert_eq!(window.color("tint"), "#c04020");
-    assert!(!window.editor().looks.color_target.is_some());
+    assert!(window.editor().looks.color_target.is_none());
     assert_eq!(window.steps(), 1);
 }
 
@@ -82,7 +82,7 @@ fn escape_gives_it_up_and_leaves_no_group() {
     window.take_dropper(&id("tint"));
     window.point(window.on_canvas([0.9, 0.5]));
     window.key(Key::Escape);
-    assert!(!window.editor().looks.color_target.is_some());
+    assert!(window.editor().looks.color_target.is_none());
     window.click_at(window.at_model([0.5, 0.5]));
     assert_eq!((window.color("tint").as_str(), window.steps()), ("#336699", 0));
 }
