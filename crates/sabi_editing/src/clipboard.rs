@@ -69,7 +69,7 @@ fn with_paths_from_here(document: &OpenDocument, copied: Document) -> Document {
     }
 }
 
-/// Cuts the selected nodes: what [`OpenDocument::copied`] gives, and they are gone.
+/// Returns the selected nodes as text for the clipboard, as [`copy()`] does, and removes them.
 pub fn cut(document: &mut OpenDocument) -> Option<String> {
     let text = copy(document)?;
     nodes::delete(document, false).then_some(text)
