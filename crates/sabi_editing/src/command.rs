@@ -50,6 +50,35 @@ pub enum EditCommand {
     Document(DocumentCommand),
 }
 
+/// Makes a command of each group an [`EditCommand`].
+macro_rules! groups {
+    ($($group:ident: $command:ident,)*) => {
+        $(impl From<$command> for EditCommand {
+            fn from(command: $command) -> EditCommand {
+                EditCommand::$group(command)
+            }
+        })*
+    };
+}
+
+groups! {
+    History: HistoryCommand,
+    Selection: SelectionCommand,
+    Navigation: NavigationCommand,
+    Node: NodeCommand,
+    Knob: KnobCommand,
+    Arrange: ArrangeCommand,
+    Wire: WireCommand,
+    Frame: FrameCommand,
+    Group: GroupCommand,
+    Clipboard: ClipboardCommand,
+    Panel: PanelCommand,
+    Variant: VariantCommand,
+    Port: PortCommand,
+    Layer: LayerCommand,
+    Document: DocumentCommand,
+}
+
 /// Result of a command. The reason of a refusal is among the document's notices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {

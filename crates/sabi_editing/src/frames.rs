@@ -69,7 +69,7 @@ pub fn assign(document: &mut OpenDocument, nodes: &BTreeSet<NodeId>, id: Option<
 }
 
 /// Changes a frame, or adds it.
-pub fn set(document: &mut OpenDocument, step: &str, id: &str, frame: Frame) -> bool {
+fn set(document: &mut OpenDocument, step: &str, id: &str, frame: Frame) -> bool {
     let edit = Edit::AddFrame {
         body: document.body(),
         id: id.to_owned(),
@@ -108,7 +108,7 @@ pub fn remove(document: &mut OpenDocument, id: &str) -> bool {
 }
 
 /// The color after the one that a frame has.
-pub fn next_color(color: Option<&str>) -> String {
+pub(crate) fn next_color(color: Option<&str>) -> String {
     let at = COLORS.iter().position(|known| Some(*known) == color);
     COLORS[at.map_or(0, |at| (at + 1) % COLORS.len())].to_owned()
 }

@@ -5,13 +5,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::Pos2;
-use sabi_editing::connections::PendingWire;
+use sabi_editing::command::{EditCommand, NodeSource};
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::stack::StackEnd;
-use sabi_editing::wires::MaskMerge;
 use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
-use sabi_graph::{Fit, NodeId, OutputRef, SlotRef, Value};
+use sabi_graph::NodeId;
 
 use crate::command::{Command, InputPreset};
 use crate::dock::Panel;
@@ -28,39 +26,30 @@ pub(crate) type ClickedColor = Result<[u8; 3], String>;
 pub(crate) enum Action {
     /// Perform a command, as a key or a menu entry asks for.
     Do(Command),
+    /// Edit the open document. A node that is added is shown.
+    Edit(EditCommand),
     /// Show a sentence for a while.
     Notice(String),
-    /// Add a node, connected to a loose wire or put into a wire.
-    Add {
-        new: NewNode,
-        place: [f32; 2],
-        loose: Option<PendingWire>,
-        into: Option<SlotRef>,
-    },
     /// Add a node in the middle of the canvas.
-    AddInMiddle(NewNode),
+    AddInMiddle(NodeSource),
     /// Draw a node that is dragged to the canvas from another panel.
     DragNew { face: Arc<Entry>, at: Pos2 },
     /// Add a dragged node where it was dropped, if that is on the canvas.
-    DropNew { new: NewNode, face: Arc<Entry>, at: Pos2 },
+    DropNew {
+        new: NodeSource,
+        face: Arc<Entry>,
+        at: Pos2,
+    },
     /// Put the selected group into a library.
     AddToLibrary(LibraryKind),
     /// Write the file of a node of the artist's own.
     SaveNode(NodeDraft),
     /// Replace a node by one of another kind.
-    Replace { node: NodeId, by: NewNode },
-    /// Change wires.
-    Wire(WireAction),
-    /// Move nodes.
-    Move(MoveAction),
-    /// Disconnect the selected nodes and connect what they were between.
-    TakeOut,
+    Replace { node: NodeId, by: NodeSource },
     /// Select these nodes and no others.
     Select(Vec<NodeId>),
     /// Go to the node or the port that an arrow key leads to.
     Arrow(ArrowKey),
-    /// Add a node to the selection, or remove it from there.
-    Toggle(NodeId),
     /// Show a node's result in the 2D view, and on the model where that follows clicks: at an output, or at the one that was
     /// chosen last.
     Show { node: NodeId, port: Option<String> },
@@ -68,28 +57,12 @@ pub(crate) enum Action {
     Pin { node: NodeId },
     /// Change what the model and the 2D view show.
     Look(LookAction),
-    /// Show the inside of a group instance.
-    Enter(NodeId),
-    /// Leave groups until this many are left.
-    LeaveTo(usize),
     /// Change a parameter of a node, and of the selected nodes of its kind.
     Knob { node: NodeId, event: KnobEvent },
-    /// Change or set published parameters.
-    Published(PublishedAction),
-    /// Save, apply or change a variant.
-    Variant(VariantAction),
-    /// Change the inputs and outputs that the shown graph has as a group.
-    Port(PortAction),
-    /// Change a layer of a stack.
-    Layer(LayerAction),
-    /// Name a node.
-    Rename { node: NodeId, name: String },
-    /// Change frames around nodes.
-    Frame(FrameAction),
-    /// Paste nodes from a text at a place.
-    Paste { text: String, place: [f32; 2] },
-    /// Change what holds for the whole document.
-    Document(DocumentAction),
+    /// Change the value of a published parameter.
+    TurnPublished(KnobEvent),
+    /// Save the present values as a variant, with a picture of the model.
+    SaveVariant(String),
     /// Open, save or replace the graph's file.
     File(FileAction),
     /// Change the model that the graph is shown on.
@@ -114,6 +87,13 @@ pub(crate) enum Action {
     ShowStartPage,
 }
 
+impl Action {
+    /// Edits the open document.
+    pub(crate) fn edit(command: impl Into<EditCommand>) -> Action {
+        Action::Edit(command.into())
+    }
+}
+
 /// Arrow key that leads from node to node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ArrowKey {
@@ -121,19 +101,6 @@ pub(crate) enum ArrowKey {
     Right,
     Up,
     Down,
-}
-
-/// Step of a drag of nodes.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum MoveAction {
-    /// Begin the drag: everything until its end is one step to undo.
-    Begin,
-    /// Put nodes at these places.
-    To(BTreeMap<NodeId, [f32; 2]>),
-    /// End the drag.
-    End,
-    /// Cancel the drag: the nodes go back to where they were.
-    Cancel,
 }
 
 /// Change of which result is shown where.
@@ -151,17 +118,6 @@ pub(crate) enum LookAction {
     Compare,
     /// Show the clicked node in the 2D view again.
     Unpin,
-}
-
-/// Change of what holds for the whole document.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum DocumentAction {
-    /// Texels along a side while working.
-    Size(u32),
-    /// Length that counts as 1.
-    Fit(Fit),
-    /// Seed that all nodes' seeds are made with.
-    Seed(u32),
 }
 
 /// What takes the place of the open graph, once nothing is lost by that.
@@ -239,120 +195,6 @@ pub(crate) enum SettingAction {
     ToggleFavorite(String),
 }
 
-/// Change of wires.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum WireAction {
-    /// Connect an output to an input; `off` is the input that the wire is taken from.
-    Connect {
-        from: OutputRef,
-        to: SlotRef,
-        off: Option<SlotRef>,
-    },
-    /// Connect a second output to an input, with a node that merges both.
-    Merge {
-        from: OutputRef,
-        to: SlotRef,
-        how: MaskMerge,
-    },
-    /// Disconnect inputs.
-    Cut(Vec<SlotRef>),
-    /// Put a node into a wire.
-    Insert { node: NodeId, into: SlotRef },
-    /// Put a reroute into a wire.
-    Reroute { into: SlotRef, place: [f32; 2] },
-}
-
-/// Change of frames.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum FrameAction {
-    /// Name a frame.
-    Rename { frame: String, title: String },
-    /// Give a frame its next color.
-    Recolor(String),
-    /// Select the nodes in a frame.
-    Select(String),
-    /// Put the selected nodes into a frame, or take them out of all.
-    Fill(Option<String>),
-    /// Remove a frame.
-    Remove(String),
-}
-
-/// Change of published parameters, which are named as published.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum PublishedAction {
-    /// Change a value.
-    Turn(KnobEvent),
-    /// Set the name that artists see.
-    Label { name: String, label: String },
-    /// Set the name in files and on command lines.
-    Rename { name: String, to: String },
-    /// Set the section of the panel.
-    Section { name: String, section: String },
-    /// Set the range.
-    Range { name: String, range: Option<[f64; 2]> },
-    /// Set the default, whatever the nodes of the parameter hold.
-    Default { name: String, default: Option<Value> },
-    /// Move before another parameter, or to the end.
-    Move { name: String, before: Option<String> },
-    /// Publish a parameter no longer.
-    TakeOff(String),
-}
-
-/// Change of the variants.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum VariantAction {
-    /// Save the present values under a name.
-    Save(String),
-    /// Set the parameters to the values of a variant.
-    Apply(String),
-    /// Rename a variant.
-    Rename { name: String, to: String },
-    /// Remove a variant.
-    Remove(String),
-}
-
-/// Change of the inputs and outputs of the shown graph, by their names.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum PortAction {
-    /// Name the graph.
-    NameGraph(String),
-    /// Publish an input of a node.
-    PublishInput(SlotRef),
-    /// Publish an output of a node.
-    PublishOutput(OutputRef),
-    /// Set the name of an input that artists see.
-    LabelInput { name: String, label: String },
-    /// Set the name of an input in files.
-    RenameInput { name: String, to: String },
-    /// Remove an input.
-    RemoveInput(String),
-    /// Connect an input to an input of a node.
-    Feed { name: String, slot: SlotRef },
-    /// Disconnect an input of a node from the input that feeds it.
-    Unfeed(SlotRef),
-    /// Rename an output.
-    RenameOutput { name: String, to: String },
-    /// Remove an output.
-    RemoveOutput(String),
-    /// Connect an output to another result.
-    Retarget { name: String, from: OutputRef },
-}
-
-/// Change of layers, which are counted from the top of their stack.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum LayerAction {
-    /// Hide or show a layer.
-    Toggle(NodeId),
-    /// Set the opacity of a layer.
-    Opacity { node: NodeId, opacity: f64 },
-    /// Move a layer.
-    Move { end: StackEnd, from: usize, to: usize },
-    /// Remove a layer.
-    Remove { end: StackEnd, at: usize },
-    /// Add a layer of a kind above another one.
-    Add { end: StackEnd, at: usize, kind: String },
-}
-
 /// Library of groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LibraryKind {
@@ -360,26 +202,4 @@ pub(crate) enum LibraryKind {
     Project,
     /// Library of the user.
     User,
-}
-
-/// What is added to a graph.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum NewNode {
-    /// Node of a kind.
-    Kind(String),
-    /// Instance of one of the document's groups.
-    Group(String),
-    /// Group from a library file.
-    Library(PathBuf),
-}
-
-impl NewNode {
-    /// Key of a favorite in settings.
-    pub(crate) fn key(&self) -> String {
-        match self {
-            NewNode::Kind(kind) => kind.clone(),
-            NewNode::Group(group) => format!("group {group}"),
-            NewNode::Library(file) => file.display().to_string(),
-        }
-    }
 }

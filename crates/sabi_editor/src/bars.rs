@@ -8,6 +8,7 @@ mod status;
 use egui::containers::menu::MenuConfig;
 use egui::{Color32, Frame, Margin, PopupCloseBehavior, RichText, Ui};
 use egui_phosphor::regular as icon;
+use sabi_editing::command::NavigationCommand;
 
 use sabi_editing::navigation;
 
@@ -34,14 +35,14 @@ pub(crate) fn path(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         .show(ui, |ui| {
             ui.horizontal(|ui| {
                 if ui.link("Graph").clicked() {
-                    actions.push(Action::LeaveTo(0));
+                    actions.push(Action::edit(NavigationCommand::LeaveTo(0)));
                 }
                 for (depth, (_, title)) in path.iter().enumerate() {
                     ui.label(icon::CARET_RIGHT);
                     if depth + 1 == path.len() {
                         ui.strong(title);
                     } else if ui.link(title).clicked() {
-                        actions.push(Action::LeaveTo(depth + 1));
+                        actions.push(Action::edit(NavigationCommand::LeaveTo(depth + 1)));
                     }
                 }
             });

@@ -1,9 +1,10 @@
 //! Remedies of errors and warnings: a button where an action of the window applies one, words otherwise.
 
 use egui::{Color32, Label, RichText, Ui};
+use sabi_editing::command::DocumentCommand;
 use sabi_engine::{Overlap, Remedy, advised};
 
-use crate::action::{Action, DocumentAction, ExportAction, ModelAction};
+use crate::action::{Action, ExportAction, ModelAction};
 use crate::bars::WORKING_SIZES;
 use crate::import_options::ImportOptions;
 use crate::settings::export::{ExportChoices, SIZES as EXPORT_SIZES};
@@ -107,7 +108,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
 }
 
 fn working_size(size: u32) -> (String, Action) {
-    let action = Action::Document(DocumentAction::Size(size));
+    let action = Action::edit(DocumentCommand::SetSize(size));
     (format!("Work at {size} texels"), action)
 }
 
@@ -122,13 +123,15 @@ fn export_size(size: u32, choices: &ExportChoices) -> (String, Action) {
 
 #[cfg(test)]
 mod tests {
+    use sabi_editing::command::EditCommand;
+
     use super::*;
 
     #[test]
     fn a_smaller_size_is_the_next_one_that_is_offered() {
         let import = ImportOptions::default();
         let offered = |size: u32| button(Remedy::SmallerSize, Request::Evaluation { size }, import);
-        let Some((label, Action::Document(DocumentAction::Size(512)))) = offered(1024) else {
+        let Some((label, Action::Edit(EditCommand::Document(DocumentCommand::SetSize(512))))) = offered(1024) else {
             panic!("512 is the next smaller size");
         };
         assert_eq!(label, "Work at 512 texels");

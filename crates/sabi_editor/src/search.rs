@@ -5,17 +5,27 @@ use std::sync::Arc;
 
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
+use sabi_editing::command::NodeSource;
 use sabi_engine::catalog::{Catalog, Entry, Faces};
 
-use crate::action::{LibraryKind, NewNode};
+use crate::action::LibraryKind;
 
 /// Node or group that can be added.
 #[derive(Clone, Debug)]
 pub(crate) struct Candidate {
-    pub(crate) new: NewNode,
+    pub(crate) new: NodeSource,
     pub(crate) face: Arc<Entry>,
     /// Section of menus: a category, or the origin of a group.
     pub(crate) section: String,
+}
+
+/// Key of a favorite in settings.
+pub(crate) fn favorite_key(new: &NodeSource) -> String {
+    match new {
+        NodeSource::Kind(kind) => kind.clone(),
+        NodeSource::Group(group) => format!("group {group}"),
+        NodeSource::Library(file) => file.display().to_string(),
+    }
 }
 
 /// Group in a library file.
@@ -34,19 +44,19 @@ pub(crate) fn candidates(
     shelf: &[LibraryGroup],
 ) -> Vec<Candidate> {
     let kinds = catalog.entries().map(|entry| Candidate {
-        new: NewNode::Kind(entry.id.clone()),
+        new: NodeSource::Kind(entry.id.clone()),
         section: entry.category().to_owned(),
         face: entry.clone(),
     });
     let own = groups.iter().filter_map(|name| {
         Some(Candidate {
-            new: NewNode::Group(name.clone()),
+            new: NodeSource::Group(name.clone()),
             face: faces.of_group(name)?.clone(),
             section: "groups here".to_owned(),
         })
     });
     let shelved = shelf.iter().map(|shelved| Candidate {
-        new: NewNode::Library(shelved.file.clone()),
+        new: NodeSource::Library(shelved.file.clone()),
         face: shelved.face.clone(),
         section: match shelved.shelf {
             LibraryKind::Project => "project library".to_owned(),

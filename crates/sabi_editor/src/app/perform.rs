@@ -2,23 +2,19 @@
 //! not compile.
 
 mod commands;
-mod graph;
 
 use std::path::Path;
 
 use egui::Ui;
-use sabi_editing::connections::PendingWire;
-use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{
-    clipboard, knob_target, layers, navigation, nodes, panel, panel_values, relative_paths, selection, variants, wires,
+use sabi_editing::command::{
+    EditCommand, KnobCommand, NodeCommand, NodeSource, Outcome, PanelCommand, VariantCommand, perform,
 };
+use sabi_editing::knob_target::KnobTarget;
+use sabi_editing::{knob_target, navigation, relative_paths, variants};
 use sabi_graph::{NodeId, SlotRef, Value};
 
 use super::Editor;
-use crate::action::{
-    Action, ArrowKey, ClickedColor, ExportAction, FileAction, LayerAction, ModelAction, NewNode, PublishedAction,
-    VariantAction,
-};
+use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, ModelAction};
 use crate::dock::Panel;
 use crate::knobs::KnobEvent;
 use crate::looks::result_of;
@@ -49,48 +45,38 @@ impl Editor {
         let document = &mut self.documents.document;
         match action {
             Action::Do(command) => self.command(command, ui),
+            Action::Edit(command) => self.edit(command, ui),
             Action::Notice(sentence) => self.shell.say(sentence),
-            Action::Add {
-                new,
-                place,
-                loose,
-                into,
-            } => self.add(&new, place, loose.as_ref(), into.as_ref()),
-            Action::AddInMiddle(new) => self.add(&new, self.views.canvas.middle(), None, None),
+            Action::AddInMiddle(new) => {
+                let place = self.views.canvas.middle();
+                self.add(new, place, None, ui);
+            }
             Action::DragNew { face, at } => self.views.canvas.drag_new(ui, &self.shell.theme, document, &face, at),
             Action::DropNew { new, face, at } => {
                 if let Some((place, into)) = self.views.canvas.place_for_dropped(document, &face, at) {
-                    self.add(&new, place, None, into.as_ref());
+                    self.add(new, place, into, ui);
                 }
             }
             Action::AddToLibrary(shelf) => self.shelve(shelf),
             Action::SaveNode(node) => self.save_node(&node),
-            Action::Replace { node, by } => self.replace(&node, &by),
-            Action::Wire(action) => graph::change_wires(document, action),
-            Action::Move(action) => graph::move_nodes(document, action),
-            Action::TakeOut => drop(wires::detach_selected(document)),
+            Action::Replace { node, by } => self.replace(node, by),
             Action::Select(ids) => self.select(ids),
             Action::Arrow(key) => self.follow_arrow(key, ui),
-            Action::Toggle(id) => selection::toggle(document, &id),
             Action::Show { node, port } => self.looks.show(document, &node, port),
             Action::Pin { node } => self.looks.toggle_pin(document, &node),
             Action::Look(action) => self.looks.perform(action, &mut self.shell.settings),
-            Action::Enter(id) => drop(navigation::enter(document, &id)),
-            Action::LeaveTo(depth) => drop(navigation::leave_to(document, depth)),
-            Action::Knob { node, event } => self.change_knob(&node, event),
-            Action::Published(action) => self.change_published(action),
-            Action::Variant(action) => self.change_variants(action),
-            Action::Port(action) => graph::change_ports(document, action),
-            Action::Layer(action) => self.change_layers(action),
-            Action::Rename { node, name } => drop(nodes::rename(document, &node, &name)),
-            Action::Frame(action) => graph::change_frames(document, action),
-            Action::Paste { text, place } => drop(clipboard::paste(document, &text, place)),
-            Action::Document(action) => graph::change_document(document, action),
+            Action::Knob { node, event } => self.change_knob(node, event, ui),
+            Action::TurnPublished(event) => self.change_published_value(event, ui),
+            Action::SaveVariant(name) => self.save_variant(name),
             Action::File(action) => self.perform_on_file(action),
             Action::Model(action) => self.perform_on_model(action),
             Action::Dropped(path) => self.take_dropped(&path, ui),
             Action::GoTo(node) => self.go_to(&node),
-            Action::Steps(steps) => graph::step(document, steps),
+            Action::Steps(steps) => {
+                for _ in 0..steps.unsigned_abs() {
+                    if steps < 0 { document.undo() } else { document.redo() }
+                }
+            }
             Action::Export(action) => self.perform_export(action),
             Action::TakeColor(color) => self.take_color(color),
             Action::Setting(action) => self.shell.set(action),
@@ -179,47 +165,50 @@ impl Editor {
         }
     }
 
-    /// Adds a node, connected to a loose wire or put into a wire, and shows its result.
-    fn add(&mut self, new: &NewNode, place: [f32; 2], loose: Option<&PendingWire>, into: Option<&SlotRef>) {
-        if let Some(id) = graph::add(&mut self.documents.document, new, place, loose, into) {
-            self.looks.show(&self.documents.document, &id, None);
+    /// Edits the open document: shows the result of a node that was added, and puts copied nodes on the clipboard.
+    pub(in crate::app) fn edit(&mut self, command: impl Into<EditCommand>, ui: &Ui) {
+        match perform(&mut self.documents.document, command.into()) {
+            Outcome::Added(id) => self.looks.show(&self.documents.document, &id, None),
+            Outcome::Copied(text) => ui.ctx().copy_text(text),
+            Outcome::Unchanged | Outcome::Done | Outcome::Saved(_) => {}
         }
     }
 
+    /// Adds a node, put into a wire if one is given, and shows its result.
+    fn add(&mut self, source: NodeSource, place: [f32; 2], into: Option<SlotRef>, ui: &Ui) {
+        let command = NodeCommand::Add {
+            source,
+            place,
+            pending: None,
+            into,
+        };
+        self.edit(command, ui);
+    }
+
     /// Replaces a node, also wherever its result is shown.
-    fn replace(&mut self, node: &NodeId, by: &NewNode) {
+    fn replace(&mut self, node: NodeId, by: NodeSource) {
         let document = &mut self.documents.document;
-        let before = document.full_id(node);
-        if let Some(id) = graph::replace(document, node, by) {
+        let before = document.full_id(&node);
+        if let Outcome::Added(id) = perform(document, NodeCommand::Replace { node, by }.into()) {
             self.looks.replace(&before, &result_of(document, &id, None));
         }
     }
 
-    fn change_layers(&mut self, action: LayerAction) {
-        let document = &mut self.documents.document;
-        match action {
-            LayerAction::Toggle(id) => drop(layers::toggle(document, &id)),
-            LayerAction::Opacity { node, opacity } => drop(layers::set_opacity(document, &node, opacity)),
-            LayerAction::Move { end, from, to } => drop(layers::move_to(document, &end, from, to)),
-            LayerAction::Remove { end, at } => drop(layers::remove(document, &end, at)),
-            LayerAction::Add { end, at, kind } => {
-                if let Some(id) = layers::add(document, &end, at, &kind) {
-                    self.looks.show(document, &id, None);
-                }
-            }
-        }
-    }
-
     /// Changes a parameter of a node, and of the selected nodes of its kind.
-    fn change_knob(&mut self, node: &NodeId, event: KnobEvent) {
-        let document = &mut self.documents.document;
+    fn change_knob(&mut self, node: NodeId, event: KnobEvent, ui: &Ui) {
         match event {
-            KnobEvent::Set { knob, value } => drop(nodes::set_knob_of_selected(document, node, &knob, Some(value))),
-            KnobEvent::Reset { knob } => drop(nodes::set_knob_of_selected(document, node, &knob, None)),
-            KnobEvent::Expose { knob } => graph::expose_of_alike(document, node, &knob),
-            KnobEvent::Unexpose { knob } => drop(panel::unexpose_knob(document, node, &knob)),
-            KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::of_node(node, knob)),
-            KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::of_node(node, knob)),
+            KnobEvent::Set { knob, value } => {
+                let value = Some(value);
+                self.edit(KnobCommand::Set { node, knob, value }, ui);
+            }
+            KnobEvent::Reset { knob } => {
+                let value = None;
+                self.edit(KnobCommand::Set { node, knob, value }, ui);
+            }
+            KnobEvent::Expose { knob } => self.edit(KnobCommand::Publish { node, knob }, ui),
+            KnobEvent::Unexpose { knob } => self.edit(KnobCommand::Unpublish { node, knob }, ui),
+            KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::of_node(&node, knob)),
+            KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::of_node(&node, knob)),
             KnobEvent::Began => self.begin_drag(),
             KnobEvent::Ended => self.end_drag(),
             KnobEvent::GivenUp => self.cancel_drag(),
@@ -227,26 +216,12 @@ impl Editor {
         }
     }
 
-    fn change_published(&mut self, action: PublishedAction) {
-        let document = &mut self.documents.document;
-        match action {
-            PublishedAction::Turn(event) => self.change_published_value(event),
-            PublishedAction::Label { name, label } => drop(panel::set_label(document, &name, &label)),
-            PublishedAction::Rename { name, to } => drop(panel::rename(document, &name, &to)),
-            PublishedAction::Section { name, section } => drop(panel::set_section(document, &name, &section)),
-            PublishedAction::Range { name, range } => drop(panel_values::set_range(document, &name, range)),
-            PublishedAction::Default { name, default } => drop(panel_values::set_default(document, &name, default)),
-            PublishedAction::Move { name, before } => drop(panel::move_knob(document, &name, before.as_deref())),
-            PublishedAction::TakeOff(name) => drop(panel::unexpose(document, &name)),
-        }
-    }
-
-    fn change_published_value(&mut self, event: KnobEvent) {
-        let document = &mut self.documents.document;
+    /// Changes the value of a published parameter.
+    fn change_published_value(&mut self, event: KnobEvent, ui: &Ui) {
         match event {
-            KnobEvent::Set { knob, value } => drop(panel_values::set(document, &knob, &value)),
-            KnobEvent::Reset { knob } => drop(panel_values::reset(document, &knob)),
-            KnobEvent::Unexpose { knob } => drop(panel::unexpose(document, &knob)),
+            KnobEvent::Set { knob: name, value } => self.edit(PanelCommand::Set { name, value }, ui),
+            KnobEvent::Reset { knob } => self.edit(PanelCommand::Reset(knob), ui),
+            KnobEvent::Unexpose { knob } => self.edit(PanelCommand::Remove(knob), ui),
             KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::Panel(knob)),
             KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::Panel(knob)),
             KnobEvent::Began => self.begin_drag(),
@@ -296,17 +271,11 @@ impl Editor {
         }
     }
 
-    fn change_variants(&mut self, action: VariantAction) {
-        let document = &mut self.documents.document;
-        match action {
-            VariantAction::Apply(name) => drop(variants::apply(document, &name)),
-            VariantAction::Rename { name, to } => drop(variants::rename(document, &name, &to)),
-            VariantAction::Remove(name) => drop(variants::remove(document, &name)),
-            VariantAction::Save(name) => {
-                if variants::save(document, &name) {
-                    self.store_picture_of_variant(name.trim());
-                }
-            }
+    /// Saves the present values as a variant, with the model as it looks now.
+    fn save_variant(&mut self, name: String) {
+        let command = VariantCommand::Save(name.clone());
+        if perform(&mut self.documents.document, command.into()) == Outcome::Done {
+            self.store_picture_of_variant(name.trim());
         }
     }
 
@@ -325,7 +294,7 @@ impl Editor {
     /// Selects a node in the group that it is in, and shows it on the canvas.
     fn go_to(&mut self, node: &str) {
         let document = &mut self.documents.document;
-        let Some(id) = graph::go_to(document, node) else {
+        let Some(id) = navigation::go_to(document, node) else {
             return;
         };
         self.shell.dock.bring_up(Panel::Canvas);

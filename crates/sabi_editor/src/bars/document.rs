@@ -2,10 +2,11 @@
 
 use egui::containers::menu::MenuButton;
 use egui::{Button, DragValue, Id, RichText, Ui, UiBuilder};
+use sabi_editing::command::DocumentCommand;
 use sabi_graph::Fit;
 
 use super::staying;
-use crate::action::{Action, DocumentAction};
+use crate::action::Action;
 use crate::context::ViewContext;
 use crate::theme::type_size;
 
@@ -33,22 +34,22 @@ pub(super) fn menu(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
             asked = sized.or(fitted).or(seeded);
         });
     });
-    asked.map(Action::Document)
+    asked.map(Action::edit)
 }
 
-fn sizes(ui: &mut Ui, size: u32) -> Option<DocumentAction> {
+fn sizes(ui: &mut Ui, size: u32) -> Option<DocumentCommand> {
     ui.label("Texels along a side while working");
     let mut chosen = None;
     for offered in SIZES {
         if ui.radio(offered == size, format!("{offered} × {offered}")).clicked() {
-            chosen = Some(DocumentAction::Size(offered));
+            chosen = Some(DocumentCommand::SetSize(offered));
             ui.close();
         }
     }
     chosen
 }
 
-fn fits(ui: &mut Ui, fit: Fit) -> Option<DocumentAction> {
+fn fits(ui: &mut Ui, fit: Fit) -> Option<DocumentCommand> {
     ui.label("A length of 1 in the graph is");
     let mut wanted = fit;
     ui.radio_value(&mut wanted, Fit::Unit, "the largest side of the model");
@@ -63,14 +64,14 @@ fn fits(ui: &mut Ui, fit: Fit) -> Option<DocumentAction> {
             wanted = Fit::Length(length);
         }
     });
-    (wanted != fit).then_some(DocumentAction::Fit(wanted))
+    (wanted != fit).then_some(DocumentCommand::SetFit(wanted))
 }
 
-fn seed(ui: &mut Ui, mut seed: u32) -> Option<DocumentAction> {
+fn seed(ui: &mut Ui, mut seed: u32) -> Option<DocumentCommand> {
     ui.horizontal(|ui| {
         let label = ui.label("Seed of the graph");
         let field = ui.add(DragValue::new(&mut seed)).labelled_by(label.id);
-        field.changed().then_some(DocumentAction::Seed(seed))
+        field.changed().then_some(DocumentCommand::SetSeed(seed))
     })
     .inner
 }

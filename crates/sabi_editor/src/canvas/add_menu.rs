@@ -2,11 +2,12 @@
 
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Key, Order, Pos2, Sense, Ui, vec2};
 use egui_phosphor::regular as icon;
+use sabi_editing::command::{NodeCommand, NodeSource};
 use sabi_editing::connections::PendingWire;
 use sabi_editing::{OpenDocument, connections, wires};
 use sabi_graph::{NodeId, SlotRef};
 
-use crate::action::{Action, NewNode};
+use crate::action::Action;
 use crate::search::{Candidate, ranked};
 use crate::theme::{Theme, space, type_size};
 
@@ -213,16 +214,16 @@ impl AddMenu {
         }
     }
 
-    fn action(&self, new: &NewNode) -> Action {
+    fn action(&self, new: &NodeSource) -> Action {
         let purpose = self.purpose.clone();
         match purpose.instead {
             Some(node) => Action::Replace { node, by: new.clone() },
-            None => Action::Add {
-                new: new.clone(),
+            None => Action::edit(NodeCommand::Add {
+                source: new.clone(),
                 place: purpose.place,
-                loose: purpose.loose,
+                pending: purpose.loose,
                 into: purpose.into,
-            },
+            }),
         }
     }
 }

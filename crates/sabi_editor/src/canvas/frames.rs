@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
+use sabi_editing::command::{FrameCommand, HistoryCommand};
 use sabi_editing::frames::FRAME_STRIP;
 
 use super::frame_rects::rect_of;
 use super::gesture::Gesture;
 use super::questions::Renaming;
 use super::{Canvas, CanvasContext};
-use crate::action::{Action, FrameAction, MoveAction};
+use crate::action::Action;
 use crate::theme::type_size;
 
 /// Draws the frames, and gives what is asked of them.
@@ -44,7 +45,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
         if response.double_clicked() {
             canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
         } else if response.clicked() {
-            actions.push(Action::Frame(FrameAction::Select(id.clone())));
+            actions.push(Action::edit(FrameCommand::Select(id.clone())));
         }
         if response.drag_started_by(egui::PointerButton::Primary) {
             let places = frame
@@ -52,8 +53,8 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
                 .iter()
                 .filter_map(|id| Some((id.clone(), document.node(id)?.pos)));
             let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(strip.center());
-            actions.push(Action::Frame(FrameAction::Select(id.clone())));
-            actions.push(Action::Move(MoveAction::Begin));
+            actions.push(Action::edit(FrameCommand::Select(id.clone())));
+            actions.push(Action::edit(HistoryCommand::Begin("Move".to_owned())));
             canvas.gesture = Gesture::Move {
                 from: places.collect::<BTreeMap<_, _>>(),
                 grabbed: canvas.view.place(panel, origin),
@@ -62,13 +63,13 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
         }
         response.context_menu(|ui| {
             if ui.button("Next color").clicked() {
-                actions.push(Action::Frame(FrameAction::Recolor(id.clone())));
+                actions.push(Action::edit(FrameCommand::Recolor(id.clone())));
             }
             if ui.button("Rename").clicked() {
                 canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
             }
             if ui.button("Remove the frame").clicked() {
-                actions.push(Action::Frame(FrameAction::Remove(id.clone())));
+                actions.push(Action::edit(FrameCommand::Remove(id.clone())));
             }
         });
     }

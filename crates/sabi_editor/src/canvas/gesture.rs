@@ -7,6 +7,7 @@ mod wiring;
 use std::collections::BTreeMap;
 
 use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
+use sabi_editing::command::WireCommand;
 use sabi_editing::connections::PendingWire;
 use sabi_editing::{OpenDocument, connections};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
@@ -15,7 +16,7 @@ use super::port_refs::{self, PortRef};
 use super::questions::MergeQuestion;
 use super::wires::{self, Wire};
 use super::{AddMenu, Canvas, CanvasContext, Purpose};
-use crate::action::{Action, WireAction};
+use crate::action::Action;
 use crate::command::{InputPreset, Scope};
 use crate::mouse::{self, DragAction};
 use marking::{end_box, end_line};
@@ -249,11 +250,11 @@ fn rest(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, wires:
     if background.double_clicked() {
         if let Some(wire) = wires::under(wires, pointer) {
             let into = wire.to.clone();
-            actions.push(Action::Wire(WireAction::Reroute { into, place }));
+            actions.push(Action::edit(WireCommand::Reroute { into, place }));
         }
     } else if background.clicked() {
         match wires::under(wires, pointer) {
-            Some(wire) if modifiers.alt => actions.push(Action::Wire(WireAction::Cut(vec![wire.to.clone()]))),
+            Some(wire) if modifiers.alt => actions.push(Action::edit(WireCommand::Disconnect(vec![wire.to.clone()]))),
             _ => actions.push(Action::Select(Vec::new())),
         }
         canvas.leave_port();
@@ -294,7 +295,7 @@ fn drop_wire(canvas: &mut Canvas, around: &CanvasContext<'_>, panel: Rect, point
     match target {
         Some(place) => canvas.tie(around.document, loose, place, off, pointer, actions),
         None => match off {
-            Some(slot) => actions.push(Action::Wire(WireAction::Cut(vec![slot]))),
+            Some(slot) => actions.push(Action::edit(WireCommand::Disconnect(vec![slot]))),
             None => {
                 let purpose = Purpose {
                     place: canvas.view.place(panel, pointer),
@@ -328,7 +329,7 @@ impl Canvas {
         if off.is_none() && sabi_editing::wires::can_merge(document, &from, &to) {
             self.merge = Some(MergeQuestion::new(at, from, to));
         } else {
-            actions.push(Action::Wire(WireAction::Connect { from, to, off }));
+            actions.push(Action::edit(WireCommand::Connect { from, to, off }));
         }
     }
 }

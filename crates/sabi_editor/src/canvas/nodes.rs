@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use egui::layers::ShapeIdx;
 use egui::{Rect, Response, Shape, Ui, WidgetInfo, WidgetType, vec2};
 use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
+use sabi_editing::command::{FrameCommand, NavigationCommand, SelectionCommand};
 use sabi_editing::node_size::{TITLE_HEIGHT, is_bend};
 use sabi_graph::NodeId;
 
@@ -12,7 +13,7 @@ use super::node_summary::RowContext;
 use super::sensing::window_id;
 use super::snapshot::Key;
 use super::{CARD_ZOOM, Canvas, CanvasContext, body, card, node_rect, ports, reroute, sides, tips};
-use crate::action::{Action, FrameAction};
+use crate::action::Action;
 use crate::command::{CanvasCommand, Command, GraphCommand, LookCommand, WindowCommand};
 use crate::knobs::KnobEvent;
 
@@ -153,7 +154,7 @@ fn touched(
 ) {
     let modifiers = response.ctx.input(|input| input.modifiers);
     if response.double_clicked() {
-        actions.push(Action::Enter(id.clone()));
+        actions.push(Action::edit(NavigationCommand::Enter(id.clone())));
         return;
     }
     if response.clicked() {
@@ -161,7 +162,7 @@ fn touched(
         actions.push(match (modifiers.command, modifiers.shift) {
             (true, true) => Action::Pin { node: id.clone() },
             (false, false) => Action::Select(vec![id.clone()]),
-            (true, false) | (false, true) => Action::Toggle(id.clone()),
+            (true, false) | (false, true) => Action::edit(SelectionCommand::Toggle(id.clone())),
         });
         if !modifiers.command && !modifiers.shift {
             actions.push(Action::Show {
@@ -198,12 +199,12 @@ fn context_menu(
             canvas.open_menu(ui, Some(id.clone()));
         }
         if is_group && ui_menu.button("Go into the group").clicked() {
-            actions.push(Action::Enter(id.clone()));
+            actions.push(Action::edit(NavigationCommand::Enter(id.clone())));
         }
         let frames = around.document.graph().frames().values();
         let is_framed = frames.into_iter().any(|frame| frame.nodes.contains(id));
         if is_framed && ui_menu.button("Take out of the frame").clicked() {
-            actions.push(Action::Frame(FrameAction::Fill(None)));
+            actions.push(Action::edit(FrameCommand::Assign(None)));
         }
         ui_menu.separator();
         let commands = [

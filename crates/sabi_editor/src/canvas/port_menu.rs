@@ -1,12 +1,13 @@
 //! The context menu of ports, and the marks of published ports.
 
 use egui::{Align2, FontId, Painter, Pos2, Response, Stroke, vec2};
+use sabi_editing::command::{PortCommand, WireCommand};
 use sabi_editing::{OpenDocument, connections, ports};
 use sabi_graph::{Body, SlotRef};
 
 use super::port_refs::PortRef;
 use super::{AddMenu, Canvas, Purpose};
-use crate::action::{Action, PortAction, WireAction};
+use crate::action::Action;
 use crate::theme::{Theme, type_size};
 
 /// Zoom below which names of published ports are not drawn.
@@ -37,9 +38,9 @@ pub(super) fn show(
             ),
         };
         match &given_as {
-            None if ui.button(publish).clicked() => actions.push(Action::Port(published(place))),
+            None if ui.button(publish).clicked() => actions.push(Action::edit(published(place))),
             Some(name) if ui.button(format!("{off} '{name}'")).clicked() => {
-                actions.push(Action::Port(taken_back(place, name)));
+                actions.push(Action::edit(taken_back(place, name)));
             }
             _ => {}
         }
@@ -49,7 +50,7 @@ pub(super) fn show(
             .add_enabled(!tied.is_empty(), egui::Button::new("Disconnect"))
             .clicked()
         {
-            actions.push(Action::Wire(WireAction::Cut(tied.clone())));
+            actions.push(Action::edit(WireCommand::Disconnect(tied.clone())));
         }
         let instead = match (place, tied.is_empty()) {
             (PortRef::Input(_), false) => "Replace by…",
@@ -61,17 +62,17 @@ pub(super) fn show(
     });
 }
 
-fn published(place: &PortRef) -> PortAction {
+fn published(place: &PortRef) -> PortCommand {
     match place {
-        PortRef::Input(slot) => PortAction::PublishInput(slot.clone()),
-        PortRef::Output(from) => PortAction::PublishOutput(from.clone()),
+        PortRef::Input(slot) => PortCommand::PublishInput(slot.clone()),
+        PortRef::Output(from) => PortCommand::PublishOutput(from.clone()),
     }
 }
 
-fn taken_back(place: &PortRef, name: &str) -> PortAction {
+fn taken_back(place: &PortRef, name: &str) -> PortCommand {
     match place {
-        PortRef::Input(slot) => PortAction::Unfeed(slot.clone()),
-        PortRef::Output(_) => PortAction::RemoveOutput(name.to_owned()),
+        PortRef::Input(slot) => PortCommand::Unfeed(slot.clone()),
+        PortRef::Output(_) => PortCommand::RemoveOutput(name.to_owned()),
     }
 }
 

@@ -1,11 +1,12 @@
 //! Small questions on the canvas: how to merge two masks, and the name of a node or a frame.
 
 use egui::{Area, EventFilter, Frame, Id, Key, Order, Pos2, Ui, WidgetInfo, WidgetType};
+use sabi_editing::command::{FrameCommand, NodeCommand, WireCommand};
 use sabi_editing::wires::MaskMerge;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::{Canvas, CanvasContext, focus_id};
-use crate::action::{Action, FrameAction, WireAction};
+use crate::action::Action;
 
 /// Question about how to merge a second mask with the first one.
 pub(super) struct MergeQuestion {
@@ -81,7 +82,7 @@ pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut
     });
     asked.is_new = false;
     if let Some(how) = chosen {
-        actions.push(Action::Wire(WireAction::Merge {
+        actions.push(Action::edit(WireCommand::Merge {
             from: asked.from.clone(),
             to: asked.to.clone(),
             how,
@@ -160,11 +161,11 @@ pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, a
     let is_left = ui.input(|input| input.key_pressed(Key::Escape));
     if let Some(renaming) = canvas.renaming.take().filter(|_| !is_left) {
         actions.push(match renaming.what {
-            Named::Node(node) => Action::Rename {
+            Named::Node(node) => Action::edit(NodeCommand::Rename {
                 node,
                 name: renaming.text,
-            },
-            Named::Frame(frame) => Action::Frame(FrameAction::Rename {
+            }),
+            Named::Frame(frame) => Action::edit(FrameCommand::Rename {
                 frame,
                 title: renaming.text,
             }),

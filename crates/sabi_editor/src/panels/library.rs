@@ -5,11 +5,12 @@ mod pictures;
 
 use egui::{Context, RichText, ScrollArea, TextureId, Ui};
 use egui_phosphor::regular as icon;
+use sabi_editing::command::NodeSource;
 
-use crate::action::{Action, LibraryKind, NewNode};
+use crate::action::{Action, LibraryKind};
 use crate::context::{View, ViewContext};
 use crate::saved_pictures::OF_GROUP;
-use crate::search::{Candidate, ranked};
+use crate::search::{Candidate, favorite_key, ranked};
 use crate::theme::{Theme, space};
 use entry::Entry;
 use pictures::Pictures;
@@ -28,7 +29,11 @@ impl View for LibraryPanel {
         ui.add_space(space::TIGHT);
         self.pictures.poll(ui.ctx(), context.document.catalog());
         let favorites = &context.settings.favorites;
-        let number = |candidate: &Candidate| favorites.iter().position(|known| *known == candidate.new.key());
+        let number = |candidate: &Candidate| {
+            favorites
+                .iter()
+                .position(|known| *known == favorite_key(&candidate.new))
+        };
         let mut found: Vec<&Candidate> = ranked(context.candidates, &self.query);
         // Favorites come first in their own order; the sort keeps that of the others.
         found.sort_by_key(|candidate| number(candidate).unwrap_or(usize::MAX));
@@ -67,11 +72,11 @@ impl LibraryPanel {
     }
 
     /// Picture of what an entry gives; of a group of the graph, the result of its first instance.
-    pub(crate) fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NewNode) -> Option<TextureId> {
+    pub(crate) fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NodeSource) -> Option<TextureId> {
         match new {
-            NewNode::Library(file) => context.pictures.find(egui, file, OF_GROUP),
-            NewNode::Kind(kind) => self.pictures.find(kind),
-            NewNode::Group(group) => {
+            NodeSource::Library(file) => context.pictures.find(egui, file, OF_GROUP),
+            NodeSource::Kind(kind) => self.pictures.find(kind),
+            NodeSource::Group(group) => {
                 let mut nodes = context.document.graph().nodes();
                 let instance = nodes.find(|(_, node)| node.group.as_ref() == Some(group));
                 instance.and_then(|(id, _)| context.node_picture(id))

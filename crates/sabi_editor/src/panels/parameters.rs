@@ -41,13 +41,11 @@ impl Parameters {
     fn of_graph(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            let asked = self.published.show(ui, context, &mut self.memory);
-            actions.extend(asked.into_iter().map(Action::Published));
-            let asked = self.variants.show(ui, context);
-            actions.extend(asked.map(Action::Variant));
+            actions.extend(self.published.show(ui, context, &mut self.memory));
+            actions.extend(self.variants.show(ui, context));
             if !context.is_use_view {
                 let asked = ports::show(ui, context.theme, context.document);
-                actions.extend(asked.into_iter().map(Action::Port));
+                actions.extend(asked.into_iter().map(Action::edit));
             }
         });
         actions

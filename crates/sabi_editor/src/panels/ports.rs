@@ -2,16 +2,16 @@
 
 use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_editing::command::PortCommand;
 use sabi_editing::{OpenDocument, connections, groups, ports};
 use sabi_engine::catalog::Port;
 use sabi_graph::{Body, GroupInput, OutputRef, SlotRef};
 
 use super::field::Field;
-use crate::action::PortAction;
 use crate::theme::{Theme, space, type_size};
 
 /// Shows the name, inputs and outputs, and gives what is asked of them.
-pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortAction> {
+pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortCommand> {
     let mut asked = Vec::new();
     let is_group = matches!(document.body(), Body::Group(_));
     let count = ports::inputs(document).len() + ports::outputs(document).len();
@@ -38,7 +38,7 @@ pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<P
     asked
 }
 
-fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, asked: &mut Vec<PortAction>) {
+fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, asked: &mut Vec<PortCommand>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "Name");
         let field = Field {
@@ -51,11 +51,11 @@ fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, ask
             held: &groups::graph_name(document),
             width: ui.available_width() - space::USUAL,
         };
-        asked.extend(field.show(ui, ("name of", document.body())).map(PortAction::NameGraph));
+        asked.extend(field.show(ui, ("name of", document.body())).map(PortCommand::NameGraph));
     });
 }
 
-fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAction>) {
+fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortCommand>) {
     if !ports::inputs(document).is_empty() {
         ui.label(RichText::new("Inputs").color(theme.quiet));
     }
@@ -72,7 +72,7 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<P
             };
             if let Some(label) = label.show(ui, ("label", name)) {
                 let name = name.clone();
-                asked.push(PortAction::LabelInput { name, label });
+                asked.push(PortCommand::SetInputLabel { name, label });
             }
             let own = Field {
                 name: "Input",
@@ -82,10 +82,10 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<P
             };
             if let Some(to) = own.show(ui, ("input", name)) {
                 let name = name.clone();
-                asked.push(PortAction::RenameInput { name, to });
+                asked.push(PortCommand::RenameInput { name, to });
             }
             if small(ui, icon::TRASH, &format!("Remove the input {name}")) {
-                asked.push(PortAction::RemoveInput(name.clone()));
+                asked.push(PortCommand::RemoveInput(name.clone()));
             }
         });
         fed(ui, theme, document, name, input, asked);
@@ -99,7 +99,7 @@ fn fed(
     document: &OpenDocument,
     name: &str,
     input: &GroupInput,
-    asked: &mut Vec<PortAction>,
+    asked: &mut Vec<PortCommand>,
 ) {
     ui.horizontal_wrapped(|ui| {
         ui.add_space(space::WIDE);
@@ -108,7 +108,7 @@ fn fed(
             let title = title_of_slot(document, slot);
             let chip = egui::Button::new(format!("{title} {}", icon::X)).small();
             if ui.add(chip).on_hover_text("Feeds this no longer").clicked() {
-                asked.push(PortAction::Unfeed(slot.clone()));
+                asked.push(PortCommand::Unfeed(slot.clone()));
             }
         }
         let feedable = ports::feedable(document, name);
@@ -118,7 +118,7 @@ fn fed(
                     ui,
                     feedable.iter().map(|slot| (title_of_slot(document, slot), slot)),
                     |slot| {
-                        asked.push(PortAction::Feed {
+                        asked.push(PortCommand::Feed {
                             name: name.to_owned(),
                             slot: slot.clone(),
                         });
@@ -137,7 +137,7 @@ fn fed(
     });
 }
 
-fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortAction>) {
+fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortCommand>) {
     if !ports::outputs(document).is_empty() {
         ui.label(RichText::new("Outputs").color(theme.quiet));
     }
@@ -154,7 +154,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
             };
             if let Some(to) = own.show(ui, ("output", name)) {
                 let name = name.clone();
-                asked.push(PortAction::RenameOutput { name, to });
+                asked.push(PortCommand::RenameOutput { name, to });
             }
             let menu = ui.menu_button(title_of_result(document, from), |ui| {
                 let results = ports::results(document);
@@ -162,7 +162,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
                     ui,
                     results.iter().map(|from| (title_of_result(document, from), from)),
                     |from| {
-                        asked.push(PortAction::Retarget {
+                        asked.push(PortCommand::Retarget {
                             name: name.clone(),
                             from: from.clone(),
                         });
@@ -171,7 +171,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
             });
             menu.response.on_hover_text("What it gives");
             if small(ui, icon::TRASH, &format!("Remove the output {name}")) {
-                asked.push(PortAction::RemoveOutput(name.clone()));
+                asked.push(PortCommand::RemoveOutput(name.clone()));
             }
         });
     }

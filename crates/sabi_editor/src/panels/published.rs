@@ -7,7 +7,7 @@ use egui_phosphor::regular as icon;
 use sabi_editing::panel::PanelKnob;
 use sabi_editing::{groups, panel};
 
-use crate::action::PublishedAction;
+use crate::action::Action;
 use crate::context::ViewContext;
 use crate::knobs::{KnobMemory, KnobRow, KnobSection, published_ui};
 
@@ -20,12 +20,7 @@ pub(crate) struct Published {
 
 impl Published {
     /// Shows the parameters and gives what is asked of them.
-    pub(crate) fn show(
-        &mut self,
-        ui: &mut Ui,
-        context: &ViewContext<'_>,
-        memory: &mut KnobMemory,
-    ) -> Vec<PublishedAction> {
+    pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>, memory: &mut KnobMemory) -> Vec<Action> {
         let (document, theme) = (context.document, context.theme);
         let panel = panel::knobs(document);
         let mut asked = Vec::new();
@@ -61,17 +56,19 @@ impl Published {
             ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
         }
         if self.is_editing {
-            editing::show(ui, theme, &panel, &mut asked);
+            let mut edits = Vec::new();
+            editing::show(ui, theme, &panel, &mut edits);
+            asked.extend(edits.into_iter().map(Action::edit));
             // Without rows, so that a drag whose row is gone ends.
             let events = published_ui(ui, theme, memory, &[], &context.lengths());
-            asked.extend(events.into_iter().map(PublishedAction::Turn));
+            asked.extend(events.into_iter().map(Action::TurnPublished));
             return asked;
         }
         let knobs: Vec<_> = panel.iter().map(shown).collect();
         let sections = sections(&panel, &knobs);
         ui.push_id(("published", document.body()), |ui| {
             let events = published_ui(ui, theme, memory, &sections, &context.lengths());
-            asked.extend(events.into_iter().map(PublishedAction::Turn));
+            asked.extend(events.into_iter().map(Action::TurnPublished));
         });
         asked
     }

@@ -4,12 +4,13 @@ mod row;
 
 use egui::{Rect, RichText, Ui};
 use egui_phosphor::regular as icon;
+use sabi_editing::command::{LayerCommand};
 use sabi_editing::stack::{Stack, StackEnd};
 use sabi_editing::{OpenDocument, layers, stack};
 use sabi_graph::NodeRef;
 
 use super::reordering;
-use crate::action::{Action, LayerAction};
+use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::looks::result_of;
 use crate::theme::space;
@@ -84,7 +85,7 @@ fn list(ui: &mut Ui, context: &ViewContext<'_>, stack: &Stack, actions: &mut Vec
                 actions.push(Action::GoTo(document.full_id(&layer.node)));
             }
             if ui.button("Remove").clicked() {
-                actions.push(Action::Layer(ask_of(stack, at, row::Ask::Remove)));
+                actions.push(Action::edit(ask_of(stack, at, row::Ask::Remove)));
             }
         });
     }
@@ -99,7 +100,7 @@ fn list(ui: &mut Ui, context: &ViewContext<'_>, stack: &Stack, actions: &mut Vec
         let to = if gap > from { gap - 1 } else { gap };
         if to != from {
             let end = stack.end.clone();
-            actions.push(Action::Layer(LayerAction::Move { end, from, to }));
+            actions.push(Action::edit(LayerCommand::Move { end, from, to }));
         }
     }
 }
@@ -121,7 +122,7 @@ fn kinds(document: &OpenDocument, ui: &mut Ui, stack: &Stack, at: usize, actions
     let is_lowest = stack.layers.is_empty();
     for kind in layers::kinds(document, is_lowest) {
         if ui.button(&kind.label).on_hover_text(&kind.summary).clicked() {
-            actions.push(Action::Layer(LayerAction::Add {
+            actions.push(Action::edit(LayerCommand::Add {
                 end: stack.end.clone(),
                 at,
                 kind: kind.id.clone(),
@@ -131,12 +132,12 @@ fn kinds(document: &OpenDocument, ui: &mut Ui, stack: &Stack, at: usize, actions
 }
 
 /// Action for what one row asks for.
-fn ask_of(stack: &Stack, at: usize, ask: row::Ask) -> LayerAction {
+fn ask_of(stack: &Stack, at: usize, ask: row::Ask) -> LayerCommand {
     let node = stack.layers[at].node.clone();
     match ask {
-        row::Ask::Toggle => LayerAction::Toggle(node),
-        row::Ask::Opacity(opacity) => LayerAction::Opacity { node, opacity },
-        row::Ask::Remove => LayerAction::Remove {
+        row::Ask::Toggle => LayerCommand::Toggle(node),
+        row::Ask::Opacity(opacity) => LayerCommand::SetOpacity { node, opacity },
+        row::Ask::Remove => LayerCommand::Remove {
             end: stack.end.clone(),
             at,
         },

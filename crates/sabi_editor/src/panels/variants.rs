@@ -2,11 +2,12 @@
 
 use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_editing::command::VariantCommand;
 use sabi_editing::{OpenDocument, panel, variants};
 use sabi_engine::catalog::readable;
 use sabi_graph::Value;
 
-use crate::action::VariantAction;
+use crate::action::Action;
 use crate::context::ViewContext;
 use crate::theme::{Theme, space, type_size};
 
@@ -32,7 +33,7 @@ struct Renaming {
 
 impl Variants {
     /// Shows the variants of the shown graph and gives what is asked of them.
-    pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Option<VariantAction> {
+    pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
         let (document, theme) = (context.document, context.theme);
         let panel = panel::knobs(document);
         if panel.is_empty() {
@@ -69,11 +70,13 @@ struct Card<'a> {
 }
 
 impl Card<'_> {
-    fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<VariantAction> {
+    fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<Action> {
         let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
         response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, readable(self.name)));
         self.paint(ui, theme, rect, response.hovered() || response.has_focus());
-        let mut asked = response.clicked().then(|| VariantAction::Apply(self.name.to_owned()));
+        let mut asked = response
+            .clicked()
+            .then(|| Action::edit(VariantCommand::Apply(self.name.to_owned())));
         let response = response.on_hover_text(format!("Turn all knobs as in '{}'", self.name));
         response.context_menu(|ui| {
             if ui.button("Rename").clicked() {
@@ -84,10 +87,10 @@ impl Card<'_> {
                 });
             }
             if ui.button("Replace by the present values").clicked() {
-                asked = Some(VariantAction::Save(self.name.to_owned()));
+                asked = Some(Action::SaveVariant(self.name.to_owned()));
             }
             if ui.button("Remove").clicked() {
-                asked = Some(VariantAction::Remove(self.name.to_owned()));
+                asked = Some(Action::edit(VariantCommand::Remove(self.name.to_owned())));
             }
         });
         asked
@@ -129,7 +132,7 @@ impl Card<'_> {
     }
 }
 
-fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<VariantAction> {
+fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<Action> {
     let asked = renaming.as_mut()?;
     let edit = egui::TextEdit::singleline(&mut asked.to).desired_width(f32::INFINITY);
     let field = ui.add(edit);
@@ -142,11 +145,11 @@ fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<VariantAction>
     }
     let is_given_up = ui.input(|input| input.key_pressed(Key::Escape));
     let Renaming { name, to, .. } = renaming.take()?;
-    (!is_given_up && name != to).then_some(VariantAction::Rename { name, to })
+    (!is_given_up && name != to).then(|| Action::edit(VariantCommand::Rename { name, to }))
 }
 
 /// Row that saves the present values.
-fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option<VariantAction> {
+fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option<Action> {
     let row = egui::vec2(ui.available_width(), space::ROW);
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.allocate_ui_with_layout(row, layout, |ui| {
@@ -163,7 +166,7 @@ fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option
         let field = ui.add(edit);
         field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Name of a variant"));
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        (can_save && (is_entered || is_clicked)).then(|| VariantAction::Save(std::mem::take(name)))
+        (can_save && (is_entered || is_clicked)).then(|| Action::SaveVariant(std::mem::take(name)))
     })
     .inner
 }

@@ -4,9 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use egui::Ui;
-use sabi_editing::{nodes, relative_paths, texture_sets};
+use sabi_editing::command::NodeCommand;
 use sabi_engine::path_text;
-use sabi_graph::Value;
 
 use super::super::Editor;
 use crate::action::Next;
@@ -51,7 +50,7 @@ impl Editor {
             return self.shell.say(format!("{} holds no pictures", folder.display()));
         }
         let place = self.views.canvas.place_for_new(ui);
-        texture_sets::add(&mut self.documents.document, &files, place);
+        self.edit(NodeCommand::AddTextureSets { files, place }, ui);
     }
 
     fn take_environment(&mut self, path: &Path) {
@@ -64,19 +63,7 @@ impl Editor {
 
     fn add_image(&mut self, path: &Path, ui: &Ui) {
         let place = self.views.canvas.place_for_new(ui);
-        let document = &mut self.documents.document;
-        let text = match relative_paths::relative(document, path) {
-            Ok(text) => text,
-            Err(refused) => return document.notify(refused.to_string()),
-        };
-        document.session.begin("Add picture");
-        let added = nodes::add(document, "source/image", place, None);
-        if let Some(id) = &added {
-            nodes::set_knob(document, id, "file", Some(Value::Text(text)));
-        }
-        document.session.end();
-        if let Some(id) = added {
-            self.looks.show(&self.documents.document, &id, None);
-        }
+        let file = path.to_owned();
+        self.edit(NodeCommand::AddImage { file, place }, ui);
     }
 }

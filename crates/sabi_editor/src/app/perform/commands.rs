@@ -11,6 +11,7 @@ use crate::command::{
     WindowCommand,
 };
 use crate::dock::Panel;
+use crate::search::favorite_key;
 
 /// Factor of one step of the interface's size.
 const SCALE_STEP: f32 = 1.1;
@@ -172,13 +173,14 @@ impl Editor {
     fn add_favorite(&mut self, favorite: Favorite, ui: &Ui) {
         let key = self.shell.settings.favorites.get(favorite.index());
         let mut candidates = self.documents.candidates().iter();
-        let found = key.and_then(|key| candidates.find(|known| known.new.key() == *key));
+        let found = key.and_then(|key| candidates.find(|known| favorite_key(&known.new) == *key));
         let Some(new) = found.map(|found| found.new.clone()) else {
             let number = favorite.index() + 1;
             return self.shell.say(format!(
                 "There is no favorite {number}; a star in the library makes one."
             ));
         };
-        self.add(&new, self.views.canvas.place_for_new(ui), None, None);
+        let place = self.views.canvas.place_for_new(ui);
+        self.add(new, place, None, ui);
     }
 }

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use egui::{Context, Event, EventFilter, Key, Modifiers, Popup, Ui, ViewportCommand};
+use sabi_editing::command::ClipboardCommand;
 
 use super::Shell;
 use crate::action::{Action, ArrowKey};
@@ -96,7 +97,7 @@ impl Shell {
                 } => actions.extend(self.key(key, modifiers, context)),
                 Event::Paste(text) if self.pastes_here() => {
                     let place = views.canvas.place_for_new(ui);
-                    actions.push(Action::Paste { text, place });
+                    actions.push(Action::edit(ClipboardCommand::Paste { text, place }));
                 }
                 event => {
                     let chord = from_clipboard_event(&event);

@@ -2,10 +2,11 @@
 
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable;
+use sabi_editing::command::NodeSource;
 use sabi_graph::NodeId;
 
 use super::{Editor, Window};
-use crate::action::{LibraryKind, NewNode};
+use crate::action::LibraryKind;
 use crate::dock::Panel;
 
 const GROUPED: &str = r#"{
@@ -184,7 +185,7 @@ fn a_group_of_the_graph_has_the_picture_of_an_instance_in_the_library() {
     let instance = select_only(&mut window);
     window.until("a picture", |editor| editor.thumbnail_of(&instance).is_some());
     let context = window.harness.ctx.clone();
-    let group = NewNode::Group("Wear".to_owned());
+    let group = NodeSource::Group("Wear".to_owned());
     let (read, views, _) = window.harness.state_mut().parts();
     assert!(views.library.picture(&context, &read, &group).is_some());
 }

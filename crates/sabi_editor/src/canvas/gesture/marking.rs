@@ -1,12 +1,13 @@
 //! Ends of selections in a box or a line, and of cuts.
 
 use egui::{Modifiers, Pos2, Rect, pos2};
+use sabi_editing::command::WireCommand;
 use sabi_graph::{NodeId, SlotRef};
 
 use super::super::wires::Wire;
 use super::super::{Canvas, CanvasContext, node_rect};
 use super::Gesture;
-use crate::action::{Action, WireAction};
+use crate::action::Action;
 
 pub(super) fn end_box(
     canvas: &mut Canvas,
@@ -64,7 +65,7 @@ pub(super) fn end_line(
         .map(|wire| wire.to.clone())
         .collect();
     if !cut.is_empty() {
-        actions.push(Action::Wire(WireAction::Cut(cut)));
+        actions.push(Action::edit(WireCommand::Disconnect(cut)));
     }
 }
 

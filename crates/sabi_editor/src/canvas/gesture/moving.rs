@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use egui::{Key, Modifiers, Pos2, Rect, Response, Ui};
+use sabi_editing::command::{ArrangeCommand, FrameCommand, HistoryCommand, WireCommand};
 use sabi_editing::node_size::GRID;
 use sabi_editing::{OpenDocument, arrangement};
 use sabi_graph::{NodeId, SlotRef};
@@ -10,7 +11,7 @@ use sabi_graph::{NodeId, SlotRef};
 use super::super::wires::{self, Wire};
 use super::super::{Canvas, CanvasContext, frame_rects, node_rect};
 use super::{Gesture, pull};
-use crate::action::{Action, FrameAction, MoveAction, WireAction};
+use crate::action::Action;
 
 impl Gesture {
     /// Wire that the dragged node would be inserted into; while nothing is dragged, the wire under the pointer.
@@ -61,9 +62,9 @@ impl Canvas {
             let Some(node) = around.document.node(id) else { return };
             from = BTreeMap::from([(id.clone(), node.pos)]);
         }
-        actions.push(Action::Move(MoveAction::Begin));
+        actions.push(Action::edit(HistoryCommand::Begin("Move".to_owned())));
         if modifiers.alt {
-            actions.push(Action::TakeOut);
+            actions.push(Action::edit(WireCommand::DetachSelected));
         }
         self.gesture = Gesture::Move {
             from,
@@ -84,7 +85,7 @@ pub(super) fn drag(
     actions: &mut Vec<Action>,
 ) {
     if ui.input(|input| input.key_pressed(Key::Escape)) {
-        actions.push(Action::Move(MoveAction::Cancel));
+        actions.push(Action::edit(HistoryCommand::Cancel));
         canvas.gesture = Gesture::Idle;
         return;
     }
@@ -101,7 +102,7 @@ pub(super) fn drag(
     let here = canvas.view.place(panel, pointer);
     let offset = [here[0] - grabbed[0], here[1] - grabbed[1]];
     let places = moved(from, offset, modifiers.command);
-    actions.push(Action::Move(MoveAction::To(places)));
+    actions.push(Action::edit(ArrangeCommand::Move(places)));
     if is_down {
         return;
     }
@@ -113,12 +114,12 @@ pub(super) fn drag(
         && let Some(id) = from.keys().next()
     {
         let node = id.clone();
-        actions.push(Action::Wire(WireAction::Insert { node, into }));
+        actions.push(Action::edit(WireCommand::Insert { node, into }));
     }
     if !is_frame && let Some(frame) = frame_rects::under(canvas, around.document, pointer) {
-        actions.push(Action::Frame(FrameAction::Fill(Some(frame))));
+        actions.push(Action::edit(FrameCommand::Assign(Some(frame))));
     }
-    actions.push(Action::Move(MoveAction::End));
+    actions.push(Action::edit(HistoryCommand::End));
     canvas.gesture = Gesture::Idle;
 }
 

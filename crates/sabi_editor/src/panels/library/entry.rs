@@ -7,7 +7,7 @@ use egui_phosphor::regular as icon;
 use crate::action::{Action, SettingAction};
 use crate::command::{Command, Favorite};
 use crate::context::ViewContext;
-use crate::search::Candidate;
+use crate::search::{Candidate, favorite_key};
 use crate::theme::{space, type_size};
 
 /// Heights of entries without and with a picture.
@@ -59,7 +59,7 @@ impl Entry<'_> {
             None => "A favorite; the first nine are added by the keys 1 to 9",
         };
         if star.on_hover_text(told).clicked() {
-            let favorite = SettingAction::ToggleFavorite(new.key());
+            let favorite = SettingAction::ToggleFavorite(favorite_key(new));
             actions.push(Action::Setting(favorite));
         }
         actions

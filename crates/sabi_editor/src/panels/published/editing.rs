@@ -2,10 +2,10 @@
 
 use egui::{DragValue, Rect, RichText, Sense, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_editing::command::PanelCommand;
 use sabi_editing::panel::PanelKnob;
 use sabi_graph::Value;
 
-use crate::action::PublishedAction;
 use crate::panels::field::Field;
 use crate::panels::reordering;
 use crate::theme::{Theme, space};
@@ -13,7 +13,7 @@ use crate::theme::{Theme, space};
 /// Dragged parameter, by its name.
 struct Dragged(String);
 
-pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut Vec<PublishedAction>) {
+pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut Vec<PanelCommand>) {
     let rows: Vec<Rect> = panel.iter().map(|knob| card(ui, theme, knob, asked)).collect();
     let title = |dragged: &Dragged| {
         let knob = panel.iter().find(|knob| knob.name == dragged.0)?;
@@ -22,11 +22,11 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut 
     if let Some((dragged, gap)) = reordering::dropped(ui, theme, &rows, title) {
         let before = panel.get(gap).map(|knob| knob.name.clone());
         let name = dragged.0.clone();
-        asked.push(PublishedAction::Move { name, before });
+        asked.push(PanelCommand::Move { name, before });
     }
 }
 
-fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) -> Rect {
+fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) -> Rect {
     let frame = egui::Frame::new()
         .fill(theme.raised)
         .corner_radius(space::CORNER)
@@ -45,7 +45,7 @@ fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedA
 }
 
 /// Handle for dragging, label, and the button that removes the parameter from the panel.
-fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
+fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         let sign = RichText::new(icon::DOTS_SIX_VERTICAL).color(theme.quiet);
         let handle = ui.add(egui::Label::new(sign).sense(Sense::drag()));
@@ -61,7 +61,7 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedA
         };
         if let Some(label) = label.show(ui, ("label", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PublishedAction::Label { name, label });
+            asked.push(PanelCommand::SetLabel { name, label });
         }
         let off = ui.small_button(icon::TRASH);
         off.widget_info(|| {
@@ -69,13 +69,13 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedA
             WidgetInfo::labeled(WidgetType::Button, true, name)
         });
         if off.on_hover_text("Take off the panel").clicked() {
-            asked.push(PublishedAction::TakeOff(knob.name.clone()));
+            asked.push(PanelCommand::Remove(knob.name.clone()));
         }
     });
 }
 
 /// Name in files, and section.
-fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
+fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         let half = ((ui.available_width() - space::USUAL) / 2.0 - space::USUAL).floor();
         let name = Field {
@@ -86,7 +86,7 @@ fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
         };
         if let Some(to) = name.show(ui, ("name", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PublishedAction::Rename { name, to });
+            asked.push(PanelCommand::Rename { name, to });
         }
         let section = Field {
             name: "Section",
@@ -96,13 +96,13 @@ fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
         };
         if let Some(section) = section.show(ui, ("section", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PublishedAction::Section { name, section });
+            asked.push(PanelCommand::SetSection { name, section });
         }
     });
 }
 
 /// Range of the parameter.
-fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
+fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "From");
         let own = knob.exposed.range;
@@ -119,22 +119,22 @@ fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<Published
         let name = knob.name.clone();
         if has_changed {
             let range = Some([low.min(high), high.max(low)]);
-            asked.push(PublishedAction::Range { name, range });
+            asked.push(PanelCommand::SetRange { name, range });
         } else if own.is_some() && sign(ui, icon::X, "The range of its node").clicked() {
-            asked.push(PublishedAction::Range { name, range: None });
+            asked.push(PanelCommand::SetRange { name, range: None });
         }
     });
 }
 
 /// Default of the parameter.
-fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PublishedAction>) {
+fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         let name = knob.name.clone();
         match &knob.exposed.default {
             Some(held) => {
                 ui.colored_label(theme.quiet, format!("Starts at {}", held.to_json()));
                 if sign(ui, icon::X, "Start as its nodes are set").clicked() {
-                    asked.push(PublishedAction::Default { name, default: None });
+                    asked.push(PanelCommand::SetDefault { name, default: None });
                 }
             }
             None => {
@@ -142,7 +142,7 @@ fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<Published
                 let told = "Keeps the present value as what it starts from, whatever its nodes are set to";
                 if keep.on_hover_text(told).clicked() {
                     let default = Some(knob.value.clone());
-                    asked.push(PublishedAction::Default { name, default });
+                    asked.push(PanelCommand::SetDefault { name, default });
                 }
             }
         }

@@ -5,10 +5,11 @@ use egui::{
     WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
+use sabi_editing::command::LayerCommand;
 use sabi_editing::stack::Layer;
 use sabi_graph::Value;
 
-use crate::action::{Action, LayerAction};
+use crate::action::Action;
 use crate::context::ViewContext;
 use crate::knobs::{KnobEvent, KnobRow, knob_inline};
 use crate::looks::result_of;
@@ -34,7 +35,7 @@ pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
     layer: &Layer,
-    asked: impl Fn(Ask) -> LayerAction,
+    asked: impl Fn(Ask) -> LayerCommand,
     actions: &mut Vec<Action>,
 ) -> Response {
     let (document, theme) = (context.document, context.theme);
@@ -60,7 +61,7 @@ pub(super) fn show(
         WidgetInfo::selected(WidgetType::Checkbox, true, !layer.is_muted, name)
     });
     if eye.on_hover_text("Hides or shows the layer").clicked() {
-        actions.push(Action::Layer(asked(Ask::Toggle)));
+        actions.push(Action::edit(asked(Ask::Toggle)));
     }
     let tint = Color32::from_white_alpha(if layer.is_muted { 90 } else { 255 });
     let own = context.node_picture(&layer.node);
@@ -135,7 +136,7 @@ fn end(
     theme: &Theme,
     layer: &Layer,
     room: &mut Rect,
-    asked: &impl Fn(Ask) -> LayerAction,
+    asked: &impl Fn(Ask) -> LayerCommand,
     actions: &mut Vec<Action>,
 ) {
     let (rest, place) = room.split_left_right_at_x((room.right() - SIGN).max(room.left()));
@@ -151,7 +152,7 @@ fn end(
             let name = format!("Remove {}", layer.title);
             bin.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &name));
             if bin.on_hover_text("Removes the layer; what is above heals").clicked() {
-                actions.push(Action::Layer(asked(Ask::Remove)));
+                actions.push(Action::edit(asked(Ask::Remove)));
             }
         }
     }
@@ -162,7 +163,7 @@ fn name_and_opacity(
     context: &ViewContext<'_>,
     layer: &Layer,
     room: Rect,
-    asked: &impl Fn(Ask) -> LayerAction,
+    asked: &impl Fn(Ask) -> LayerCommand,
     actions: &mut Vec<Action>,
 ) {
     let theme = context.theme;
@@ -199,7 +200,7 @@ fn name_and_opacity(
     for event in events {
         actions.push(match event {
             KnobEvent::Set { value, .. } => match value.as_number() {
-                Some(opacity) => Action::Layer(asked(Ask::Opacity(opacity))),
+                Some(opacity) => Action::edit(asked(Ask::Opacity(opacity))),
                 None => continue,
             },
             event => Action::Knob {
