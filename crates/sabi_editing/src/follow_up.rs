@@ -226,15 +226,7 @@ impl Instance<'_> {
                 continue;
             };
             let (body, node, input) = (self.body.clone(), slot.node, slot.name);
-            edits.push(match now {
-                Some(from) => Edit::Connect {
-                    body,
-                    node,
-                    input,
-                    from,
-                },
-                None => Edit::Disconnect { body, node, input },
-            });
+            edits.push(Edit::link(body, node, input, now));
         }
     }
 }

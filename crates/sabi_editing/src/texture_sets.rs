@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use sabi_engine::catalog::readable;
+use sabi_engine::catalog::label_of;
 use sabi_graph::{Edit, Node, NodeId, OutputRef, Value};
 
 use crate::node_size::{NODE_WIDTH, size_of};
@@ -84,7 +84,7 @@ impl Adding<'_> {
             below += self.height(IMAGE) + GAP / 2.0;
         }
         let mut material = Node::new(COMBINE);
-        material.label = Some(readable(name)).filter(|label| !label.is_empty());
+        material.label = Some(label_of(name)).filter(|label| !label.is_empty());
         material.inputs = inputs;
         let middle = ((y + below - self.height(COMBINE)) / 2.0).max(y);
         let id = self.add_node("material", material, [x + 2.0 * step, middle]);
@@ -94,7 +94,7 @@ impl Adding<'_> {
     fn add_image(&mut self, map: Map, file: &Path, pos: [f32; 2]) -> NodeId {
         let mut image = Node::new(IMAGE);
         let (input, _) = ports(map);
-        image.label = Some(readable(input));
+        image.label = Some(label_of(input));
         match relative_paths::relative(self.document, file) {
             Ok(path) => {
                 image.params.insert("file".to_owned(), Value::Text(path));

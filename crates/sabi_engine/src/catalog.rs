@@ -22,7 +22,7 @@ pub use knob::Knob;
 pub use picture::picture_of;
 pub use sabi_nodes::kind::Role as KnobRole;
 pub use sabi_nodes::kind::{Memory, ParamType, Written, WrittenStop};
-pub use sabi_nodes::{color_code, curve_points, typed_color};
+pub use sabi_nodes::{color_code, curve_points, label_of, typed_color};
 
 use crate::opening::kinds::Kinds;
 
@@ -195,7 +195,7 @@ fn unconnected(input: &Input) -> Option<Value> {
 fn port_of_output(output: &Output) -> Port {
     Port {
         name: output.name.clone(),
-        label: readable(&output.name),
+        label: label_of(&output.name),
         doc: output.doc.clone(),
         ty: Some(output.ty),
         is_required: false,
@@ -206,7 +206,7 @@ fn port_of_output(output: &Output) -> Port {
 fn entry_of_source(kind: &SourceKind) -> Entry {
     let port = |port: &SourcePort, is_required: bool| Port {
         name: port.name.clone(),
-        label: readable(&port.name),
+        label: label_of(&port.name),
         doc: port.doc.clone(),
         ty: Some(port.ty),
         is_required,
@@ -249,16 +249,6 @@ fn reroute() -> Entry {
         knobs: Vec::new(),
         shape: None,
         source: None,
-    }
-}
-
-/// A name as people write it: spaces for strokes, a capital in front.
-pub fn readable(name: &str) -> String {
-    let spaced = name.replace('_', " ");
-    let mut letters = spaced.chars();
-    match letters.next() {
-        Some(first) => first.to_uppercase().chain(letters).collect(),
-        None => spaced,
     }
 }
 

@@ -27,6 +27,8 @@ mod paths;
 mod read;
 mod staged;
 pub mod stored;
+#[cfg(test)]
+mod test_folder;
 mod uri;
 mod whole;
 

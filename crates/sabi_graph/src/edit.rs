@@ -101,6 +101,21 @@ pub enum Edit {
     Batch(Vec<Edit>),
 }
 
+impl Edit {
+    /// Connects an input to an output, or (`None`) disconnects it.
+    pub fn link(body: Body, node: NodeId, input: String, from: Option<OutputRef>) -> Edit {
+        match from {
+            Some(from) => Edit::Connect {
+                body,
+                node,
+                input,
+                from,
+            },
+            None => Edit::Disconnect { body, node, input },
+        }
+    }
+}
+
 /// Why an edit was refused; the document is as it was.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EditError {

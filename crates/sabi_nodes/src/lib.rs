@@ -64,5 +64,6 @@ pub use color::{color_code, color_linear, typed_color};
 pub use curve::curve_points;
 pub use fault::Fault;
 pub use library::{Library, SourceFile};
+pub use notes::label_of;
 pub use reader::read_kind;
 pub use shader_files::Libraries;

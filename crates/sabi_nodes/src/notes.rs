@@ -276,13 +276,14 @@ fn version(text: Text<'_>, notes: &Notes, faults: &mut Vec<Fault>) -> u32 {
     }
 }
 
-/// Label of a name: `tile_size` becomes `Tile size`.
-pub(crate) fn label_of(name: &str) -> String {
-    let mut label = name.replace('_', " ");
-    if let Some(first) = label.get_mut(0..1) {
-        first.make_ascii_uppercase();
+/// Returns the label of a name: `tile_size` becomes `Tile size`.
+pub fn label_of(name: &str) -> String {
+    let spaced = name.replace('_', " ");
+    let mut letters = spaced.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => spaced,
     }
-    label
 }
 
 /// Whether a name can be a port or a parameter: `[a-z][a-z0-9_]*`.

@@ -123,12 +123,7 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             return load;
         }
         let stored = self.builder.stored(value);
-        let planes = stored
-            .planes()
-            .into_iter()
-            .map(|plane| Some((resident, plane)))
-            .collect();
-        self.add_load(Some(resident), stored, planes)
+        self.load_stored(resident, stored)
     }
 
     /// Content on the level of this kernel.
@@ -146,11 +141,13 @@ impl<'b, 'p, 'a> KernelDraft<'b, 'p, 'a> {
             ty,
             channels: Vec::new(),
         };
-        let planes = stored
-            .planes()
-            .into_iter()
-            .map(|plane| Some((resident, plane)))
-            .collect();
+        self.load_stored(resident, stored)
+    }
+
+    /// Adds a load of all planes of stored content.
+    fn load_stored(&mut self, resident: Resident, stored: Stored) -> usize {
+        let planes = stored.planes().into_iter();
+        let planes = planes.map(|plane| Some((resident, plane))).collect();
         self.add_load(Some(resident), stored, planes)
     }
 

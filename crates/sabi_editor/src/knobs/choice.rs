@@ -2,7 +2,7 @@
 
 use egui::{Align2, Id, Key, Modifiers, Popup, Rect, Response, ScrollArea, Sense, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_engine::catalog::readable;
+use sabi_engine::catalog::label_of;
 use sabi_graph::Value;
 
 use super::KnobRow;
@@ -81,7 +81,7 @@ pub(super) fn choice(
     chosen: &str,
 ) {
     let room = rect.width() / words.len().max(1) as f32 - space::USUAL - 2.0;
-    let fits = |word: &String| width(ui.painter(), &readable(word), type_size::BODY) < room;
+    let fits = |word: &String| width(ui.painter(), &label_of(word), type_size::BODY) < room;
     if words.len() <= MOST_BESIDE && words.iter().all(fits) {
         beside(ui, ask, row, id, rect, words, chosen);
     } else {
@@ -96,7 +96,7 @@ fn beside(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, 
         .accesskit_node_builder(group.id, |node| node.set_value(said(row, chosen)));
     for (at, word) in words.iter().enumerate() {
         let is_chosen = !row.differs && word == chosen;
-        let name = readable(word);
+        let name = label_of(word);
         let place = share_of(rect, at, words.len());
         let response = word_button(ui, ask, id.with(word), place, &name, Chosen::of(row, is_chosen));
         response.widget_info(|| WidgetInfo::selected(WidgetType::RadioButton, ui.is_enabled(), is_chosen, &name));
@@ -109,7 +109,7 @@ fn beside(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, 
 fn said(row: &KnobRow<'_>, chosen: &str) -> String {
     match row.differs {
         true => "several".to_owned(),
-        false => readable(chosen),
+        false => label_of(chosen),
     }
 }
 
@@ -163,7 +163,7 @@ pub(super) fn open_list(
         ScrollArea::vertical().max_height(HIGHEST_LIST).show(ui, |ui| {
             for word in words {
                 let is_chosen = !row.differs && word == chosen;
-                let item = ui.selectable_label(is_chosen, readable(word));
+                let item = ui.selectable_label(is_chosen, label_of(word));
                 if response.clicked() && word == chosen {
                     // The list has the keyboard while it is open.
                     item.request_focus();

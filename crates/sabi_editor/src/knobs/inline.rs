@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
 use sabi_editing::node_size::ROW_HEIGHT;
-use sabi_engine::catalog::{KnobRole, readable};
+use sabi_engine::catalog::{KnobRole, label_of};
 use sabi_graph::Value;
 
 use super::bar::Bar;
@@ -102,7 +102,7 @@ fn widget(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Re
                 ask.theme.raised
             };
             ui.painter().rect_filled(rect, space::CORNER, fill);
-            value(ui, ask, row, rect, &readable(word), ask.theme.text);
+            value(ui, ask, row, rect, &label_of(word), ask.theme.text);
             choice::open_list(ui, ask, row, &response, words, word);
         }
         (Some(Held::Color(held)), _) => {

@@ -4,7 +4,7 @@ mod row;
 
 use egui::{Rect, RichText, Ui};
 use egui_phosphor::regular as icon;
-use sabi_editing::command::{LayerCommand};
+use sabi_editing::command::LayerCommand;
 use sabi_editing::stack::{Stack, StackEnd};
 use sabi_editing::{OpenDocument, layers, stack};
 use sabi_graph::NodeRef;

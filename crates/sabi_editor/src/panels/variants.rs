@@ -4,7 +4,7 @@ use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKi
 use egui_phosphor::regular as icon;
 use sabi_editing::command::VariantCommand;
 use sabi_editing::{OpenDocument, panel, variants};
-use sabi_engine::catalog::readable;
+use sabi_engine::catalog::label_of;
 use sabi_graph::Value;
 
 use crate::action::Action;
@@ -72,7 +72,7 @@ struct Card<'a> {
 impl Card<'_> {
     fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<Action> {
         let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
-        response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, readable(self.name)));
+        response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, label_of(self.name)));
         self.paint(ui, theme, rect, response.hovered() || response.has_focus());
         let mut asked = response
             .clicked()
@@ -117,7 +117,7 @@ impl Card<'_> {
         let room = rect.with_min_y(square.bottom()).shrink2(Vec2::new(4.0, 0.0));
         let color = if self.is_held { theme.text } else { theme.quiet };
         let mut job = egui::text::LayoutJob::simple_singleline(
-            readable(self.name),
+            label_of(self.name),
             FontId::proportional(type_size::SMALL),
             color,
         );

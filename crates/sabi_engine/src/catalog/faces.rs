@@ -9,7 +9,7 @@ use sabi_graph::{
 };
 use sabi_nodes::kind::{Memory, ParamType, ParamValue, Role};
 
-use super::{Catalog, Entry, Knob, Port, placeholder, readable};
+use super::{Catalog, Entry, Knob, Port, label_of, placeholder};
 
 /// Group files inside group files beyond this are shown as if they were not there.
 const DEEPEST_FILE: usize = 16;
@@ -195,7 +195,7 @@ impl Published<'_> {
             let fed: Vec<&Port> = input.to.iter().filter_map(|slot| fed_port(faces, body, slot)).collect();
             Port {
                 name: name.clone(),
-                label: input.label.clone().unwrap_or_else(|| readable(name)),
+                label: input.label.clone().unwrap_or_else(|| label_of(name)),
                 doc: fed.first().map_or_else(String::new, |port| port.doc.clone()),
                 ty: input.ty.or_else(|| fed.iter().find_map(|port| port.ty)),
                 is_required: fed.iter().any(|port| port.is_required),
@@ -207,7 +207,7 @@ impl Published<'_> {
             let port = inner.and_then(|entry| entry.output(from.port.as_deref()));
             Port {
                 name: name.clone(),
-                label: readable(name),
+                label: label_of(name),
                 doc: port.map_or_else(String::new, |port| port.doc.clone()),
                 ty: port.and_then(|port| port.ty),
                 is_required: false,
@@ -241,7 +241,7 @@ impl Published<'_> {
         let default = exposed.default.as_ref().or(set).unwrap_or(&inner.ty.default).clone();
         Some(Knob {
             name: name.to_owned(),
-            label: exposed.label.clone().unwrap_or_else(|| readable(name)),
+            label: exposed.label.clone().unwrap_or_else(|| label_of(name)),
             ty: ParamType {
                 range: exposed.range.or(inner.ty.range),
                 soft: exposed.range.or(inner.ty.soft),
@@ -304,7 +304,7 @@ fn scale_knob() -> Knob {
 fn instance_knob(name: &str, doc: &str, ty: ParamType) -> Knob {
     Knob {
         name: name.to_owned(),
-        label: readable(name),
+        label: label_of(name),
         doc: doc.to_owned(),
         ty,
         is_of_input: false,

@@ -7,7 +7,7 @@ use sabi_files::{absolute, path_from_stored, stored_path, write_whole};
 use sabi_nodes::{SourceFile, read_kind};
 use serde_json::{Value, json};
 
-use crate::catalog::readable;
+use crate::catalog::label_of;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
 
@@ -145,7 +145,7 @@ pub fn node_text_like(text: &str, id: &str) -> String {
             Some(header) if header.starts_with("@was") => {}
             Some(header) if !has_title && !header.is_empty() => {
                 has_title = true;
-                lines.push(format!("//! {}", readable(name)));
+                lines.push(format!("//! {}", label_of(name)));
             }
             _ => lines.push(line.to_owned()),
         }

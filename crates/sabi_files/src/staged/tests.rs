@@ -1,15 +1,7 @@
 //! Tests of staged sets.
 
 use super::*;
-
-fn listing(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
-}
+use crate::test_folder::listing;
 
 #[test]
 fn a_file_that_is_read_is_never_written_over() {

@@ -152,27 +152,13 @@ impl Document {
             return Err(Problem::SelfLink { id: node }.into());
         }
         graph.circle_closed_by(&from.node, &node)?;
-        Ok(match graph.link(&node, &input, from)? {
-            Some(from) => Edit::Connect {
-                body,
-                node,
-                input,
-                from,
-            },
-            None => Edit::Disconnect { body, node, input },
-        })
+        let before = graph.link(&node, &input, from)?;
+        Ok(Edit::link(body, node, input, before))
     }
 
     pub(super) fn disconnect(&mut self, body: Body, node: NodeId, input: String) -> Result<Edit, EditError> {
-        Ok(match self.body_mut(&body)?.unlink(&node, &input)? {
-            Some(from) => Edit::Connect {
-                body,
-                node,
-                input,
-                from,
-            },
-            None => Edit::Disconnect { body, node, input },
-        })
+        let before = self.body_mut(&body)?.unlink(&node, &input)?;
+        Ok(Edit::link(body, node, input, before))
     }
 
     pub(super) fn move_node(&mut self, body: Body, node: NodeId, pos: [f32; 2]) -> Result<Edit, EditError> {
