@@ -22,6 +22,11 @@ const CLIPPY: Check = (
         "warnings",
     ],
 );
+// `cargo xtask demo` builds this, and none of the other checks does.
+const WITHOUT_EDITOR: Check = (
+    "Build without the editor",
+    &["check", "--package", "sabi", "--no-default-features", "--locked"],
+);
 // One run shows everything that there is to mend.
 const NEXTEST: Check = (
     "Tests (nextest)",
@@ -42,10 +47,11 @@ const TESTS: Check = (
 const DOC_TESTS: Check = ("Doc tests", &["test", "--doc", "--workspace", "--locked"]);
 const DOCUMENTATION: Check = ("Documentation", &["doc", "--workspace", "--no-deps", "--locked"]);
 
-fn checks(has_nextest: bool) -> [Check; 5] {
+fn checks(has_nextest: bool) -> [Check; 6] {
     [
         FORMAT,
         CLIPPY,
+        WITHOUT_EDITOR,
         if has_nextest { NEXTEST } else { TESTS },
         DOC_TESTS,
         DOCUMENTATION,
@@ -101,11 +107,25 @@ mod tests {
         let names = |has_nextest| checks(has_nextest).map(|(name, _)| name);
         assert_eq!(
             names(true),
-            ["Format", "Clippy", "Tests (nextest)", "Doc tests", "Documentation"]
+            [
+                "Format",
+                "Clippy",
+                "Build without the editor",
+                "Tests (nextest)",
+                "Doc tests",
+                "Documentation"
+            ]
         );
         assert_eq!(
             names(false),
-            ["Format", "Clippy", "Tests", "Doc tests", "Documentation"]
+            [
+                "Format",
+                "Clippy",
+                "Build without the editor",
+                "Tests",
+                "Doc tests",
+                "Documentation"
+            ]
         );
     }
 }

@@ -25,7 +25,7 @@ fn open(arguments: &EditArguments) -> Result<Exit, Failure> {
 fn open(_: &EditArguments) -> Result<Exit, Failure> {
     let why = "this build of sabi has no editor, only the commands that `sabi --help` lists; build it with \
                `cargo build --release`, without --no-default-features";
-    Err(Failure::new(Exit::Usage, why))
+    Err(Failure::new(Exit::Usage, why.to_owned()))
 }
 
 /// A command that was mistyped looks like a graph.
