@@ -1,60 +1,14 @@
-//! What the model shows, in words: chosen in a menu, and written on the picture.
+//! Menus that choose the subject of the viewport, and its title on the picture.
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::ViewSubject;
-use sabi_graph::NodeRef;
 
 use super::{ModelView, Subject};
 use crate::action::{Action, LookAction};
 use crate::command::{Command, LookCommand, ViewportCommand};
-use crate::context::ViewContext;
 use crate::evaluation::Evaluation;
-use crate::looks::title_of;
 use crate::theme::{Theme, space, type_size};
-
-/// What the model shows, in words.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Showing {
-    /// Result that is shown.
-    words: String,
-    /// Result that it is compared with.
-    other: Option<String>,
-    /// Sentence about why the result cannot be shown.
-    fault: Option<String>,
-    /// Whether the model follows clicks.
-    follows: bool,
-    /// Title of the node that was clicked last.
-    clicked: Option<String>,
-    /// Title of the locked node.
-    locked: Option<String>,
-}
-
-impl Showing {
-    /// Words about a result and about the one beside it.
-    pub(super) fn of(context: &ViewContext<'_>, seen: &ViewSubject, beside: Option<&ViewSubject>) -> Showing {
-        let looks = context.looks;
-        let title = |result: &NodeRef| title_of(context.document, result);
-        let words = |seen: &ViewSubject| match seen {
-            ViewSubject::Outputs => "Outputs".to_owned(),
-            ViewSubject::Node(result) if looks.locked.as_ref() == Some(result) => format!("Locked: {}", title(result)),
-            ViewSubject::Node(result) => format!("Follows: {}", title(result)),
-        };
-        let fault = match seen {
-            ViewSubject::Node(result) => context.evaluation.sentence(&result.node).cloned(),
-            ViewSubject::Outputs => context.fault_of_outputs(),
-        };
-        Showing {
-            words: words(seen),
-            other: beside.map(words),
-            fault,
-            follows: context.settings.follows,
-            clicked: looks.shown.as_ref().map(title),
-            locked: looks.locked.as_ref().map(title),
-        }
-    }
-}
 
 /// Menu that chooses what the model shows.
 pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Action>) {

@@ -2,14 +2,15 @@
 
 use egui::Ui;
 use sabi_engine::ViewSubject;
+use sabi_graph::NodeRef;
 
 use super::ModelView;
-use super::showing::Showing;
 use crate::action::{Action, ClickedColor, SettingAction};
 use crate::bars;
 use crate::command::InputPreset;
 use crate::context::{View, ViewContext};
 use crate::key_map::KeyMap;
+use crate::looks::title_of;
 use crate::theme::Theme;
 
 /// What the viewport shows.
@@ -27,6 +28,48 @@ pub(super) struct Subject<'a> {
     /// Preset that gives drags their meaning.
     pub(super) habit: InputPreset,
     pub(super) keys: &'a KeyMap,
+}
+
+/// Subject of the viewport in words.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Showing {
+    /// Result that is shown.
+    pub(super) words: String,
+    /// Result that it is compared with.
+    pub(super) other: Option<String>,
+    /// Sentence about why the result cannot be shown.
+    pub(super) fault: Option<String>,
+    /// Whether the model follows clicks.
+    pub(super) follows: bool,
+    /// Title of the node that was clicked last.
+    pub(super) clicked: Option<String>,
+    /// Title of the locked node.
+    pub(super) locked: Option<String>,
+}
+
+impl Showing {
+    /// Words about a result and about the one beside it.
+    pub(super) fn of(context: &ViewContext<'_>, seen: &ViewSubject, beside: Option<&ViewSubject>) -> Showing {
+        let looks = context.looks;
+        let title = |result: &NodeRef| title_of(context.document, result);
+        let words = |seen: &ViewSubject| match seen {
+            ViewSubject::Outputs => "Outputs".to_owned(),
+            ViewSubject::Node(result) if looks.locked.as_ref() == Some(result) => format!("Locked: {}", title(result)),
+            ViewSubject::Node(result) => format!("Follows: {}", title(result)),
+        };
+        let fault = match seen {
+            ViewSubject::Node(result) => context.evaluation.sentence(&result.node).cloned(),
+            ViewSubject::Outputs => context.fault_of_outputs(),
+        };
+        Showing {
+            words: words(seen),
+            other: beside.map(words),
+            fault,
+            follows: context.settings.follows,
+            clicked: looks.shown.as_ref().map(title),
+            locked: looks.locked.as_ref().map(title),
+        }
+    }
 }
 
 /// What was asked for in the view.
