@@ -175,19 +175,10 @@ macro_rules! wgsl_struct {
         $crate::wgsl_struct!(@declare $(#[$meta])* $vis struct $name {
             $($(#[$member_meta])* $member_vis $member: $ty,)*
         });
-        impl $crate::link::MirrorsWgsl for $name {
-            fn mirror() -> $crate::link::Mirror {
-                $crate::link::Mirror {
-                    rust: stringify!($name).to_owned(),
-                    file: $file,
-                    wgsl: stringify!($wgsl).to_owned(),
-                    value: $crate::link::MirrorValue::Struct {
-                        size: size_of::<$name>(),
-                        members: $crate::wgsl_struct!(@members $name { $($member: $ty,)* }),
-                    },
-                }
-            }
-        }
+        $crate::wgsl_struct!(@mirror $file $wgsl $name $crate::link::MirrorValue::Struct {
+            size: size_of::<$name>(),
+            members: $crate::wgsl_struct!(@members $name { $($member: $ty,)* }),
+        });
     };
     (
         vertex $file:literal $wgsl:ident:
@@ -197,24 +188,27 @@ macro_rules! wgsl_struct {
         $crate::wgsl_struct!(@declare $(#[$meta])* $vis struct $name {
             $($(#[$member_meta])* $member_vis $member: $ty,)*
         });
-        impl $crate::link::MirrorsWgsl for $name {
-            fn mirror() -> $crate::link::Mirror {
-                $crate::link::Mirror {
-                    rust: stringify!($name).to_owned(),
-                    file: $file,
-                    wgsl: stringify!($wgsl).to_owned(),
-                    value: $crate::link::MirrorValue::Vertex(
-                        $crate::wgsl_struct!(@members $name { $($member: $ty,)* }),
-                    ),
-                }
-            }
-        }
+        $crate::wgsl_struct!(@mirror $file $wgsl $name $crate::link::MirrorValue::Vertex(
+            $crate::wgsl_struct!(@members $name { $($member: $ty,)* })
+        ));
     };
     (@declare $(#[$meta:meta])* $vis:vis struct $name:ident { $($body:tt)* }) => {
         $(#[$meta])*
         #[repr(C)]
         #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
         $vis struct $name { $($body)* }
+    };
+    (@mirror $file:literal $wgsl:ident $name:ident $value:expr) => {
+        impl $crate::link::MirrorsWgsl for $name {
+            fn mirror() -> $crate::link::Mirror {
+                $crate::link::Mirror {
+                    rust: stringify!($name).to_owned(),
+                    file: $file,
+                    wgsl: stringify!($wgsl).to_owned(),
+                    value: $value,
+                }
+            }
+        }
     };
     (@members $name:ident { $($member:ident: $ty:ty,)* }) => {
         vec![$($crate::link::MirrorMember {
