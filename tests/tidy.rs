@@ -302,7 +302,7 @@ fn nothing_is_left_behind_and_nothing_points_to_one_machine() {
     assert_none(faults);
 }
 
-/// Whether a text stands in a line and is not a piece of a longer word.
+/// Returns true if a text occurs in a line and is not a part of a longer word.
 fn has_word(line: &str, text: &str) -> bool {
     line.match_indices(text).any(|(at, _)| {
         let is_part = |c: char| c.is_alphanumeric() || c == '_';

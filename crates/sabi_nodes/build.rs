@@ -47,7 +47,7 @@ fn main() -> io::Result<()> {
     fs::write(Path::new(&out_dir).join("shaders.rs"), list)
 }
 
-/// What a folder holds, sorted; and cargo looks at it again when it changes.
+/// Lists a folder's entries in sorted order. Tells cargo to run the build script again when the folder changes.
 fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut entries = fs::read_dir(folder)?

@@ -28,9 +28,9 @@ fn held(on_mesh: &OnMesh, bend: &[f32], expected: impl Fn(DVec3) -> Option<f64>)
     Held::new(on_mesh, bend, RAYS, expected, |bend| 2.0 * bend.abs() - bend * bend)
 }
 
-/// What an edge that turns by `turn` gives at a distance from it, as a share of the radius: the mean over directions inside,
-/// each of which meets the other side after `sin turn / sin (turn - direction)` of the distance. Beside a sharp edge that is
-/// nearer than the edge.
+/// Expected curvature at a distance from an edge that turns by `turn`, the distance as a share of the radius: the mean
+/// over directions inside, each of which meets the other side after `sin turn / sin (turn - direction)` of the
+/// distance. Beside a sharp edge that is nearer than the edge.
 fn beside_edge(turn: f64, distance: f64) -> f64 {
     let steps = 2000;
     let open = |step: i32| {

@@ -1,4 +1,4 @@
-//! What every mode makes of two values, against its formula.
+//! Results of every mode for two values, compared with its formula.
 
 use sabi_tests::{OnMesh, project};
 use serde_json::{Value as Json, json};
@@ -31,7 +31,7 @@ const MODES: [Formula<f64>; 12] = [
     ("divide", |below, above| below / above.max(1e-3)),
 ];
 
-/// What leaves the value below as it is, for modes that have such a thing.
+/// Value above that leaves the value below unchanged, for modes that have such a value.
 const NEUTRAL: [(&str, f64); 12] = [
     ("add", 0.0),
     ("subtract", 0.0),

@@ -27,7 +27,7 @@ fn the_hash_never_changes() {
 const HASH_OF_ZERO: [u32; 3] = [2_611_992_518, 2_833_812_075, 1_058_359_340];
 const HASH_OF_ONE_TWO_THREE: [u32; 3] = [4_204_755_366, 1_223_881_804, 1_500_469_937];
 
-/// What a node's seed becomes in a document of seed 0.
+/// Computes the effective seed of a node in a document of seed 0.
 fn effective_seed(own: u32) -> u32 {
     sabi_plan::pcg(sabi_plan::pcg(0) ^ own)
 }
@@ -48,7 +48,7 @@ fn point(cell: IVec3, seed: u32, jitter: f32) -> (Vec3, u32) {
     )
 }
 
-/// Where the cells stand and how they are drawn out.
+/// Placement of the cells, with their stretch and rotation.
 struct Pattern {
     size: f64,
     own_seed: u32,

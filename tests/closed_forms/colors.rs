@@ -53,7 +53,7 @@ fn spread(color: Rgb) -> f32 {
     color.iter().copied().fold(0.0, f32::max) - color.iter().copied().fold(f32::INFINITY, f32::min)
 }
 
-/// What two roundings to half floats make of a value up to 1.
+/// Error of two roundings to half floats of a value up to 1.
 const ROUNDING: f32 = 1.0 / 1024.0;
 
 #[test]

@@ -13,7 +13,7 @@ fn graph(kind: &str, params: &Json) -> String {
     .to_string()
 }
 
-/// What becomes of values between −0.5 and 1.5, in rising order.
+/// Values between −0.5 and 1.5, in rising order, with their results.
 fn bent(kind: &str, params: Json) -> Vec<(f32, f32)> {
     let mut on_mesh = OnMesh::new(&graph(kind, &params), &project("assets/meshes/cube.glb"), 128);
     let source = on_mesh.evaluate("source").component("mask");

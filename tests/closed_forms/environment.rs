@@ -103,8 +103,8 @@ fn a_direction_finds_in_the_cube_map_what_the_panorama_has_there() {
     }
 }
 
-/// What a surface whose GGX is `alpha` wide mirrors at an angle from a small light, of light that would be 1 everywhere on
-/// the sphere if it were spread out. The sum over all angles is the weight that makes even light even.
+/// Light that a surface of GGX width `alpha` mirrors at an angle from a small light whose mean over the sphere is 1.
+/// Divided by the mean of the lobe over all angles, so that even light stays even.
 fn lobe(alpha: f64, cos: f64) -> f64 {
     let shape = |cos: f64| {
         // The half vector lies halfway.

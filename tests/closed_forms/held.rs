@@ -3,7 +3,7 @@
 use glam::DVec3;
 use sabi_tests::OnMesh;
 
-/// How far texels are from what is expected of them in the mean, and how far four standard deviations of it are.
+/// Mean difference of texels from their expected values, and four standard deviations of this mean.
 #[derive(Debug)]
 pub(crate) struct Held {
     pub(crate) count: u32,

@@ -118,7 +118,7 @@ fn wave(u: f64) -> f64 {
     0.5 + 0.4 * (TAU * u).cos()
 }
 
-/// How far the picture of a wave is from the wave: half an 8-bit step, half floats, and what is averaged over a texel.
+/// Largest error of the picture of a wave: half an 8-bit step, half floats, and the averaging over a texel.
 const WAVE_TOLERANCE: f64 = 0.01;
 
 #[test]

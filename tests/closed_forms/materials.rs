@@ -15,7 +15,7 @@ const CHANNELS: [&str; 8] = [
     "emission",
 ];
 
-/// Where a height jumps over the cube's edge the normal is none of the material's.
+/// Components to compare, without the normal: where a height jumps over the cube's edge, it is not the material's own.
 const COMPONENTS: [&str; 13] = [
     "base_color.r",
     "base_color.g",
@@ -121,7 +121,7 @@ fn an_adjustment_with_nothing_set_or_an_empty_mask_changes_nothing() {
     }
 }
 
-/// What a channel's value becomes.
+/// Formula for the new value of a channel.
 type Formula = fn(f32) -> f32;
 
 #[test]

@@ -120,10 +120,10 @@ fn there_and_back(folder: &Path, graph: &str, model: &Path) -> ([PathBuf; 2], [J
     )
 }
 
-/// How far a channel of a copy may be from the map, in steps of 8 bits. A copy's maps are 8 bit: half a step when they were
-/// made, and half a step of rounding now; dithering moves a value by a step. A normal's length is lost with its last digits,
-/// which moves its parts by half a step more. A code of emission stands for four times as much light in the copy as in the
-/// map.
+/// Largest difference of a channel of a copy from the map, in steps of 8 bits. A copy's maps are 8 bit: half a step
+/// from writing them, and half a step from the rounding now; dithering moves a value by a step. A normal's length is
+/// lost with its last digits, which moves its components by half a step more. A code of emission stands for four times
+/// as much light in the copy as in the map.
 const STEPS: [(&str, f64); 6] = [
     ("base_color", 1.0),
     ("opacity", 1.0),
@@ -203,7 +203,8 @@ fn stacked() -> Vec<u8> {
     MeshFile::new(vec![square(0.0), square(1.0)]).glb()
 }
 
-/// What a copy has to keep of every triangle, as exact bits: material, positions, vertex colors and texture coordinates.
+/// Properties of every triangle that a copy must keep, as exact bits: material, positions, vertex colors and texture
+/// coordinates.
 fn triangles(model: &Model) -> Vec<(String, Vec<u32>)> {
     let mesh = &model.mesh;
     let of = |(corners, material): (&[u32; 3], &u32)| {

@@ -1,11 +1,11 @@
-//! Where a model stands in its scene, and in which unit, is no matter of its surface.
+//! The surface of a model is independent of the model's place in its scene and of the unit.
 
 use glam::DVec3;
 use sabi_tests::shapes::{Cut, cube};
 use sabi_tests::{MeshFile, OnMesh, Quad};
 use serde_json::{Value, json};
 
-/// What belongs to the surface alone: rays, and filters of a mask that is made of normals.
+/// Results that depend on the surface alone: rays, and filters of a mask that is made of normals.
 const RESULTS: [&str; 6] = ["occlusion", "curvature", "thickness", "edges", "blur", "distance"];
 
 const GRAPH: &str = r#"{ "format": "sabi", "version": 1, "nodes": {

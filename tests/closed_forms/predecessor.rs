@@ -9,7 +9,7 @@ use crate::waves::{Chart, plane};
 /// Texels across the plane.
 const SIZE: u32 = 64;
 
-/// What half floats round, below 1.
+/// Precision of half floats below 1.
 const HALF: f32 = 1.0 / 2048.0;
 
 /// These nodes, with `ramp` from 0 to 1 along x, on a plane.

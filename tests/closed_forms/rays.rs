@@ -171,7 +171,7 @@ fn what_shoots_rays_gives_the_same_bytes_twice() {
     assert_eq!(bytes(), bytes());
 }
 
-/// What is said of a box of these faces when rays are shot at it.
+/// Returns the warnings about a box of the first `faces` faces, turned outward or inward, when rays are shot at it.
 fn told(faces_out: bool, faces: usize) -> Vec<String> {
     const SIDES: [[[f32; 3]; 3]; 6] = [
         [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],

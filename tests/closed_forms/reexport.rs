@@ -112,7 +112,7 @@ fn assert_comes_back(mesh: &MadeMesh) {
     }
 }
 
-/// How a texture lies on the model, and the pixel of it that lies under a pixel of the unit square.
+/// Placement of a texture on the model, and the pixel of it that lies under a pixel of the unit square.
 struct Placing {
     name: &'static str,
     transform: Value,
@@ -209,7 +209,7 @@ fn mapped(placing: &Placing) -> MadeMesh {
     .write()
 }
 
-/// What a code of a picture stands for.
+/// Value that a code of a picture stands for.
 type Expected<'a> = &'a dyn Fn(u8) -> f64;
 
 #[test]

@@ -21,7 +21,7 @@ fn halves(right: Chart) -> MadeMesh {
     .write()
 }
 
-/// Whether a stencil at this texel reads over the seam.
+/// Returns true if a stencil at this texel reads over the seam.
 fn is_at_seam(on_mesh: &OnMesh, index: usize) -> bool {
     let [page, x, y] = on_mesh.texel(index);
     (0..9).any(|at| {

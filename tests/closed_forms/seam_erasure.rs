@@ -33,7 +33,7 @@ impl Map {
         }
     }
 
-    /// What a renderer reads: bilinear, repeating.
+    /// Reads the map as a renderer does: bilinear, repeating.
     fn read(&self, uv: DVec2) -> Vec<f64> {
         let place = uv * f64::from(SIZE) - 0.5;
         let (corner, share) = (place.floor(), place - place.floor());
@@ -74,7 +74,7 @@ fn compared(mesh: &str, name: &str, difference: impl Fn(&OnMesh, &Map, &Seam, f6
     })
 }
 
-/// Where a point of a seam is on the map, as one of its sides has it.
+/// Position on the map of a point of a seam, according to one of its two sides.
 fn uv(on_mesh: &OnMesh, seam: &Seam, side: usize, along: f64) -> DVec2 {
     let mesh = &on_mesh.evaluator.linked().model.mesh;
     let corners = mesh.triangles[seam.triangles[side] as usize];

@@ -1,4 +1,4 @@
-//! What a survey finds, against the areas of the texels themselves.
+//! Results of surveys, compared with the areas of the texels themselves.
 
 use sabi_tests::{OnMesh, project};
 

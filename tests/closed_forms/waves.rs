@@ -129,7 +129,7 @@ impl Waves {
         OnMesh::with_kinds(&graph, folder.kinds(), mesh.path(), size)
     }
 
-    /// What a blur of that radius leaves of them: heat after the time radius² / 2.
+    /// Waves that remain after a blur of that radius: heat after the time radius² / 2.
     pub(crate) fn blurred(&self, radius: f64) -> Waves {
         let exponent = -0.5 * (self.wave_number() * radius).powi(2);
         Waves {

@@ -168,7 +168,7 @@ fn rings_are_as_wide_as_asked_for() {
     }
 }
 
-/// What kernels see of the piece's box.
+/// Node that returns the place in the piece's box as kernels have it.
 const HERE: &str = "\
 //! Here
 //! The place in the piece's box.

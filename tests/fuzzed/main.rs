@@ -1,5 +1,5 @@
-//! What the fuzz targets do, done on their seeds and on a damaged copy of each: it keeps the targets compiling, and
-//! what they promise holds on every machine, if only from near.
+//! Bodies of the fuzz targets, run on their seeds and on a damaged copy of each: keeps the targets compiling and checks
+//! their guarantees on every machine, although only close to the seeds.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 #![allow(unreachable_pub, reason = "the bodies belong to another crate")]

@@ -1,4 +1,4 @@
-//! What a window is told of a graph while it is worked on.
+//! Events that a window receives about a graph while it is edited.
 
 mod answers;
 mod faults;

@@ -14,10 +14,10 @@ use crate::window::{Told, Window, bytes, document, request};
 const EDITS: u64 = 200;
 /// So many edits are shown to the end; those between are overtaken by others.
 const EVERY: u64 = 10;
-/// What is at fault has no picture of its own to compare with: what was shown before it stays.
+/// Fewest pictures to compare. A graph at fault has no picture of its own: the previous picture stays on the screen.
 const LEAST_COMPARED: usize = 8;
 
-/// What a window shows by now.
+/// Content of a window after the events so far.
 #[derive(Default)]
 struct Screen {
     shown: Option<Arc<ModelLooks>>,

@@ -30,7 +30,7 @@ pub(crate) struct Window {
     pub(crate) live: Live,
 }
 
-/// What a window was told until a wish was answered.
+/// Events that a window received until a request was answered.
 #[derive(Default)]
 pub(crate) struct Told {
     pub(crate) all: Vec<LiveEvent>,
@@ -61,7 +61,7 @@ pub(crate) fn node(id: &str) -> NodeRef {
     }
 }
 
-/// What the outputs of a graph make of the cube.
+/// Request for the outputs of a graph on the cube.
 pub(crate) fn request(revision: u64, graph: OpenGraph) -> LiveRequest {
     LiveRequest {
         revision,
@@ -140,7 +140,7 @@ impl Window {
 }
 
 impl Told {
-    /// What viewports were shown, in order: wish, whether it was coarse, the model and the looks.
+    /// Looks that viewports received, in order: revision of the request, true if coarse, the model and the looks.
     pub(crate) fn shown(&self) -> Vec<(u64, bool, &Arc<LiveModel>, &Arc<ModelLooks>)> {
         let shown = self.all.iter().filter_map(|event| match event {
             LiveEvent::Looks {
@@ -155,7 +155,7 @@ impl Told {
         shown.collect()
     }
 
-    /// Whether pictures were coarse, in order.
+    /// For each of the shown looks, in order, true if it was coarse.
     pub(crate) fn coarse_and_full(&self) -> Vec<bool> {
         self.shown().iter().map(|(_, is_coarse, ..)| *is_coarse).collect()
     }
@@ -174,7 +174,7 @@ impl Told {
         self.thumbnails().iter().map(|(node, _)| *node).collect()
     }
 
-    /// What is wrong with the graph, as it was told last.
+    /// Faults of the graph according to the last event about them.
     pub(crate) fn faults(&self) -> Option<&Faults> {
         let mut faults = self.all.iter().rev();
         faults.find_map(|event| match event {
@@ -183,7 +183,7 @@ impl Told {
         })
     }
 
-    /// What it took; nothing where nothing was evaluated.
+    /// Times of the last evaluation; empty if nothing was evaluated.
     pub(crate) fn times(&self) -> LiveTimes {
         let mut times = self.all.iter().rev();
         let found = times.find_map(|event| match event {

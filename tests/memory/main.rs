@@ -1,11 +1,11 @@
-//! What pictures take of the memory, in a process of their own.
+//! Memory that pictures keep, measured in a process of its own.
 #![cfg(target_os = "linux")]
 
 use sabi_tests::{Pictured, even_light, project};
 use sabi_view::{Background, Light, LightPlace, Lines, Mode, Shot, ViewTransform, Viewpoint};
 
 const SIZE: [u32; 2] = [48, 32];
-/// Where one branch asked a uniform buffer, Mesa 22.3 kept 198 MB of shaders.
+/// Most bytes that pictures may keep. With a shader branch on a uniform buffer, Mesa 22.3 kept 198 MB of shaders.
 const MOST_KEPT: u64 = 4 << 20;
 const PICTURES: usize = 120;
 

@@ -13,10 +13,10 @@ use sabi_tests::{Evaluated, OnMesh, project};
 
 use crate::specimens::{Specimen, for_each, on_own_mesh, specimens};
 
-/// How far a statistic may be from the stored one, as a share of the larger of 1 and its size: what processors that
-/// multiply and add in one step or in two make of half floats.
+/// Largest difference of a statistic from the stored value, as a share of the larger of 1 and its size: half floats
+/// differ between processors that multiply and add in a single step and those that take two.
 const STATISTICS_TOLERANCE: f64 = 1.0 / 1024.0;
-/// How far an 8-bit sample may be from the stored one.
+/// Largest difference of an 8-bit sample from the stored sample.
 const CODE_TOLERANCE: u8 = 1;
 /// Share of samples that may be further away: places where rounding decides between two cells.
 const OUTLIERS: f64 = 0.002;
@@ -89,8 +89,8 @@ fn signed(value: f32) -> u8 {
     quantize_u8(0.5 + 0.5 * value)
 }
 
-/// What one sees of a result: a mask in gray; a color; a vector; or a material's base color, its roughness with metallic
-/// and occlusion, and its normal if it has a relief.
+/// Picture of a result: a mask in gray; a color; a vector; or a material's base color, its roughness with metallic and
+/// occlusion, and its normal if it has a relief.
 fn sheet(specimen: &Specimen) -> Sheet {
     let size = if specimen.ty == PortType::Mask {
         MASK_SIZE

@@ -3,7 +3,7 @@
 use sabi_plan::Mode;
 use sabi_tests::{Asked, OnMesh, project};
 
-/// How deep groups stand in each other.
+/// Number of groups nested in each other.
 const DEPTH: usize = 6;
 
 /// The three effects, each with its own color.

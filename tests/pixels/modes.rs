@@ -75,7 +75,7 @@ fn cube() -> OnMesh {
     OnMesh::new(CHAIN, &project("assets/meshes/cube.glb"), 64)
 }
 
-/// What the graph gives without any cache.
+/// Evaluates the graph with an empty cache.
 fn afresh(graph: &str) -> Vec<u8> {
     let mut on_mesh = cube();
     on_mesh.set_graph(graph);

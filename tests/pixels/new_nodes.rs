@@ -38,7 +38,7 @@ fn evaluated(kinds: Kinds) -> (OnMesh, Vec<f32>) {
     (on_mesh, values)
 }
 
-/// Whether exactly the top of the cube is `inside`, and the rest is not.
+/// Returns true if values are `inside` on the top of the cube and `1 - inside` everywhere else.
 fn selects_the_top(on_mesh: &OnMesh, values: &[f32], inside: f32) -> bool {
     on_mesh.owned().all(|(index, triangle)| {
         let corner = on_mesh.evaluator.linked().model.mesh.triangles[triangle as usize][0];

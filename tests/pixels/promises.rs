@@ -1,4 +1,4 @@
-//! What every node promises, whatever it makes: numbers, the same ones each time, in range.
+//! Guarantees of every node for its results: they are finite numbers, the same each time, and in range.
 
 use sabi_graph::PortType;
 use sabi_nodes::Library;

@@ -12,9 +12,9 @@ pub(crate) struct Specimen {
     pub(crate) kind: String,
     /// The result's port.
     pub(crate) port: String,
-    /// What it carries.
+    /// Type of the result.
     pub(crate) ty: PortType,
-    /// Whether it is the kind's first result.
+    /// True if it is the kind's first result.
     pub(crate) is_first: bool,
     /// A graph with everything connected that can be; the node is called `node`.
     pub(crate) connected: String,
@@ -30,7 +30,7 @@ impl Specimen {
         format!("node.{}", self.port)
     }
 
-    /// What to call it in messages and files: the kind, and the port where it is not the first.
+    /// Name in messages and files: the kind, and the port where it is not the first.
     pub(crate) fn name(&self) -> String {
         if self.is_first {
             self.kind.clone()

@@ -127,7 +127,7 @@ const CHOOSY: [&str; 6] = [
 const TOLERANCE: f64 = 0.01;
 const TOLERANCE_OF_MARKS: f64 = 0.045;
 
-/// How far inside of its face a point of the cube lies.
+/// Distance of a point of the cube from the nearest edge of its face.
 fn depth(on_mesh: &OnMesh, triangle: u32, weights: [f64; 3]) -> f64 {
     let mesh = &on_mesh.evaluator.linked().model.mesh;
     let corners = mesh.triangles[triangle as usize].map(|corner| mesh.positions[corner as usize]);

@@ -12,7 +12,7 @@ use tempfile::TempDir;
 
 use crate::device::adapter;
 
-/// What a bake wrote, for as long as this lives.
+/// Output of a bake; its files are deleted when this is dropped.
 pub struct Baked {
     // Removed when this is dropped.
     _folder: TempDir,

@@ -1,4 +1,4 @@
-//! What the test binaries share: one device, graphs on models, and results that know their place on the surface.
+//! Shared parts of the test binaries: one device, graphs on models, and results with their places on the surface.
 
 mod baked;
 mod device;

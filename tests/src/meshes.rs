@@ -30,11 +30,11 @@ pub struct MeshFile {
     pub picture_uvs: Option<Vec<[[f32; 2]; 4]>>,
     /// More encoded pictures, each where the material's JSON has it: `/pbrMetallicRoughness/baseColorTexture`.
     pub textures: Vec<MadeTexture>,
-    /// What else the material's JSON says, such as factors.
+    /// Further members of the material's JSON, such as factors.
     pub factors: Value,
     /// Colors of the corners, four for each face; none for a model without.
     pub colors: Vec<[f32; 4]>,
-    /// What else its node's JSON says: where it stands.
+    /// Further members of the node's JSON: its placement.
     pub node: Value,
 }
 
@@ -45,9 +45,9 @@ pub struct MadeTexture {
     pub slot: &'static str,
     /// The encoded picture.
     pub png: Vec<u8>,
-    /// What else its place says: a strength, a transform.
+    /// Further members of the JSON at [`MadeTexture::slot`]: a strength, a transform.
     pub info: Value,
-    /// How it wraps.
+    /// JSON of the sampler: the wrap modes.
     pub sampler: Value,
 }
 
@@ -59,7 +59,7 @@ pub struct MadeMesh {
 }
 
 impl MadeMesh {
-    /// Where it is.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }

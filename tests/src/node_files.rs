@@ -37,7 +37,7 @@ impl NodeFolder {
         fs::remove_file(self.file(id)).expect("the node's file");
     }
 
-    /// Where it is.
+    /// Path of the folder with the nodes.
     pub fn path(&self) -> PathBuf {
         self.folder.path().join("nodes")
     }

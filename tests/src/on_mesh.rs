@@ -21,13 +21,13 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 pub struct OnMesh {
     /// The two, on the device that all tests share.
     pub evaluator: Evaluator,
-    /// What kernels know of the surface, to compute places without them.
+    /// Tables of the surface as kernels have them, to compute places without kernels.
     pub tables: SurfaceTables,
 }
 
-/// How something is evaluated.
+/// Options of an evaluation.
 pub struct Asked<'c> {
-    /// How passes are cut.
+    /// Way to cut the graph into passes.
     pub mode: Mode,
     /// Results of earlier evaluations.
     pub cache: Option<&'c mut ResultCache>,
@@ -45,15 +45,15 @@ impl Asked<'static> {
 
 /// A node's result, for all texels of the atlas, page by page and row by row.
 pub struct Evaluated {
-    /// What it is.
+    /// Type of the result.
     pub ty: PortType,
     /// Planes as they were stored.
     pub planes: Vec<(Plane, PlaneData)>,
     /// For a material with height or slope: tangent-space normals.
     pub normals: Option<PlaneData>,
-    /// What ran.
+    /// Report of the run.
     pub report: RunReport,
-    /// What was planned.
+    /// Plan that was run.
     pub plan: Plan,
 }
 
@@ -164,7 +164,7 @@ impl OnMesh {
         }
     }
 
-    /// What `id` or `id.port` names.
+    /// Returns the target that `id` or `id.port` names.
     pub fn target(&self, text: &str) -> Target {
         let (id, port) = match text.split_once('.') {
             Some((id, port)) => (id, Some(port.to_owned())),

@@ -14,7 +14,7 @@ use crate::OnMesh;
 pub struct Pictured {
     /// The graph on the model.
     pub on_mesh: OnMesh,
-    /// What the outputs look like.
+    /// Looks of the outputs.
     pub shown: ModelLooks,
     /// The model.
     pub model: ViewModel,
@@ -89,7 +89,7 @@ impl Pictured {
         Camera::seen_from(viewpoint, bounds, width as f32 / height as f32)
     }
 
-    /// What is drawn.
+    /// Scene with the model, its looks and its lights.
     pub fn scene(&self) -> Scene<'_> {
         Scene {
             model: &self.model,

@@ -1,4 +1,4 @@
-//! Where on the surface a texel lies, and what a result is between texels; computed here, without any kernel.
+//! Places of texels on the surface, and results between texels; computed here, without any kernel.
 
 use glam::{DVec2, DVec3, dvec2};
 use sabi_surface::atlas::{Atlas, Owner};
@@ -43,7 +43,7 @@ impl OnMesh {
         (page as usize * height + y as usize) * width + x as usize
     }
 
-    /// What a texel holds.
+    /// Owner of a texel.
     pub fn owner(&self, index: usize) -> Owner {
         let [page, x, y] = self.texel(index);
         self.atlas().owner(x, y, page)

@@ -9,7 +9,7 @@ use crate::meshes::Quad;
 /// Low and high texture coordinates of a patch.
 pub type Place = [[f32; 2]; 2];
 
-/// How a patch is cut into faces.
+/// Division of a patch into faces.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut {
     /// Faces along both sides.

@@ -1,4 +1,4 @@
-//! Where functions begin and end, in formatted Rust and WGSL.
+//! Lines on which functions begin and end, in formatted Rust and WGSL.
 
 /// Name, line and length of each function. The formatter puts a body's last brace below the start of its signature, so
 /// indentation says more than counting braces, which stand in texts and comments too.
@@ -41,7 +41,7 @@ pub(crate) fn without_texts(text: &str) -> String {
     kept
 }
 
-/// How many bytes of a comment, quoted text or quoted character begin here; 0 when it is code.
+/// Length in bytes of a comment, quoted text or quoted character that begins here; 0 if `rest` begins with code.
 pub(crate) fn skipped(rest: &str, before: Option<char>) -> usize {
     let through = |end: Option<usize>, length: usize| end.map_or(rest.len(), |end| end + length);
     if rest.starts_with("//") {

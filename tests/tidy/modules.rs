@@ -1,4 +1,4 @@
-//! Which module of a crate names which other, read from the paths in their files.
+//! References between the modules of a crate, read from the paths in their files.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ pub(crate) type ModulePath = Vec<String>;
 pub(crate) struct Modules {
     /// Absolute paths that each module's file contains, tests left out.
     named: BTreeMap<ModulePath, Vec<ModulePath>>,
-    /// Where names come from that a module imports or exports again.
+    /// Origins of the names that each module imports or exports again.
     imported: BTreeMap<ModulePath, BTreeMap<String, ModulePath>>,
 }
 
@@ -198,7 +198,7 @@ fn without_tests(tokens: &[String]) -> Vec<String> {
     kept
 }
 
-/// Where an item ends: behind its `;`, or behind the brace that closes its first one.
+/// Returns the index after an item: after its `;`, or after the brace that closes its first brace.
 fn end_of_item(tokens: &[String], start: usize) -> usize {
     let mut depth = 0_usize;
     for (at, token) in tokens.iter().enumerate().skip(start) {

@@ -52,8 +52,8 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 15] = [
 /// own.
 pub(crate) const FRONT_ENDS: [&str; 3] = ["sabi_editor", "sabi", "xtask"];
 
-/// What else a crate may name although another owns it: xtask writes pictures of its own, and the viewport draws with the
-/// device that kernels run on, which is the window's.
+/// Outside crates that a crate may name although another crate owns them: xtask writes pictures of its own, and the
+/// viewport draws with the device that kernels run on, which is the window's.
 pub(crate) const ALSO: [(&str, &str); 3] = [("xtask", "png"), ("sabi_view", "wgpu"), ("sabi_editor", "wgpu")];
 
 /// Outside crates with one owner. Anything else is free to use.
@@ -129,7 +129,7 @@ pub(crate) const EMPTY_NAMES: [&str; 8] = [
     "util", "utils", "common", "helper", "helpers", "manager", "managers", "misc",
 ];
 
-/// What must not be left behind, split so that this file does not find itself.
+/// Left-overs that must not stay in a file, split so that this file does not find itself.
 pub(crate) const LEFT_OVERS: [&str; 6] = [
     concat!("to", "do!("),
     concat!("db", "g!("),
@@ -156,5 +156,5 @@ pub(crate) const ABSENT_DOCUMENTS: [&str; 3] = [
     concat!("algorithms", ".md"),
 ];
 
-/// What is written by people and read as text.
+/// Endings of files that people write and that are read as text.
 pub(crate) const TEXT_ENDINGS: [&str; 9] = ["rs", "wgsl", "toml", "md", "sabi", "txt", "json", "yml", "sh"];

@@ -1,4 +1,4 @@
-//! What the viewport shows is what is exported.
+//! The viewport shows the same values as the export.
 
 use glam::{Vec2, Vec3};
 use sabi_gpu::PlaneData;

@@ -1,4 +1,4 @@
-//! What is said of a material before it is drawn is what its texels hold.
+//! Extents of a material's values, computed before it is drawn, compared with its texels.
 
 use std::path::Path;
 use std::time::Duration;

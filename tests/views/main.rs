@@ -1,4 +1,4 @@
-//! What is seen of a model: light, maps, relief and shadows, pixel by pixel.
+//! Pictures of a model, pixel by pixel: light, maps, relief and shadows.
 
 mod agreement;
 mod extents;
@@ -32,8 +32,8 @@ fn seen<'p>(
     })
 }
 
-/// Whether all four texels around a place are on the chart itself, and the place well inside its triangle: what lies beside a
-/// seam is read from ghosts, whose values are compared elsewhere.
+/// Returns true if a place is well inside its triangle, with all four texels around it on the chart itself: beside a
+/// seam, values are read from ghosts, which are compared elsewhere.
 fn is_inside(picked: &Picked) -> bool {
     picked.barycentric.iter().all(|share| *share > 0.05)
 }

@@ -23,7 +23,7 @@ fn square() -> MeshFile {
     }])
 }
 
-/// What lies between the four texels around a place of a page.
+/// Interpolates between the four texels around a place of a page.
 fn between(texels: &[f32], width: usize, [x, y]: [f64; 2]) -> f64 {
     let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
     let (u, v) = (x - 0.5 - left, y - 0.5 - top);

@@ -1,4 +1,4 @@
-//! Where charts share a place on the maps, each is shown with what is exported for it.
+//! Charts that share a place on the maps are each shown with the values that are exported for them.
 
 use std::time::Duration;
 

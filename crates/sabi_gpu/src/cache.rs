@@ -49,7 +49,7 @@ impl ResultCache {
         (self.bytes + self.hits.bytes(), self.budget_bytes)
     }
 
-    /// Whether any plane of a result is cached; `content` is a key of the plan.
+    /// Returns true if any plane of a result is cached; `content` is a key of the plan.
     pub fn contains(&self, content: &[u8; 32]) -> bool {
         self.textures.keys().any(|key| key.content == *content)
     }

@@ -39,10 +39,10 @@ pub(crate) enum LinkRound {
     Cubic,
 }
 
-/// All rounds that fill ghosts. The first one reads owned texels only, so that no value of an earlier pass is carried on.
-/// Where the texels of two charts meet halfway, a ghost lies between an owned texel and a ghost of the other chart, whose
-/// value depends on it in turn: each further round removes most of the error that is left. Cubic rounds are for results,
-/// of which slopes are taken.
+/// All rounds that fill ghosts. The first reads owned texels only, so that no value of an earlier pass is carried on.
+/// If the texels of two charts meet halfway, a ghost lies between an owned texel and a ghost of the other chart, whose
+/// value depends on it in turn: each further round removes most of the remaining error. The cubic rounds are for
+/// results, since slopes are computed from them.
 const ALL_ROUNDS: [LinkRound; 6] = [
     LinkRound::Owned,
     LinkRound::WithGhosts,

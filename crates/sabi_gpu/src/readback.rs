@@ -29,7 +29,7 @@ impl PlaneData {
         self.bytes.len() / self.format.texel_bytes() as usize
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no texels.
     pub fn is_empty(&self) -> bool {
         self.bytes.is_empty()
     }

@@ -33,7 +33,7 @@ pub trait SourceFill {
     /// Scene that rays are cast into.
     fn scene(&mut self) -> Result<RayScene<'_>, String>;
 
-    /// Whether results of ray steps are cached on disk.
+    /// Returns true if results of ray steps are cached on disk.
     fn caches_rays(&self) -> bool {
         false
     }

@@ -18,7 +18,7 @@ pub struct RunOptions<'a> {
     pub caster: CasterChoice,
     /// Origin of ray hits.
     pub hits: Hits,
-    /// Whether the time of filling ghosts is measured, which costs a little time itself.
+    /// True if the time of filling ghosts is measured, which costs a little time itself.
     pub times_ghosts: bool,
 }
 

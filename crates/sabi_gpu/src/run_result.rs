@@ -24,7 +24,7 @@ pub struct RunReport {
     pub steps: Vec<StepTime>,
     /// Part of `run` in which ghosts were filled, if that was measured.
     pub ghosts: Duration,
-    /// Whether some results follow from cached hits of longer rays, and so may differ by rounding.
+    /// True if some results follow from cached hits of longer rays, and so may differ by rounding.
     pub has_cached_hits: bool,
     /// Nodes whose rays were not cast, since their results were on disk.
     pub found_on_disk: Vec<String>,

@@ -52,21 +52,21 @@ pub struct Word {
     pub at: usize,
 }
 
-/// What is allowed besides numbers and signs.
+/// Names and units allowed besides numbers and signs.
 #[derive(Clone, Copy, Debug)]
 pub struct Syntax {
-    /// Whether units may stand behind numbers.
+    /// True if units may follow numbers.
     pub has_units: bool,
-    /// Whether a character may continue a name; names begin with a letter.
+    /// Returns true if a character may continue a name; names begin with a letter.
     pub is_in_name: fn(char) -> bool,
 }
 
-/// Why a text is not arithmetic.
+/// Syntax error in an arithmetic expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
     /// Place of the character, counted from 1.
     pub at: usize,
-    /// What is wrong there.
+    /// Kind of the mistake at that place.
     pub kind: MistakeKind,
 }
 

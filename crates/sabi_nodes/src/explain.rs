@@ -94,7 +94,7 @@ fn quoted(message: &str, before: &str, after: &str) -> Option<String> {
     rest.split_once(after).map(|(word, _)| word.to_owned())
 }
 
-/// Where a name that does not exist may come from.
+/// Advice for an unknown name: a library to use, a parameter of that name, or a similar known name.
 fn unknown_name_advice(name: &str, scan: &Scan, text: Text<'_>, libraries: &Libraries, used: &[String]) -> String {
     let declares = |text: &str, name: &str| {
         ["fn ", "const ", "struct ", "alias "].iter().any(|keyword| {

@@ -1,4 +1,4 @@
-//! What is wrong with a node's file, where, and what to do.
+//! Faults of a node's file: description, location and remedy.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Longest piece of a source line that a message shows.
 const SNIPPET_CHARS: usize = 160;
 
-/// How the fault of a text that parses, but is not valid, begins.
+/// Start of the message for a text that parses but is not valid.
 pub(crate) const INVALID: &str = "This is not valid WGSL: ";
 
 /// One thing that is wrong in a WGSL file, for the person who edits it.
@@ -19,9 +19,9 @@ pub struct Fault {
     pub line: u32,
     /// Column in characters, counted from 1; 0 when the whole file is meant.
     pub column: u32,
-    /// What is wrong, as a sentence.
+    /// Description of the fault, as a sentence.
     pub message: String,
-    /// What to do about it; may be empty.
+    /// Advice for correcting it; may be empty.
     pub advice: String,
     /// The source line (a piece of it when it is very long); empty when the whole file is meant.
     pub snippet: String,

@@ -125,7 +125,7 @@ impl Formula {
     }
 }
 
-/// Whether a character may stand in a name such as `params.tile_size`.
+/// Returns true if a character may be part of a name such as `params.tile_size`.
 fn is_in_name(letter: char) -> bool {
     letter.is_ascii_alphanumeric() || letter == '_' || letter == '.'
 }

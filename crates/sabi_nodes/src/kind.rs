@@ -65,7 +65,7 @@ pub struct Kind {
 /// Most inputs of a node: those that the flags of a switched kernel have bits for.
 pub(crate) const INPUT_LIMIT: usize = 16;
 
-/// How a node reads its inputs.
+/// Way in which a node reads its inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Inputs are values at the same place; fused with its neighbors.
@@ -101,7 +101,7 @@ pub struct Input {
     pub doc: String,
     /// Port type.
     pub ty: PortType,
-    /// Whether the function receives the value at this place or the stored texture.
+    /// Form in which the function receives the input: the value at this place or the stored texture.
     pub reads: Reads,
     /// Value while nothing is connected.
     pub default: InputDefault,
@@ -197,7 +197,7 @@ pub struct Rays {
 /// Question asked of a ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Finds {
-    /// Whether it hits anything, which is quicker; the distance is that of any hit.
+    /// Any hit, which is quicker to find; the distance is that of the hit found.
     Any,
     /// Its first hit.
     #[default]
@@ -228,7 +228,7 @@ pub enum Argument {
 }
 
 impl Argument {
-    /// Whether it belongs to a single ray.
+    /// Returns true if the argument belongs to a single ray.
     pub(crate) fn is_of_ray(&self) -> bool {
         matches!(self, Argument::Ray | Argument::Hit)
     }

@@ -286,7 +286,7 @@ pub fn label_of(name: &str) -> String {
     }
 }
 
-/// Whether a name can be a port or a parameter: `[a-z][a-z0-9_]*`.
+/// Returns true if a name can be a port or a parameter: `[a-z][a-z0-9_]*`.
 pub(crate) fn is_plain_name(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_lowercase())
         && name

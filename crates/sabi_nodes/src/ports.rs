@@ -59,7 +59,7 @@ fn port_type(ty: &Type, vector: bool) -> Option<PortType> {
     }
 }
 
-/// Whether a type is `texture_2d_array<f32>`.
+/// Returns true if a type is `texture_2d_array<f32>`.
 fn is_field(ty: &Type) -> bool {
     matches!(
         ty.inner,
@@ -150,9 +150,9 @@ struct PortReader<'a> {
     inputs: Vec<Input>,
     /// Names of passes in ascending order of their numbers, with their number and type.
     pass_numbers: Vec<(u32, String, PortType)>,
-    /// Whether a function returns a ray.
+    /// True if a function returns a ray.
     shoots: bool,
-    /// Whether a function takes a survey.
+    /// True if a function takes a survey.
     surveys: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What a node may not do.
+//! Rules for nodes: statements and declarations that they may not contain.
 
 use naga::{Expression, Function, Handle, Module, SampleLevel, Span, Statement, Type, TypeInner};
 
@@ -138,7 +138,7 @@ fn check_function(
     }
 }
 
-/// What acts on more than one place, or not at all.
+/// Refuses statements that act on more than the place of the result, and `discard`, which gives no result.
 fn check_statements(linked: &LinkedModule, function: &Function, faults: &mut Vec<Fault>) {
     visit(&function.body, &mut |statement, span| {
         let what = match statement {

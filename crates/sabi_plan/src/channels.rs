@@ -46,7 +46,7 @@ pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<
     }
 }
 
-/// Whether a parameter is on, or a number other than zero.
+/// Returns true if a parameter is on, or a number other than zero.
 fn is_on(node: &ResolvedNode<'_>, param: usize) -> bool {
     match node.values.get(param) {
         Some(ParamValue::Unsigned(0)) => false,
@@ -55,7 +55,7 @@ fn is_on(node: &ResolvedNode<'_>, param: usize) -> bool {
     }
 }
 
-/// Whether an input is connected, or its knob is other than zero.
+/// Returns true if an input is connected, or its knob is other than zero.
 fn is_given(node: &ResolvedNode<'_>, input: usize) -> bool {
     match (node.inputs.get(input), node.knobs.get(input)) {
         (Some(None), Some(Some(knob))) => knob.iter().any(|number| *number != 0.0),

@@ -196,7 +196,7 @@ impl Problem {
 impl std::error::Error for PlanError {}
 
 impl PlanError {
-    /// Whether the problem leaves the graph usable: the value stays in the file without effect.
+    /// Returns true if the problem leaves the graph usable: the value stays in the file without effect.
     pub fn is_warning(&self) -> bool {
         matches!(self.problem, Problem::UnknownParam { .. })
     }

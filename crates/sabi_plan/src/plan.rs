@@ -115,7 +115,7 @@ pub struct KernelStep {
     pub reads: Vec<Option<SlotRef>>,
     /// Slots of the spec's stores, plane by plane; `None` for channels that an interactive kernel does not set.
     pub writes: Vec<Option<SlotRef>>,
-    /// Whether ghosts are filled over the links afterwards: true for fields, whose kernels skip them.
+    /// True if ghosts are filled over the links afterwards. Set for fields, whose kernels skip ghosts.
     pub fills_ghosts: bool,
     /// Repetition, in which each run reads the result of the one before.
     pub feedback: Option<Feedback>,

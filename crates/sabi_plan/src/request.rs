@@ -74,7 +74,7 @@ pub enum Mode {
     Interactive,
     /// Results live until their last reader has run; with `fuse`, regions of point nodes share a pass.
     Bake {
-        /// Whether to fuse.
+        /// True if regions of point nodes are fused.
         fuse: bool,
     },
 }
@@ -123,7 +123,7 @@ pub struct FileFault {
     pub param: String,
     /// The file, its fault and advice, as a sentence without a full stop.
     pub why: String,
-    /// Whether the file does not exist.
+    /// True if the file does not exist.
     pub is_missing: bool,
 }
 

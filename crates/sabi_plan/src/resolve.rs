@@ -58,7 +58,7 @@ pub struct ResolvedInput {
     pub ty: PortType,
     /// Conversion on the way.
     pub convert: Convert,
-    /// Whether the value is read here or as a stored texture.
+    /// Form in which the value is read: at this place, or as a stored texture.
     pub reads: Reads,
 }
 

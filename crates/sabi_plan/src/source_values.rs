@@ -70,7 +70,7 @@ impl SourceValues {
         }
     }
 
-    /// Whether a toggle is on.
+    /// Returns true if a toggle is on.
     pub fn is_on(&self, name: &str) -> bool {
         self.index(name) != 0
     }

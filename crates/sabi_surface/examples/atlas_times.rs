@@ -1,4 +1,4 @@
-//! How long an atlas takes: `cargo run --release -p sabi_surface --example atlas_times -- [MODEL] [SIZE]`.
+//! Build times of an atlas: `cargo run --release -p sabi_surface --example atlas_times -- [MODEL] [SIZE]`.
 //!
 //! Without a model a ball of 30 000 triangles in 24 charts is used.
 

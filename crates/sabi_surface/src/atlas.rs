@@ -136,7 +136,7 @@ pub struct Chart {
     pub sheet: u32,
     /// UV tile, `[floor(u), floor(v)]` of the chart's center; `[0, 0]` is the unit square.
     pub uv_tile: [i32; 2],
-    /// Whether its texture coordinates are mirrored.
+    /// True if its texture coordinates are mirrored.
     pub mirrored: bool,
     /// Number of triangles.
     pub triangles: u32,

@@ -100,7 +100,7 @@ impl Bvh {
         })
     }
 
-    /// Whether a ray meets anything within `max` model units. `direction` need not have unit length.
+    /// Returns true if a ray hits anything within `max` model units. `direction` need not have unit length.
     pub fn any(&self, origin: [f32; 3], direction: [f32; 3], max: f32) -> bool {
         self.scaled(origin, direction, max).is_some_and(|ray| {
             !self
@@ -109,7 +109,7 @@ impl Bvh {
         })
     }
 
-    /// Whether a ray meets a triangle that counts, by its number, within `max` model units.
+    /// Returns true if a ray hits, within `max` model units, a triangle for whose number `counts` returns true.
     pub fn any_of(&self, origin: [f32; 3], direction: [f32; 3], max: f32, counts: impl Fn(u32) -> bool) -> bool {
         self.scaled(origin, direction, max).is_some_and(|ray| {
             !self.tree.ray_traverse_miss(ray, |ray, id| {

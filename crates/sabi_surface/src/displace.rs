@@ -176,7 +176,7 @@ fn finest_length(mesh: &Mesh) -> f32 {
     (reach / 1024.0 / 1024.0).max(f32::MIN_POSITIVE)
 }
 
-/// Whether halving what is longer makes no more triangles than the budget.
+/// Returns true if halving all edges longer than `length` makes no more triangles than the budget.
 fn fits(mesh: &Mesh, length: f32, budget: u64) -> bool {
     // Triangles that are left over once the sum is too large are not counted.
     let sum = AtomicU64::new(0);

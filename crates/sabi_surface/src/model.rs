@@ -24,7 +24,7 @@ pub struct Model {
     pub files: Vec<PathBuf>,
     /// Places of files that it names and that do not exist; of very many only the first.
     pub absent: Vec<PathBuf>,
-    /// Whether the file is glTF, text or binary; a copy of any other is made from what was loaded.
+    /// True if the file is glTF, text or binary; a copy of any other format is made from the loaded model.
     pub is_gltf: bool,
     /// Materials, as warnings name them, with triangles that lack the chosen UV set although others have it.
     pub without_uvs: Vec<String>,
@@ -46,7 +46,7 @@ pub struct Mesh {
     pub uvs: Vec<[f32; 2]>,
     /// Set of the file that [`Mesh::uvs`] is (`TEXCOORD_n`); `None` when there are no UVs or they were unwrapped.
     pub uv_set: Option<u32>,
-    /// Whether all materials share one sheet of [`Mesh::uvs`], and so one set of maps; otherwise each has its own.
+    /// True if all materials share one sheet of [`Mesh::uvs`], and so one set of maps; otherwise each has its own.
     pub is_one_sheet: bool,
     /// The other sets that the model's own textures are laid out by, numbers rising.
     pub texture_uvs: Vec<TextureUvs>,
@@ -105,9 +105,9 @@ pub struct ModelMaterial {
     pub file_index: Option<usize>,
     /// Linear RGBA factor.
     pub base_color_factor: [f32; 4],
-    /// Whether alpha is to be ignored: glTF's alpha mode `OPAQUE`, under which pictures may have anything in it.
+    /// True if alpha is to be ignored: glTF's alpha mode `OPAQUE`, under which textures may hold any alpha.
     pub ignores_alpha: bool,
-    /// Whether its back is seen, too; glTF says so of each of its materials.
+    /// True if its back faces are visible, too; glTF states this for each material.
     pub is_double_sided: bool,
     /// Metallic factor.
     pub metallic_factor: f32,

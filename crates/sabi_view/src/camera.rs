@@ -17,7 +17,7 @@ pub use viewpoint::{Viewpoint, ViewpointError};
 
 /// Nearer than this nothing is told apart in single precision, and farther the model is a dot.
 const DISTANCES: [f32; 2] = [1e-3, 100.0];
-/// How far from the middle one can look: farther out there is nothing.
+/// Largest distance of the target from the middle along each axis: farther out there is nothing to see.
 const FARTHEST_TARGET: f32 = 10.0;
 /// Narrower is a telescope, wider is no picture.
 const FOV_Y_DEGREES: [f32; 2] = [1.0, 120.0];
@@ -45,13 +45,13 @@ pub enum Lens {
 pub struct Camera {
     /// Point that it looks at and orbits.
     pub target: Vec3,
-    /// Which side it sees: at 0 that of +Z, the front as glTF has it (it looks along −Z); at 90 that of +X.
+    /// Side that the camera sees: 0 is +Z, the front in glTF (the camera looks along −Z); 90 is +X.
     pub yaw_degrees: f32,
-    /// How far it stands above the target: 90 looks straight down, −90 straight up; no farther, so that it never tips over.
+    /// Elevation: 90 looks straight down at the target, −90 straight up; limited to these, so that it never tips over.
     pub pitch_degrees: f32,
     /// From the eye to the target.
     pub distance: f32,
-    /// How much it sees from the lower to the upper edge; with an orthographic lens, at the target.
+    /// Vertical field of view; an orthographic lens shows the height that this angle spans at the target.
     pub fov_y_degrees: f32,
     /// Perspective or orthographic; switching keeps the size at the target.
     pub lens: Lens,
@@ -254,7 +254,7 @@ impl Camera {
         (f64::from(self.sound().fov_y_degrees) * 0.5).to_radians().tan()
     }
 
-    /// Where the pointer is on the plane through the target, view units to the right and up from it.
+    /// Offset of the pointer from the target in the plane through the target, view units to the right and up.
     fn offset_at_target(&self, pointer: Vec2, aspect: f32) -> Vec2 {
         let pointer = pointer.to_array().map(|at| held(at, [-100.0, 100.0], 0.5) - 0.5);
         Vec2::new(pointer[0] * sound_aspect(aspect), -pointer[1]) * self.height_at_target()

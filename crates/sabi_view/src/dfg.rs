@@ -1,4 +1,4 @@
-//! How much of even light a rough surface mirrors, as a table: the second half of the split sum.
+//! Table of the share of even light that a rough surface mirrors: the second half of the split sum.
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;

@@ -44,8 +44,9 @@ impl Environment {
         })
     }
 
-    /// What surfaces mirror, to be kept: level by level from roughness 0 to 1, in each the faces +X -X +Y -Y +Z -Z, in each
-    /// the rows from the top; a texel is four half floats, little-endian. The side of a face halves from level to level.
+    /// Reads back the light that surfaces mirror, for storing: level by level from roughness 0 to 1, within each the
+    /// faces +X -X +Y -Y +Z -Z, within each the rows from the top; a texel is four half floats, little-endian. The side
+    /// of a face halves from level to level.
     pub fn prefiltered_bytes(&self, gpu: &Gpu) -> Result<Vec<u8>, ViewError> {
         cube_bytes::read(gpu, &self.specular)
     }

@@ -100,7 +100,7 @@ fn light_row(light: &Light, first_layer: usize) -> LightRow {
     }
 }
 
-/// How far from a pixel's middle a sample is taken, pixels: Halton's points, spread as a tent of two pixels' width.
+/// Offset of a sample from the pixel's center, pixels: Halton's points, distributed as a tent of two pixels' width.
 fn jitter(sample: u32, samples: u32) -> [f32; 2] {
     if samples <= 1 {
         return [0.0; 2];

@@ -113,7 +113,7 @@ impl Corners {
         made
     }
 
-    /// What there is so far is of the last material.
+    /// Ends the current part at the last index so far.
     fn end_part(&mut self) {
         if let Some(part) = self.parts.last_mut() {
             part.indices.end = self.indices.len() as u32;
@@ -157,7 +157,7 @@ pub struct ViewModel {
     pub(crate) surface: wgpu::BindGroup,
     /// View units in a working unit.
     pub(crate) view_from_working: f32,
-    /// What every chart's texel coordinates mean.
+    /// For each chart, the shift from texture coordinates in texels to texels on its page, and the page.
     pub(crate) charts: wgpu::TextureView,
     /// All edges, and those that are seams.
     pub(crate) edges: [(wgpu::Buffer, u32); 2],

@@ -38,7 +38,7 @@ pub struct Picked {
     pub normal: Vec3,
     /// Normal of the triangle itself, unit length; zero for one without area.
     pub face_normal: Vec3,
-    /// Whether the ray hit the back of the surface.
+    /// True if the ray hit the back of the surface.
     pub from_behind: bool,
     /// Material, an index into [`sabi_surface::model::Model::materials`].
     pub material: u32,
@@ -48,7 +48,7 @@ pub struct Picked {
     pub distance: f32,
 }
 
-/// What a ray of view space meets first of a mesh, whose hierarchy, atlas and place in view space are given.
+/// Returns the first hit of a ray of view space with a mesh, whose hierarchy, atlas and place in view space are given.
 pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placement) -> Option<Picked> {
     let origin = ray.origin.as_dvec3();
     let direction = ray.direction.as_dvec3().try_normalize()?;

@@ -1,4 +1,4 @@
-//! Where a ray first meets the relief of one chart, marched finely on the processor: what the shader's relief is held against.
+//! First hit of a ray with a chart's relief, marched finely on the processor: the reference for the shader's relief.
 //!
 //! Relief space is (texel u, texel v, height): texels on the page of the chart, heights in model units along the normal, as
 //! stored. The surface itself is height 0; heights may lie before it (above 0) and behind it (below 0). A ray enters at the
@@ -32,7 +32,7 @@ impl ReliefFrame {
     }
 }
 
-/// Where a ray met a relief.
+/// Hit of a ray with a relief.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReliefHit {
     /// Place on the page, texels.

@@ -60,7 +60,7 @@ pub(crate) struct Prepared {
 pub(crate) struct Sample {
     /// Number, from 0.
     pub(crate) number: u32,
-    /// Whether the samples so far are encoded as a picture.
+    /// True if the samples so far are encoded as a picture.
     pub(crate) is_shown: bool,
 }
 

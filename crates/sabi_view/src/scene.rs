@@ -34,7 +34,7 @@ pub struct MaterialLook {
     pub color: [f32; 4],
     /// Roughness, metallic and occlusion without a map.
     pub surface: [f32; 3],
-    /// Whether alpha is 1 everywhere, so that nothing behind it is ever seen.
+    /// True if alpha is 1 everywhere, so that nothing behind the surface is ever seen.
     pub is_opaque: bool,
     /// A node's own result, for [`Mode::Node`].
     pub node: Option<NodeLook>,
@@ -46,7 +46,7 @@ impl MaterialLook {
         self.node.as_ref().filter(|_| mode == Mode::Node)
     }
 
-    /// What is bound as the maps of `maps.wgsl`, in their order. A node's own result takes the place of the colors.
+    /// Textures to bind as the maps of `maps.wgsl`, in their order. A node's own result takes the place of the colors.
     pub(crate) fn bound_maps(&self, mode: Mode) -> [Option<&wgpu::Texture>; 5] {
         let DeviceMaps {
             color,
@@ -88,7 +88,7 @@ pub struct Light {
     pub place: LightPlace,
     /// Linear color. Of a far light, the irradiance on a surface that faces it; of a near one, that at a distance of 1.
     pub color: [f32; 3],
-    /// Whether the model casts a shadow in it.
+    /// True if the model casts a shadow in this light.
     pub has_shadow: bool,
 }
 
@@ -142,7 +142,7 @@ pub struct Shot {
     pub background: Background,
     /// Mode.
     pub mode: Mode,
-    /// Whether heights are followed, so that they hide one another and throw shadows: dear on software drivers.
+    /// True if heights are followed, so that they hide each other and cast shadows: slow on software drivers.
     pub has_relief: bool,
     /// The lowest and the highest height there is, working units.
     pub height_range: [f32; 2],
@@ -263,7 +263,7 @@ impl Mode {
             .map(|(name, ..)| *name)
     }
 
-    /// Whether it is chosen by its name alone.
+    /// Returns true if the mode can be chosen by its name alone.
     fn is_asked_for(self) -> bool {
         !matches!(self, Mode::Node | Mode::Shift)
     }

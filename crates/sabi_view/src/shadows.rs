@@ -14,7 +14,7 @@ pub(crate) const LAYERS: usize = 6 * MOST_LIGHTS;
 pub(crate) const SHADOW: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Texels along a side of a layer.
 const SIDE: u32 = 2048;
-/// How far the model reaches from the middle of view space: half the diagonal of a unit cube, and a little.
+/// Radius of the model around the middle of view space: half the diagonal of a unit cube, and a small margin.
 const RADIUS: f32 = 0.9;
 /// Near plane of a near light.
 const NEAREST: f32 = 0.02;

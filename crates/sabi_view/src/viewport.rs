@@ -12,7 +12,7 @@ use crate::target::Target;
 /// Limits of the work for a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quality {
-    /// Whether relief is drawn when a shot asks for it.
+    /// True if relief is drawn when a shot asks for it.
     pub follows_relief: bool,
     /// While something moves, each side has so many times fewer pixels.
     pub moving_divisor: u32,
@@ -33,7 +33,7 @@ impl Quality {
         }
     }
 
-    /// What is left out, for the artist; nothing where all is done.
+    /// Remark for the artist about reduced quality; `None` at full quality.
     pub fn remark(self) -> Option<&'static str> {
         (!self.follows_relief || self.moving_divisor > 1).then_some(
             "The viewport runs without a graphics card: relief is shown by the normal map alone, and the picture is coarser \
@@ -78,7 +78,7 @@ impl Viewport {
         }
     }
 
-    /// What has to be made before [`Viewport::show`] draws this without a delay.
+    /// Returns the pipelines to make before [`Viewport::show`] draws this without a delay.
     pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<Missing> {
         self.renderer.missing(scene, &self.allowed(shot))
     }

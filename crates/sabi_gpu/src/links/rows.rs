@@ -88,9 +88,10 @@ fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
     packed_step(nearest.unwrap_or([0, 0]))
 }
 
-/// How a ghost is filled, as `fill_link` in `shaders/lib/atlas.wgsl` and `fill_coupled.wgsl` read it: the lowest of the
-/// four texels around its point, how far it lies from that in 65536ths, itself, and both pages; then bits of those of the
-/// four that are there, of those that are owned, and the step to the owned texel that it takes its value from without them.
+/// Packs the rows from which `fill_link` in `shaders/lib/atlas.wgsl` and `fill_coupled.wgsl` fill a ghost. First row:
+/// the lowest of the four texels around its point, the distance of the point from that texel in 65536ths, the ghost's
+/// own texel, both pages. Second row: bits of those of the four that are not empty, bits of the owned ones, and the
+/// step to the owned texel whose value the ghost takes if it can use none of the four.
 pub(super) fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
     let [width, height] = atlas.page_size;
     let place = [(row.read.texel[0], width), (row.read.texel[1], height)]
@@ -125,7 +126,7 @@ pub(super) fn orphan_rows(orphan: &Orphan) -> [[u32; 4]; 2] {
     ]
 }
 
-/// Which of the four texels around a ghost's point are coupled ghosts themselves, by their places among those: the third
+/// Indices, among the coupled ghosts, of the four texels around a ghost's point, [`EMPTY`] for other texels: the third
 /// row of a coupled ghost, as `access_settle.wgsl` reads it.
 pub(super) fn coupled_slots(
     atlas: &Atlas,

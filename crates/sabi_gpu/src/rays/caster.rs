@@ -55,7 +55,8 @@ pub(crate) enum Caster<'a> {
     OnDevice(OnDevice<'a>),
 }
 
-/// Whether a choice means the device; [`CasterChoice::Auto`] may still fall back to the processor for a large scene.
+/// Returns true if a choice selects the device; [`CasterChoice::Auto`] may still fall back to the processor for a large
+/// scene.
 pub(crate) fn follows_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
     match choice {
         CasterChoice::Cpu => false,
@@ -102,7 +103,7 @@ impl Caster<'_> {
         }
     }
 
-    /// Whether slices are submitted without waiting for them.
+    /// Returns true if slices are submitted without waiting for them.
     pub(super) fn is_on_device(&self) -> bool {
         matches!(self, Caster::OnDevice(_))
     }

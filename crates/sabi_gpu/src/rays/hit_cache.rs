@@ -52,12 +52,12 @@ impl HitCache {
         self.rays.values().map(|rays| rays.bytes).sum()
     }
 
-    /// Whether the hits of `rays` rays for each texel of `tiles` tiles fit the budget.
+    /// Returns true if the hits of `rays` rays for each texel of `tiles` tiles fit the budget.
     pub(crate) fn fits(&self, tiles: usize, rays: u32) -> bool {
         bytes_of(tiles, rays) <= self.budget_bytes
     }
 
-    /// Whether hits of a key are cached.
+    /// Returns true if hits of a key are cached.
     pub(crate) fn contains(&self, key: &[u8; 32]) -> bool {
         self.rays.contains_key(key)
     }

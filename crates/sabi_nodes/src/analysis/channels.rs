@@ -98,7 +98,7 @@ struct Reader<'m> {
     params_type: Option<Handle<Type>>,
     material: Handle<Type>,
     root: Handle<Function>,
-    /// What the arguments of `root` are bound to.
+    /// Bindings of the arguments of `root`, in order.
     inputs: &'m [Argument],
     /// By member.
     channels: Vec<Option<Channel>>,
@@ -125,7 +125,7 @@ impl<'m> Reader<'m> {
         vec![None; self.channels.len()]
     }
 
-    /// Whether the plain material is zero in this member.
+    /// Returns true if the plain material is zero in this member.
     fn is_zero_when_plain(&self, member: usize) -> bool {
         matches!(
             self.channels.get(member),
@@ -266,7 +266,7 @@ impl<'m> Reader<'m> {
         writes
     }
 
-    /// Whether storing `expression` in `member` sets it.
+    /// Returns the conditions under which storing `expression` in `member` sets it; `None` if it never does.
     fn value(&mut self, frame: &mut Frame<'m>, expression: Handle<Expression>, member: usize, depth: u32) -> Write {
         let (Some(depth), true) = (depth.checked_sub(1), self.burn()) else {
             return always();
@@ -368,7 +368,7 @@ impl<'m> Reader<'m> {
     }
 }
 
-/// Whether the result is one of the two arguments.
+/// Returns true if the result of the function is always one of its two arguments.
 fn is_one_of_two(fun: MathFunction) -> bool {
     matches!(fun, MathFunction::Max | MathFunction::Min)
 }

@@ -25,7 +25,7 @@ fn read_with(libraries: &Libraries, text: &str) -> Result<Kind, String> {
 
 const TWO: &str = "struct Params {\n/// A.\n/// @default 0\na: f32,\n/// B.\n/// @default 0\nb: f32,\n}\n";
 
-/// Whether both parameters count as used by these functions.
+/// Returns true if both parameters count as used by these functions.
 fn uses_both(functions: &str) -> bool {
     match read(&format!("{TWO}{functions}")) {
         Ok(_) => true,

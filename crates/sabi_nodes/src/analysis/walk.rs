@@ -279,7 +279,7 @@ fn gather_returns(block: &Block, conditions: &mut Vec<(Handle<Expression>, bool)
     }
 }
 
-/// Whether an expression is a literal zero.
+/// Returns true if an expression is a literal zero.
 pub(crate) fn is_zero(module: &Module, function: &Function, expression: Handle<Expression>, depth: u32) -> bool {
     let Some(depth) = depth.checked_sub(1) else {
         return false;

@@ -17,7 +17,7 @@ pub struct Param {
     pub offset: u32,
     /// [`ParamType::default`] as components.
     pub default: ParamValue,
-    /// Whether a loop's bound depends on it, so that the linked kernel clamps it to its range.
+    /// True if a loop's bound depends on it, so that the linked kernel clamps it to its range.
     pub bounds_a_loop: bool,
     /// Earlier names (`@was`).
     pub formerly: Vec<String>,

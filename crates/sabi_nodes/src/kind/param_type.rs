@@ -45,12 +45,12 @@ impl ParamType {
         }
     }
 
-    /// Whether only whole numbers are taken.
+    /// Returns true if only whole numbers are accepted.
     pub fn is_whole(&self) -> bool {
         matches!(self.memory, Memory::U32 | Memory::I32)
     }
 
-    /// Whether files hold its values as texts.
+    /// Returns true if files hold its values as texts.
     pub fn is_text(&self) -> bool {
         matches!(self.role, Role::Text | Role::File | Role::Choice(_) | Role::Color)
     }
@@ -76,7 +76,7 @@ impl ParamType {
             .ok_or_else(|| self.expectation())
     }
 
-    /// Whether a value is taken, its range included.
+    /// Returns true if a value has the right form and lies within the range.
     pub fn takes(&self, value: &Value) -> bool {
         self.read(value).is_ok()
     }
@@ -100,7 +100,7 @@ impl ParamType {
             .ok_or_else(|| self.expectation())
     }
 
-    /// What is taken, to follow "takes": `a number from 0 to 1`.
+    /// Describes the accepted values, worded to follow "takes": `a number from 0 to 1`.
     pub fn expectation(&self) -> String {
         let between = match self.range {
             Some([low, high]) => format!(" from {low} to {high}"),
@@ -129,7 +129,7 @@ impl ParamType {
         }
     }
 
-    /// Whether all numbers of a value lie in the range; of a curve only the coordinates count.
+    /// Returns true if all numbers of a value lie in the range; for a curve only the coordinates count.
     pub(crate) fn is_in_range(&self, value: &ParamValue) -> bool {
         let Some([low, high]) = self.range else { return true };
         let is_inside = |number: f64| (low..=high).contains(&number);

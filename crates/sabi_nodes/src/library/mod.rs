@@ -17,7 +17,7 @@ use crate::words::nearest;
 /// One node file before it is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceFile {
-    /// Where it is; for messages, and to tell two files apart.
+    /// Path of the file, for messages and to tell files apart.
     pub path: PathBuf,
     /// Identifier in graph files, `category/name`.
     pub id: String,
@@ -30,7 +30,7 @@ pub struct SourceFile {
 pub struct Library {
     kinds: BTreeMap<String, Kind>,
     libraries: Libraries,
-    /// Where the libraries of folders are, so that a changed file is told from a second one of the same name.
+    /// Paths of the libraries from folders, to distinguish a changed file from a second file of the same name.
     library_paths: BTreeMap<String, PathBuf>,
 }
 

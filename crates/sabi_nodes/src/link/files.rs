@@ -6,14 +6,14 @@ use super::uses::{Uses, shared_path};
 use crate::fault::Fault;
 use crate::shader_files::Libraries;
 
-/// What one module of Sabi's own is linked from.
+/// Sources of a module that is part of Sabi itself.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ModuleSpec {
     /// Name in messages and debuggers.
     pub label: &'static str,
     /// Files by their names in `@use`; what they use comes with them.
     pub files: Vec<&'static str>,
-    /// What the files want from the host.
+    /// Declarations that the files expect from the host.
     pub given: Vec<Given>,
 }
 

@@ -1,4 +1,4 @@
-//! What the host decides when it links a module: bind groups and storage formats.
+//! Declarations that the host makes when it links a module: bind groups and storage formats.
 
 use std::fmt;
 

@@ -30,9 +30,10 @@ pub struct Kernel {
     pub reads: usize,
     /// Storage formats of the bindings that are written, after those.
     pub writes: Vec<Format>,
-    /// Whether it shoots rays. Then the entry point `shoot` writes the rays of a range of tiles to a buffer, tile by tile, in
-    /// a tile texel by texel, and for each texel one after the other; `main` reads them again with what they hit from a
-    /// second buffer. The two are bound behind the textures. Rows are as `Ray` and `RayHit` in `lib/rays.wgsl`.
+    /// True if the kernel shoots rays. The entry point `shoot` then writes the rays of a range of tiles to a buffer:
+    /// tile by tile, within a tile texel by texel, and for each texel ray by ray. `main` reads the rays again, along
+    /// with their hits from a second buffer. Both buffers are bound after the textures. Rows are as `Ray` and `RayHit`
+    /// in `lib/rays.wgsl`.
     pub rays: bool,
 }
 

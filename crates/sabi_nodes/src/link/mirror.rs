@@ -1,5 +1,5 @@
-//! What Rust repeats of WGSL: structs that are uploaded, constants and workgroup sizes. A test holds each against the
-//! reflection of all modules that have it.
+//! WGSL declarations repeated in Rust: structs that are uploaded, constants and workgroup sizes. A test compares each
+//! with the reflection of all modules that have it.
 
 use std::fmt::Debug;
 

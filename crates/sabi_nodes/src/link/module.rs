@@ -126,7 +126,7 @@ impl LinkedModule {
         self.parts.first().map_or(Path::new(GENERATED), |part| &part.path)
     }
 
-    /// Whether the place is in a node's own text.
+    /// Returns true if the place is in a node's own text.
     pub(crate) fn is_in_node(&self, span: Span) -> bool {
         self.part(span).is_some_and(|(part, _)| part.origin == Origin::Node)
     }
@@ -139,7 +139,7 @@ impl LinkedModule {
         }
     }
 
-    /// Whether the place is in a library that may touch what a kernel binds.
+    /// Returns true if the place is in a library that may access the bindings of a kernel.
     pub(crate) fn is_privileged(&self, span: Span) -> bool {
         self.library_at(span).is_some_and(|name| PRIVILEGED.contains(&name))
     }

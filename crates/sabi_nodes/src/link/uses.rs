@@ -1,8 +1,8 @@
-//! What files say they use, followed to every file that a module needs.
+//! Uses that files declare, followed to every file that a module needs.
 //!
-//! A header names other files with `//! @use noise surface/place` and what the host decides with `//! @given
-//! SURFACE_GROUP`. A name without a folder is a file of `lib/`; nodes and libraries may use no others. Files that use
-//! each other are linked once each: the order of declarations does not matter to WGSL.
+//! A header names other files with `//! @use noise surface/place` and declarations of the host with
+//! `//! @given SURFACE_GROUP`. A name without a folder is a file of `lib/`; nodes and libraries may use no others.
+//! Files that use each other are linked once each: the order of declarations does not matter to WGSL.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

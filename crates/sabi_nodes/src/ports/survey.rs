@@ -6,7 +6,7 @@ use super::{Draft, PortReader, Ports};
 use crate::kind::{Argument, InputDefault, Reads};
 use crate::words::list;
 
-/// Whether a function has an argument `survey`.
+/// Returns true if a function has an argument `survey`.
 pub(super) fn asks_for_one(draft: &Draft<'_>) -> bool {
     draft.item.members.iter().any(|member| member.name == "survey")
 }

@@ -152,7 +152,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether the last token read is a doc line below a plain comment.
+    /// Returns true if the last token read is a doc line below a plain comment.
     fn is_below_plain(&self) -> bool {
         self.tokens[..self.at.saturating_sub(1)]
             .iter()

@@ -30,7 +30,7 @@ pub(crate) struct Member {
     pub(crate) docs: Vec<DocLine>,
 }
 
-/// What a declaration declares.
+/// Kind of a declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ItemKind {
     Struct,
@@ -51,14 +51,14 @@ pub(crate) struct Item {
     pub(crate) members: Vec<Member>,
 }
 
-/// What the scanner read.
+/// Result of a scan.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scan {
     /// The `//!` lines.
     pub(crate) header: Vec<DocLine>,
     /// Declarations in order, as far as the text could be followed.
     pub(crate) items: Vec<Item>,
-    /// Whether the text could be followed to its end.
+    /// True if the text could be followed to its end.
     pub(crate) is_complete: bool,
 }
 

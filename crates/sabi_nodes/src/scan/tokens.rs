@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// What a piece of the text is.
+/// Kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TokenKind {
     /// An identifier, a keyword or a number.
@@ -24,7 +24,7 @@ pub(crate) enum TokenKind {
 pub(crate) struct Token {
     pub(crate) kind: TokenKind,
     pub(crate) range: Range<usize>,
-    /// Whether code stands before it on the same line.
+    /// True if code precedes it on the same line.
     pub(crate) after_code: bool,
 }
 

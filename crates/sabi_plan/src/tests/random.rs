@@ -122,7 +122,7 @@ impl Reader<'_> {
         })
     }
 
-    /// What a function that reads textures makes, and on which level.
+    /// Returns the symbol and the level of the result of a function that reads textures.
     fn field(&self, function: &Output) -> (u64, u32) {
         let widest = function
             .texel
@@ -175,7 +175,7 @@ impl Reader<'_> {
         (symbol, level)
     }
 
-    /// What a pass makes that runs once, of the table of a survey.
+    /// Returns the symbol and the level of the result of a pass that runs once, on the table of a survey.
     fn found(&self, function: &Output) -> (u64, u32) {
         let (symbol, convert) = self.inputs[self.kind.surveyed.unwrap()];
         let given = Given {
@@ -208,7 +208,7 @@ impl Reader<'_> {
     }
 }
 
-/// What each result is made of, by the graph alone.
+/// Computes the symbol of each result from the graph alone.
 fn from_graph(planner: &Planner<'_>, graph: &FlatGraph) -> BTreeMap<(usize, usize), u64> {
     let targets: Vec<crate::Target> = (0..graph.nodes.len())
         .map(|node| crate::Target { node, port: None })

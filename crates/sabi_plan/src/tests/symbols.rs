@@ -17,7 +17,7 @@ pub(super) fn hash(parts: &[&[u8]]) -> u64 {
     u64::from_le_bytes(bytes.as_bytes()[..8].try_into().unwrap())
 }
 
-/// What a function is called with.
+/// Arguments of a function call, as symbols.
 #[derive(Default)]
 pub(super) struct Given {
     pub(super) inputs: Vec<(u64, Convert)>,
@@ -60,7 +60,7 @@ pub(super) fn surveyed(symbol: u64) -> u64 {
     hash(&[b"surveyed", &symbol.to_le_bytes()])
 }
 
-/// What a plane is on another level; between two coarser ones by way of the finest.
+/// Symbol of a plane resampled to another level; between two coarser levels it goes through the finest.
 pub(super) fn moved(symbol: u64, from: u32, to: u32) -> u64 {
     match [from, to] {
         _ if from == to => symbol,
@@ -69,7 +69,7 @@ pub(super) fn moved(symbol: u64, from: u32, to: u32) -> u64 {
     }
 }
 
-/// What is in a slot.
+/// Content of a slot.
 #[derive(Clone, Copy)]
 struct Held {
     symbol: u64,
@@ -82,7 +82,7 @@ struct Held {
 struct Execution<'p> {
     plan: &'p Plan,
     slots: Vec<Option<Held>>,
-    /// Which planes, named by the steps that made them and where they put them, were brought to which level.
+    /// Moves carried out: the step that made the plane, the slot that held it, and the level it was moved to.
     moves: BTreeSet<(usize, usize, u32)>,
     step: usize,
 }
@@ -210,7 +210,7 @@ impl Execution<'_> {
         symbols
     }
 
-    /// What a store holds: a call's result, or a load that is converted.
+    /// Symbol of a stored value: a call's result, or a load that is converted.
     fn stored_symbol(&self, kernel: &KernelStep, value: Operand, symbols: &[u64], reads: &[Option<usize>]) -> u64 {
         match value {
             Operand::Call(call, Convert::None) => symbols[call],
@@ -219,7 +219,7 @@ impl Execution<'_> {
         }
     }
 
-    /// What all planes of a load hold.
+    /// Symbol that all planes of a load hold.
     fn held(&self, kernel: &KernelStep, load: usize, reads: &[Option<usize>]) -> u64 {
         let first: usize = kernel.spec.loads[..load]
             .iter()

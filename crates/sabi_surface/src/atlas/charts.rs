@@ -96,7 +96,7 @@ pub(super) fn partition(mesh: &Mesh, topology: &Topology, orientations: &[i8]) -
     Partition::from_labels(mesh, &labels)
 }
 
-/// Whether the two triangles at an edge disagree about its texture coordinates or their material.
+/// Returns true if the two triangles at an edge differ in its texture coordinates or in their material.
 pub(crate) fn is_seam(mesh: &Mesh, topology: &Topology, edge: u32, twin: u32) -> bool {
     let (a, b) = (edge as usize / 3, twin as usize / 3);
     if mesh.triangle_material[a] != mesh.triangle_material[b] {

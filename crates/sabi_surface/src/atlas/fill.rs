@@ -11,9 +11,9 @@ use super::raster::spans;
 /// Rows that one task fills.
 const BAND_ROWS: usize = 32;
 
-/// The owner of every texel, page by page and row by row, without ghosts.
+/// Computes the owner of every texel, page by page and row by row, without ghosts.
 ///
-/// Where two triangles of a chart claim a center the one with the lower number has it.
+/// If two triangles of a chart cover the same texel center, the triangle with the lower number owns the texel.
 pub(super) fn fill(uvs: &Uvs, partition: &Partition, placement: &Placement) -> Vec<u32> {
     let [width, height] = placement.page_size.map(|side| side as usize);
     let rows = height * placement.pages as usize;

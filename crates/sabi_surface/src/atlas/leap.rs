@@ -203,7 +203,7 @@ fn metric(mesh: &Mesh, uvs: &Uvs, triangle: u32) -> Metric {
     [dot(u, u), dot(u, v), dot(v, v)]
 }
 
-/// Whether two metrics differ by more than a twentieth of the larger; whether one is not a number counts as well.
+/// Returns true if two metrics differ by more than a twentieth of the larger, or if either contains a NaN.
 fn differs(a: Metric, b: Metric) -> bool {
     let scale = a.iter().chain(&b).fold(0.0f32, |scale, value| scale.max(value.abs()));
     !(0..3).all(|k| (a[k] - b[k]).abs() <= METRIC_JUMP * scale)

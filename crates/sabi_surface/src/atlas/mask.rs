@@ -136,7 +136,7 @@ impl Mask {
         turned
     }
 
-    /// Whether no bit is set.
+    /// Returns true if no bit is set.
     pub(crate) fn is_empty(&self) -> bool {
         self.height == 0
     }
@@ -164,7 +164,7 @@ impl Mask {
         hit
     }
 
-    /// Whether no two by two texels are covered whole.
+    /// Returns true if no block of two by two texels is covered completely.
     pub(crate) fn is_thin(&self) -> bool {
         let pairs = |y: usize| {
             let row = self.row(y);
@@ -222,7 +222,7 @@ pub(crate) fn or_shifted(target: &mut [u64], row: &[u64], shift: i64) {
     }
 }
 
-/// Whether a row of bits, moved to the right by `shift`, has a bit in common with another.
+/// Returns true if a row of bits, moved to the right by `shift`, has a bit in common with `target`.
 pub(crate) fn meets_shifted(target: &[u64], row: &[u64], shift: i64) -> bool {
     target
         .iter()

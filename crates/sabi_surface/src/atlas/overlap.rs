@@ -221,7 +221,7 @@ impl Wrapped {
         (0..self.height).map(|y| ((self.top + y) % self.size, &self.bits[y * self.words..][..self.words]))
     }
 
-    /// Whether two charts could share a place.
+    /// Returns true if the bounds of two charts overlap, so that the charts may share texels.
     fn near(&self, other: &Wrapped) -> bool {
         let rows_meet = (other.top + self.size - self.top) % self.size < self.height
             || (self.top + self.size - other.top) % self.size < other.height;

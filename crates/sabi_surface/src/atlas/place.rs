@@ -17,7 +17,7 @@ pub(super) struct Placement {
     pub(super) page_size: [u32; 2],
     pub(super) pages: u32,
     pub(super) charts: Vec<Place>,
-    /// Whether charts keep their places against one another.
+    /// True if charts keep their positions relative to each other.
     pub(super) kept: bool,
 }
 

@@ -70,7 +70,7 @@ impl Splitter<'_> {
         })
     }
 
-    /// Whether all centers of a triangle are free or belong to triangles that touch it.
+    /// Returns true if all texel centers of a triangle are free or belong to triangles that touch it.
     fn fits(&self, grid: &Grid, triangle: u32) -> bool {
         let mut fits = true;
         spans(self.uvs.fixed(triangle), (i64::MIN / 4, i64::MAX / 4), |y, x0, x1| {
@@ -83,8 +83,8 @@ impl Splitter<'_> {
         fits
     }
 
-    /// Whether two triangles share a corner in space and in UV. Slivers may turn over when their corners are
-    /// snapped, which is no overlap of the user's making.
+    /// Returns true if two triangles share a corner in space and in UV. Slivers may flip when their corners are
+    /// snapped, which is not an overlap in the user's layout.
     fn touch(&self, a: u32, b: u32) -> bool {
         let corner = |triangle: u32, k: usize| {
             let place = self.topology.corners[triangle as usize * 3 + k];

@@ -1,4 +1,4 @@
-//! What an atlas promises, held on meshes whose answer is known.
+//! Tests of the guarantees of an atlas, on meshes with known results.
 
 mod broken;
 mod keeping;

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use crate::atlas::Atlas;
 use crate::model::Mesh;
 
-/// What is interpolated over a triangle.
+/// Attributes that are interpolated over a triangle.
 #[derive(Clone, Copy)]
 pub(super) struct Vertex {
     pub(super) position: [f32; 3],
@@ -35,7 +35,7 @@ fn middle<const N: usize>(a: [f32; N], b: [f32; N]) -> [f32; N] {
     std::array::from_fn(|axis| a[axis] * 0.5 + b[axis] * 0.5)
 }
 
-/// What a triangle of the mesh was cut into.
+/// Result of cutting a triangle of the mesh.
 pub(super) struct Split {
     /// The three corners of the triangle first.
     pub(super) vertices: Vec<Vertex>,
@@ -73,7 +73,7 @@ impl Split {
         split
     }
 
-    /// How much of the full turn around a vertex this triangle takes, radians: half of it beside an edge.
+    /// Returns the part of the full turn around a vertex that this triangle takes, radians: pi at a vertex on an edge.
     pub(super) fn weight(&self, vertex: usize) -> f64 {
         match self.angles.get(vertex) {
             Some(angle) => *angle,
@@ -128,11 +128,11 @@ pub(super) fn count(corners: [[f32; 3]; 3], edge_length: f32, most: u64) -> u64 
     found
 }
 
-/// How a triangle is cut.
+/// Way to cut a triangle: at the middles of the edges that are too long.
 struct Cut {
     /// Its corners, and the middles of its edges: edge `k`, from corner `k` to the next, has slot `3 + k`.
     slots: [[f32; 3]; 6],
-    /// Which edges are too long.
+    /// True for each edge that is too long.
     long: [bool; 3],
 }
 

@@ -1,4 +1,4 @@
-//! What is displaced stays closed, keeps to its budget and follows the heights.
+//! Tests that displaced meshes stay closed, keep to the budget and follow the heights.
 
 use std::path::Path;
 

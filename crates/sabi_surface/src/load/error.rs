@@ -11,7 +11,7 @@ pub struct LoadError {
 }
 
 impl LoadError {
-    /// Whether a file is missing or unreadable, rather than wrong in what it holds.
+    /// Returns true if a file is missing or unreadable, rather than wrong in its content.
     pub fn is_missing(&self) -> bool {
         matches!(
             self.fault,

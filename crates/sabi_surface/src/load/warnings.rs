@@ -36,7 +36,7 @@ impl Warnings {
         }
     }
 
-    /// Whether nothing was said.
+    /// Returns true if there are no warnings.
     pub(super) fn is_empty(&self) -> bool {
         self.sentences.is_empty()
     }

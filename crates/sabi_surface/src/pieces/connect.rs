@@ -128,7 +128,7 @@ fn ends(topology: &Topology, edge: u32) -> [u32; 2] {
 /// A triangle as seen along an edge that it shares with many.
 struct Side {
     triangle: u32,
-    /// Whether it runs along the edge from the lesser vertex to the greater.
+    /// True if it runs along the edge from the lesser vertex to the greater.
     forward: bool,
     /// From the edge into the triangle, unit length.
     across: DVec3,
@@ -155,8 +155,9 @@ impl Side {
         })
     }
 
-    /// How far one turns counter-clockwise about the edge to come from this triangle to another: 0 to below 4, in quarters
-    /// that are even in their tangents only, which keeps the order and needs no arc tangent.
+    /// Returns the counter-clockwise turn about the edge from this triangle to another, from 0 to below 4 quarter
+    /// turns. Within a quarter it is linear along a diamond instead of a circle, which keeps the order and needs no arc
+    /// tangent.
     fn turn_to(&self, other: &Side) -> f64 {
         let (x, y) = (other.across.dot(self.across), other.across.dot(self.onward));
         let part = y.abs() / (x.abs() + y.abs()).max(1e-300);

@@ -87,7 +87,7 @@ fn ball(rings: usize) -> Vec<[DVec3; 3]> {
         .collect()
 }
 
-/// What, its triangles, and the axes and side lengths of its box.
+/// Name, triangles, and the axes and side lengths of the box.
 type Case = (&'static str, Vec<[DVec3; 3]>, [DVec3; 3], DVec3);
 
 fn cases() -> Vec<Case> {

@@ -1,4 +1,4 @@
-//! What a file leaves out or gets wrong is made: normals, tangents, texture coordinates.
+//! Completion of attributes that are missing or invalid in a file: normals, tangents, texture coordinates.
 
 use sabi_surface::load::LoadOptions;
 use sabi_surface::model::MissingUvs;

@@ -1,11 +1,11 @@
-//! What is said about files that cannot be read.
+//! Error messages for files that cannot be read.
 
 use sabi_surface::load::{LoadOptions, load_bytes};
 use serde_json::{Value, json};
 
 use crate::builder::{F32, Gltf, I16, U8, U32, nothing};
 
-/// What is said about the bytes of a file.
+/// Returns the error message for the bytes of a file.
 pub(crate) fn said(name: &str, bytes: &[u8]) -> String {
     load_bytes(name, bytes, &mut nothing, &LoadOptions::default())
         .unwrap_err()

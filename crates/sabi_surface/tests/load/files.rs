@@ -1,4 +1,4 @@
-//! Which files are models, where they are found, and what is said about the others.
+//! Recognition of model files, the places where files beside a model are found, and the messages for other formats.
 
 use std::path::Path;
 

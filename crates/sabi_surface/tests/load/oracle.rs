@@ -140,7 +140,7 @@ const UNREAD: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// What Khronos has nothing against and is refused all the same, as a piece of the sentence.
+/// Parts of the messages for files that are valid according to Khronos's validator and refused all the same.
 const REFUSED: &[&str] = &["it has no triangles", "names no file and is not the binary chunk"];
 
 /// Every input that has a verdict, and the verdict.

@@ -1,8 +1,8 @@
-//! What every model promises to those who use it.
+//! Guarantees that every loaded model keeps.
 
 use sabi_surface::model::Model;
 
-/// What every model promises.
+/// Checks the guarantees of a model.
 pub(crate) fn check(model: &Model) {
     let mesh = &model.mesh;
     let count = mesh.positions.len();

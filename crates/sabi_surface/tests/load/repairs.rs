@@ -1,4 +1,4 @@
-//! What a file gets wrong and can be read all the same is repaired, and said.
+//! Faults of a file that do not prevent reading it are repaired, with a warning.
 
 use sabi_surface::load::{LoadOptions, load_bytes};
 use serde_json::json;

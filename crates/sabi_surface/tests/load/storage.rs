@@ -5,7 +5,7 @@ use serde_json::json;
 
 use crate::builder::{F32, Gltf, I8, I16, U8, U16, U32};
 
-/// What becomes of a way of storing an attribute.
+/// Outcome of reading an attribute in one form of storage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fate {
     /// Read without a word.

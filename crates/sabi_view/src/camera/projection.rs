@@ -62,8 +62,8 @@ impl Camera {
         self.clip_from_eye(aspect) * self.eye_from_view()
     }
 
-    /// What is seen under the pointer lies on this ray. Through an orthographic lens it begins before everything, since such
-    /// a lens shows what is behind the eye, too.
+    /// Returns the ray on which everything that is seen under the pointer lies. Through an orthographic lens it begins
+    /// in front of the whole scene, since such a lens also shows what is behind the eye.
     pub fn ray(&self, pointer: Vec2, aspect: f32) -> Ray {
         let sound = self.sound();
         let at = sound.offset_at_target(pointer, aspect);
@@ -80,15 +80,15 @@ impl Camera {
         }
     }
 
-    /// Where a point of view space is in the viewport, 0 to 1 from the upper left corner and beyond; none when it is behind
-    /// the eye.
+    /// Returns the position of a point of view space in the viewport, 0 to 1 from the upper left corner and beyond;
+    /// `None` if the point is behind the eye.
     pub fn project(&self, point: Vec3, aspect: f32) -> Option<Vec2> {
         let clip = self.clip_from_view(aspect) * point.extend(1.0);
         let pointer = Vec2::new(clip.x, -clip.y) / clip.w * 0.5 + 0.5;
         (clip.w > 0.0 && pointer.is_finite()).then_some(pointer)
     }
 
-    /// How far before the eye the near and the far plane are; through an orthographic lens they may be behind it.
+    /// Distances from the eye forward to the near and the far plane; through an orthographic lens they may be negative.
     fn depths(&self) -> [f32; 2] {
         let middle = self.eye_f64().dot(self.axes().z_axis);
         let [near, far] = [middle - SCENE_RADIUS, middle + SCENE_RADIUS];

@@ -1,4 +1,4 @@
-//! What stays under the pointer, what is in the picture, and that nothing is ever no number.
+//! Tests of points that stay under the pointer, of framing, and that all results are finite.
 
 use proptest::prelude::*;
 

@@ -5,9 +5,9 @@ use std::str::FromStr;
 /// A direction and a distance from which a model is seen, whatever the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
-    /// Which side is seen: 0 is the front (+Z), 90 the right (+X).
+    /// Side that is seen: 0 is the front (+Z), 90 the right (+X).
     pub yaw_degrees: f32,
-    /// How far from above it is seen: 90 is straight down.
+    /// Elevation from which it is seen: 90 is straight down.
     pub pitch_degrees: f32,
     /// Multiple of the distance that frames the model.
     pub distance: f32,
@@ -91,7 +91,7 @@ fn names() -> String {
     Viewpoint::NAMED.map(|(name, _)| name).join(", ")
 }
 
-/// Why a text names no viewpoint, as a sentence.
+/// Fault of a text that names no viewpoint, as a sentence.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ViewpointError {
     /// Neither a name nor numbers.

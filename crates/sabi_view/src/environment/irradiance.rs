@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::panorama::Panorama;
 
-/// What the coefficients of irradiance stand before, at a direction of unit length: the spherical harmonics up to the second
-/// degree without their factors.
+/// Basis functions of the coefficients of irradiance, at a direction of unit length: the spherical harmonics up to the
+/// second degree without their factors.
 fn basis([x, y, z]: [f64; 3]) -> [f64; 9] {
     [1.0, x, y, z, x * y, y * z, z * x, 3.0 * y * y - 1.0, x * x - z * z]
 }

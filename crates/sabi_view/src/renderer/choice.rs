@@ -18,8 +18,8 @@ const MOST_LOOKS: usize = 255;
 pub struct Missing(BTreeSet<Draws>);
 
 impl Renderer {
-    /// What has to be made before a picture is drawn, which takes longer than a frame of a window: nothing where all is there.
-    /// Pictures of one sample and of several are both provided for.
+    /// Returns the pipelines to make before a picture is drawn, which takes longer than a frame of a window; `None` if
+    /// all exist. Includes the pipelines for pictures of one sample and of several.
     pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<Missing> {
         let missing = self.pipelines.missing(all(scene, shot));
         (!missing.is_empty()).then_some(Missing(missing))
@@ -97,7 +97,7 @@ pub(super) fn raster(part: &Part, look: &MaterialLook, shot: &Shot) -> Draws {
     }
 }
 
-/// Whether one can see through what is clear in a look: not where its channels are looked at one by one.
+/// Returns true if surfaces behind a look show through its clear parts: only in modes that show a whole material.
 fn has_veils(look: &MaterialLook, mode: Mode) -> bool {
     !look.is_opaque && matches!(mode, Mode::Material | Mode::Clay)
 }

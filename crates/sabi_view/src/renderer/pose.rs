@@ -17,10 +17,10 @@ use crate::target::{Sight, Target};
 pub struct Pose {
     shot: Shot,
     target: Target,
-    /// What the pixels of each sample see, and the same as it is bound.
+    /// Raster's record of the pixels of each sample, with its bind group.
     sights: Vec<(Sight, wgpu::BindGroup)>,
     shadows: ShadowMaps,
-    /// Which look each material has: the only one.
+    /// Look of each material: always 0, the only look.
     look_of_material: Vec<usize>,
 }
 

@@ -109,7 +109,7 @@ impl Document {
         Ok(())
     }
 
-    /// Whether the file says that it cannot be read without an extension.
+    /// Returns true if the file lists an extension as required for reading it.
     pub(super) fn requires(&self, extension: &str) -> bool {
         self.required.iter().any(|name| name == extension)
     }

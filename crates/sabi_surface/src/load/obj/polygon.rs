@@ -15,7 +15,7 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// Whether some face had to be cut up without looking.
+    /// Returns true if the budget is used up: further faces are cut without testing their ears.
     pub(super) fn is_spent(&self) -> bool {
         self.0 == 0
     }
@@ -84,7 +84,8 @@ fn clip_ears(flat: &[DVec2], budget: &mut Budget, mut emit: impl FnMut([usize; 3
     emit([left[0], left[1], left[2]]);
 }
 
-/// Whether the triangle at a corner of what is left lies inside it.
+/// Returns true if the triangle at a corner of the remaining polygon is an ear, that is, lies inside it. Always true
+/// once the budget is spent.
 fn is_ear(flat: &[DVec2], left: &[usize], corner: usize, budget: &mut Budget) -> bool {
     let count = left.len();
     let at = |corner: usize| flat[left[corner % count]];

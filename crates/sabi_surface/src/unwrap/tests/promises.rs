@@ -1,4 +1,4 @@
-//! What every unwrapped mesh has to keep to.
+//! Guarantees that every unwrapped mesh has to keep.
 
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasOptions, Owner};
